@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import numbers
 from typing import Any
 
 
@@ -27,12 +28,24 @@ class Quantity:
     closed: str = ""  # which ends belong to the range: "low", "high", "both" or ""
     symbol: str = ""
     choices: tuple[str, ...] = ()
+    kind: str = "float"  # the field's annotation: "float", "int", "str" or "tuple[float, ...]"
+
+    @property
+    def many(self) -> bool:
+        """Whether the parameter is a non-empty tuple of numbers, each in the range."""
+        return self.kind.startswith("tuple")
 
     def allows(self, value: Any) -> bool:
         """Whether `value` lies in the allowed range (never for NaN, bool or a string number)."""
+        if self.many:
+            return isinstance(value, tuple) and value != () and all(map(self._allows_one, value))
+        return self._allows_one(value)
+
+    def _allows_one(self, value: Any) -> bool:
         if self.choices:
             return value in self.choices
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
+        number = numbers.Integral if self.kind == "int" else numbers.Real
+        if isinstance(value, bool) or not isinstance(value, number):
             return False
         above = value > self.low or (self.closed in ("low", "both") and value == self.low)
         below = value < self.high or (self.closed in ("high", "both") and value == self.high)
@@ -54,9 +67,13 @@ def quantity(description: str, *, default: Any = dataclasses.MISSING, **declarat
 
 
 def declarations(cls: type) -> dict[str, Quantity]:
-    """The declared quantities of a dataclass, by field name."""
+    """The declared quantities of a dataclass, by field name, with the kind of each field."""
     return {
-        f.name: f.metadata["quantity"] for f in dataclasses.fields(cls) if "quantity" in f.metadata
+        f.name: dataclasses.replace(
+            f.metadata["quantity"], kind=getattr(f.type, "__name__", f.type)
+        )
+        for f in dataclasses.fields(cls)
+        if "quantity" in f.metadata
     }
 
 
@@ -77,11 +94,28 @@ class Checked:
 def check(key: str, value: Any, entry: Quantity) -> None:
     """Raise a :class:`ParameterError` unless `entry` allows `value`."""
     if not entry.allows(value):
-        unit = "" if entry.unit == "1" or entry.choices else f" {entry.unit}"
-        raise ParameterError(
-            f"{key} = {value!r}{unit} is not allowed: "
-            f"{entry.description} must lie in {entry.range_text()}{unit}"
-            if not entry.choices
-            else f"{key} = {value!r} is not allowed: "
-            f"{entry.description} must be {entry.range_text()}"
-        )
+        raise ParameterError(refusal(key, value, entry))
+
+
+def refusal(key: str, value: Any, entry: Quantity) -> str:
+    """The message that refuses a value: key, value, unit, meaning, allowed range and a hint."""
+    unit = "" if entry.unit == "1" or entry.choices else f" {entry.unit}"
+    if entry.choices:
+        rule = f"must be {entry.range_text()}"
+    else:
+        number = "be an integer in" if entry.kind == "int" else "lie in"
+        rule = f"must {number} {entry.range_text()}{unit}"
+    return f"{key} = {value!r}{unit} is not allowed: {entry.description} {rule}{_text_hint(value)}"
+
+
+def _text_hint(value: Any) -> str:
+    """What to write in place of a number that YAML took for text, such as ``1e-8``."""
+    try:
+        number = float(value) if isinstance(value, str) else math.nan
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        return ""
+    mantissa, exponent = f"{number:.12e}".split("e")
+    mantissa = mantissa.rstrip("0").ljust(mantissa.index(".") + 2, "0")
+    return f" (this is text, not a number: write {mantissa}e{int(exponent):+d}, without quotes)"

@@ -1,0 +1,175 @@
+"""The datasets' variables in one table, and netCDF files written whole or not at all.
+
+Numerics and metadata are two layers: computations return bare datasets, :func:`annotate` gives
+every variable its unit, long name and paper symbol from :data:`VARIABLES`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+
+class DatasetError(ValueError):
+    """A dataset has an unknown variable, or a file is damaged, incomplete or foreign."""
+
+
+class Variable(NamedTuple):
+    """Metadata of one variable: unit ("1" if dimensionless, "" for text), name, paper symbol."""
+
+    units: str
+    long_name: str
+    symbol: str = ""
+
+
+VARIABLES: dict[str, Variable] = {
+    # Simulation: coordinates and fields along the interface
+    "time": Variable("s", "time", "t"),
+    "x": Variable("m", "distance from the loaded edge", "x"),
+    "y": Variable("m", "distance from the interface", "y"),
+    "slip_rate": Variable("m/s", "slip rate", "v"),
+    "slip": Variable("m", "slip", "epsilon"),
+    "state": Variable("s", "state variable (age) of the interface", "phi"),
+    "shear_stress": Variable("Pa", "shear stress at the interface", "tau"),
+    "normal_stress": Variable("Pa", "compressive normal stress at the interface", "-sigma_yy"),
+    # Simulation: one value per step
+    "step_time": Variable("s", "time at the end of the step", "t"),
+    "step_size": Variable("s", "time step", "dt"),
+    "driving_force": Variable("N/m", "force per depth on the loaded edge", "f_d"),
+    "maximal_slip_rate": Variable("m/s", "maximal slip rate", "max v"),
+    "newton_iterations": Variable("1", "Newton iterations of the step"),
+    # Simulation: snapshots in the bulk
+    "snapshot_time": Variable("s", "time of the snapshot", "t"),
+    "displacement_x": Variable("m", "displacement along x", "u_x"),
+    "displacement_y": Variable("m", "displacement along y", "u_y"),
+    "velocity_x": Variable("m/s", "velocity along x", "du_x/dt"),
+    "velocity_y": Variable("m/s", "velocity along y", "du_y/dt"),
+    # Table of nucleation lengths, one row per simulation
+    "id": Variable("", "name of the simulation"),
+    "study": Variable("", "study of the configuration"),
+    "law": Variable("", "state evolution law"),
+    "height": Variable("m", "block height", "H"),
+    "phi0": Variable("s", "initial state variable", "phi0"),
+    "n_x": Variable("1", "number of elements along x", "N_x"),
+    "n_y": Variable("1", "number of elements along y", "N_y"),
+    "onset_time": Variable("s", "onset of the event", "t"),
+    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
+    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
+    "length": Variable("m", "critical nucleation length from the simulation", "L_c"),
+    "length_low": Variable("m", "smallest length over the definitions", "L_c"),
+    "length_high": Variable("m", "largest length over the definitions", "L_c"),
+    "theory_length": Variable("m", "critical nucleation length of the linear theory", "L_c"),
+    "status": Variable("", "how the simulation ended"),
+    "steps": Variable("1", "number of time steps"),
+    "wall_seconds": Variable("s", "wall time of the simulation"),
+    "peak_megabytes": Variable("MB", "largest memory of the simulation"),
+    # Theory
+    "critical_length": Variable("m", "critical nucleation length", "L_c"),
+    "critical_wavenumber": Variable("1/m", "critical wavenumber", "k_c"),
+    "critical_frequency": Variable("1/s", "angular frequency at the critical wavenumber", "omega"),
+    "thin_limit_length": Variable("m", "critical nucleation length for Hk -> 0", "L_c"),
+    "f_beta": Variable("1", "friction coefficient times bimaterial contrast", "f beta"),
+    "zeta_over_a": Variable("1", "velocity weakening over direct effect", "zeta/a"),
+    "bimaterial_length_ratio": Variable(
+        "1", "critical length of a bimaterial interface over L_c^M", "L_c/L_c^M"
+    ),
+    "steady_slip_rate": Variable("m/s", "slip rate of steady sliding", "v"),
+    "steady_friction": Variable("1", "steady-state friction, full law", "f"),
+    "steady_friction_logarithmic": Variable("1", "steady-state friction, logarithmic law", "f"),
+    "friction_reference": Variable("1", "friction coefficient at V from Table S1", "f0"),
+    "direct_effect": Variable("1", "direct effect at V from Table S1", "a"),
+    "velocity_weakening": Variable("1", "velocity weakening at V from Table S1", "zeta"),
+    "velocity": Variable("m/s", "imposed velocity", "V"),
+    "table_name": Variable("", "name of the friction parameter"),
+    "table_symbol": Variable("", "symbol of the friction parameter"),
+    "table_value": Variable("", "value of the friction parameter in its own unit"),
+    "table_unit": Variable("", "unit of the friction parameter"),
+}
+
+
+def annotate(dataset: xr.Dataset) -> xr.Dataset:
+    """A copy of the dataset whose every variable carries units, long_name and symbol.
+
+    Raises
+    ------
+    DatasetError
+        If a variable is not in :data:`VARIABLES`.
+    """
+    unknown = sorted(str(name) for name in dataset.variables if name not in VARIABLES)
+    if unknown:
+        raise DatasetError(f"not in the table of variables (nucleation.datasets): {unknown}")
+    annotated = dataset.copy()
+    for name in dataset.variables:
+        entry = VARIABLES[str(name)]
+        attributes = {k: text for k, text in entry._asdict().items() if text}
+        annotated[name].attrs.update(attributes)
+    return annotated
+
+
+def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) -> None:
+    """Write an annotated dataset to `path`: after a crash there is the whole file or none.
+
+    Numbers are stored with a checksum per chunk, so that :func:`read` detects damage.
+    """
+    complete = annotate(dataset).assign_attrs(attributes)
+    stored = {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
+    encoding = {
+        name: stored
+        for name, variable in complete.variables.items()
+        if variable.dtype.kind in "fiu" and variable.ndim
+    }
+    with replacing(path) as temporary:
+        complete.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
+
+
+@contextlib.contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A temporary path to write to, which takes the place of `path` once it is on the disk."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        yield temporary
+        _flush(temporary)
+        os.replace(temporary, path)
+        _flush(path.parent)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Dataset:
+    """Read a whole dataset into memory and check it.
+
+    Raises
+    ------
+    DatasetError
+        If the file is missing, truncated or damaged, or lacks a variable or a unit.
+    """
+    try:
+        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as stored:
+            dataset = stored.load()
+    except FileNotFoundError as error:
+        raise DatasetError(f"{path} does not exist") from error
+    except (OSError, RuntimeError, ValueError) as error:
+        raise DatasetError(f"{path} is damaged or not a netCDF file: {error}") from error
+    missing = sorted(set(requires) - set(map(str, dataset.variables)))
+    if missing:
+        raise DatasetError(f"{path} lacks the variables {missing}")
+    bare = sorted(str(n) for n in dataset.variables if "long_name" not in dataset[n].attrs)
+    if bare:
+        raise DatasetError(f"{path} was not written by this project: no long_name on {bare}")
+    return dataset
+
+
+def _flush(path: Path) -> None:
+    """Have a file's data, or a directory's entries, on the disk before going on."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
