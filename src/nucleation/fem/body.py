@@ -1,0 +1,160 @@
+"""The elastic block, solved by exact separation of the finite-element equations along x.
+
+The displacement is ``u_x = V t + w_x`` and ``u_y``, with ``w_x = 0`` on the left edge. On a grid
+that is uniform along x the matrices of bilinear elements are sums of Kronecker products of
+one-dimensional matrices, and with ``theta_m = (m + 1/2) pi / n_x``
+
+    w_x(x_i) = sum_m W_m sin(theta_m i),  i = 1..n_x       (free of sigma_xx at the right edge)
+    u_y(x_i) = sum_m U_m cos(theta_m i),  i = 0..n_x - 1   (zero at the right edge)
+
+the modes decouple; each is a block-tridiagonal system along y. The paper's right edge is free of
+sigma_xy as well, so the n_y values ``e_j = u_y(L, y_j)`` are unknowns of their own that couple to
+all modes. They are eliminated by their Schur complement, so that the result is that of the
+assembled matrix to round-off (tests/fem/test_body.py).
+
+A :class:`Body` knows the mesh and the material;
+:class:`~nucleation.fem.operator.BodyOperator` is its dynamic stiffness ``K + s M`` for one ``s``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from ..elasticity import Material
+from . import kernels
+from .grid import Grid, Tridiagonal, element_matrices
+
+Array = NDArray[np.float64]
+
+
+@dataclasses.dataclass
+class Field:
+    """A displacement-like field: mode amplitudes and the values of u_y on the right edge.
+
+    `modes` has shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
+    `edge` has shape (n_y + 1,); ``edge[0]`` is always zero.
+    """
+
+    modes: Array
+    edge: Array
+
+    def combined(self, a: float, other: Field, b: float) -> Field:
+        """``a * self + b * other``."""
+        return Field(a * self.modes + b * other.modes, a * self.edge + b * other.edge)
+
+    def copy(self) -> Field:
+        """An independent copy."""
+        return Field(self.modes.copy(), self.edge.copy())
+
+
+class Stacked(NamedTuple):
+    """The y-matrices as arrays (3, n_y + 1) for the kernels: lower, diagonal, upper."""
+
+    mass: Array
+    stiffness: Array
+    derivative: Array
+
+
+def _stacked(matrix: Tridiagonal) -> Array:
+    return np.array([matrix.lower, matrix.diagonal, matrix.upper])
+
+
+class Body:
+    """One deformable rectangular block on the interface y = 0."""
+
+    def __init__(self, grid: Grid, material: Material) -> None:
+        self.grid, self.material = grid, material
+        self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
+        self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
+        theta = (np.arange(grid.n_x) + 0.5) * np.pi / grid.n_x
+        sine, cosine = np.sin(theta), np.cos(theta)
+        self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
+        self.x_mass = grid.dx * (4.0 + 2.0 * cosine) / 6.0
+        self.sine = sine
+        sign = (-1.0) ** np.arange(grid.n_x)
+        # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
+        self.edge_weights = sign * np.array(
+            [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, sine]
+        )
+        # integral along x of each sine mode, for the momentum
+        self.x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
+
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        n = self.grid.n_y + 1
+        return Field(np.zeros((n, 2, self.grid.n_x)), np.zeros(n))
+
+    # -- transforms between interface nodes and modes -------------------------------------------
+
+    def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
+        n = self.grid.n_x
+        weighted = np.array(nodal, dtype=float)
+        # the inverse transform weighs the last node by one half, and type 3 counts it once
+        return fft.dst(weighted, type=3) / n
+
+    def sine_values(self, amplitudes: Array) -> Array:
+        """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""
+        return 0.5 * fft.dst(amplitudes, type=2)
+
+    def cosine_values(self, amplitudes: Array) -> Array:
+        """Nodal values at i = 0..n_x - 1 (last axis) of cosine amplitudes."""
+        return 0.5 * fft.dct(amplitudes, type=2)
+
+    def sine_forces(self, modal: Array) -> Array:
+        """Nodal forces at i = 1..n_x whose generalised forces per mode are ``modal * n_x/2``."""
+        forces = self.sine_values(modal)
+        forces[..., -1] *= 0.5
+        return forces
+
+    def cosine_forces(self, modal: Array) -> Array:
+        """Nodal forces at i = 0..n_x - 1 whose generalised forces are ``modal * n_x/2``."""
+        forces = self.cosine_values(modal)
+        forces[..., 0] *= 0.5
+        return forces
+
+    # -- loads and integrals --------------------------------------------------------------------
+
+    def top_load(self, normal_stress: float) -> Field:
+        """Nodal forces of the compressive stress (Pa) on the top, per mode times 2/n_x (N/m)."""
+        load = self.zero_field()
+        n = self.grid.n_x
+        forces = -normal_stress * self.grid.nodal_lengths
+        full = np.array(forces[:-1])
+        # sum_i F_i cos(theta_m i): scipy's type 3 counts the first entry once, others twice
+        full[0] *= 2.0
+        load.modes[-1, 1] = fft.dct(full, type=3) / n
+        load.edge[-1] = forces[-1]
+        return load
+
+    def inertia_load(self, field: Field, s: float) -> Field:
+        """``s M field`` in the scaling of :meth:`top_load` (field in m gives N/m)."""
+        rho_s = s * self.material.density
+        out = Field(np.empty_like(field.modes), np.empty_like(field.edge))
+        kernels.inertia(self.stacked.mass, rho_s * self.x_mass, field.modes, out.modes)
+        edge_mass = rho_s * self.grid.dx / 6.0
+        coupling = (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ field.edge)
+        out.modes[:, 1] += coupling[:, None] * self.edge_weights[2]
+        near = field.modes[:, 1] @ self.edge_weights[2]
+        out.edge[:] = edge_mass * (self.mass @ (near + 2.0 * field.edge))
+        return out
+
+    def momentum_x(self, velocity: Field) -> float:
+        """Momentum along x of the velocity field w_t (kg/s per unit depth)."""
+        along_y = self.stacked.mass.sum(axis=0)
+        return self.material.density * float(along_y @ (velocity.modes[:, 0] @ self.x_integral))
+
+    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+        """Nodal w_x and u_y, each of shape (n_y + 1, n_x + 1)."""
+        left = np.zeros((self.grid.n_y + 1, 1))
+        x = np.hstack((left, self.sine_values(field.modes[:, 0])))
+        y = np.hstack((self.cosine_values(field.modes[:, 1]), field.edge[:, None]))
+        return x, y
+
+    def operator(self, s: float) -> BodyOperator:
+        """The dynamic stiffness ``K + s M`` for ``s`` in 1/s^2, ready to solve."""
+        return BodyOperator(self, s)

@@ -1,0 +1,222 @@
+"""The dynamic stiffness ``K + s M`` of a body: factorised, and condensed on the interface.
+
+Eliminating the bulk and the right edge leaves, for the nodes of the interface, a linear relation
+between the displacement ``w`` (nodes 1..n_x) and the nodal forces that the interface exerts on
+the body, tangential ``p`` (nodes 1..n_x) and normal ``R`` (nodes 0..n_x):
+
+    p = p0 + D w,    R = R0 + N w
+
+with D symmetric positive definite. Without the right edge D and N are diagonal between modes;
+the edge adds a term of low rank. The interface has ``u_y = 0`` (rigid substrate, no opening).
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from . import kernels
+from .body import Body, Field
+
+Array = NDArray[np.float64]
+
+
+class BodyOperator:
+    """``K + s M`` of a :class:`Body` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
+
+    def __init__(self, body: Body, s: float) -> None:
+        self.body, self.s = body, s
+        grid, material = body.grid, body.material
+        lame, shear, p_modulus = (
+            material.lame_modulus, material.shear_modulus, material.p_wave_modulus,
+        )  # fmt: skip
+        rho_s = s * material.density
+        self._pivot = np.empty((3, grid.n_x))
+        self._inverse = np.zeros((grid.n_y + 1, 3, grid.n_x))
+        self._lower = np.empty((grid.n_y, 4, grid.n_x))
+        kernels.factorise(
+            p_modulus * body.x_stiffness + rho_s * body.x_mass, shear * body.x_mass,
+            shear * body.x_stiffness + rho_s * body.x_mass, p_modulus * body.x_mass,
+            body.sine, body.stacked.mass, body.stacked.stiffness, body.stacked.derivative,
+            lame, shear, self._pivot, self._inverse, self._lower,
+        )  # fmt: skip
+        dx = grid.dx
+        # rows of the edge unknowns: against w_x (two weights), against u_y, and among themselves
+        self._edge_x = (body.derivative.transposed.scaled(lame), body.derivative.scaled(shear))
+        self._edge_y = body.stiffness.scaled(p_modulus * dx / 6.0) + body.mass.scaled(
+            rho_s * dx / 6.0 - shear / dx
+        )
+        self._edge_edge = body.stiffness.scaled(p_modulus * dx / 3.0) + body.mass.scaled(
+            rho_s * dx / 3.0 + shear / dx
+        )
+
+    # -- solving --------------------------------------------------------------------------------
+
+    def solve(self, load: Field, w_amplitudes: Array, edge: Array) -> tuple[Array, Array]:
+        """Modes of the bulk for a given interface ``w`` (amplitudes) and given edge values.
+
+        Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
+        (2, n_x); all loads in the scaling of :meth:`Body.top_load` (N/m).
+        """
+        modes = load.modes.copy()
+        kernels.add_edge_load(
+            self._edge_profiles(edge), self.body.edge_weights, 2.0 / self.body.grid.n_x, modes
+        )
+        kernels.eliminate(self._lower, modes)
+        reduced = modes[0].copy()
+        modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
+        kernels.substitute(self._inverse, self._lower, modes)
+        return modes, reduced
+
+    def edge_residual(self, load: Field, modes: Array, edge: Array) -> Array:
+        """Unbalanced force on the edge values (N/m), shape (n_y + 1,)."""
+        sums = np.empty((3, edge.size))
+        kernels.edge_sums(self.body.edge_weights, modes, 0, sums)
+        return load.edge - self._edge_rows(sums) - self._edge_edge @ edge
+
+    def interface_forces(self, w_amplitudes: Array, reduced: Array) -> tuple[Array, Array]:
+        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
+        p = self.body.sine_forces(self._pivot[0] * w_amplitudes - reduced[0])
+        normal = self.body.cosine_forces(self._pivot[1] * w_amplitudes - reduced[1])
+        return p, normal
+
+    # -- the right edge -------------------------------------------------------------------------
+
+    def _edge_rows(self, sums: Array) -> Array:
+        """``G u``: forces on the edge values from the sums of :func:`kernels.edge_sums`."""
+        return self._edge_x[0] @ sums[0] + self._edge_x[1] @ sums[1] + self._edge_y @ sums[2]
+
+    def _edge_profiles(self, edge: Array) -> Array:
+        """Profiles along y of ``G^T e``, one per edge weight, shape (3, n_y + 1)."""
+        return np.array(
+            [
+                self._edge_x[0].transposed @ edge,
+                self._edge_x[1].transposed @ edge,
+                self._edge_y @ edge,
+            ]
+        )
+
+    @cached_property
+    def edge_schur(self) -> Array:
+        """Stiffness of the edge values, bulk eliminated and interface held (n_y + 1, n_y + 1).
+
+        Its first row and column belong to the corner, where ``u_y = 0``: they give its reaction.
+        """
+        body = self.body
+        n_levels, n_x = body.grid.n_y + 1, body.grid.n_x
+        diagonal = np.empty_like(self._inverse)
+        kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
+        solution, sums = np.zeros((n_levels, 2, n_x)), np.zeros((3, n_levels))
+        schur = self._edge_edge.dense()
+        for i in range(n_levels):
+            first = max(i, 1)
+            unit = np.zeros(n_levels)
+            unit[i] = 1.0
+            profiles = self._edge_profiles(unit)[:, first - 1 : first + 2]
+            if first == 1:
+                profiles[:, 0] = 0.0  # the interface is held
+            kernels.respond(
+                self._inverse, self._lower, diagonal, profiles, body.edge_weights, 2.0 / n_x,
+                first, solution,
+            )  # fmt: skip
+            sums[:, : first - 1] = 0.0
+            kernels.edge_sums(body.edge_weights, solution, first - 1, sums)
+            # the rows from i on see only these levels; the others follow by symmetry
+            schur[i:, i] -= self._edge_rows(sums)[i:]
+            schur[i, i + 1 :] = schur[i + 1 :, i]
+        return schur
+
+    @cached_property
+    def _schur_factor(self) -> tuple[Array, bool]:
+        return cho_factor(self.edge_schur[1:, 1:])
+
+    def edge_correction(self, residual: Array) -> Array:
+        """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
+        return np.concatenate(([0.0], cho_solve(self._schur_factor, residual[1:])))
+
+    @cached_property
+    def edge_to_interface(self) -> tuple[Array, Array]:
+        """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
+
+        Tangential (n_y + 1, n_x) at nodes 1..n_x, which is also the force on each edge value per
+        unit of w, and normal (n_y + 1, n_x) at nodes 0..n_x - 1 (N/m per m).
+        """
+        body = self.body
+        weights, scale = body.edge_weights, 2.0 / body.grid.n_x
+        result = []
+        for component, to_nodes in ((0, body.sine_forces), (1, body.cosine_forces)):
+            modes = np.zeros((body.grid.n_y + 1, 2, body.grid.n_x))
+            modes[0, component] = 1.0
+            kernels.substitute(self._inverse, self._lower, modes)
+            rows = weights[0] * (self._edge_x[0] @ modes[:, 0])
+            rows += weights[1] * (self._edge_x[1] @ modes[:, 0])
+            rows += weights[2] * (self._edge_y @ modes[:, 1])
+            result.append(to_nodes(scale * rows))
+        return result[0], result[1]
+
+    # -- the condensed operator on the interface ------------------------------------------------
+
+    def apply(self, w: Array) -> tuple[Array, Array, Array]:
+        """``D w``, ``N w`` and the edge values' response for nodal w at nodes 1..n_x (m).
+
+        Shapes (n_x,), (n_x + 1,) and (n_y + 1,).
+        """
+        tangential, normal = self.edge_to_interface
+        amplitudes = self.body.sine_amplitudes(w)
+        p, reaction = self.interface_forces(amplitudes, np.zeros((2, w.size)))
+        force_on_edge = tangential @ w
+        edge = self.edge_correction(-force_on_edge)
+        corner = force_on_edge[0] + self.edge_schur[0] @ edge
+        p += edge @ tangential
+        return p, np.append(reaction + edge @ normal, corner), edge
+
+    @cached_property
+    def _toeplitz(self) -> tuple[Array, Array]:
+        """Kernels d and h with ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)``.
+
+        Even and odd extended: d holds the arguments 0..2 n_x, h likewise (h(-n) = -h(n)).
+        """
+        n = self.body.grid.n_x
+        d = self.body.cosine_values(self._pivot[0]) / n
+        h = np.append(0.0, self.body.sine_values(self._pivot[1])) / n
+        # the modes are odd (cosine) and even (sine) about the right edge i = n_x
+        d = np.concatenate((d, [0.0], -d[:0:-1], [-d[0]]))
+        h = np.concatenate((h, h[-2::-1]))
+        return d, h
+
+    def tangent(self, nodes: Array) -> tuple[Array, Array]:
+        """Dense blocks of D and N between some interface nodes (indices in 1..n_x), (n, n).
+
+        N is returned for the normal forces of those same nodes.
+        """
+        n = self.body.grid.n_x
+        d, h = self._toeplitz
+        difference = nodes[:, None] - nodes[None, :]
+        total = nodes[:, None] + nodes[None, :]
+        stiffness = d[np.abs(difference)] - d[total]
+        coupling = h[total] - np.sign(difference) * h[np.abs(difference)]
+        stiffness[nodes == n] *= 0.5
+        # the modes' own reaction at the corner is nil: the edge carries it
+        stiffness[:, nodes == n] *= 0.5
+        coupling[:, nodes == n] *= 0.5
+        tangential, normal = self.edge_to_interface
+        at_nodes = tangential[:, nodes - 1]
+        edge = cho_solve(self._schur_factor, -at_nodes[1:])
+        stiffness += at_nodes[1:].T @ edge
+        normal_at = np.append(normal, self.edge_schur[:, :1], axis=1)[:, nodes]
+        coupling[nodes == n] = 0.0
+        coupling += normal_at[1:].T @ edge
+        coupling[nodes == n] += at_nodes[0]
+        return stiffness, coupling
+
+    @property
+    def megabytes(self) -> float:
+        """Memory that this operator holds once all of its parts are in use (MB)."""
+        grid = self.body.grid
+        levels = grid.n_y + 1
+        return 8e-6 * levels * (9 * grid.n_x + 2 * levels)
+
+
