@@ -15,7 +15,7 @@ from .closed_forms import (
     uncoupled_angular_frequency,
     velocity_strengthening_threshold,
 )
-from .critical import CriticalPoint, NoInstability, critical_length, critical_point
+from .critical import CriticalPoint, NoInstability, critical_length, critical_wavenumber
 from .spectrum import InterfaceState, growth_rates, spectrum_branches
 from .transfer import RIGID, Body, RigidBody, response_matrix, transfer_functions
 
@@ -31,7 +31,7 @@ __all__ = [
     "bimaterial_length_ratio",
     "bimaterial_modulus",
     "critical_length",
-    "critical_point",
+    "critical_wavenumber",
     "growth_rates",
     "half_spaces_length",
     "response_matrix",

@@ -162,7 +162,7 @@ def _bracket_below(
     return k[first], k[first - 1] if first else k_bottom
 
 
-def critical_point(
+def critical_wavenumber(
     upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState
 ) -> CriticalPoint:
     """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5).
@@ -222,8 +222,8 @@ def critical_point(
 
 def _stable_message(interface: InterfaceState) -> str:
     return (
-        f"sliding is stable at every wavenumber for zeta = {interface.zeta:g}, a = {interface.a:g}, "
-        f"f = {interface.friction:g} and these bodies"
+        f"sliding is stable at every wavenumber for zeta = {interface.zeta:g}, "
+        f"a = {interface.a:g}, f = {interface.friction:g} and these bodies"
     )
 
 
@@ -266,7 +266,7 @@ def critical_length(height: ArrayLike, material: Material, interface: InterfaceS
     """
     height = np.asarray(height, dtype=float)
     lengths = [
-        critical_point(Body(material, float(h), "traction"), RIGID, interface).length
+        critical_wavenumber(Body(material, float(h), "traction"), RIGID, interface).length
         for h in height.flat
     ]
     return np.reshape(lengths, height.shape)
