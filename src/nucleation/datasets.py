@@ -78,17 +78,12 @@ VARIABLES: dict[str, Variable] = {
     "bimaterial_length_ratio": Variable(
         "1", "critical length of a bimaterial interface over L_c^M", "L_c/L_c^M"
     ),
-    "steady_slip_rate": Variable("m/s", "slip rate of steady sliding", "v"),
     "steady_friction": Variable("1", "steady-state friction, full law", "f"),
     "steady_friction_logarithmic": Variable("1", "steady-state friction, logarithmic law", "f"),
     "friction_reference": Variable("1", "friction coefficient at V from Table S1", "f0"),
     "direct_effect": Variable("1", "direct effect at V from Table S1", "a"),
     "velocity_weakening": Variable("1", "velocity weakening at V from Table S1", "zeta"),
     "velocity": Variable("m/s", "imposed velocity", "V"),
-    "table_name": Variable("", "name of the friction parameter"),
-    "table_symbol": Variable("", "symbol of the friction parameter"),
-    "table_value": Variable("", "value of the friction parameter in its own unit"),
-    "table_unit": Variable("", "unit of the friction parameter"),
 }
 
 

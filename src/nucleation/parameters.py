@@ -73,6 +73,22 @@ class Stepping(Checked):
 
 
 @dataclasses.dataclass(frozen=True)
+class ExtractionSettings(Checked):
+    """How the critical nucleation length is read from a simulation."""
+
+    edge_threshold: float = quantity(
+        "slip rate at the edge of the creep patch over the imposed velocity", low=0.0, high=1.0,
+        closed="high", default=0.1,
+    )  # fmt: skip
+    edge_threshold_high: float = quantity(
+        "largest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=0.5
+    )
+    edge_threshold_low: float = quantity(
+        "smallest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=1e-3
+    )
+
+
+@dataclasses.dataclass(frozen=True)
 class Parameters:
     """Everything one simulation depends on; two equal objects give the same result."""
 
@@ -92,3 +108,12 @@ class Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value."""
         groups = {f.name: f.default for f in dataclasses.fields(cls)}
         return cls(**{name: type(default)(**values[name]) for name, default in groups.items()})
+
+    def replaced(self, values: dict[str, Any]) -> Parameters:
+        """A copy with other values of the fields of its groups, given by field name alone."""
+        groups = {}
+        for group in dataclasses.fields(self):
+            own = getattr(self, group.name)
+            changes = {f.name: values[f.name] for f in dataclasses.fields(own) if f.name in values}
+            groups[group.name] = dataclasses.replace(own, **changes)
+        return Parameters(**groups)

@@ -44,6 +44,8 @@ class Quantity:
     def _allows_one(self, value: Any) -> bool:
         if self.choices:
             return value in self.choices
+        if self.kind == "str":
+            return isinstance(value, str) and value != ""
         number = numbers.Integral if self.kind == "int" else numbers.Real
         if isinstance(value, bool) or not isinstance(value, number):
             return False
@@ -55,6 +57,8 @@ class Quantity:
         """The allowed range as text, such as ``(0, 0.5)`` or ``one of aging, slip``."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
+        if self.kind == "str":
+            return "a non-empty text"
         left = "[" if self.closed in ("low", "both") else "("
         right = "]" if self.closed in ("high", "both") else ")"
         return f"{left}{self.low:g}, {self.high:g}{right}"
@@ -99,8 +103,9 @@ def check(key: str, value: Any, entry: Quantity) -> None:
 
 def refusal(key: str, value: Any, entry: Quantity) -> str:
     """The message that refuses a value: key, value, unit, meaning, allowed range and a hint."""
-    unit = "" if entry.unit == "1" or entry.choices else f" {entry.unit}"
-    if entry.choices:
+    worded = bool(entry.choices) or entry.kind == "str"
+    unit = "" if entry.unit == "1" or worded else f" {entry.unit}"
+    if worded:
         rule = f"must be {entry.range_text()}"
     else:
         number = "be an integer in" if entry.kind == "int" else "lie in"

@@ -1,0 +1,254 @@
+"""The configuration of the workflow: read, checked as a whole, turned into settings and runs.
+
+All problems of a configuration are reported together, each with key, value, unit and range.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import math
+import numbers
+import os
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+from jsonschema.exceptions import ValidationError
+
+from . import schema
+from .friction import Friction
+from .parameters import ExtractionSettings, Parameters
+from .quantities import ParameterError, refusal
+from .schema import FigureSettings, Limits
+from .stability import InterfaceState
+from .studies import Run, estimated_megabytes, expand, range_problem, study_runs
+from .theory import Curves
+
+
+@dataclasses.dataclass(frozen=True)
+class Configuration:
+    """Everything the workflow does, checked."""
+
+    results: str
+    base: Parameters
+    main_text_interface: InterfaceState
+    curves: Curves
+    extraction: ExtractionSettings
+    figures: FigureSettings
+    limits: Limits
+    runs: tuple[Run, ...]
+
+    @property
+    def friction(self) -> Friction:
+        """The friction law of the section ``friction``."""
+        return self.base.friction
+
+    def find(self, **labels: Any) -> Run:
+        """The one run with these labels (study, law, height in m, phi0 in s).
+
+        Raises
+        ------
+        ParameterError
+            If there is none.
+        """
+        for run in self.runs:
+            if labels.items() <= run.labels.items():
+                return run
+        wanted = ", ".join(f"{name} {value}" for name, value in labels.items())
+        raise ParameterError(f"no run of the configuration has {wanted}")
+
+
+def load(path: str | os.PathLike[str]) -> Configuration:
+    """The configuration in a YAML file; raises ParameterError with all its problems."""
+    return configure(read_yaml(path))
+
+
+def read_yaml(path: str | os.PathLike[str]) -> Any:
+    """The contents of a YAML file in which no key stands twice.
+
+    Raises
+    ------
+    ParameterError
+        Naming file, line and key; also for a file that is not YAML.
+    """
+    try:
+        return yaml.load(Path(path).read_text("utf-8"), Loader=_StrictLoader)
+    except OSError as error:
+        raise ParameterError(f"{path} can't be read: {error.strerror}") from error
+    except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
+        raise ParameterError(f"{path} is not valid YAML: {error}") from error
+
+
+class _StrictLoader(yaml.SafeLoader):
+    """YAML's safe loader, which refuses a key given twice in one mapping."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        lines: dict[str, int] = {}
+        for key, _ in node.value:
+            line = key.start_mark.line + 1
+            if key.value in lines and key.tag != "tag:yaml.org,2002:merge":
+                raise ParameterError(
+                    f"{key.start_mark.name}: the key {key.value} stands twice, "
+                    f"in lines {lines[key.value]} and {line}"
+                )
+            lines[str(key.value)] = line
+        return super().construct_mapping(node, deep)
+
+
+def configure(values: Any) -> Configuration:
+    """The configuration in plain dictionaries, as read from YAML.
+
+    Raises
+    ------
+    ParameterError
+        With one line for each problem found.
+    """
+    _stop_on(_schema_problems(values))
+    _stop_on(_range_problems(values))
+    groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
+    base = Parameters(**{name: groups.pop(name) for name in ("material", "friction", "loading",
+                                                             "stepping")})  # fmt: skip
+    found: list[tuple[str, Run | str]] = []
+    for name, study in values["studies"].items():
+        found.extend(study_runs(name, study, base, groups["main_text_interface"]))
+    _stop_on(_run_problems(found, groups["limits"]))
+    runs = tuple(run for _, run in found if isinstance(run, Run))
+    return Configuration(values.get("results", "results"), base, runs=runs, **groups)
+
+
+def _stop_on(problems: Iterable[str]) -> None:
+    """Raise one ParameterError that lists all problems, if there are any."""
+    lines = list(dict.fromkeys(problems))
+    if lines:
+        count = "one problem" if len(lines) == 1 else f"{len(lines)} problems"
+        listing = "".join(f"\n  - {line}" for line in lines)
+        raise ParameterError(f"the configuration has {count}:{listing}")
+
+
+def _group(name: str, values: dict[str, Any]) -> Any:
+    """The dataclass of a section, numbers in their declared type."""
+    entries = schema.group_entries(name)
+    typed = {}
+    for key, value in values.items():
+        if entries[key].many:
+            typed[key] = tuple(float(x) for x in expand(value))
+        else:
+            typed[key] = float(value) if entries[key].kind == "float" else value
+    return schema.GROUPS[name](**typed)
+
+
+def _is_integer(_: Any, value: Any) -> bool:
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
+
+
+def _is_finite(_: Any, value: Any) -> bool:
+    return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine_many(
+        {"integer": _is_integer, "number": _is_finite}
+    ),
+)
+
+
+def _schema_problems(values: Any) -> Iterator[str]:
+    """What is wrong with the configuration against the schema."""
+    for error in _Validator(schema.build()).iter_errors(values):
+        for cause in _causes(error):
+            yield from _messages(cause)
+
+
+def _causes(error: ValidationError) -> list[ValidationError]:
+    """The errors behind one of several forms: those of the form that the value has."""
+    if error.validator != "anyOf":
+        return [error]
+    forms = {list: "array", dict: "object"}
+    wanted = forms.get(type(error.instance))
+    kinds = [branch.get("type") for branch in error.validator_value]
+    chosen = kinds.index(wanted) if wanted in kinds else 0
+    return [cause for cause in error.context if cause.relative_schema_path[0] == chosen]
+
+
+def _messages(error: ValidationError) -> Iterator[str]:
+    """One schema error in words."""
+    path = tuple(error.absolute_path)
+    key = key_text(path)
+    entry = schema.entry_at(path)
+    leaf = "unit" in error.schema
+    if error.validator == "additionalProperties":
+        yield from _unknown_keys(path, error.instance, list(error.schema["properties"]))
+    elif error.validator == "required":
+        missing = [k for k in error.validator_value if k not in error.instance]
+        yield f"{key} lacks the key {', '.join(missing)}"
+    elif error.validator in ("minItems", "minProperties"):
+        yield f"{key} = {error.instance!r} is empty: it needs at least one entry"
+    elif error.validator == "uniqueItems":
+        yield f"{key} = {_short(error.instance)} has a value twice"
+    elif error.validator == "pattern":
+        yield (
+            f"{key}: {error.instance!r} is not allowed as a name: it must be made of letters, "
+            "digits and _, beginning with a letter"
+        )
+    elif leaf and entry is not None:
+        yield refusal(key, error.instance, entry)
+    else:
+        form = {"object": "a mapping (lines of key: value)", "array": "a list"}
+        yield f"{key} = {_short(error.instance)} must be {form[error.validator_value]}"
+
+
+def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]) -> Iterator[str]:
+    for name in given:
+        if name in known:
+            continue
+        close = difflib.get_close_matches(str(name), known, n=1)
+        hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(known)}"
+        value = _short(given[name])
+        yield f"{key_text((*path, name))} = {value} is not allowed: unknown key; {hint}"
+
+
+def key_text(path: tuple[Any, ...]) -> str:
+    """A place in the configuration as text, ``studies.paper.runs[0].height``."""
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.lstrip(".") or "the configuration"
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 80 else f"{text[:76]} ..."
+
+
+def _range_problems(values: dict[str, Any]) -> Iterator[str]:
+    """Ranges that can't be expanded, wherever they stand."""
+    places = [((g, k), v) for g in schema.GROUPS for k, v in values.get(g, {}).items()]
+    for name, study in values["studies"].items():
+        for number, entry in enumerate(study["runs"]):
+            places += [(("studies", name, "runs", number, k), v) for k, v in entry.items()]
+    for path, value in places:
+        problem = range_problem(value)
+        if problem:
+            yield f"{key_text(path)}: {problem}"
+
+
+def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterator[str]:
+    """Runs that can't be made, stand twice or need too much memory."""
+    seen: dict[Any, str] = {}
+    for key, run in found:
+        if isinstance(run, str):
+            yield f"{key}: {run}"
+            continue
+        for mark in (run.id, (run.study, run.parameters)):
+            if mark in seen:
+                yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
+            seen[mark] = key
+        need = estimated_megabytes(run.parameters.mesh)
+        if need > limits.memory:
+            mesh = run.parameters.mesh
+            yield (
+                f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y} is not allowed: the simulation would "
+                f"need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
+            )
