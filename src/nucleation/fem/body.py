@@ -31,7 +31,7 @@ from .grid import Grid, Tridiagonal, element_matrices
 Array = NDArray[np.float64]
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(frozen=True)
 class Field:
     """A displacement-like field: mode amplitudes and the values of u_y on the right edge.
 
@@ -42,13 +42,8 @@ class Field:
     modes: Array
     edge: Array
 
-    def combined(self, a: float, other: Field, b: float) -> Field:
-        """``a * self + b * other``."""
-        return Field(a * self.modes + b * other.modes, a * self.edge + b * other.edge)
-
-    def copy(self) -> Field:
-        """An independent copy."""
-        return Field(self.modes.copy(), self.edge.copy())
+    def __add__(self, other: Field) -> Field:
+        return Field(self.modes + other.modes, self.edge + other.edge)
 
 
 class Stacked(NamedTuple):

@@ -188,3 +188,24 @@ def edge_sums(weights, field, first, out):
             b += weights[1, m] * field[j, 0, m]
             c += weights[2, m] * field[j, 1, m]
         out[0, j], out[1, j], out[2, j] = a, b, c
+
+
+@compiled
+def carry_over(c1, c2, beta, u, v, u_past, v_past, out):
+    """``out = c1 (u + beta v) + c2 (u_past + beta v_past)``: what a step takes from the past."""
+    for j in range(u.shape[0]):
+        for c in range(2):
+            for m in range(u.shape[2]):
+                out[j, c, m] = c1 * (u[j, c, m] + beta * v[j, c, m]) + c2 * (
+                    u_past[j, c, m] + beta * v_past[j, c, m]
+                )
+
+
+@compiled
+def rate_of_change(c1, c2, beta, new, u, u_past, out):
+    """``out = (new - c1 u - c2 u_past) / beta``: the time derivative by the step's formula."""
+    scale = 1.0 / beta
+    for j in range(u.shape[0]):
+        for c in range(2):
+            for m in range(u.shape[2]):
+                out[j, c, m] = scale * (new[j, c, m] - c1 * u[j, c, m] - c2 * u_past[j, c, m])

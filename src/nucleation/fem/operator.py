@@ -187,6 +187,16 @@ class BodyOperator:
         h = np.concatenate((h, h[-2::-1]))
         return d, h
 
+    @cached_property
+    def diagonal(self) -> Array:
+        """Diagonal of D at the nodes 1..n_x (N/m per m), the edge's share included."""
+        n = self.body.grid.n_x
+        d, _ = self._toeplitz
+        diagonal = d[0] - d[2 : 2 * n + 1 : 2]
+        diagonal[-1] *= 0.25
+        at_nodes = self.edge_to_interface[0][1:]
+        return diagonal - np.einsum("ji,ji->i", at_nodes, cho_solve(self._schur_factor, at_nodes))
+
     def tangent(self, nodes: Array) -> tuple[Array, Array]:
         """Dense blocks of D and N between some interface nodes (indices in 1..n_x), (n, n).
 

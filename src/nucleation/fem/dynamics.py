@@ -1,0 +1,218 @@
+"""One implicit step of the block on its frictional interface: state in, state out.
+
+The state holds the present and the previous displacement and velocity (two levels for BDF2) and
+the last interface values, from which the next ones are extrapolated. A step is pure: it returns a
+new state and changes nothing, so a rejected step leaves no trace and a stored state restarts the
+run exactly.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections import OrderedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..parameters import Parameters
+from . import kernels
+from .body import Body, Field
+from .grid import Grid
+from .interface import Interface, InterfaceSolution, LinearResponse
+from .operator import BodyOperator
+from .stepping import Formula, error_factor, extrapolation_weights, rung_value
+
+Array = NDArray[np.float64]
+
+OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
+LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
+
+
+@dataclasses.dataclass(frozen=True)
+class State:
+    """The block at one instant; interface arrays are over the nodes 0..n_x, newest first.
+
+    ``past_times`` (s), ``past_slip_rates`` (m/s) and ``past_log_states`` hold up to three
+    instants, the first of them the present one. ``displacement`` is (w_x, u_y) of the body, with
+    u_x = V t + w_x.
+    """
+
+    displacement: Field
+    velocity: Field
+    previous_displacement: Field
+    previous_velocity: Field
+    past_times: Array
+    past_slip_rates: Array
+    past_log_states: Array
+    momentum: float  # kg/s, along x, of the velocity w_t
+    previous_momentum: float
+
+    @property
+    def time(self) -> float:
+        """Present time (s)."""
+        return float(self.past_times[0])
+
+    @property
+    def last_step(self) -> float:
+        """Length of the step that led here (s)."""
+        return float(self.past_times[0] - self.past_times[1])
+
+
+@dataclasses.dataclass(frozen=True)
+class StepReport:
+    """What a step tells besides the new state."""
+
+    interface: InterfaceSolution
+    driving_force: float  # f_d (N/m), negative in compression
+    error: float  # largest local error of asinh(v / v_scale) and log(phi)
+
+
+class Dynamics:
+    """The block, its interface and its loads, ready to step."""
+
+    def __init__(self, parameters: Parameters) -> None:
+        geometry, mesh, loading = parameters.geometry, parameters.mesh, parameters.loading
+        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+        self.body = Body(self.grid, parameters.material)
+        self.velocity = loading.velocity
+        self.interface = Interface(parameters.friction, loading.velocity)
+        self._initial_log_state = float(np.log(loading.initial_state))
+        self._load = self.body.top_load(loading.normal_stress)
+        # slip rates far below the loading rate need no relative accuracy
+        self.rate_scale = 0.01 * loading.velocity
+        self._operators: OrderedDict[int, BodyOperator] = OrderedDict()
+
+    def initial_state(self) -> tuple[State, StepReport]:
+        """The static field under the normal stress, without slip and at rest."""
+        n = self.grid.n_x
+        operator = BodyOperator(self.body, 0.0)
+        rest = np.zeros(n)
+        response = self._respond(operator, self._load, rest)
+        modes, _ = operator.solve(self._load, rest, response.edge)
+        displacement = Field(modes, response.edge)
+        velocity = self.body.zero_field()
+        velocity.modes[:, 0] = -self.velocity * self.body.sine_amplitudes(np.ones(n))
+        slip_rate = np.append(self.velocity, np.zeros(n))
+        log_state = np.full(n + 1, self._initial_log_state)
+        momentum = self.body.momentum_x(velocity)
+        state = State(
+            displacement, velocity, displacement, velocity, np.zeros(1), slip_rate[None],
+            log_state[None], momentum, momentum,
+        )  # fmt: skip
+        # at rest no friction acts on the driven edge's own node
+        tangential = np.append(0.0, response.tangential)
+        at_rest = InterfaceSolution(
+            slip_rate, log_state, tangential, response.normal, rest, response.edge, 0
+        )
+        return state, StepReport(at_rest, float(tangential.sum()), 0.0)
+
+    def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
+        """One step with the leading coefficient ``beta`` of a rung of the step-size ladder.
+
+        Raises
+        ------
+        NewtonFailure
+            The interface's equations were not solved; try a lower rung.
+        """
+        beta = rung_value(rung)
+        first = state.past_times.size == 1
+        formula = (
+            Formula.backward_euler(beta) if first else Formula.bdf2(beta, state.last_step)
+        )  # fmt: skip
+        operator = self._operator(rung)
+        load = self._inertia_from_past(state, formula, operator.s) + self._load
+        guess, log_state_guess = self._extrapolated(state, state.time + formula.step)
+        w_history = self._interface_displacement(state, formula)
+        w_guess = w_history + beta * (guess[1:] - self.velocity)
+        response = self._respond(operator, load, w_guess)
+        log_state_history = formula.c1 * state.past_log_states[0]
+        if not first:
+            log_state_history = log_state_history + formula.c2 * state.past_log_states[1]
+        solution = self.interface.solve(
+            operator, response, w_history, log_state_history, beta, guess[1:]
+        )
+        error = np.inf if first else 0.0
+        if state.past_times.size == 3:
+            error = error_factor(formula, state.past_times) * max(
+                np.abs(self._scaled(solution.slip_rate) - self._scaled(guess)).max(),
+                np.abs(solution.log_state - log_state_guess).max(),
+            )
+        return self._completed(state, formula, operator, load, solution, error)
+
+    # -- parts of a step ------------------------------------------------------------------------
+
+    def _operator(self, rung: int) -> BodyOperator:
+        """The operator of a rung, from the cache of the most recently used ones."""
+        if rung not in self._operators:
+            operator = BodyOperator(self.body, 1.0 / rung_value(rung) ** 2)
+            most = max(4, int(OPERATOR_MEMORY / operator.megabytes))
+            while len(self._operators) >= most:
+                self._operators.popitem(last=False)
+            self._operators[rung] = operator
+        self._operators.move_to_end(rung)
+        return self._operators[rung]
+
+    def _inertia_from_past(self, state: State, formula: Formula, s: float) -> Field:
+        c1, c2, beta = formula.c1, formula.c2, formula.beta
+        u, v = state.displacement, state.velocity
+        u_past, v_past = state.previous_displacement, state.previous_velocity
+        modes = np.empty_like(u.modes)
+        kernels.carry_over(c1, c2, beta, u.modes, v.modes, u_past.modes, v_past.modes, modes)
+        edge = c1 * (u.edge + beta * v.edge) + c2 * (u_past.edge + beta * v_past.edge)
+        return self.body.inertia_load(Field(modes, edge), s)
+
+    def _interface_displacement(self, state: State, formula: Formula) -> Array:
+        """The part of w (m) at nodes 1..n_x that the step's formula takes from the past."""
+        now, past = state.displacement.modes[0, 0], state.previous_displacement.modes[0, 0]
+        return self.body.sine_values(formula.c1 * now + formula.c2 * past)
+
+    def _scaled(self, slip_rate: Array) -> Array:
+        return np.arcsinh(slip_rate / self.rate_scale)
+
+    def _extrapolated(self, state: State, time: float) -> tuple[Array, Array]:
+        """Slip rate (m/s) and log state at a new time, by polynomials through the past ones."""
+        weights = extrapolation_weights(time, state.past_times)
+        scaled = weights @ self._scaled(state.past_slip_rates)
+        scaled = np.clip(scaled, -LARGEST_RATE_EXPONENT, LARGEST_RATE_EXPONENT)
+        largest = 10.0 * np.abs(state.past_slip_rates[0]).max()
+        guess = np.clip(self.rate_scale * np.sinh(scaled), -largest, largest)
+        return guess, weights @ state.past_log_states
+
+    def _respond(self, operator: BodyOperator, load: Field, w: Array) -> LinearResponse:
+        """The body's forces on the interface at given w (m), the right edge in balance."""
+        amplitudes = self.body.sine_amplitudes(w)
+        edge = np.zeros_like(load.edge)
+        modes, reduced = operator.solve(load, amplitudes, edge)
+        residual = operator.edge_residual(load, modes, edge)
+        edge = operator.edge_correction(residual)
+        tangential, normal = operator.interface_forces(amplitudes, reduced)
+        edge_tangential, edge_normal = operator.edge_to_interface
+        corner = operator.edge_schur[0] @ edge - residual[0]
+        return LinearResponse(
+            w, tangential + edge @ edge_tangential, np.append(normal + edge @ edge_normal, corner),
+            edge,
+        )  # fmt: skip
+
+    def _completed(
+        self, state: State, formula: Formula, operator: BodyOperator, load: Field,
+        solution: InterfaceSolution, error: float,
+    ) -> tuple[State, StepReport]:  # fmt: skip
+        c1, c2, beta = formula.c1, formula.c2, formula.beta
+        modes, _ = operator.solve(load, self.body.sine_amplitudes(solution.w), solution.edge)
+        u, u_past = state.displacement, state.previous_displacement
+        rates = np.empty_like(modes)
+        kernels.rate_of_change(c1, c2, beta, modes, u.modes, u_past.modes, rates)
+        edge_rate = (solution.edge - c1 * u.edge - c2 * u_past.edge) / beta
+        velocity = Field(rates, edge_rate)
+        momentum = self.body.momentum_x(velocity)
+        force = (momentum - c1 * state.momentum - c2 * state.previous_momentum) / beta
+        keep = slice(0, 2)
+        new = State(
+            Field(modes, solution.edge), velocity, state.displacement, state.velocity,
+            np.append(state.time + formula.step, state.past_times[keep]),
+            np.vstack((solution.slip_rate, state.past_slip_rates[keep])),
+            np.vstack((solution.log_state, state.past_log_states[keep])),
+            momentum, state.momentum,
+        )  # fmt: skip
+        # discrete balance along x: the driven edge carries what friction and inertia leave
+        return new, StepReport(solution, float(solution.tangential.sum() - force), error)

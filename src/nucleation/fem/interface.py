@@ -1,0 +1,166 @@
+"""The frictional interface: Newton's method for the slip rates of one implicit step.
+
+At the new time the slip rate ``v``, the state ``psi = log(phi)``, the nodal tangential force
+``p`` and the nodal normal force ``R`` (on the body, R > 0 in compression) fulfil
+
+    p = p0 + D (w - w0),   R = R0 + N (w - w0),   w = w_history + beta (v - V)
+    p + f(v, psi(v)) R = 0
+
+at the nodes 1..n_x, with the body's condensed operator D, N and the state eliminated by the
+closed form of its implicit step. Node 0 slips at the imposed velocity V.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+
+from ..friction import Friction
+from .operator import BodyOperator
+
+Array = NDArray[np.float64]
+
+ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
+
+
+class NewtonFailure(RuntimeError):
+    """Newton's method did not converge; the step must be shortened."""
+
+
+@dataclasses.dataclass(frozen=True)
+class LinearResponse:
+    """The body's nodal forces p0 (n_x), R0 (n_x + 1) at w0 (n_x), and its edge values there."""
+
+    w: Array
+    tangential: Array
+    normal: Array
+    edge: Array
+
+
+@dataclasses.dataclass(frozen=True)
+class InterfaceSolution:
+    """The interface at the new time; arrays over the nodes 0..n_x unless said otherwise."""
+
+    slip_rate: Array  # m/s
+    log_state: Array
+    tangential: Array  # N/m, force on the body
+    normal: Array  # N/m, force on the body
+    w: Array  # m, nodes 1..n_x
+    edge: Array  # m, levels 0..n_y
+    iterations: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Interface:
+    """Friction between the body and the rigid substrate, and how tightly it is solved."""
+
+    friction: Friction
+    velocity: float  # m/s, of the left edge
+    tolerance: float = 1e-5  # of the last, quadratically converging, relative change of v
+    most_iterations: int = 12
+
+    def solve(
+        self,
+        operator: BodyOperator,
+        response: LinearResponse,
+        w_history: Array,
+        log_state_history: Array,
+        beta: float,
+        guess: Array,
+    ) -> InterfaceSolution:
+        """Solve for the slip rates at the new time.
+
+        Parameters
+        ----------
+        operator, response : the condensed body and its forces at the predicted displacement.
+        w_history : the part of w (m) at nodes 1..n_x that the step's formula takes from the past.
+        log_state_history : the same for psi at nodes 0..n_x.
+        beta : coefficient (s) of the new slip rate in the step's formula.
+        guess : slip rates (m/s) at nodes 1..n_x.
+
+        Raises
+        ------
+        NewtonFailure
+            No convergence, or a nodal normal force that is tensile or not finite.
+        """
+        v = guess.copy()
+        for iteration in range(self.most_iterations):
+            w, p, normal, edge = self._forces(operator, response, w_history, beta, v)
+            coefficient, slope, _ = self._friction(v, log_state_history[1:], beta)
+            residual = p + coefficient * normal[1:]
+            change = self._direction(operator, residual, coefficient, slope * normal[1:], beta)
+            v = self._updated(v, change)
+            scaled = np.abs(change) / (np.abs(v) + self.friction.regularisation_slip_rate)
+            if not np.isfinite(scaled).all():
+                raise NewtonFailure("slip rate is not finite")
+            if scaled.max() < self.tolerance:
+                return self._finish(
+                    operator, response, w_history, log_state_history, beta, v, iteration + 1
+                )
+        raise NewtonFailure(f"no convergence in {self.most_iterations} iterations")
+
+    def _forces(
+        self, operator: BodyOperator, response: LinearResponse, w_history: Array, beta: float,
+        v: Array,
+    ) -> tuple[Array, Array, Array, Array]:  # fmt: skip
+        w = w_history + beta * (v - self.velocity)
+        p, normal, edge = operator.apply(w - response.w)
+        return w, response.tangential + p, response.normal + normal, response.edge + edge
+
+    def _friction(
+        self, v: Array, log_state_history: Array, beta: float
+    ) -> tuple[Array, Array, Array]:
+        """Friction coefficient, its total derivative by v, and psi, state at the new time."""
+        law, distance = self.friction, self.friction.characteristic_slip_distance
+        speed = law.slip_speed(v)
+        psi, psi_by_rate = law.evolution_law.implicit_log_state(
+            log_state_history, beta, speed / distance
+        )
+        aging, aging_slope = law.aging_factor(psi)
+        rate, rate_slope = law.rate_factor(v)
+        slope = aging * rate_slope + aging_slope * rate * psi_by_rate * v / (speed * distance)
+        return aging * rate, slope, psi
+
+    def _direction(
+        self, operator: BodyOperator, residual: Array, coefficient: Array, damping: Array,
+        beta: float,
+    ) -> Array:  # fmt: skip
+        """Newton's direction: dense where elasticity couples the nodes, else node by node."""
+        elastic = beta * operator.diagonal
+        change = -residual / (elastic + damping)
+        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
+        if active.size:
+            stiffness, coupling = operator.tangent(active + 1)
+            matrix = beta * (stiffness + coefficient[active, None] * coupling)
+            matrix[np.diag_indices_from(matrix)] += damping[active]
+            factor = lu_factor(matrix, overwrite_a=True, check_finite=False)
+            change[active] = lu_solve(factor, -residual[active], check_finite=False)
+        return change
+
+    def _updated(self, v: Array, change: Array) -> Array:
+        """``v + change``, but shrinking a slip rate at most exponentially.
+
+        Friction is concave in v: Newton undershoots from above, beyond zero. Both forms agree to
+        second order, so that convergence stays quadratic.
+        """
+        scale = np.abs(v) + self.friction.regularisation_slip_rate
+        ratio = change / scale
+        shrinking = ratio * np.sign(v) < -0.5
+        log_like = v * np.exp(np.where(shrinking, -np.abs(ratio), 0.0))
+        return np.where(shrinking, log_like, v + change)
+
+    def _finish(
+        self, operator: BodyOperator, response: LinearResponse, w_history: Array,
+        log_state_history: Array, beta: float, v: Array, iterations: int,
+    ) -> InterfaceSolution:  # fmt: skip
+        w, p, normal, edge = self._forces(operator, response, w_history, beta, v)
+        if normal.min() <= 0.0:
+            raise NewtonFailure("the interface is in tension")
+        v = np.concatenate(([self.velocity], v))
+        coefficient, _, psi = self._friction(v, log_state_history, beta)
+        # node 0 belongs to the driven edge: its friction follows from its own slip rate V
+        p = np.concatenate(([-coefficient[0] * normal[0]], p))
+        return InterfaceSolution(v, psi, p, normal, w, edge, iterations)

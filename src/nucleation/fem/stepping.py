@@ -1,0 +1,87 @@
+"""Variable-step BDF2: second order, L-stable, with an error estimate and a step-size ladder.
+
+For ``dy/dt = g`` the step from t to t + h, after a step h', reads (r = h/h')
+
+    y = c1 y_n + c2 y_{n-1} + beta g,   beta = h (1 + r)/(1 + 2 r),
+    c1 = (1 + r)^2/(1 + 2 r),           c2 = -r^2/(1 + 2 r).
+
+The body's operator depends on beta alone. Its values are taken from a geometric ladder, so that
+few operators serve a whole run; the step h follows from beta and h'.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+RUNGS_PER_OCTAVE = 4
+LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step
+
+
+@dataclasses.dataclass(frozen=True)
+class Formula:
+    """Coefficients of one step: ``y = c1 y_n + c2 y_{n-1} + beta dy/dt``."""
+
+    step: float
+    beta: float
+    c1: float
+    c2: float
+
+    @classmethod
+    def bdf2(cls, beta: float, previous_step: float) -> Formula:
+        """The BDF2 step with leading coefficient `beta` (s) after `previous_step` (s)."""
+        half = beta - 0.5 * previous_step
+        step = half + math.sqrt(half * half + beta * previous_step)
+        r = step / previous_step
+        return cls(step, beta, (1 + r) ** 2 / (1 + 2 * r), -(r**2) / (1 + 2 * r))
+
+    @classmethod
+    def backward_euler(cls, beta: float) -> Formula:
+        """The first step, of first order."""
+        return cls(beta, beta, 1.0, 0.0)
+
+
+def rung_below(beta: float) -> int:
+    """The largest rung of the ladder ``2^(n / RUNGS_PER_OCTAVE)`` seconds not above `beta`."""
+    return math.floor(RUNGS_PER_OCTAVE * math.log2(beta) + 1e-9)
+
+
+def rung_value(rung: int) -> float:
+    """The value of beta (s) of a rung."""
+    return 2.0 ** (rung / RUNGS_PER_OCTAVE)
+
+
+def beta_of_step(step: float, previous_step: float) -> float:
+    """The leading coefficient (s) of a BDF2 step."""
+    r = step / previous_step
+    return step * (1 + r) / (1 + 2 * r)
+
+
+def extrapolation_weights(time: float, past: Array) -> Array:
+    """Lagrange weights that extrapolate values at the `past` times (s) to `time` (s)."""
+    weights = np.ones(past.size)
+    for i, own in enumerate(past):
+        for j, other in enumerate(past):
+            if i != j:
+                weights[i] *= (time - other) / (own - other)
+    return weights
+
+
+def error_factor(formula: Formula, past: Array) -> float:
+    """Local error of the BDF2 step over the difference of step and quadratic extrapolation.
+
+    `past` holds the three last times (s), newest first. The local error is ``B y'''`` with
+    ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))`` and the extrapolation's is ``A y'''`` with
+    ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
+    """
+    h = formula.step
+    first, second = past[0] - past[1], past[0] - past[2]
+    r = h / first
+    scheme = h**3 * (1 + r) ** 2 / (6 * r * (1 + 2 * r))
+    extrapolation = h * (h + first) * (h + second) / 6
+    return scheme / (scheme + extrapolation)

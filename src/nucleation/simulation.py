@@ -1,0 +1,150 @@
+"""The simulation: physics, finite elements and stepping put together.
+
+:func:`run` yields one state after another; :func:`simulate` records them into a dataset.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+import resource
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from .fem.dynamics import Dynamics, State, StepReport
+from .fem.interface import NewtonFailure
+from .fem.stepping import LARGEST_GROWTH, beta_of_step, rung_below, rung_value
+from .parameters import Parameters
+from .recording import Recorder
+
+Array = NDArray[np.float64]
+
+FIRST_STEP = 1.0e-7  # s
+SAFETY = 0.85  # of the step size against the estimated error
+SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
+
+
+class Outcome(enum.Enum):
+    """How a run ended."""
+
+    END_TIME = "completed: the end time was reached"
+    AFTER_EVENT = "completed: the event and the time asked for after it are covered"
+    STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run reached its planned end."""
+        return self.value.startswith("completed")
+
+
+class SimulationFailure(RuntimeError):
+    """The time integration could not go on; `outcome` names why."""
+
+    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
+        super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
+        self.outcome = outcome
+
+
+@dataclasses.dataclass(frozen=True)
+class Instant:
+    """One accepted step of a run."""
+
+    state: State
+    report: StepReport
+    rejected: int  # steps rejected so far
+
+
+def run(parameters: Parameters) -> Iterator[Instant]:
+    """Integrate in time, yielding the initial state and then every accepted step, without end.
+
+    Raises
+    ------
+    SimulationFailure
+        The step size fell below ``stepping.shortest_step``.
+    """
+    dynamics = Dynamics(parameters)
+    stepping = parameters.stepping
+    state, report = dynamics.initial_state()
+    yield Instant(state, report, 0)
+    longest = beta_of_step(stepping.longest_step, stepping.longest_step)
+    wanted, rejected = min(FIRST_STEP, longest), 0
+    while True:
+        rung = rung_below(min(wanted, longest))
+        beta = rung_value(rung)
+        if beta < stepping.shortest_step:
+            raise SimulationFailure(Outcome.STEP_UNDERFLOW, state, f"step {beta:.3g} s")
+        try:
+            new, report = dynamics.advance(state, rung)
+        except NewtonFailure:
+            wanted, rejected = 0.5 * beta, rejected + 1
+            continue
+        factor = _step_factor(report.error / stepping.tolerance)
+        if report.error > stepping.tolerance and np.isfinite(report.error):
+            wanted, rejected = beta * min(factor, 0.9), rejected + 1
+            continue
+        state = new
+        wanted = beta_of_step(state.last_step * factor, state.last_step)
+        yield Instant(state, report, rejected)
+
+
+def _step_factor(error: float) -> float:
+    """Factor on the step size for a local error of third order, given over the tolerance."""
+    if not np.isfinite(error):
+        return 1.0  # the first step has no estimate
+    ideal = SAFETY * max(error, 1e-9) ** (-1.0 / 3.0)
+    return min(LARGEST_GROWTH, max(SMALLEST_SHRINKING, ideal))
+
+
+def simulate(
+    parameters: Parameters, *, progress: Callable[[Instant], None] | None = None
+) -> xr.Dataset:
+    """Run one simulation to its end and return its record.
+
+    Parameters
+    ----------
+    parameters : everything the result depends on.
+    progress : called with every accepted step.
+
+    Returns
+    -------
+    Dataset with the interface's fields on (time, x), the driving force and the step sizes on
+    (step), some fields of the bulk on (snapshot, y, x), and the outcome as attributes; names and
+    units are listed in :mod:`nucleation.datasets`. A run that fails numerically returns what it
+    recorded, with ``status`` telling so.
+    """
+    started = time.perf_counter()
+    recorder = Recorder(parameters)
+    outcome = Outcome.END_TIME
+    try:
+        for instant in run(parameters):
+            recorder.record(instant.state, instant.report)
+            if progress is not None:
+                progress(instant)
+            if recorder.covers_event:
+                outcome = Outcome.AFTER_EVENT
+                break
+            if instant.state.time >= parameters.stepping.end_time:
+                break
+    except SimulationFailure as failure:
+        outcome = failure.outcome
+    dataset = recorder.dataset()
+    dataset.attrs |= {
+        "status": outcome.value,
+        "completed": int(outcome.completed),
+        "steps": recorder.steps,
+        "rejected_steps": instant.rejected,
+        "wall_seconds": time.perf_counter() - started,
+        "peak_megabytes": peak_megabytes(),
+    }
+    return dataset
+
+
+def peak_megabytes() -> float:
+    """Largest resident memory of this process so far (MB)."""
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kilobytes / (1e6 if sys.platform == "darwin" else 1e3)
