@@ -109,8 +109,8 @@ def test_interface_matrix_inverts_the_response(upper, lower):
     matrix = interface_matrix(k, upper, lower)
     jump = response_matrix(k, upper, "upper") - response_matrix(k, lower, "lower")
     assert matrix.shape == (2, 2, 2, 2)
-    np.testing.assert_allclose(matrix @ jump, np.broadcast_to(np.eye(2), k.shape + (2, 2)),
-                               atol=1e-9)  # fmt: skip
+    identity = np.broadcast_to(np.eye(2), (2, 2, 2, 2))
+    np.testing.assert_allclose(matrix @ jump, identity, atol=1e-9)
     g1, g2 = transfer_functions(k, upper, lower)
     mu = reference_modulus(upper, lower)
     np.testing.assert_allclose(matrix[..., 0, 0], -mu * k * g1, rtol=1e-14)
