@@ -122,6 +122,12 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
         complete.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
 
 
+def write_text(text: str, path: str | os.PathLike[str]) -> None:
+    """Write a text file, whole or not at all."""
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
 @contextlib.contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path to write to, which takes the place of `path` once it is on the disk."""

@@ -14,7 +14,7 @@ from .elasticity import Material
 from .parameters import Mesh, Parameters
 from .quantities import Checked, ParameterError, Quantity, declarations, quantity
 from .stability import InterfaceState, NoInstability, critical_length
-from .theory import linearised
+from .theory import linearised, loaded
 
 SHORT_NAMES = {"evolution": "law", "initial_state": "phi0"}
 """Names in studies, identifiers and the table of lengths that differ from the field's name."""
@@ -164,13 +164,11 @@ def _run(
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     parameters = base.replaced({STUDY_PARAMETERS[k][0]: _number(k, v) for k, v in values.items()})
     height = parameters.geometry.height
-    interface = linearised(parameters.friction, parameters.loading)
+    loading = parameters.loading
     if settings.interface == "main_text":
-        interface = dataclasses.replace(
-            main_text,
-            velocity=parameters.loading.velocity,
-            normal_stress=parameters.loading.normal_stress,
-        )
+        interface = loaded(main_text, loading)
+    else:
+        interface = linearised(parameters.friction, loading)
     critical = theory_length(height, parameters.material, interface)
     length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
     if length <= critical:

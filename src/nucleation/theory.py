@@ -60,11 +60,18 @@ def linearised(friction: Friction, loading: Loading) -> InterfaceState:
     )
 
 
+def loaded(interface: InterfaceState, loading: Loading) -> InterfaceState:
+    """The interface with the velocity and the normal stress of a loading."""
+    return dataclasses.replace(
+        interface, velocity=loading.velocity, normal_stress=loading.normal_stress
+    )
+
+
 def theory_dataset(
     material: Material,
     friction: Friction,
-    velocity: float,
-    interface: InterfaceState,
+    loading: Loading,
+    main_text: InterfaceState,
     curves: Curves,
 ) -> xr.Dataset:
     """All curves of the linear theory.
@@ -75,18 +82,19 @@ def theory_dataset(
         Of the block.
     friction : Friction
         The full law with the parameters of Table S1.
-    velocity : float
-        Imposed velocity V (m/s), about which the full law is expanded.
-    interface : InterfaceState
-        The main text's rounded friction, on which the curve of Figure 3 stands.
+    loading : Loading
+        Normal stress, and the imposed velocity V, about which the full law is expanded.
+    main_text : InterfaceState
+        The main text's rounded friction, on which the curve of Figure 3 stands, at this loading.
     curves : Curves
         Where to compute.
     """
+    interface = loaded(main_text, loading)
     return xr.merge(
         [
             length_curve(material, interface, np.array(curves.heights)),
             bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
-            friction_curves(friction, velocity, np.array(curves.slip_rates)),
+            friction_curves(friction, loading.velocity, np.array(curves.slip_rates)),
         ]
     )
 

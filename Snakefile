@@ -1,0 +1,80 @@
+# The workflow of the replication: configuration, rules, and the targets that users ask for.
+#
+#   snakemake --workflow-profile workflow/profiles/default figure_3
+#
+# Data flow: theory and simulate -> extract -> draw. Results lie below the configuration's
+# `results`, relative to the working directory. docs and workflow/rules/*.smk have the details.
+import os
+import sys
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+# The one place that says where the package is, for this file and for the scripts of all jobs.
+SOURCE = str(Path(workflow.basedir, "src"))
+sys.path.insert(0, SOURCE)
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
+
+from nucleation.configuration import configure, read_yaml
+from nucleation.provenance import digest
+from nucleation.quantities import ParameterError
+from nucleation.studies import estimated_megabytes
+
+# A configuration given with --configfile stands alone; config.yaml is the default.
+if not workflow.overwrite_configfiles:
+    configfile: str(Path(workflow.basedir, "config", "config.yaml"))
+
+
+try:
+    for path in workflow.configfiles:
+        read_yaml(path)  # finds keys that stand twice, of which Snakemake keeps the last
+    settings = configure(config)
+except ParameterError as error:
+    raise WorkflowError(str(error)) from None
+
+RESULTS = settings.results
+RUNS = {run.id: run for run in settings.runs}
+THEORY = f"{RESULTS}/theory.nc"
+LENGTHS = f"{RESULTS}/lengths.nc"
+
+
+def simulation(id):
+    """The dataset of one simulation."""
+    return f"{RESULTS}/simulations/{id}.nc"
+
+
+def simulations(study=None):
+    """The datasets of all simulations, or of one study's."""
+    return [simulation(id) for id, run in RUNS.items() if study in (None, run.study)]
+
+
+def figure(name):
+    """The files of a figure."""
+    return multiext(f"{RESULTS}/figures/{name}", ".pdf", ".png")
+
+
+localrules:
+    paper, simulations, lengths, figure_1, figure_2, figure_3, figure_s1, figure_s2, table_s1,
+
+
+include: "workflow/rules/theory.smk"
+include: "workflow/rules/simulate.smk"
+include: "workflow/rules/extract.smk"
+include: "workflow/rules/figures.smk"
+
+
+# Targets. Each names the simulations it stands on, not only its own files: after a simulation
+# failed or vanished, the files made from it would otherwise still count as up to date.
+rule paper:
+    default_target: True
+    input:
+        rules.figure_1.input,
+        rules.figure_2.input,
+        rules.figure_3.input,
+        rules.figure_s1.input,
+        rules.figure_s2.input,
+        rules.table_s1.input,
+        rules.lengths.input,

@@ -1,0 +1,33 @@
+# One job for each simulation. Its parameters and the digest of the code it runs are in `params`:
+# Snakemake sees neither imported modules nor what a wildcard stands for, and a change of either
+# has to run the simulation again (and nothing else has to).
+from math import ceil
+
+
+def run_of(wildcards):
+    return RUNS[wildcards.id]
+
+
+rule simulate:
+    output:
+        simulation("{id}"),
+    params:
+        parameters=lambda wildcards: run_of(wildcards).parameters.to_dict(),
+        digest=digest("nucleation.simulation"),
+    wildcard_constraints:
+        id="|".join(RUNS).replace(".", r"\."),
+    log:
+        f"{RESULTS}/logs/simulate/{{id}}.log",
+    threads: 1
+    resources:
+        mem_mb=lambda wildcards: ceil(estimated_megabytes(run_of(wildcards).parameters.mesh)),
+        runtime=ceil(settings.limits.runtime),
+    message:
+        "Simulation {wildcards.id}"
+    script:
+        "../scripts/simulate.py"
+
+
+rule simulations:
+    input:
+        simulations(),
