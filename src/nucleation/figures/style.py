@@ -1,0 +1,137 @@
+"""The one style of all figures: sizes, fonts, colours by meaning, and reproducible files."""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import ParamSpec
+
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+P = ParamSpec("P")
+
+CENTIMETRE = 1.0 / 2.54  # inch
+SINGLE_COLUMN = 8.6 * CENTIMETRE
+DOUBLE_COLUMN = 17.8 * CENTIMETRE
+
+# The colour-blind safe palette of Okabe and Ito, without the yellow that vanishes on paper.
+BLACK = "#000000"
+ORANGE = "#E69F00"
+SKY_BLUE = "#56B4E9"
+GREEN = "#009E73"
+BLUE = "#0072B2"
+VERMILLION = "#D55E00"
+PURPLE = "#CC79A7"
+
+# Colours by meaning. Wherever colours could be confused, shapes or dashes differ as well.
+THEORY = BLUE
+THIN_LIMIT = BLUE
+AGING = VERMILLION
+SLIP = BLACK
+OLD_AGE = "#6B3E12"  # the paper's brown, dark enough to differ from AGING in grey
+FULL_LAW = "#8E4585"  # the palette's purple, darkened for thin lines
+LOGARITHMIC_LAW = BLUE
+GUIDE = "#595959"  # lines that mark a value
+DRIVE = BLUE
+UPPER_BODY = SKY_BLUE
+LOWER_BODY = ORANGE
+RIGID_BODY = "#8C8C8C"
+
+SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
+SMALL = 7.5  # points: legends with many entries, panels inside panels
+
+STYLE: dict[str, object] = {
+    "font.family": ["STIXGeneral"],  # comes with matplotlib: the same on every machine
+    "mathtext.fontset": "stix",
+    "font.size": 9.0,
+    "axes.labelsize": 9.0,
+    "axes.titlesize": 9.0,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "legend.fontsize": 8.5,
+    "axes.linewidth": 0.7,
+    "axes.unicode_minus": True,
+    "axes.formatter.use_mathtext": True,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "xtick.minor.width": 0.5,
+    "ytick.minor.width": 0.5,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 5.0,
+    "errorbar.capsize": 2.0,
+    "legend.frameon": False,
+    "legend.handlelength": 2.0,
+    "legend.borderaxespad": 0.6,
+    "figure.dpi": 100.0,
+    "savefig.dpi": 300.0,
+    "figure.constrained_layout.w_pad": 0.03,
+    "figure.constrained_layout.h_pad": 0.03,
+    "image.cmap": SEQUENCE,
+    "pdf.fonttype": 42,  # TrueType, embedded: text stays text
+    "pdf.compression": 6,
+}
+
+
+def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+    """Decorator: call `draw` under :data:`STYLE`, leaving matplotlib's own settings alone."""
+
+    @functools.wraps(draw)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> Figure:
+        with mpl.rc_context(STYLE):
+            return draw(*args, **kwargs)
+
+    return wrapper
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """An empty figure of a size in inches, on the Agg canvas and unknown to pyplot."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def save(figure: Figure, stem: str | os.PathLike[str]) -> tuple[Path, Path]:
+    """Write a figure as ``stem.pdf`` and ``stem.png``, then drop its contents.
+
+    The same figure gives the same bytes: the files carry no date and no program version.
+    Each file is written under a temporary name beside its place and moved there whole.
+
+    Parameters
+    ----------
+    figure : Figure
+        The figure; it is empty afterwards, and its memory free.
+    stem : path
+        Path of the files without their suffix; missing directories are made.
+
+    Returns
+    -------
+    tuple of Path
+        The PDF (vector, fonts embedded) and the PNG (300 dots per inch).
+    """
+    stem = Path(stem)
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    metadata = {
+        "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": None},
+        "png": {"Software": None},
+    }
+    paths = []
+    with mpl.rc_context(STYLE):
+        for suffix in ("pdf", "png"):
+            path = stem.with_name(f"{stem.name}.{suffix}")
+            temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+            try:
+                figure.savefig(temporary, format=suffix, metadata=metadata[suffix])
+                os.replace(temporary, path)
+            finally:
+                temporary.unlink(missing_ok=True)
+            paths.append(path)
+    figure.clear()
+    return paths[0], paths[1]
