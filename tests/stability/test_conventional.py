@@ -133,6 +133,23 @@ def test_thin_layer_length():
     assert peak == pytest.approx(2 * s.a / b)  # below one, where the state still ages, if a/b < 1/2
 
 
+def test_edges_of_the_ranges_of_validity():
+    def interface(ratio):
+        return dataclasses.replace(INTERFACE, a=0.02 * ratio, zeta=0.02 * (1 - ratio))
+
+    assert conventional.rubin_ampuero_localised_length(MATERIAL, interface(0.378)) > 0.0
+    assert conventional.rubin_ampuero_crack_length(MATERIAL, interface(0.501)) > 0.0
+    assert conventional.thin_layer_length(0.01, MATERIAL, interface(0.499)) > 0.0
+    for ratio, length in [
+        (0.379, conventional.rubin_ampuero_localised_length),
+        (0.499, conventional.rubin_ampuero_crack_length),
+        (1.001, conventional.rubin_ampuero_crack_length),
+        (0.501, lambda m, s: conventional.thin_layer_length(0.01, m, s)),
+    ]:
+        with pytest.raises(ValueError, match="a/b ="):
+            length(MATERIAL, interface(ratio))
+
+
 def test_state_evolution_length():
     computed = conventional.state_evolution_length(MATERIAL, INTERFACE)
     assert computed == pytest.approx(STATE_LENGTH)

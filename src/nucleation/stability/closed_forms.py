@@ -20,12 +20,13 @@ def identical_half_spaces(wavenumber: ArrayLike, poisson_ratio: float) -> tuple[
 
 
 def bimaterial_contrast(upper: Material, lower: Material) -> float:
-    """The contrast beta of two half-spaces (Eq. 8); the upper one's 1/4 at nu = 1/3 if rigid below.
+    """The bimaterial contrast beta of two half-spaces (Eq. 8).
 
     Notes
     -----
     ``beta = [psi (1 - 2 nu1) - (1 - 2 nu2)] / {2 [psi (1 - nu1) + (1 - nu2)]}``, ``psi = mu2/mu1``.
-    It changes sign when the bodies are exchanged; ``-1/2 < beta < 1/2`` for positive nu.
+    It changes sign when the bodies are exchanged and vanishes for identical ones. For a rigid lower
+    body it is ``(1 - 2 nu1)/[2 (1 - nu1)]``, 1/4 for ``nu1 = 1/3``.
     """
     psi = lower.shear_modulus / upper.shear_modulus
     nu1, nu2 = upper.poisson_ratio, lower.poisson_ratio

@@ -38,7 +38,7 @@ from .transfer import (
 )
 
 RESOLUTION = 1e-4
-"""Crossings closer than this in ``log k`` may be taken for one."""
+"""An unstable band narrower than this in ``log k`` may be overlooked; it ends the search."""
 
 
 class NoInstability(ValueError):
@@ -186,7 +186,8 @@ def critical_wavenumber(
       half-spaces have ``g = b`` bounds k_c from above.
     - Below, an interval of log k is dismissed only if bounds of G1 and G2 over all of it
       (:mod:`.bounds`) prove it stable; the others are halved until an unstable point and a stable
-      one right above it are closer than :data:`RESOLUTION`. Brent's method does the rest.
+      one right above it are closer than :data:`RESOLUTION`, which is thus the narrowest unstable
+      band that is certainly found. Brent's method does the rest.
     - Where all ``Hk < 1e-3``, the transfer functions are powers of k.
     """
     modulus = reference_modulus(upper, lower)
