@@ -3,19 +3,19 @@
 import sys
 from pathlib import Path
 
-from nucleation import datasets, provenance
-from nucleation.parameters import Parameters
-from nucleation.progress import LogProgress
-from nucleation.simulation import simulate
+sys.stderr = open(snakemake.log[0], "w", buffering=1, encoding="utf-8")  # noqa: SIM115 to the end
+
+from nucleation import datasets, provenance  # noqa: E402
+from nucleation.parameters import Parameters  # noqa: E402
+from nucleation.progress import LogProgress  # noqa: E402
+from nucleation.simulation import simulate  # noqa: E402
 
 params, output = snakemake.params, Path(snakemake.output[0])
+dataset = simulate(Parameters.from_dict(params.parameters), progress=LogProgress(sys.stderr))
+attributes = provenance.attributes(params.parameters, params.digest, f"snakemake {output}")
 failed = output.with_suffix(".failed.nc")
-with open(snakemake.log[0], "w", encoding="utf-8") as log:
-    dataset = simulate(Parameters.from_dict(params.parameters), progress=LogProgress(log))
-command = f"snakemake {output}"
-attributes = provenance.attributes(params.parameters, params.digest, command)
-completed = bool(dataset.attrs["completed"])
-datasets.write(dataset, output if completed else failed, **attributes)
-if not completed:
-    sys.exit(f"{output.stem}: {dataset.attrs['status']}; what was recorded is in {failed}")
+if not dataset.attrs["completed"]:
+    datasets.write(dataset, failed, **attributes)
+    sys.exit(f"{output.stem}: {dataset.attrs['status']}; its record is in {failed}")
+datasets.write(dataset, output, **attributes)
 failed.unlink(missing_ok=True)

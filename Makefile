@@ -1,0 +1,51 @@
+# make paper: every figure and table of the paper.   make test: the tests.   make help: the rest.
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+CORES ?= 2
+TARGETS ?=
+
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/environment.stamp
+SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
+	--workflow-profile workflow/profiles/default
+
+.DEFAULT_GOAL := help
+.PHONY: help paper quick test lint schema lock clean-venv
+
+help: ## This list
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
+	@echo "Variables: PYTHON (3.11) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty)"
+
+paper: $(STAMP) ## Make every figure and table of the paper, in results/
+	$(SNAKEMAKE)
+
+quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
+	$(SNAKEMAKE) --configfile config/quick.yaml
+
+test: $(STAMP) ## Run the tests
+	@$(BIN)/python -m pytest
+
+lint: $(STAMP) ## Check the code's style
+	@$(BIN)/ruff check .
+
+schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
+	PYTHONPATH=src $(BIN)/python -m nucleation.schema > config/schema.yaml
+
+lock: ## Pin the newest versions of requirements.in in environment.txt (needs uv)
+	uv pip compile --upgrade --generate-hashes --python-version 3.11 --no-emit-index-url \
+		requirements.in -o environment.txt
+
+clean-venv: ## Remove the installed environment
+	rm -rf $(VENV)
+
+# Everything installed is pinned and hashed. The package itself is not installed but pointed to:
+# that needs no build tools, which environment.txt would not pin.
+$(STAMP): environment.txt
+	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; sys.exit(v != (3, 11) and \
+		"Python 3.11 is needed, this is %d.%d: make PYTHON=/path/to/python3.11" % v)'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
+		-r environment.txt
+	$(BIN)/python -c 'import pathlib, sysconfig; \
+		pathlib.Path(sysconfig.get_path("purelib"), "nucleation.pth").write_text("$(CURDIR)/src\n")'
+	@touch $@
