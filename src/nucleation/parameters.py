@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 from typing import Any
 
+from .drop import DROP
 from .elasticity import Material
 from .friction import Friction
 from .quantities import Checked, quantity
@@ -65,7 +67,10 @@ class Stepping(Checked):
         "tolerance of the local error of log slip rate and log state per step", low=0.0, high=1.0,
         default=1.0e-2,
     )  # fmt: skip
-    longest_step: float = quantity("longest time step", unit="s", low=0.0, high=1e6, default=1.0e-2)
+    longest_step: float = quantity(
+        "longest time step over the memory time D/V", low=0.0, high=1.0, closed="high",
+        default=0.04,
+    )  # fmt: skip
     shortest_step: float = quantity(
         "shortest time step, below which the run ends as failed", unit="s", low=0.0, high=1.0,
         default=1.0e-12,
@@ -86,6 +91,10 @@ class ExtractionSettings(Checked):
     edge_threshold_low: float = quantity(
         "smallest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=1e-3
     )
+    drop: float = quantity(
+        "abrupt drop of the driving force that makes an event, as a fraction", low=0.0, high=1.0,
+        default=DROP,
+    )  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -98,6 +107,11 @@ class Parameters:
     geometry: Geometry = Geometry()
     mesh: Mesh = Mesh()
     stepping: Stepping = Stepping()
+
+    @property
+    def memory_time(self) -> float:
+        """Time ``D/V`` (s) over which friction forgets at the imposed velocity."""
+        return self.friction.characteristic_slip_distance / self.loading.velocity
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """The parameters as nested plain dictionaries."""
@@ -117,3 +131,12 @@ class Parameters:
             changes = {f.name: values[f.name] for f in dataclasses.fields(own) if f.name in values}
             groups[group.name] = dataclasses.replace(own, **changes)
         return Parameters(**groups)
+
+    def to_json(self) -> str:
+        """The parameters as JSON text, as datasets carry them."""
+        return json.dumps(self.to_dict(), sort_keys=True)
+
+    @classmethod
+    def from_json(cls, text: str) -> Parameters:
+        """The inverse of :meth:`to_json`."""
+        return cls.from_dict(json.loads(text))

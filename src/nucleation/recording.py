@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from .drop import WINDOW, DropWatch
 from .fem.body import Body, Field
 from .fem.dynamics import State, StepReport
 from .fem.grid import Grid
@@ -13,11 +14,10 @@ from .parameters import Parameters
 
 Array = NDArray[np.float64]
 
-FRAMES_PER_LOAD_TIME = 0.4  # longest time between frames, in units of D/V
+LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
 FRAME_STEPS = 40  # and at least every so many steps
 SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
-EVENT_DROP = 0.02  # the event has begun once |f_d| is this fraction below its maximum so far
 
 
 class Recorder:
@@ -29,15 +29,14 @@ class Recorder:
         self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
         self._body = Body(self.grid, parameters.material)
         self._velocity = parameters.loading.velocity
-        distance = parameters.friction.characteristic_slip_distance
-        self._longest_pause = FRAMES_PER_LOAD_TIME * distance / self._velocity
+        self._longest_pause = LONGEST_PAUSE * parameters.memory_time
         self._rows: list[tuple[float, float, float, float, int]] = []
         self._frames: list[tuple[float, Array]] = []
         self._snapshots: list[tuple[float, Array]] = []
         self._last_scaled = np.empty(0)
         self._last_frame_step = 0
         self._next_snapshot_rate = 0
-        self._largest_force = 0.0
+        self._watch = DropWatch(WINDOW * parameters.memory_time)
         self._event_time = np.inf
         self._time = 0.0
 
@@ -57,17 +56,11 @@ class Recorder:
         step = state.last_step if self._rows else 0.0
         fastest = float(np.abs(interface.slip_rate).max())
         self._time = state.time
-        self._rows.append(
-            (state.time, step, report.driving_force, fastest, interface.iterations)
-        )
-        self._watch_event(report.driving_force)
+        self._rows.append((state.time, step, report.driving_force, fastest, interface.iterations))
+        if self._watch.dropped(state.time, abs(report.driving_force)):
+            self._event_time = min(self._event_time, self._time)
         self._maybe_frame(state, report)
         self._maybe_snapshot(state, fastest)
-
-    def _watch_event(self, driving_force: float) -> None:
-        self._largest_force = max(self._largest_force, abs(driving_force))
-        if abs(driving_force) < (1.0 - EVENT_DROP) * self._largest_force:
-            self._event_time = min(self._event_time, self._time)
 
     def _maybe_frame(self, state: State, report: StepReport) -> None:
         scaled = np.arcsinh(report.interface.slip_rate / self._velocity)
@@ -99,7 +92,9 @@ class Recorder:
         """Displacement and velocity at the nodes, shape (4, n_y + 1, n_x + 1)."""
         fields: list[Array] = []
         values: tuple[Field, Field] = (state.displacement, state.velocity)
-        for value, uniform in zip(values, (self._velocity * state.time, self._velocity), strict=True):
+        for value, uniform in zip(
+            values, (self._velocity * state.time, self._velocity), strict=True
+        ):
             x, y = self._body.nodal_values(value)
             fields += [x + uniform, y]
         return np.array(fields)
@@ -119,4 +114,4 @@ class Recorder:
         data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(bulk_names)}
         data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))
         coords = {"time": [t for t, _ in self._frames], "x": self.grid.x, "y": self.grid.y}
-        return xr.Dataset(data, coords=coords)
+        return xr.Dataset(data, coords=coords, attrs={"parameters": self.parameters.to_json()})

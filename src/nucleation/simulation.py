@@ -71,7 +71,8 @@ def run(parameters: Parameters) -> Iterator[Instant]:
     stepping = parameters.stepping
     state, report = dynamics.initial_state()
     yield Instant(state, report, 0)
-    longest = beta_of_step(stepping.longest_step, stepping.longest_step)
+    longest_step = stepping.longest_step * parameters.memory_time
+    longest = beta_of_step(longest_step, longest_step)
     wanted, rejected = min(FIRST_STEP, longest), 0
     while True:
         rung = rung_below(min(wanted, longest))

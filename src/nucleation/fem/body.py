@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import dataclasses
 from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
@@ -149,7 +150,3 @@ class Body:
         x = np.hstack((left, self.sine_values(field.modes[:, 0])))
         y = np.hstack((self.cosine_values(field.modes[:, 1]), field.edge[:, None]))
         return x, y
-
-    def operator(self, s: float) -> BodyOperator:
-        """The dynamic stiffness ``K + s M`` for ``s`` in 1/s^2, ready to solve."""
-        return BodyOperator(self, s)

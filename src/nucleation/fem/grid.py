@@ -8,6 +8,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from . import kernels
+
 Array = NDArray[np.float64]
 
 
@@ -23,14 +25,17 @@ class Tridiagonal:
     upper: Array
 
     def __matmul__(self, vector: Array) -> Array:
-        """Product with an array along its first axis."""
-        shape = (-1,) + (1,) * (vector.ndim - 1)
-        product = self.diagonal.reshape(shape) * vector
-        product[1:] += self.lower[1:].reshape(shape) * vector[:-1]
-        product[:-1] += self.upper[:-1].reshape(shape) * vector[1:]
+        """Product with a vector, or with an array along its first axis."""
+        if vector.ndim == 1:
+            product = np.empty_like(vector)
+            kernels.tridiagonal_product(self.lower, self.diagonal, self.upper, vector, product)
+            return product
+        product = self.diagonal[:, None] * vector
+        product[1:] += self.lower[1:, None] * vector[:-1]
+        product[:-1] += self.upper[:-1, None] * vector[1:]
         return product
 
-    @property
+    @cached_property
     def transposed(self) -> Tridiagonal:
         """The transposed matrix."""
         return Tridiagonal(

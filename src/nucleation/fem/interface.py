@@ -16,7 +16,7 @@ import dataclasses
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg import lapack
 
 from ..friction import Friction
 from .operator import BodyOperator
@@ -59,7 +59,7 @@ class Interface:
 
     friction: Friction
     velocity: float  # m/s, of the left edge
-    tolerance: float = 1e-5  # of the last, quadratically converging, relative change of v
+    tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 12
 
     def solve(
@@ -79,36 +79,37 @@ class Interface:
         w_history : the part of w (m) at nodes 1..n_x that the step's formula takes from the past.
         log_state_history : the same for psi at nodes 0..n_x.
         beta : coefficient (s) of the new slip rate in the step's formula.
-        guess : slip rates (m/s) at nodes 1..n_x.
+        guess : slip rates (m/s) at nodes 1..n_x, those that belong to ``response.w``.
 
         Raises
         ------
         NewtonFailure
             No convergence, or a nodal normal force that is tensile or not finite.
         """
-        v = guess.copy()
-        for iteration in range(self.most_iterations):
-            w, p, normal, edge = self._forces(operator, response, w_history, beta, v)
-            coefficient, slope, _ = self._friction(v, log_state_history[1:], beta)
+        v, w = guess, response.w
+        p, normal, edge = response.tangential, response.normal, response.edge
+        for iteration in range(self.most_iterations + 1):
+            coefficient, slope, psi = self._friction(v, log_state_history[1:], beta)
             residual = p + coefficient * normal[1:]
-            change = self._direction(operator, residual, coefficient, slope * normal[1:], beta)
-            v = self._updated(v, change)
-            scaled = np.abs(change) / (np.abs(v) + self.friction.regularisation_slip_rate)
-            if not np.isfinite(scaled).all():
+            damping = slope * normal[1:]
+            elastic = beta * operator.diagonal
+            scale = (elastic + np.abs(damping)) * (
+                np.abs(v) + self.friction.regularisation_slip_rate
+            )
+            error = float(np.max(np.abs(residual) / scale))
+            if not np.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
-            if scaled.max() < self.tolerance:
-                return self._finish(
-                    operator, response, w_history, log_state_history, beta, v, iteration + 1
-                )
+            if error < self.tolerance:
+                return self._finish(log_state_history, beta, v, psi, p, normal, w, edge, iteration)
+            v = self._updated(
+                v, self._direction(operator, residual, coefficient, damping, elastic, beta)
+            )
+            w = w_history + beta * (v - self.velocity)
+            dp, dnormal, dedge = operator.apply(w - response.w)
+            p, normal, edge = (
+                response.tangential + dp, response.normal + dnormal, response.edge + dedge,
+            )  # fmt: skip
         raise NewtonFailure(f"no convergence in {self.most_iterations} iterations")
-
-    def _forces(
-        self, operator: BodyOperator, response: LinearResponse, w_history: Array, beta: float,
-        v: Array,
-    ) -> tuple[Array, Array, Array, Array]:  # fmt: skip
-        w = w_history + beta * (v - self.velocity)
-        p, normal, edge = operator.apply(w - response.w)
-        return w, response.tangential + p, response.normal + normal, response.edge + edge
 
     def _friction(
         self, v: Array, log_state_history: Array, beta: float
@@ -126,18 +127,20 @@ class Interface:
 
     def _direction(
         self, operator: BodyOperator, residual: Array, coefficient: Array, damping: Array,
-        beta: float,
+        elastic: Array, beta: float,
     ) -> Array:  # fmt: skip
         """Newton's direction: dense where elasticity couples the nodes, else node by node."""
-        elastic = beta * operator.diagonal
         change = -residual / (elastic + damping)
         active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
         if active.size:
             stiffness, coupling = operator.tangent(active + 1)
-            matrix = beta * (stiffness + coefficient[active, None] * coupling)
-            matrix[np.diag_indices_from(matrix)] += damping[active]
-            factor = lu_factor(matrix, overwrite_a=True, check_finite=False)
-            change[active] = lu_solve(factor, -residual[active], check_finite=False)
+            coupling *= coefficient[active, None]
+            stiffness += coupling
+            stiffness *= beta
+            stiffness[np.diag_indices_from(stiffness)] += damping[active]
+            _, _, change[active], info = lapack.dgesv(stiffness, -residual[active])
+            if info:
+                raise NewtonFailure("the interface's tangent is singular")
         return change
 
     def _updated(self, v: Array, change: Array) -> Array:
@@ -153,14 +156,15 @@ class Interface:
         return np.where(shrinking, log_like, v + change)
 
     def _finish(
-        self, operator: BodyOperator, response: LinearResponse, w_history: Array,
-        log_state_history: Array, beta: float, v: Array, iterations: int,
+        self, log_state_history: Array, beta: float, v: Array, psi: Array, p: Array, normal: Array,
+        w: Array, edge: Array, iterations: int,
     ) -> InterfaceSolution:  # fmt: skip
-        w, p, normal, edge = self._forces(operator, response, w_history, beta, v)
+        """Add node 0: it belongs to the driven edge and its friction follows from its rate V."""
         if normal.min() <= 0.0:
             raise NewtonFailure("the interface is in tension")
-        v = np.concatenate(([self.velocity], v))
-        coefficient, _, psi = self._friction(v, log_state_history, beta)
-        # node 0 belongs to the driven edge: its friction follows from its own slip rate V
-        p = np.concatenate(([-coefficient[0] * normal[0]], p))
-        return InterfaceSolution(v, psi, p, normal, w, edge, iterations)
+        driven = np.array([self.velocity])
+        coefficient, _, driven_psi = self._friction(driven, log_state_history[:1], beta)
+        return InterfaceSolution(
+            np.append(driven, v), np.append(driven_psi, psi),
+            np.append(-coefficient * normal[0], p), normal, w, edge, iterations,
+        )  # fmt: skip

@@ -209,3 +209,33 @@ def rate_of_change(c1, c2, beta, new, u, u_past, out):
         for c in range(2):
             for m in range(u.shape[2]):
                 out[j, c, m] = scale * (new[j, c, m] - c1 * u[j, c, m] - c2 * u_past[j, c, m])
+
+
+@compiled
+def tridiagonal_product(lower, diagonal, upper, vector, out):
+    """``out = A vector`` for a tridiagonal matrix and a vector."""
+    last = vector.size - 1
+    for i in range(vector.size):
+        total = diagonal[i] * vector[i]
+        if i > 0:
+            total += lower[i] * vector[i - 1]
+        if i < last:
+            total += upper[i] * vector[i + 1]
+        out[i] = total
+
+
+@compiled
+def interface_blocks(d, h, n, nodes, stiffness, coupling):
+    """``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)`` between interface nodes.
+
+    Half of the interface length, and of its force, belongs to the last node n; its normal force
+    is not the modes' but the edge's.
+    """
+    for a in range(nodes.size):
+        for b in range(nodes.size):
+            i, j = nodes[a], nodes[b]
+            away = abs(i - j)
+            half = (0.5 if i == n else 1.0) * (0.5 if j == n else 1.0)
+            stiffness[a, b] = half * (d[away] - d[i + j])
+            signed = h[away] if i > j else -h[away]
+            coupling[a, b] = 0.0 if i == n else half * (h[i + j] - signed)

@@ -23,6 +23,8 @@ from .body import Body, Field
 
 Array = NDArray[np.float64]
 
+EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
+
 
 class BodyOperator:
     """``K + s M`` of a :class:`Body` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
@@ -130,12 +132,16 @@ class BodyOperator:
         return schur
 
     @cached_property
-    def _schur_factor(self) -> tuple[Array, bool]:
-        return cho_factor(self.edge_schur[1:, 1:])
+    def _edge_compliance(self) -> Array:
+        """Inverse of :attr:`edge_schur` on its free values, zero at the corner."""
+        compliance = np.zeros_like(self.edge_schur)
+        identity = np.eye(compliance.shape[0] - 1)
+        compliance[1:, 1:] = cho_solve(cho_factor(self.edge_schur[1:, 1:]), identity)
+        return compliance
 
     def edge_correction(self, residual: Array) -> Array:
         """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
-        return np.concatenate(([0.0], cho_solve(self._schur_factor, residual[1:])))
+        return self._edge_compliance @ residual
 
     @cached_property
     def edge_to_interface(self) -> tuple[Array, Array]:
@@ -167,9 +173,8 @@ class BodyOperator:
         tangential, normal = self.edge_to_interface
         amplitudes = self.body.sine_amplitudes(w)
         p, reaction = self.interface_forces(amplitudes, np.zeros((2, w.size)))
-        force_on_edge = tangential @ w
-        edge = self.edge_correction(-force_on_edge)
-        corner = force_on_edge[0] + self.edge_schur[0] @ edge
+        edge = self._edge_response @ w
+        corner = tangential[0] @ w + self.edge_schur[0] @ edge
         p += edge @ tangential
         return p, np.append(reaction + edge @ normal, corner), edge
 
@@ -188,38 +193,50 @@ class BodyOperator:
         return d, h
 
     @cached_property
+    def _edge_response(self) -> Array:
+        """Edge values per unit of w at each node, bulk and edge in balance, (n_y + 1, n_x)."""
+        return -self._edge_compliance @ self.edge_to_interface[0]
+
+    @cached_property
     def diagonal(self) -> Array:
         """Diagonal of D at the nodes 1..n_x (N/m per m), the edge's share included."""
-        n = self.body.grid.n_x
+        return self._diagonal_of_modes + self._edge_diagonal
+
+    @cached_property
+    def _diagonal_of_modes(self) -> Array:
         d, _ = self._toeplitz
-        diagonal = d[0] - d[2 : 2 * n + 1 : 2]
+        diagonal = d[0] - d[2 : 2 * self.body.grid.n_x + 1 : 2]
         diagonal[-1] *= 0.25
-        at_nodes = self.edge_to_interface[0][1:]
-        return diagonal - np.einsum("ji,ji->i", at_nodes, cho_solve(self._schur_factor, at_nodes))
+        return diagonal
+
+    @cached_property
+    def _edge_diagonal(self) -> Array:
+        return np.einsum("ji,ji->i", self.edge_to_interface[0], self._edge_response)
+
+    @cached_property
+    def _edge_reach(self) -> int:
+        """The first node (1..n_x) that feels the right edge beyond round-off."""
+        felt = np.abs(self._edge_diagonal) > EDGE_FELT * self._diagonal_of_modes
+        return int(np.argmax(felt)) + 1 if felt.any() else self.body.grid.n_x + 1
 
     def tangent(self, nodes: Array) -> tuple[Array, Array]:
-        """Dense blocks of D and N between some interface nodes (indices in 1..n_x), (n, n).
+        """Dense blocks of D and N between some interface nodes (sorted, in 1..n_x), (n, n).
 
         N is returned for the normal forces of those same nodes.
         """
         n = self.body.grid.n_x
-        d, h = self._toeplitz
-        difference = nodes[:, None] - nodes[None, :]
-        total = nodes[:, None] + nodes[None, :]
-        stiffness = d[np.abs(difference)] - d[total]
-        coupling = h[total] - np.sign(difference) * h[np.abs(difference)]
-        stiffness[nodes == n] *= 0.5
-        # the modes' own reaction at the corner is nil: the edge carries it
-        stiffness[:, nodes == n] *= 0.5
-        coupling[:, nodes == n] *= 0.5
-        tangential, normal = self.edge_to_interface
-        at_nodes = tangential[:, nodes - 1]
-        edge = cho_solve(self._schur_factor, -at_nodes[1:])
-        stiffness += at_nodes[1:].T @ edge
-        normal_at = np.append(normal, self.edge_schur[:, :1], axis=1)[:, nodes]
-        coupling[nodes == n] = 0.0
-        coupling += normal_at[1:].T @ edge
-        coupling[nodes == n] += at_nodes[0]
+        stiffness, coupling = np.empty((2, nodes.size, nodes.size))
+        kernels.interface_blocks(*self._toeplitz, n, nodes, stiffness, coupling)
+        near = int(np.searchsorted(nodes, self._edge_reach))
+        if near < nodes.size:
+            own = nodes[near:]
+            tangential, normal = self.edge_to_interface
+            edge = self._edge_response[:, own - 1]
+            stiffness[near:, near:] += tangential[:, own - 1].T @ edge
+            normal = np.append(normal, self.edge_schur[:, :1], axis=1)[:, own]
+            coupling[near:, near:] += normal.T @ edge
+            if own[-1] == n:
+                coupling[-1, near:] += tangential[0, own - 1]
         return stiffness, coupling
 
     @property
@@ -228,5 +245,3 @@ class BodyOperator:
         grid = self.body.grid
         levels = grid.n_y + 1
         return 8e-6 * levels * (9 * grid.n_x + 2 * levels)
-
-

@@ -1,0 +1,32 @@
+"""The abrupt drop of the driving force that marks the onset of accelerating slip (Text S2.2).
+
+While the patch creeps, the magnitude of the driving force changes over seconds; in the event it
+falls within milliseconds. The event is found when the force has fallen by a given fraction below
+its largest value of a short time window, the memory time D/V of friction: a slow decrease, as in
+an oscillation of the creeping patch that decays again, is no event.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+
+DROP = 0.02  # fraction of the force
+WINDOW = 1.0  # in units of D/V
+
+
+class DropWatch:
+    """Tells when the force has dropped abruptly; fed with one value after another."""
+
+    def __init__(self, window: float, drop: float = DROP) -> None:
+        """`window` in seconds, `drop` as a fraction of the force."""
+        self._window, self._drop = window, drop
+        self._largest: deque[tuple[float, float]] = deque()  # falling maxima of the window
+
+    def dropped(self, time: float, force: float) -> bool:
+        """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop."""
+        while self._largest and self._largest[-1][1] <= force:
+            self._largest.pop()
+        self._largest.append((time, force))
+        while self._largest[0][0] < time - self._window:
+            self._largest.popleft()
+        return force < (1.0 - self._drop) * self._largest[0][1]
