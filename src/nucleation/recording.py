@@ -53,10 +53,11 @@ class Recorder:
     def record(self, state: State, report: StepReport) -> None:
         """Take in the initial state or one accepted step."""
         interface = report.interface
-        step = state.last_step if self._rows else 0.0
         fastest = float(np.abs(interface.slip_rate).max())
         self._time = state.time
-        self._rows.append((state.time, step, report.driving_force, fastest, interface.iterations))
+        self._rows.append(
+            (state.time, state.last_step, report.driving_force, fastest, interface.iterations)
+        )
         if self._watch.dropped(state.time, abs(report.driving_force)):
             self._event_time = min(self._event_time, self._time)
         self._maybe_frame(state, report)

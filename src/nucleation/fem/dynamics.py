@@ -54,8 +54,8 @@ class State:
 
     @property
     def last_step(self) -> float:
-        """Length of the step that led here (s)."""
-        return float(self.past_times[0] - self.past_times[1])
+        """Length of the step that led here (s), zero at the start."""
+        return float(self.past_times[0] - self.past_times[min(1, self.past_times.size - 1)])
 
 
 @dataclasses.dataclass(frozen=True)
