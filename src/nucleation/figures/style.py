@@ -58,6 +58,8 @@ STYLE: dict[str, object] = {
     "axes.formatter.use_mathtext": True,
     "xtick.direction": "in",
     "ytick.direction": "in",
+    "xtick.major.pad": 4.5,
+    "ytick.major.pad": 4.0,
     "xtick.top": True,
     "ytick.right": True,
     "xtick.major.width": 0.7,

@@ -1,0 +1,72 @@
+"""Where the text of a drawn figure lies, to check that nothing overlaps or is cut off."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
+
+from nucleation.figures import style
+
+
+def all_axes(figure: Figure) -> list[Axes]:
+    """The axes of a figure, insets included."""
+    return [axes for outer in figure.axes for axes in (outer, *outer.child_axes)]
+
+
+def visible_texts(figure: Figure) -> list[Text]:
+    """All text that is drawn: tick labels only where they lie within the axis."""
+    hidden = set()
+    for axes in all_axes(figure):
+        for axis, number in ((axes.xaxis, 0), (axes.yaxis, 1)):
+            low, high = sorted(axis.get_view_interval())
+            for label in axis.get_ticklabels(which="both"):
+                inside = low <= label.get_position()[number] <= high
+                if not (inside and axes.axison and axis.get_visible()):
+                    hidden.add(label)
+    texts = figure.findobj(Text)
+    return [t for t in texts if t not in hidden and t.get_visible() and t.get_text().strip()]
+
+
+def boxes(figure: Figure) -> list[tuple[str, Bbox]]:
+    """Text and bounding box (pixels) of all visible text, after laying the figure out."""
+    with mpl.rc_context(style.STYLE):
+        figure.canvas.draw()
+        found = [(t.get_text(), t.get_window_extent()) for t in visible_texts(figure)]
+    return [(text, box) for text, box in found if box.width > 0]
+
+
+def overlaps(figure: Figure) -> list[tuple[str, str]]:
+    """Pairs of texts whose boxes overlap by more than the blank margin of a line of type."""
+    margin = 1.5 * figure.dpi / 72.0
+    return [
+        (first, second)
+        for (first, a), (second, b) in combinations(boxes(figure), 2)
+        if min(a.x1, b.x1) - max(a.x0, b.x0) > margin and min(a.y1, b.y1) - max(a.y0, b.y0) > margin
+    ]
+
+
+def cut_off(figure: Figure) -> list[str]:
+    """Texts that reach beyond the figure's edge."""
+    width, height = figure.get_size_inches() * figure.dpi
+    return [
+        text
+        for text, box in boxes(figure)
+        if box.x0 < -0.5 or box.y0 < -0.5 or box.x1 > width + 0.5 or box.y1 > height + 0.5
+    ]
+
+
+def sizes(figure: Figure) -> np.ndarray:
+    """Type sizes (points) of all visible text."""
+    return np.array([t.get_fontsize() for t in visible_texts(figure)])
+
+
+def points_inside(axes: Axes, x: np.ndarray, y: np.ndarray, box: Bbox) -> int:
+    """How many of the data points lie within a box given in pixels."""
+    pixels = axes.transData.transform(np.column_stack([x, y]))
+    return int(np.count_nonzero([box.contains(*point) for point in pixels]))

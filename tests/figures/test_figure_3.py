@@ -1,0 +1,118 @@
+"""Figure 3: theory, points with error bars, and the inset's snapshots."""
+
+from __future__ import annotations
+
+import drawn_layout
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.figures import figure_3, slip_rate_snapshots, style
+
+
+@pytest.fixture
+def axes(theory, lengths, thick, thick_row):
+    return figure_3.draw(theory, lengths, thick, thick_row).axes[0]
+
+
+def points(axes):
+    """Containers of error bars by their legend."""
+    return {c.get_label(): c for c in axes.containers}
+
+
+def test_theory_and_its_thin_limit(axes, theory):
+    by_label = {line.get_label(): line for line in axes.get_lines()}
+    solid, dashed = by_label["theory"], by_label[r"theory, $Hk\to 0$"]
+    np.testing.assert_array_equal(solid.get_xdata(), theory["height"])
+    np.testing.assert_array_equal(solid.get_ydata(), theory["critical_length"])
+    np.testing.assert_array_equal(dashed.get_ydata(), theory["thin_limit_length"])
+    assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
+    assert axes.get_xlabel().endswith("(m)") and axes.get_ylabel().endswith("(m)")
+
+
+@pytest.mark.parametrize(
+    ("label", "marker", "colour", "filled", "runs"),
+    [
+        ("FEM, aging law", "o", style.AGING, True, range(8)),
+        ("FEM, slip law", "^", style.SLIP, True, (8, 9)),
+        (r"FEM, aging law, $\phi(t\!=\!0)=10^{3}$ s", "s", style.OLD_AGE, True, (10,)),
+        ("FEM, aging law, converged mesh", "o", style.AGING, False, (12, 13)),
+    ],
+)
+def test_points_and_error_bars(axes, lengths, label, marker, colour, filled, runs):
+    expected = lengths.isel(run=list(runs))
+    line, _, (bars,) = points(axes)[label]
+    np.testing.assert_array_equal(line.get_xdata(), expected["height"])
+    np.testing.assert_array_equal(line.get_ydata(), expected["length"])
+    assert (line.get_marker(), line.get_color()) == (marker, colour)
+    assert line.get_markerfacecolor() == (colour if filled else "white")
+    ends = np.array([segment[:, 1] for segment in bars.get_segments()])
+    np.testing.assert_allclose(ends[:, 0], expected["length_low"], rtol=1e-12)
+    np.testing.assert_allclose(ends[:, 1], expected["length_high"], rtol=1e-12)
+
+
+def test_runs_without_a_length_and_unknown_studies_are_left_out(
+    theory, lengths, thick, thick_row, axes
+):
+    assert len(points(axes)) == 4  # the run without a length has added none
+    assert sum(len(c[0].get_xdata()) for c in points(axes).values()) == 13
+    other = lengths.assign(study=("run", np.full(lengths.sizes["run"], "sensitivity")))
+    drawn = figure_3.draw(theory, other, thick, thick_row)
+    assert not drawn.axes[0].containers
+    studies = {"sensitivity": figure_3.Study(filled=False, suffix=", other")}
+    drawn = figure_3.draw(theory, other, thick, thick_row, studies)
+    assert "FEM, slip law, other" in points(drawn.axes[0])
+
+
+def test_all_points_lie_within_the_axes_and_outside_the_inset(axes, lengths):
+    drawn_layout.boxes(axes.figure)
+    (inset,) = axes.child_axes
+    box = inset.get_tightbbox()
+    usable = lengths.where(np.isfinite(lengths["length"]), drop=True)
+    for name in ("length", "length_low"):
+        inside = drawn_layout.points_inside(axes, usable["height"], usable[name], axes.bbox)
+        assert inside == usable.sizes["run"]
+        assert drawn_layout.points_inside(axes, usable["height"], usable[name], box) == 0
+
+
+def test_inset_shows_the_slip_rate_at_the_times_of_its_legend(axes, thick, thick_row):
+    (inset,) = axes.child_axes
+    creep, event = slip_rate_snapshots.choose_times(thick, float(thick_row["onset_time"]))
+    curves = [line for line in inset.get_lines() if len(line.get_xdata()) > 2]
+    assert len(curves) == creep.size + event.size == 6
+    for line, i in zip(curves, [*creep, *event], strict=True):
+        np.testing.assert_array_equal(line.get_xdata(), thick["x"])
+        np.testing.assert_array_equal(line.get_ydata(), thick["slip_rate"].isel(time=i))
+    assert inset.get_yscale() == "log" and "(m/s)" in inset.get_ylabel()
+    onset = float(thick["time"][creep[-1]])
+    later = [1e3 * (float(thick["time"][i]) - onset) for i in event]
+    texts = [text.get_text() for text in inset.get_legend().get_texts()]
+    assert texts[3:] == [f"$t_c={onset:.1f}$ s"] + [f"$t_c+{t:#.3g}$ ms" for t in later]
+
+
+def test_inset_marks_the_extracted_length(axes, thick_row):
+    (inset,) = axes.child_axes
+    length = float(thick_row["length"])
+    (dashed,) = [line for line in inset.get_lines() if line.get_linestyle() == "--"
+                 and len(line.get_xdata()) == 2]  # fmt: skip
+    assert set(dashed.get_xdata()) == {length}
+    (arrow,) = [a for a in inset.texts if getattr(a, "arrow_patch", None) is not None]
+    assert (arrow.xy[0], arrow.xyann[0]) == (length, 0.0)
+
+
+def test_snapshots_go_from_creep_to_just_after_the_onset(thick, thick_row):
+    onset = float(thick_row["onset_time"])
+    creep, event = slip_rate_snapshots.choose_times(thick, onset)
+    times = thick["time"].values
+    np.testing.assert_allclose(times[creep] / onset, [0.25, 0.5, 0.75, 1.0], atol=0.01)
+    assert (times[event] > onset).all() and (times[event] < onset + 0.01).all()
+    largest = thick["slip_rate"].max("x").values
+    assert (np.diff(largest[event]) > 0).all() and largest[event[-1]] > 100 * largest[creep[-1]]
+
+
+def test_a_run_without_an_event_is_drawn_without_marks(theory, lengths, thick):
+    still = thick.isel(time=slice(0, 60))
+    row = xr.Dataset({"onset_time": np.nan, "length": np.nan})
+    (inset,) = figure_3.draw(theory, lengths, still, row).axes[0].child_axes
+    assert len([line for line in inset.get_lines() if len(line.get_xdata()) > 2]) == 4
+    assert not inset.texts
