@@ -29,7 +29,7 @@ lint: $(STAMP) ## Check the code's style
 	@$(BIN)/ruff check .
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
-	PYTHONPATH=src $(BIN)/python -m nucleation.schema > config/schema.yaml
+	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml
 
 lock: ## Pin the newest versions of requirements.in in environment.txt (needs uv)
 	uv pip compile --upgrade --generate-hashes --python-version 3.11 --no-emit-index-url \

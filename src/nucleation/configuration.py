@@ -24,7 +24,15 @@ from .parameters import ExtractionSettings, Parameters
 from .quantities import ParameterError, refusal
 from .schema import FigureSettings, Limits
 from .stability import InterfaceState
-from .studies import Run, estimated_megabytes, expand, range_problem, study_runs
+from .studies import (
+    LARGEST_GRID,
+    Run,
+    estimated_megabytes,
+    expand,
+    grid_size,
+    range_problem,
+    study_runs,
+)
 from .theory import Curves
 
 
@@ -75,7 +83,8 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         Naming file, line and key; also for a file that is not YAML.
     """
     try:
-        return yaml.load(Path(path).read_text("utf-8"), Loader=_StrictLoader)
+        with open(path, encoding="utf-8") as file:
+            return yaml.load(file, Loader=_StrictLoader)
     except OSError as error:
         raise ParameterError(f"{path} can't be read: {error.strerror}") from error
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
@@ -223,11 +232,15 @@ def _short(value: Any) -> str:
 
 
 def _range_problems(values: dict[str, Any]) -> Iterator[str]:
-    """Ranges that can't be expanded, wherever they stand."""
+    """Ranges that can't be expanded, wherever they stand, and grids that are far too large."""
     places = [((g, k), v) for g in schema.GROUPS for k, v in values.get(g, {}).items()]
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
-            places += [(("studies", name, "runs", number, k), v) for k, v in entry.items()]
+            path = ("studies", name, "runs", number)
+            places += [((*path, k), v) for k, v in entry.items()]
+            size = grid_size(entry)
+            if size > LARGEST_GRID:
+                yield f"{key_text(path)} stands for {size} simulations, more than {LARGEST_GRID}"
     for path, value in places:
         problem = range_problem(value)
         if problem:
@@ -252,3 +265,7 @@ def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterato
                 f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y} is not allowed: the simulation would "
                 f"need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
             )
+
+
+if __name__ == "__main__":  # python -m nucleation.configuration > config/schema.yaml
+    print(schema.text(), end="")

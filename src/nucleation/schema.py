@@ -102,7 +102,7 @@ def build() -> Node:
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "Configuration of the workflow; SI units; made by python -m nucleation.schema",
+        "title": "Configuration of the workflow; SI units; made by make schema",
         **_mapping("all settings; a key left out has its default", sections, ["studies"]),
         "$defs": {"study": _study(), **{k: _leaf(entry) for k, entry in RANGE.items()}},
     }
@@ -180,7 +180,3 @@ class _Plain(yaml.SafeDumper):
 def text() -> str:
     """The schema as YAML."""
     return yaml.dump(build(), Dumper=_Plain, sort_keys=False, width=100, allow_unicode=True)
-
-
-if __name__ == "__main__":
-    print(text(), end="")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import math
 from collections.abc import Iterator
 from functools import cache
 from typing import Any
@@ -36,6 +37,9 @@ RANGE: dict[str, Quantity] = {
     "scale": Quantity("spacing of the values", choices=("linear", "log")),
 }
 """Keys of a range beside ``start`` and ``stop``, which have the parameter's own declaration."""
+
+LARGEST_GRID = 10000
+"""Simulations that one entry of a study may stand for."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,6 +93,14 @@ def expand(value: Any) -> tuple[Any, ...]:
         return (value,)
     spaced = np.geomspace if value.get("scale", "linear") == "log" else np.linspace
     return tuple(float(f"{x:.6g}") for x in spaced(value["start"], value["stop"], value["num"]))
+
+
+def grid_size(entry: dict[str, Any]) -> int:
+    """The number of simulations that an entry of a study stands for."""
+    return math.prod(
+        value["num"] if isinstance(value, dict) else len(value) if isinstance(value, list) else 1
+        for value in entry.values()
+    )
 
 
 def range_problem(value: Any) -> str | None:
