@@ -19,6 +19,7 @@ class Kind(NamedTuple):
     """How one kind of simulation is drawn, and how the legend calls it."""
 
     marker: str
+    size: float  # points; other kinds are wider than the usual one, which is drawn upon them
     colour: str
     label: str
 
@@ -38,10 +39,10 @@ INSET_HEIGHTS = (0.25, 0.4)
 
 # By evolution law, and by whether the initial state differs from USUAL_AGE.
 KINDS: dict[tuple[str, bool], Kind] = {
-    ("aging", False): Kind("o", style.AGING, "aging law"),
-    ("slip", False): Kind("^", style.SLIP, "slip law"),
-    ("aging", True): Kind("s", style.OLD_AGE, "aging law"),
-    ("slip", True): Kind("v", style.SLIP, "slip law"),
+    ("aging", False): Kind("o", 4.6, style.AGING, "aging law"),
+    ("slip", False): Kind("^", 7.2, style.SLIP, "slip law"),
+    ("aging", True): Kind("s", 6.6, style.OLD_AGE, "aging law"),
+    ("slip", True): Kind("v", 7.2, style.SLIP, "slip law"),
 }
 
 # Only the studies named here are drawn; a table of lengths may hold others.
@@ -114,9 +115,9 @@ def _limits(axes: Axes, theory: xr.Dataset, drawn: list[Series]) -> None:
     """Axes from zero to a little beyond the highest block that was simulated."""
     simulated = [float(runs["height"].max()) for *_, runs in drawn]
     highest = 1.12 * max(simulated, default=float(theory["height"].max()))
-    shown = theory["thin_limit_length"].where(theory["height"] <= highest)
+    longest = np.interp(highest, theory["height"].values, theory["thin_limit_length"].values)
     axes.set_xlim(0.0, highest)
-    axes.set_ylim(0.0, 1.04 * float(shown.max()))
+    axes.set_ylim(0.0, 1.04 * float(longest))
     axes.minorticks_on()
 
 
@@ -156,11 +157,12 @@ def _draw_points(axes: Axes, study: Study, label: str, kind: Kind, runs: xr.Data
         yerr=np.clip([below, above], 0.0, None),
         linestyle="none",
         marker=kind.marker,
+        markersize=kind.size,
         color=kind.colour,
         markerfacecolor=kind.colour if study.filled else "white",
         elinewidth=0.9,
         label=label,
-        zorder=3.0,
+        zorder=4.0 - 0.1 * kind.size,
     )
 
 
