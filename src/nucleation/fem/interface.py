@@ -23,6 +23,7 @@ from .operator import BodyOperator
 
 Array = NDArray[np.float64]
 
+LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
 
@@ -144,16 +145,17 @@ class Interface:
         return change
 
     def _updated(self, v: Array, change: Array) -> Array:
-        """``v + change``, but shrinking a slip rate at most exponentially.
+        """``v + change``, but a slip rate that shrinks does so in asinh(v / v0).
 
-        Friction is concave in v: Newton undershoots from above, beyond zero. Both forms agree to
-        second order, so that convergence stays quadratic.
+        Friction is concave in v > 0: from above, Newton's method goes far beyond the root. Both
+        forms agree to first order in the change, so that convergence stays quadratic.
         """
-        scale = np.abs(v) + self.friction.regularisation_slip_rate
-        ratio = change / scale
-        shrinking = ratio * np.sign(v) < -0.5
-        log_like = v * np.exp(np.where(shrinking, -np.abs(ratio), 0.0))
-        return np.where(shrinking, log_like, v + change)
+        v0 = self.friction.regularisation_slip_rate
+        ratio = change / np.hypot(v, v0)
+        shrinking = (v * change < 0.0) & (np.abs(ratio) > 0.5)
+        shift = np.clip(ratio, -LARGEST_SHIFT, LARGEST_SHIFT)
+        shrunk = v0 * np.sinh(np.arcsinh(v / v0) + np.where(shrinking, shift, 0.0))
+        return np.where(shrinking, shrunk, v + change)
 
     def _finish(
         self, log_state_history: Array, beta: float, v: Array, psi: Array, p: Array, normal: Array,

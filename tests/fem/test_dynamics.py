@@ -1,0 +1,179 @@
+"""Steps of the coupled problem against the assembled matrix and a general root finder."""
+
+import numpy as np
+import pytest
+from fem.assembled_problem import AssembledBlock
+from scipy.optimize import brentq, root
+
+from nucleation.fem.dynamics import Dynamics
+from nucleation.fem.stepping import Formula, rung_value
+from nucleation.friction import Friction
+from nucleation.parameters import Geometry, Loading, Mesh, Parameters
+
+
+def small(law="aging", **mesh):
+    return Parameters(
+        geometry=Geometry(height=0.02, length=0.4),
+        mesh=Mesh(**({"n_x": 16, "n_y": 4, "grading": 2.0} | mesh)),
+        friction=Friction(evolution=law),
+        loading=Loading(normal_stress=2e5, velocity=1e-3),  # a patch forms within some steps
+    )
+
+
+# growing steps, then many of 3e-5 s (D/V is 5e-4 s) while the first nodes break loose
+LADDER = (*range(-92, -60, 4), *[-60] * 100)
+
+
+class Reference:
+    """The same time steps, every unknown in one assembled matrix, solved by MINPACK."""
+
+    def __init__(self, parameters):
+        self.p, self.dynamics = parameters, Dynamics(parameters)
+        grid = self.dynamics.grid
+        self.block = AssembledBlock(grid, parameters.material)
+        self.load = self.block.top_load(parameters.loading.normal_stress)
+        u, _ = self.block.solve(0.0, self.load, np.zeros_like(self.load))
+        at_rest = np.zeros_like(u)
+        at_rest[self.block.x[:, 0]] = parameters.loading.velocity
+        self.u, self.v = [u], [at_rest]
+        self.psi = [np.full(grid.n_x + 1, np.log(parameters.loading.initial_state))]
+        self.time, self.steps = 0.0, []
+
+    def state(self, history, beta, v):
+        """psi by bracketing the implicit equation of the chosen law, node by node."""
+        law, out = self.p.friction, []
+        speed = np.hypot(v, law.regularisation_slip_rate)
+        for h, w in zip(history, speed, strict=True):
+
+            def residual(psi, h=h, w=w):
+                omega = np.exp(psi) * w / law.characteristic_slip_distance
+                rate = (
+                    (1 - omega) * np.exp(-psi)
+                    if law.evolution == "aging"
+                    else -w / law.characteristic_slip_distance * np.log(omega)
+                )
+                return psi - h - beta * rate
+
+            out.append(brentq(residual, h - 60, h + 60, xtol=1e-14, rtol=1e-14))
+        return np.array(out)
+
+    def step(self, beta, near):
+        """One step; the root finder starts in the neighbourhood of the slip rates `near`."""
+        f = Formula.bdf2(beta, self.steps[-1]) if self.steps else Formula.backward_euler(beta)
+        past = [f.c1 * q[-1] + (f.c2 * q[-2] if len(q) > 1 else 0) for q in (self.u, self.v)]
+        history = f.c1 * self.psi[-1] + (f.c2 * self.psi[-2] if len(self.psi) > 1 else 0)
+        self.time += f.step
+        velocity = self.p.loading.velocity
+        s = 1 / beta**2
+        load = self.load + s * self.block.mass @ (past[0] + beta * past[1])
+        bottom_x, bottom_y = self.block.x[0], self.block.y[0]
+
+        def solve(slip_rate):
+            prescribed = np.zeros_like(load)
+            prescribed[self.block.x[:, 0]] = velocity * self.time
+            prescribed[bottom_x[1:]] = past[0][bottom_x[1:]] + beta * slip_rate
+            return self.block.solve(s, load, prescribed)
+
+        def residual(z):
+            v = np.append(velocity, 1e-9 * np.sinh(z))
+            _, reaction = solve(v[1:])
+            psi = self.state(history, beta, v)
+            f_ = self.p.friction.coefficient(v, np.exp(psi))
+            return (reaction[bottom_x] + f_ * reaction[bottom_y])[1:] / (2e5 * 0.025)
+
+        guess = np.arcsinh(near[1:] / 1e-9) * 1.01
+        found = root(residual, guess, tol=1e-13)
+        assert np.abs(found.fun).max() < 1e-8, found.message
+        v = np.append(velocity, 1e-9 * np.sinh(found.x))
+        u, reaction = solve(v[1:])
+        psi = self.state(history, beta, v)
+        rate = (u - past[0]) / beta
+        # force of the driving wall: reactions of the left edge less friction at its own node
+        friction = -self.p.friction.coefficient(velocity, np.exp(psi[0])) * reaction[bottom_y[0]]
+        self.drive = -(reaction[self.block.x[:, 0]].sum() - friction)
+        for store, value in ((self.u, u), (self.v, rate), (self.psi, psi), (self.steps, f.step)):
+            store.append(value)
+        return v, psi, reaction
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_steps_equal_the_assembled_problem(law):
+    parameters = small(law)
+    reference, dynamics = Reference(parameters), Dynamics(parameters)
+    state, report = dynamics.initial_state()
+    block = reference.block
+    for rung in LADDER:
+        state, report = dynamics.advance(state, rung)
+        v, psi, reaction = reference.step(rung_value(rung), report.interface.slip_rate)
+        assert state.time == pytest.approx(reference.time, rel=1e-13)
+        interface = report.interface
+        np.testing.assert_allclose(interface.slip_rate, v, rtol=2e-6, atol=1e-14)
+        np.testing.assert_allclose(interface.log_state, psi, rtol=1e-7, atol=1e-9)
+        np.testing.assert_allclose(interface.normal, reaction[block.y[0]], rtol=1e-7)
+        np.testing.assert_allclose(
+            interface.tangential[1:],
+            reaction[block.x[0, 1:]],
+            rtol=1e-6,
+            atol=1e-6 * np.abs(interface.tangential).max(),
+        )
+        u_x, u_y = dynamics.body.nodal_values(state.displacement)
+        scale = np.abs(reference.u[-1]).max()
+        u_x = u_x + parameters.loading.velocity * state.time
+        np.testing.assert_allclose(u_x, reference.u[-1][block.x], atol=1e-8 * scale)
+        np.testing.assert_allclose(u_y, reference.u[-1][block.y], atol=1e-8 * scale)
+        # f_d by discrete balance is the reaction of the driven edge
+        assert report.driving_force == pytest.approx(reference.drive, rel=1e-6)
+    assert np.count_nonzero(interface.slip_rate > 1e-5) >= 3  # a patch has formed
+
+
+def test_initial_force_is_that_of_uniaxial_strain():
+    parameters = Parameters(geometry=Geometry(0.01, 0.4), mesh=Mesh(60, 8))
+    _, report = Dynamics(parameters).initial_state()
+    nu = parameters.material.poisson_ratio
+    expected = -nu / (1 - nu) * parameters.loading.normal_stress * parameters.geometry.height
+    assert report.driving_force == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_step_changes_nothing_and_repeats_exactly():
+    dynamics = Dynamics(small())
+    state, _ = dynamics.initial_state()
+    for rung in LADDER[:20]:
+        state, _ = dynamics.advance(state, rung)
+    before = state.displacement.modes.copy()
+    first, _ = dynamics.advance(state, -58)
+    np.testing.assert_array_equal(before, state.displacement.modes)
+    again, _ = Dynamics(small()).advance(state, -58)
+    np.testing.assert_array_equal(first.past_slip_rates, again.past_slip_rates)
+    np.testing.assert_array_equal(first.displacement.modes, again.displacement.modes)
+
+
+def test_newton_converges_quadratically():
+    """Residuals of successive iterations: the exponent of their decay is two."""
+    parameters = small(n_x=40)
+    dynamics = Dynamics(parameters)
+    state, _ = dynamics.initial_state()
+    for rung in LADDER:
+        state, _ = dynamics.advance(state, rung)
+    interface, operator = dynamics.interface, dynamics._operator(-58)
+    errors, updated = [], type(interface)._updated
+
+    def spy(self, v, change):
+        errors.append(np.max(np.abs(change) / (np.abs(v) + 1e-9)))
+        return updated(self, v, change)
+
+    n = parameters.mesh.n_x
+    formula = Formula.bdf2(rung_value(-58), state.last_step)
+    load = dynamics._inertia_from_past(state, formula, operator.s) + dynamics._load
+    w_history = dynamics._interface_displacement(state, formula)
+    guess = state.past_slip_rates[0][1:] * 1.3 + 1e-10 * np.ones(n)
+    response = dynamics._respond(operator, load, w_history + formula.beta * (guess - 1e-3))
+    psi = formula.c1 * state.past_log_states[0] + formula.c2 * state.past_log_states[1]
+    type(interface)._updated = spy
+    try:
+        interface.solve(operator, response, w_history, psi, formula.beta, guess)
+    finally:
+        type(interface)._updated = updated
+    errors = [e for e in errors if e > 1e-13]
+    assert len(errors) >= 3
+    rates = [np.log(b) / np.log(a) for a, b in zip(errors[-3:-1], errors[-2:], strict=True)]
+    assert max(rates) > 1.8, errors
