@@ -1,0 +1,68 @@
+"""Running the workflow of this checkout, with results below a directory of the test's own."""
+
+import dataclasses
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+
+
+@dataclasses.dataclass(frozen=True)
+class Workflow:
+    """A checkout of the project and a directory in which its workflow runs."""
+
+    directory: Path
+    checkout: Path = ROOT
+    config: Path = ROOT / "config" / "quick.yaml"
+
+    def __call__(self, *arguments: str) -> subprocess.CompletedProcess:
+        """Run snakemake; its whole output is in ``stdout``."""
+        command = [sys.executable, "-m", "snakemake", *arguments]  # targets before options
+        command += ["--snakefile", str(self.checkout / "Snakefile")]
+        command += ["--workflow-profile", str(self.checkout / "workflow/profiles/default")]
+        command += ["--directory", str(self.directory), "--configfile", str(self.config)]
+        return subprocess.run(
+            command,
+            cwd=self.checkout,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=600,
+        )
+
+    def planned(self, *arguments: str) -> dict[str, int]:
+        """The rules that would run and how often, from a dry run."""
+        done = self(*arguments, "--dry-run", "--quiet", "rules")
+        assert done.returncode == 0, done.stdout
+        table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", done.stdout, re.S)
+        if table is None:
+            assert "Nothing to be done" in done.stdout, done.stdout
+            return {}
+        return {rule: int(count) for rule, count in map(str.split, table[1].splitlines())}
+
+    def configured(self, config: object, name: str = "config.yaml") -> "Workflow":
+        """The same with another configuration, given as text or as plain dictionaries."""
+        path = self.directory / name
+        path.write_text(config if isinstance(config, str) else yaml.safe_dump(config))
+        return dataclasses.replace(self, config=path)
+
+
+@pytest.fixture
+def workflow(tmp_path: Path) -> Workflow:
+    """The workflow with no results yet."""
+    return Workflow(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def quick(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
+    """The workflow after the quick configuration was run from nothing to all figures."""
+    ran = Workflow(tmp_path_factory.mktemp("quick"))
+    done = ran()
+    assert done.returncode == 0, done.stdout
+    return ran

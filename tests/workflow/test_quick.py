@@ -1,0 +1,160 @@
+"""The whole workflow on coarse grids: what it leaves behind, and what it does not do again."""
+
+import dataclasses
+import json
+import shutil
+
+import numpy as np
+import pandas as pd
+import pytest
+from conftest import ROOT
+
+from nucleation import datasets, figures, lengths
+from nucleation.configuration import load, read_yaml
+from nucleation.extraction import extract
+from nucleation.figures import figure_3
+from nucleation.parameters import Parameters
+
+
+@pytest.fixture
+def results(quick):
+    return quick.directory / "results" / "quick"
+
+
+@pytest.fixture
+def checkout(quick, tmp_path):
+    """A copy of the project to edit, over the results of the quick configuration."""
+    parts = ("Snakefile", "src", "workflow", "config")
+    for part in parts:
+        source = ROOT / part
+        copy = shutil.copytree if source.is_dir() else shutil.copy2
+        copy(source, tmp_path / part)
+    return dataclasses.replace(quick, checkout=tmp_path)
+
+
+def test_every_file_is_there(results):
+    names = ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")
+    for name in names:
+        assert (results / "figures" / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+        assert (results / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    assert "5/18" in (results / "tables" / "table_s1.md").read_text()
+    assert len((results / "tables" / "table_s1.csv").read_text().splitlines()) == 8
+    assert not [path for path in results.rglob(".*") if path.name != ".snakemake"]
+
+
+def test_running_again_does_nothing(quick):
+    done = quick()
+    assert done.returncode == 0
+    assert "Nothing to be done" in done.stdout
+
+
+def test_simulations_carry_their_origin_and_units(quick, results):
+    for run in load(quick.config).runs:
+        dataset = datasets.read(results / "simulations" / f"{run.id}.nc")
+        assert Parameters.from_dict(json.loads(dataset.attrs["parameters"])) == run.parameters
+        assert set(json.loads(dataset.attrs["versions"])) >= {"numpy", "scipy", "nucleation"}
+        assert len(dataset.attrs["code_digest"]) == 64
+        assert dataset["slip_rate"].attrs["units"] == "m/s"
+        assert dataset["slip_rate"].attrs["symbol"] == "v"
+        for name, variable in dataset.variables.items():
+            assert np.isfinite(variable.values).all(), name
+
+
+def test_table_of_lengths(quick, results):
+    config = load(quick.config)
+    table = datasets.read(results / "lengths.nc", requires=lengths.COLUMNS)
+    text = pd.read_csv(results / "lengths.csv")
+    assert list(text.columns) == list(lengths.COLUMNS)
+    assert list(text["id"]) == [run.id for run in config.runs] == list(table["id"].values)
+    for name in lengths.COLUMNS:
+        np.testing.assert_array_equal(text[name].to_numpy(), table[name].values)
+    assert (text["length_low"] <= text["length"]).all()
+    assert (text["length"] <= text["length_high"]).all()
+    assert (text["length"] / text["theory_length"]).between(0.3, 1.2).all()
+    assert text["onset_time"].between(5.0, 20.0).all()
+    for index, run in enumerate(config.runs):
+        simulation = datasets.read(results / "simulations" / f"{run.id}.nc")
+        again = extract(simulation, config.extraction)
+        assert again["length"] == float(table["length"][index])
+        assert float(table["height"][index]) == run.parameters.geometry.height
+        assert int(table["n_x"][index]) == run.parameters.mesh.n_x
+        assert float(table["theory_length"][index]) == run.theory_length
+
+
+def test_figure_3_shows_the_datasets(results):
+    theory = datasets.read(results / "theory.nc")
+    table = datasets.read(results / "lengths.nc")
+    identifier = "paper-aging-H0.1-phi1"
+    simulation = datasets.read(results / "simulations" / f"{identifier}.nc")
+    drawn = figure_3.draw(theory, table, simulation, lengths.row(table, identifier))
+    axes = drawn.axes[0]
+    curves = [line.get_xydata() for line in axes.lines]
+    expected = np.column_stack([theory["height"], theory["critical_length"]])
+    assert any(np.array_equal(curve, expected) for curve in curves)
+    points = {tuple(point) for curve in curves for point in curve}
+    for height, length in zip(table["height"].values, table["length"].values, strict=True):
+        assert (height, length) in points
+
+
+def test_lost_simulation_is_missed_by_its_figures(quick, results):
+    """Snakemake alone takes a figure newer than its inputs for up to date, even without them."""
+    path = results / "simulations" / "paper-slip-H0.02-phi1.nc"
+    away = path.rename(path.with_suffix(".away"))
+    try:
+        for target in ("figure_3", "figure_s2", "lengths", "paper"):
+            assert quick.planned(target)["simulate"] == 1
+    finally:
+        away.rename(path)
+    assert quick.planned() == {}
+
+
+@pytest.mark.parametrize(
+    ("section", "values", "expected"),
+    [
+        ("extraction", {"edge_threshold": 0.2}, {"extract", "draw_figure_3", "draw_figure_s2"}),
+        ("curves", {"zeta_over_a": [1.0]}, {"theory", "draw_figure_2", "draw_figure_3",
+                                           "draw_figure_s1"}),
+        ("limits", {"memory": 1999.0}, set()),
+    ],
+)  # fmt: skip
+def test_change_of_a_setting_reruns_what_depends_on_it(quick, section, values, expected):
+    config = read_yaml(quick.config)
+    config[section] = {**config.get(section, {}), **values}
+    planned = quick.configured(config, f"{section}.yaml").planned()
+    assert set(planned) - {"paper"} == expected
+
+
+def test_change_of_one_run_reruns_it_alone(quick):
+    config = read_yaml(quick.config)
+    config["studies"]["paper"]["runs"][1]["tolerance"] = 0.04
+    config["studies"]["paper"]["runs"][2]["density"] = 1200.0  # the value it has, by another name
+    planned = quick.configured(config, "one.yaml").planned("simulations")
+    assert planned["simulate"] == 2  # both have new names, the other three are kept
+
+
+EDITS = {
+    "comment": ("src/nucleation/simulation.py", "\n# a remark\n", set()),
+    "docstring": ("src/nucleation/fem/stepping.py", '\n"""More words."""\n', set()),
+    "variable table": ("src/nucleation/datasets.py", "\nSPARE = 1\n", set()),
+    "simulation": ("src/nucleation/fem/kernels.py", "\nSPARE = 1\n",
+                   {"simulate", "extract", "draw_figure_3", "draw_figure_s2"}),
+    "extraction": ("src/nucleation/extraction.py", "\nSPARE = 1\n",
+                   {"extract", "draw_figure_3", "draw_figure_s2"}),
+    "figure": ("src/nucleation/figures/figure_2.py", "\nSPARE = 1\n", {"draw_figure_2"}),
+    "script": ("workflow/scripts/simulate.py", "\n# a remark\n", set()),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("path", "addition", "expected"), EDITS.values(), ids=EDITS.keys())
+def test_change_of_code_reruns_what_depends_on_it(checkout, path, addition, expected):
+    file = checkout.checkout / path
+    file.write_text(file.read_text() + addition)
+    planned = checkout.planned()
+    assert set(planned) - {"paper"} == expected
+    assert planned.get("simulate", 0) in (0, 5)
+
+
+def test_modules_of_figures_are_the_targets():
+    modules = {path.stem for path in (ROOT / "src/nucleation/figures").glob("figure_*.py")}
+    assert modules == {"figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"}
+    assert figures.__doc__
