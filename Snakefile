@@ -78,3 +78,5 @@ rule paper:
         rules.figure_s2.input,
         rules.table_s1.input,
         rules.lengths.input,
+    message:
+        f"Every figure and table is in {RESULTS}"

@@ -10,7 +10,7 @@ rule extract:
         extraction=asdict(settings.extraction),
         digest=digest("nucleation.lengths"),
     message:
-        "Critical lengths of {input}"
+        "Critical lengths of all simulations"
     script:
         "../scripts/extract.py"
 
@@ -19,3 +19,5 @@ rule lengths:
     input:
         rules.extract.output,
         simulations(),
+    message:
+        "Critical lengths are in {input[0]} and {input[1]}"

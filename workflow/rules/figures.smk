@@ -109,30 +109,42 @@ rule write_table_s1:
 rule figure_1:
     input:
         figure("figure_1"),
+    message:
+        "Figure 1 is in {input[0]}"
 
 
 rule figure_2:
     input:
         figure("figure_2"),
+    message:
+        "Figure 2 is in {input[0]}"
 
 
 rule figure_3:
     input:
         figure("figure_3"),
         simulations("paper"),
+    message:
+        "Figure 3 is in {input[0]}"
 
 
 rule figure_s1:
     input:
         figure("figure_s1"),
+    message:
+        "Figure S1 is in {input[0]}"
 
 
 rule figure_s2:
     input:
         figure("figure_s2"),
         simulations("paper"),
+    message:
+        "Figure S2 is in {input[0]}"
 
 
 rule table_s1:
     input:
         rules.write_table_s1.output,
+    message:
+        "Table S1 is in {input}"

@@ -31,3 +31,5 @@ rule simulate:
 rule simulations:
     input:
         simulations(),
+    message:
+        f"All simulations are in {RESULTS}/simulations"
