@@ -6,6 +6,7 @@
 # `results`, relative to the working directory. docs and workflow/rules/*.smk have the details.
 import os
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError

@@ -11,7 +11,6 @@ import math
 import numbers
 import os
 from collections.abc import Iterable, Iterator
-from pathlib import Path
 from typing import Any
 
 import jsonschema
@@ -22,7 +21,7 @@ from . import schema
 from .friction import Friction
 from .parameters import ExtractionSettings, Parameters
 from .quantities import ParameterError, refusal
-from .schema import FigureSettings, Limits
+from .settings import Curves, FigureSettings, Limits
 from .stability import InterfaceState
 from .studies import (
     LARGEST_GRID,
@@ -30,10 +29,10 @@ from .studies import (
     estimated_megabytes,
     expand,
     grid_size,
+    loaded,
     range_problem,
     study_runs,
 )
-from .theory import Curves
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,14 +117,14 @@ def configure(values: Any) -> Configuration:
     _stop_on(_schema_problems(values))
     _stop_on(_range_problems(values))
     groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
-    base = Parameters(**{name: groups.pop(name) for name in ("material", "friction", "loading",
-                                                             "stepping")})  # fmt: skip
+    base = Parameters(**{k: groups.pop(k) for k in ("material", "friction", "loading", "stepping")})
+    interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
-        found.extend(study_runs(name, study, base, groups["main_text_interface"]))
+        found.extend(study_runs(name, study, base, interface))
     _stop_on(_run_problems(found, groups["limits"]))
     runs = tuple(run for _, run in found if isinstance(run, Run))
-    return Configuration(values.get("results", "results"), base, runs=runs, **groups)
+    return Configuration(values.get("results", "results"), base, interface, runs=runs, **groups)
 
 
 def _stop_on(problems: Iterable[str]) -> None:

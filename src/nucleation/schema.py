@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
 
 import yaml
@@ -10,39 +9,12 @@ import yaml
 from .elasticity import Material
 from .friction import Friction
 from .parameters import ExtractionSettings, Loading, Stepping
-from .quantities import Checked, Quantity, declarations, quantity
+from .quantities import Quantity, declarations
+from .settings import Curves, FigureSettings, Limits
 from .stability import InterfaceState
 from .studies import RANGE, STUDY_PARAMETERS, StudySettings
-from .theory import Curves
 
 Node = dict[str, Any]
-
-
-@dataclasses.dataclass(frozen=True)
-class FigureSettings(Checked):
-    """Which simulations of the study ``paper`` the figures show."""
-
-    inset_height: float = quantity(
-        "height of the simulation in the inset of Figure 3", unit="m", low=0.0, high=1e6,
-        symbol="H", default=0.1,
-    )  # fmt: skip
-    space_time_height: float = quantity(
-        "height of the simulation in Figure S2", unit="m", low=0.0, high=1e6, symbol="H",
-        default=0.005,
-    )  # fmt: skip
-
-
-@dataclasses.dataclass(frozen=True)
-class Limits(Checked):
-    """What one simulation may use; larger ones are refused before they start."""
-
-    memory: float = quantity(
-        "memory of one simulation", unit="MB", low=100.0, high=1e7, default=2000.0
-    )
-    runtime: float = quantity(
-        "time after which a cluster may end a simulation", unit="min", low=1.0, high=1e5,
-        closed="both", default=60.0,
-    )  # fmt: skip
 
 
 GROUPS: dict[str, type] = {

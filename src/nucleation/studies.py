@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from .elasticity import Material
-from .parameters import Mesh, Parameters
+from .friction import Friction
+from .parameters import Loading, Mesh, Parameters
 from .quantities import Checked, ParameterError, Quantity, declarations, quantity
 from .stability import InterfaceState, NoInstability, critical_length
-from .theory import linearised, loaded
 
 SHORT_NAMES = {"evolution": "law", "initial_state": "phi0"}
 """Names in studies, identifiers and the table of lengths that differ from the field's name."""
@@ -127,6 +127,19 @@ def _text(value: Any) -> str:
         return value
     mantissa, _, exponent = f"{value:.12g}".partition("e")
     return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+
+
+def linearised(friction: Friction, loading: Loading) -> InterfaceState:
+    """The friction law of a run, expanded about steady sliding at the imposed velocity."""
+    f0, a, zeta = friction.expansion(loading.velocity)
+    return loaded(InterfaceState(f0, a, zeta, friction.characteristic_slip_distance), loading)
+
+
+def loaded(interface: InterfaceState, loading: Loading) -> InterfaceState:
+    """The interface with the velocity and the normal stress of a loading."""
+    return dataclasses.replace(
+        interface, velocity=loading.velocity, normal_stress=loading.normal_stress
+    )
 
 
 @cache

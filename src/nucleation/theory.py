@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 import numpy as np
 import xarray as xr
 
 from .elasticity import Material
 from .friction import Friction
-from .parameters import Loading
-from .quantities import Checked, quantity
+from .settings import Curves
 from .stability import (
     RIGID,
     Body,
@@ -21,57 +18,10 @@ from .stability import (
 )
 
 
-def _spaced(low: float, high: float, number: int) -> tuple[float, ...]:
-    return tuple(float(f"{x:.6g}") for x in np.geomspace(low, high, number))
-
-
-@dataclasses.dataclass(frozen=True)
-class Curves(Checked):
-    """Where the theory's curves are computed."""
-
-    heights: tuple[float, ...] = quantity(
-        "block heights of the theory's curve in Figure 3", unit="m", low=0.0, high=1e6,
-        symbol="H", default=_spaced(0.003, 0.15, 80),
-    )  # fmt: skip
-    f_beta: tuple[float, ...] = quantity(
-        "friction coefficient times bimaterial contrast in Figure 2", low=-10.0, high=10.0,
-        symbol="f beta", default=tuple(float(f"{x:.6g}") for x in np.linspace(0.0, 0.5, 101)),
-    )  # fmt: skip
-    zeta_over_a: tuple[float, ...] = quantity(
-        "velocity weakening over direct effect in Figure 2", low=0.0, high=1e6,
-        symbol="zeta/a", default=(0.1, 0.3, 1.0, 3.0, 10.0),
-    )  # fmt: skip
-    slip_rates: tuple[float, ...] = quantity(
-        "slip rates of steady sliding in Figure S1", unit="m/s", low=0.0, high=1e4,
-        symbol="v", default=_spaced(1e-11, 1e1, 241),
-    )  # fmt: skip
-
-
-def linearised(friction: Friction, loading: Loading) -> InterfaceState:
-    """The friction law of a run, expanded about steady sliding at the imposed velocity."""
-    expansion = friction.expansion(loading.velocity)
-    return InterfaceState(
-        friction=expansion.f0,
-        a=expansion.a,
-        zeta=expansion.zeta,
-        slip_length=friction.characteristic_slip_distance,
-        velocity=loading.velocity,
-        normal_stress=loading.normal_stress,
-    )
-
-
-def loaded(interface: InterfaceState, loading: Loading) -> InterfaceState:
-    """The interface with the velocity and the normal stress of a loading."""
-    return dataclasses.replace(
-        interface, velocity=loading.velocity, normal_stress=loading.normal_stress
-    )
-
-
 def theory_dataset(
     material: Material,
     friction: Friction,
-    loading: Loading,
-    main_text: InterfaceState,
+    interface: InterfaceState,
     curves: Curves,
 ) -> xr.Dataset:
     """All curves of the linear theory.
@@ -82,19 +32,17 @@ def theory_dataset(
         Of the block.
     friction : Friction
         The full law with the parameters of Table S1.
-    loading : Loading
-        Normal stress, and the imposed velocity V, about which the full law is expanded.
-    main_text : InterfaceState
-        The main text's rounded friction, on which the curve of Figure 3 stands, at this loading.
+    interface : InterfaceState
+        The main text's rounded friction, on which the curve of Figure 3 stands; at its velocity
+        the full law is expanded.
     curves : Curves
         Where to compute.
     """
-    interface = loaded(main_text, loading)
     return xr.merge(
         [
             length_curve(material, interface, np.array(curves.heights)),
             bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
-            friction_curves(friction, loading.velocity, np.array(curves.slip_rates)),
+            friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
         ]
     )
 

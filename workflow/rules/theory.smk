@@ -1,14 +1,10 @@
 # The linear theory: all its curves in one dataset.
-from dataclasses import asdict
-
-
 rule theory:
     output:
         THEORY,
     params:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
-        loading=asdict(settings.base.loading),
         main_text_interface=asdict(settings.main_text_interface),
         curves=asdict(settings.curves),
         digest=digest("nucleation.theory"),

@@ -3,15 +3,14 @@
 from nucleation import datasets, provenance
 from nucleation.elasticity import Material
 from nucleation.friction import Friction
-from nucleation.parameters import Loading
+from nucleation.settings import Curves
 from nucleation.stability import InterfaceState
-from nucleation.theory import Curves, theory_dataset
+from nucleation.theory import theory_dataset
 
 params = snakemake.params
 dataset = theory_dataset(
     Material(**params.material),
     Friction(**params.friction),
-    Loading(**params.loading),
     InterfaceState(**params.main_text_interface),
     Curves(**params.curves),
 )

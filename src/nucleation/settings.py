@@ -1,0 +1,62 @@
+"""Settings of the workflow beside the simulations' parameters: what is drawn, what is allowed."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from .quantities import Checked, quantity
+
+
+def _spaced(low: float, high: float, number: int) -> tuple[float, ...]:
+    return tuple(float(f"{x:.6g}") for x in np.geomspace(low, high, number))
+
+
+@dataclasses.dataclass(frozen=True)
+class Curves(Checked):
+    """Where the theory's curves are computed."""
+
+    heights: tuple[float, ...] = quantity(
+        "block heights of the theory's curve in Figure 3", unit="m", low=0.0, high=1e6,
+        symbol="H", default=_spaced(0.003, 0.15, 80),
+    )  # fmt: skip
+    f_beta: tuple[float, ...] = quantity(
+        "friction coefficient times bimaterial contrast in Figure 2", low=-10.0, high=10.0,
+        symbol="f beta", default=tuple(float(f"{x:.6g}") for x in np.linspace(0.0, 0.5, 101)),
+    )  # fmt: skip
+    zeta_over_a: tuple[float, ...] = quantity(
+        "velocity weakening over direct effect in Figure 2", low=0.0, high=1e6,
+        symbol="zeta/a", default=(0.1, 0.3, 1.0, 3.0, 10.0),
+    )  # fmt: skip
+    slip_rates: tuple[float, ...] = quantity(
+        "slip rates of steady sliding in Figure S1", unit="m/s", low=0.0, high=1e4,
+        symbol="v", default=_spaced(1e-11, 1e1, 241),
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class FigureSettings(Checked):
+    """Which simulations of the study ``paper`` the figures show."""
+
+    inset_height: float = quantity(
+        "height of the simulation in the inset of Figure 3", unit="m", low=0.0, high=1e6,
+        symbol="H", default=0.1,
+    )  # fmt: skip
+    space_time_height: float = quantity(
+        "height of the simulation in Figure S2", unit="m", low=0.0, high=1e6, symbol="H",
+        default=0.005,
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Limits(Checked):
+    """What one simulation may use; larger ones are refused before they start."""
+
+    memory: float = quantity(
+        "memory of one simulation", unit="MB", low=100.0, high=1e7, default=2000.0
+    )
+    runtime: float = quantity(
+        "time after which a cluster may end a simulation", unit="min", low=1.0, high=1e5,
+        closed="both", default=60.0,
+    )  # fmt: skip
