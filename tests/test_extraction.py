@@ -92,7 +92,7 @@ def synthetic_simulation(onset=10.0, decay=0.05):
 
 
 def test_extract_reads_the_length_at_onset():
-    measured = extract(synthetic_simulation())
+    measured = extract(synthetic_simulation(), ExtractionSettings(edge_threshold=0.1))
     length = 0.05 * np.sqrt(10.0) + 0.05 * np.log(10.0)
     assert measured["onset_time"] == pytest.approx(10.0, abs=0.011)
     assert measured["length"] == pytest.approx(length, abs=1e-3)

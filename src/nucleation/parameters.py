@@ -83,7 +83,7 @@ class ExtractionSettings(Checked):
 
     edge_threshold: float = quantity(
         "slip rate at the edge of the creep patch over the imposed velocity", low=0.0, high=1.0,
-        closed="high", default=0.1,
+        closed="high", default=0.01,
     )  # fmt: skip
     edge_threshold_high: float = quantity(
         "largest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=0.5

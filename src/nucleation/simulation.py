@@ -73,7 +73,7 @@ def run(parameters: Parameters) -> Iterator[Instant]:
     yield Instant(state, report, 0)
     longest_step = stepping.longest_step * parameters.memory_time
     longest = beta_of_step(longest_step, longest_step)
-    wanted, rejected = min(FIRST_STEP, longest), 0
+    wanted, rejected, growth = min(FIRST_STEP, longest), 0, LARGEST_GROWTH
     while True:
         rung = rung_below(min(wanted, longest))
         beta = rung_value(rung)
@@ -82,14 +82,15 @@ def run(parameters: Parameters) -> Iterator[Instant]:
         try:
             new, report = dynamics.advance(state, rung)
         except NewtonFailure:
-            wanted, rejected = 0.5 * beta, rejected + 1
+            wanted, rejected, growth = 0.5 * beta, rejected + 1, 1.0
             continue
         factor = _step_factor(report.error / stepping.tolerance)
         if report.error > stepping.tolerance and np.isfinite(report.error):
             wanted, rejected = beta * min(factor, 0.9), rejected + 1
             continue
         state = new
-        wanted = beta_of_step(state.last_step * factor, state.last_step)
+        factor = min(factor, growth)  # not at once back to where Newton's method failed
+        wanted, growth = beta_of_step(state.last_step * factor, state.last_step), LARGEST_GROWTH
         yield Instant(state, report, rejected)
 
 

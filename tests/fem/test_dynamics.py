@@ -1,5 +1,7 @@
 """Steps of the coupled problem against the assembled matrix and a general root finder."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from fem.assembled_problem import AssembledBlock
@@ -154,7 +156,8 @@ def test_newton_converges_quadratically():
     state, _ = dynamics.initial_state()
     for rung in LADDER:
         state, _ = dynamics.advance(state, rung)
-    interface, operator = dynamics.interface, dynamics._operator(-58)
+    interface = dataclasses.replace(dynamics.interface, most_iterations=20)
+    operator = dynamics._operator(-58)
     errors, updated = [], type(interface)._updated
 
     def spy(self, v, change):

@@ -26,6 +26,9 @@ Array = NDArray[np.float64]
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
+SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
+SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
+SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the step
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,8 +81,6 @@ class Dynamics:
         self.interface = Interface(parameters.friction, loading.velocity)
         self._initial_log_state = float(np.log(loading.initial_state))
         self._load = self.body.top_load(loading.normal_stress)
-        # slip rates far below the loading rate need no relative accuracy
-        self.rate_scale = 0.01 * loading.velocity
         self._operators: OrderedDict[int, BodyOperator] = OrderedDict()
 
     def initial_state(self) -> tuple[State, StepReport]:
@@ -121,7 +122,8 @@ class Dynamics:
         )  # fmt: skip
         operator = self._operator(rung)
         load = self._inertia_from_past(state, formula, operator.s) + self._load
-        guess, log_state_guess = self._extrapolated(state, state.time + formula.step)
+        scale = self._rate_scale(state, formula.step)
+        guess, log_state_guess = self._extrapolated(state, state.time + formula.step, scale)
         w_history = self._interface_displacement(state, formula)
         w_guess = w_history + beta * (guess[1:] - self.velocity)
         response = self._respond(operator, load, w_guess)
@@ -134,7 +136,7 @@ class Dynamics:
         error = np.inf if first else 0.0
         if state.past_times.size == 3:
             error = error_factor(formula, state.past_times) * max(
-                np.abs(self._scaled(solution.slip_rate) - self._scaled(guess)).max(),
+                np.abs(np.arcsinh(solution.slip_rate / scale) - np.arcsinh(guess / scale)).max(),
                 np.abs(solution.log_state - log_state_guess).max(),
             )
         return self._completed(state, formula, operator, load, solution, error)
@@ -166,16 +168,23 @@ class Dynamics:
         now, past = state.displacement.modes[0, 0], state.previous_displacement.modes[0, 0]
         return self.body.sine_values(formula.c1 * now + formula.c2 * past)
 
-    def _scaled(self, slip_rate: Array) -> Array:
-        return np.arcsinh(slip_rate / self.rate_scale)
+    def _rate_scale(self, state: State, step: float) -> float:
+        """Slip rate (m/s) from which on errors are relative: v counts as asinh(v / scale).
 
-    def _extrapolated(self, state: State, time: float) -> tuple[Array, Array]:
+        The last term lets the steps grow over the elastic waves that ring in the block after an
+        event: they shake the slip rates, but move the interface by next to nothing.
+        """
+        fastest = float(np.abs(state.past_slip_rates[0]).max())
+        distance = self.interface.friction.characteristic_slip_distance
+        return max(SLOW * self.velocity, SLOW_IN_EVENT * fastest, SLIGHT_SLIP * distance / step)
+
+    def _extrapolated(self, state: State, time: float, scale: float) -> tuple[Array, Array]:
         """Slip rate (m/s) and log state at a new time, by polynomials through the past ones."""
         weights = extrapolation_weights(time, state.past_times)
-        scaled = weights @ self._scaled(state.past_slip_rates)
+        scaled = weights @ np.arcsinh(state.past_slip_rates / scale)
         scaled = np.clip(scaled, -LARGEST_RATE_EXPONENT, LARGEST_RATE_EXPONENT)
         largest = 10.0 * np.abs(state.past_slip_rates[0]).max()
-        guess = np.clip(self.rate_scale * np.sinh(scaled), -largest, largest)
+        guess = np.clip(scale * np.sinh(scaled), -largest, largest)
         return guess, weights @ state.past_log_states
 
     def _respond(self, operator: BodyOperator, load: Field, w: Array) -> LinearResponse:

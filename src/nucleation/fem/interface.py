@@ -23,6 +23,7 @@ from .operator import BodyOperator
 
 Array = NDArray[np.float64]
 
+ROUNDING = 1e-14  # relative, of displacements
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
@@ -61,7 +62,7 @@ class Interface:
     friction: Friction
     velocity: float  # m/s, of the left edge
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
-    most_iterations: int = 12
+    most_iterations: int = 8
 
     def solve(
         self,
@@ -88,19 +89,19 @@ class Interface:
             No convergence, or a nodal normal force that is tensile or not finite.
         """
         v, w = guess, response.w
+        rounding = ROUNDING * np.abs(w_history).max() / beta  # of v = (w - w_history) / beta
         p, normal, edge = response.tangential, response.normal, response.edge
         for iteration in range(self.most_iterations + 1):
             coefficient, slope, psi = self._friction(v, log_state_history[1:], beta)
             residual = p + coefficient * normal[1:]
             damping = slope * normal[1:]
             elastic = beta * operator.diagonal
-            scale = (elastic + np.abs(damping)) * (
-                np.abs(v) + self.friction.regularisation_slip_rate
-            )
+            resolved = np.abs(v) + self.friction.regularisation_slip_rate
+            scale = (elastic + np.abs(damping)) * (self.tolerance * resolved + rounding)
             error = float(np.max(np.abs(residual) / scale))
             if not np.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
-            if error < self.tolerance:
+            if error < 1.0:
                 return self._finish(log_state_history, beta, v, psi, p, normal, w, edge, iteration)
             v = self._updated(
                 v, self._direction(operator, residual, coefficient, damping, elastic, beta)
