@@ -14,7 +14,9 @@ from nucleation.stability import (
     critical_length,
     critical_wavenumber,
     growth_rates,
+    transfer_functions,
 )
+from nucleation.stability.critical import _certainly_stable, marginal_stiffness
 
 pytestmark = pytest.mark.filterwarnings("error")
 MATERIAL = Material(3.1e9, 1 / 3)
@@ -124,6 +126,67 @@ def test_largest_crossing_of_random_systems():
     assert max(counts)[0] > 2
 
 
+@pytest.mark.parametrize("zeta", [0.016, 1e-5, -5e-6, -4e-4])
+@pytest.mark.parametrize("rho", [0.03, -0.2, 0.9])
+def test_marginal_stiffness_solves_its_quadratic(zeta, rho):
+    a, b = 0.0068, 0.0068 + zeta
+    expected = np.roots([1 + rho**2, -2 * zeta - rho**2 * b, zeta**2])
+    minus, plus = marginal_stiffness(rho, a, zeta)
+    if np.iscomplex(expected).any():
+        assert np.isnan(minus) and np.isnan(plus)
+    else:
+        np.testing.assert_allclose([minus, plus], np.sort(expected), rtol=1e-10)
+
+
+def test_marginal_stiffness_without_coupling():
+    assert marginal_stiffness(0.0, 0.0068, 0.016) == (pytest.approx(0.016),) * 2
+    assert marginal_stiffness(0.0, 0.0068, 0.0) == (0.0, 0.0)
+    assert np.all(np.isnan(marginal_stiffness(0.5, 0.0068, -0.01)))
+
+
+def test_certainly_stable_intervals_are_stable():
+    """No root grows in a certified interval, and a tight one with a margin is certified."""
+    rng = np.random.default_rng(3)
+    certified = {1e-5: 0, 0.03: 0, 1.0: 0}
+    for _ in range(120):
+        upper, lower, interface = random_system(rng)
+        for width in certified:
+            k_low = 10 ** rng.uniform(-4, 5, 60)
+            inside = k_low * np.exp(width * np.linspace(0, 1, 15))[:, None]
+            growth = growth_rates(inside, upper, lower, interface)[0].real.max(axis=0)
+            stable = _certainly_stable(k_low, k_low * np.exp(width), upper, lower, interface)
+            assert not np.any(growth[stable] > 0.0)
+            certified[width] += stable.sum()
+            weaker = dataclasses.replace(
+                interface,
+                a=interface.a * 0.9,
+                zeta=interface.zeta + 0.1 * interface.a,
+                friction=interface.friction * 1.05,
+            )
+            margin = growth_rates(k_low * np.exp(-0.05), upper, lower, weaker)[0].real
+            if width == 1e-5 and interface.zeta > 0.0:
+                assert np.all(stable[(margin < 0.0) & (growth < 0.0)])
+    assert min(certified.values()) > 500
+
+
+def test_onset_at_the_lower_root():
+    """The coupling fades at short waves; strengthening friction turns unstable at h_minus."""
+    material = Material(3e9, 0.0)
+    upper, lower = Body(material, 0.01, "traction"), Body(material)
+    interface = InterfaceState(friction=1.5, a=0.01, zeta=-1e-4, normal_stress=1.6e9)
+    k = np.geomspace(1.0, 1e4, 20000)
+    scan = crossings(upper, lower, interface, k)
+    point = critical_wavenumber(upper, lower, interface)
+    assert k[scan[-1]] <= point.wavenumber <= k[scan[-1] + 1]
+    roots = growth_rates(point.wavenumber, upper, lower, interface)
+    assert np.abs(roots - 1j * point.angular_frequency).min() < 1e-9 * abs(roots).max()
+    g1, g2 = transfer_functions(point.wavenumber, upper, lower)
+    load = 3e9 * point.wavenumber * interface.slip_length / interface.normal_stress * g1
+    minus, plus = marginal_stiffness(1.5 * g2 / g1, interface.a, interface.zeta)
+    assert load == pytest.approx(float(minus), rel=1e-9)
+    assert plus > 1.05 * minus
+
+
 def test_three_crossings():
     """A held layer on a half-space, weak velocity weakening: unstable, stable, unstable bands."""
     upper = Body(Material(5.86e9, -0.12), 3.37)
@@ -136,14 +199,15 @@ def test_three_crossings():
     assert k[scan[-1]] <= point.wavenumber <= k[scan[-1] + 1]
 
 
+@pytest.mark.parametrize("scale", [1.0, 1e5])
 @pytest.mark.parametrize("excess", [1e-5, 1e-3])
-def test_narrow_unstable_band_is_found(excess):
+def test_narrow_unstable_band_is_found(excess, scale):
     """A held block that becomes unstable, as friction grows, in a band around one wavenumber."""
-    upper, zeta = Body(Material(2e9, -0.06), 1.3), 0.0006
-    k = np.geomspace(1e-2, 1e2, 100_000)
+    upper = Body(Material(2e9, -0.06), 1.3 * scale)
+    k = np.geomspace(1e-2, 1e2, 100_000) / scale
 
     def interface(friction):
-        return InterfaceState(friction, 0.0064, zeta, 8.3e-7)
+        return InterfaceState(friction, 0.0064, 0.0006, 8.3e-7 * scale)
 
     def fastest(friction):
         return growth_rates(k, upper, RIGID, interface(friction))[0].real.max()

@@ -129,7 +129,7 @@ def _bracket(
     Intervals of log k that are certainly stable are dropped, those below a point known to be
     unstable as well; the others are halved down to :data:`RESOLUTION`.
     """
-    k_bottom = min(1e-3 / max(_heights(upper, lower)), 1e-3 * k_top)
+    k_bottom = 1e-3 / max(_heights(upper, lower))
     edges = np.geomspace(k_bottom, k_top, 129)
     low, high = edges[:-1], edges[1:]
     unstable = 0.0
