@@ -36,7 +36,9 @@ VARIABLES: dict[str, Variable] = {
     "slip": Variable("m", "slip", "epsilon"),
     "state": Variable("s", "state variable (age) of the interface", "phi"),
     "shear_stress": Variable("Pa", "shear stress at the interface", "tau"),
-    "normal_stress": Variable("Pa", "compressive normal stress at the interface", "-sigma_yy"),
+    "normal_stress": Variable(
+        "Pa", "normal stress at the interface, negative in compression", "sigma_yy"
+    ),
     # Simulation: one value per step
     "step_time": Variable("s", "time at the end of the step", "t"),
     "step_size": Variable("s", "time step", "dt"),

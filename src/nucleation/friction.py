@@ -40,6 +40,9 @@ class StateEvolution(Protocol):
     def growth(self, omega: ArrayLike) -> Array:
         """``dphi/dt = g(omega)``, with ``g(1) = 0`` and ``g'(1) = -1``."""
 
+    def slope(self, omega: ArrayLike) -> Array:
+        """``g'(omega)``."""
+
     def implicit_log_state(self, history: Array, step: float, rate: Array) -> tuple[Array, Array]:
         """Solve ``psi = history + step * dpsi/dt(psi, rate)``; return psi and dpsi/drate."""
 
@@ -52,6 +55,10 @@ class Aging:
     def growth(self, omega: ArrayLike) -> Array:
         """``dphi/dt`` (dimensionless) for given ``omega = phi w / D``."""
         return 1.0 - np.asarray(omega, dtype=float)
+
+    def slope(self, omega: ArrayLike) -> Array:
+        """``g'(omega) = -1``."""
+        return -np.ones_like(np.asarray(omega, dtype=float))
 
     def implicit_log_state(self, history: Array, step: float, rate: Array) -> tuple[Array, Array]:
         """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function."""
@@ -69,6 +76,10 @@ class Slip:
         """``dphi/dt`` (dimensionless) for given ``omega = phi w / D``."""
         omega = np.asarray(omega, dtype=float)
         return -omega * np.log(omega)
+
+    def slope(self, omega: ArrayLike) -> Array:
+        """``g'(omega) = -1 - log(omega)``."""
+        return -1.0 - np.log(np.asarray(omega, dtype=float))
 
     def implicit_log_state(self, history: Array, step: float, rate: Array) -> tuple[Array, Array]:
         """Closed form of ``psi = history - step rate (psi + log(rate))`` (linear in psi)."""

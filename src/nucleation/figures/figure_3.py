@@ -34,8 +34,8 @@ class Study(NamedTuple):
 Series = tuple[Study, str, Kind, xr.Dataset]  # style, legend, marker, entries of the table
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
-INSET_LEFT, INSET_BOTTOM, INSET_WIDTH = 0.515, 0.115, 0.315
-INSET_HEIGHTS = (0.25, 0.4)
+INSET_LEFT, INSET_BOTTOM, INSET_WIDTH = 0.515, 0.1, 0.315
+INSET_HEIGHTS = (0.2, 0.4)
 
 # By evolution law, and by whether the initial state differs from USUAL_AGE.
 KINDS: dict[tuple[str, bool], Kind] = {
@@ -82,7 +82,7 @@ def draw(
     Figure
         Two columns wide.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 11.4 * style.CENTIMETRE)
+    figure = style.new_figure(style.DOUBLE_COLUMN, 12.4 * style.CENTIMETRE)
     axes = figure.add_subplot()
     _draw_theory(axes, theory)
     drawn = list(_series(lengths, studies))
