@@ -59,12 +59,14 @@ def figure(name):
 
 localrules:
     paper, simulations, lengths, figure_1, figure_2, figure_3, figure_s1, figure_s2, table_s1,
+    figure_patch_stability,
 
 
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/extract.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/patches.smk"
 
 
 # Targets. Each names the simulations it stands on, not only its own files: after a simulation

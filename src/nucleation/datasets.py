@@ -70,6 +70,16 @@ VARIABLES: dict[str, Variable] = {
     "steps": Variable("1", "number of time steps"),
     "wall_seconds": Variable("s", "wall time of the simulation"),
     "peak_megabytes": Variable("MB", "largest memory of the simulation"),
+    # Stability of the frozen patch along a simulation
+    "instant_time": Variable("s", "time at which the patch is frozen", "t"),
+    "patch_length": Variable("m", "length of the creep patch", "L(t)"),
+    "growth_rate": Variable("1/s", "fastest growth of the frozen patch", "max Re Lambda"),
+    "growth_frequency": Variable("1/s", "angular frequency of that mode", "|Im Lambda|"),
+    "stability_length": Variable("m", "patch length where growth begins", "L_s"),
+    "stability_length_low": Variable("m", "where growth begins within a hop of the front", "L_s"),
+    "stability_length_high": Variable("m", "where growth fills a hop of the front", "L_s"),
+    "stability_frequency": Variable("1/s", "angular frequency where growth begins", "omega"),
+    "mode_amplitude": Variable("1", "modulus of the growing mode's displacement where it begins"),
     # Theory
     "critical_length": Variable("m", "critical nucleation length", "L_c"),
     "critical_wavenumber": Variable("1/m", "critical wavenumber", "k_c"),

@@ -51,11 +51,9 @@ def gather(
     return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
 
 
-def _row(
-    run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
-) -> dict[str, Any]:
+def description(run: dict[str, Any]) -> dict[str, Any]:
+    """The columns that say which simulation a row is about, and the theory's length for it."""
     parameters = run["parameters"]
-    measured = extract(simulation, settings)
     return {
         "id": run["id"],
         "study": run["study"],
@@ -65,6 +63,15 @@ def _row(
         "n_x": parameters["mesh"]["n_x"],
         "n_y": parameters["mesh"]["n_y"],
         "theory_length": run["theory_length"],
+    }
+
+
+def _row(
+    run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
+) -> dict[str, Any]:
+    measured = extract(simulation, settings)
+    return {
+        **description(run),
         **{name: float(measured[name]) for name in MEASURED},
         **{name: simulation.attrs[name] for name in DIAGNOSTICS},
     }
@@ -76,6 +83,6 @@ def row(table: xr.Dataset, identifier: str) -> xr.Dataset:
     return table.isel(run=int(index))
 
 
-def to_csv(table: xr.Dataset) -> str:
-    """The table as comma-separated text, in the order of :data:`COLUMNS`."""
-    return table.to_dataframe()[list(COLUMNS)].to_csv(index=False)
+def to_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> str:
+    """A table of runs as comma-separated text, in the order of the columns."""
+    return table.to_dataframe()[list(columns)].to_csv(index=False)

@@ -18,6 +18,8 @@ how strongly the run happens to be shaken.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -29,6 +31,7 @@ from .fem.body import Body
 from .fem.grid import Grid
 from .fem.operator import BodyOperator
 from .friction import Friction
+from .lengths import description
 from .parameters import ExtractionSettings, Parameters
 
 Array = NDArray[np.float64]
@@ -172,3 +175,18 @@ def crossing(length: Array, growth: Array, spacing: float) -> tuple[float, float
         part = -values[i] / (values[i + 1] - values[i])
         estimates.append(float(centre[i] + part * (centre[i + 1] - centre[i])))
     return estimates[0], estimates[1], estimates[2]
+
+
+COLUMNS = (
+    "id", "study", "law", "height", "phi0", "n_x", "n_y", "stability_length",
+    "stability_length_low", "stability_length_high", "stability_frequency", "theory_length",
+)  # fmt: skip
+
+
+def gather(runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset]) -> xr.Dataset:
+    """The table of runs with the lengths at which their frozen patches turn unstable."""
+    rows = [
+        description(run) | {name: float(patch[name]) for name in COLUMNS if name in patch}
+        for run, patch in zip(runs, patches, strict=True)
+    ]
+    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})

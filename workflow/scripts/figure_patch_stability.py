@@ -1,0 +1,13 @@
+"""Draw the growth of the frozen patches and the lengths at which it begins."""
+
+from pathlib import Path
+
+from nucleation import datasets
+from nucleation.figures import figure_patch_stability, style
+
+drawn = figure_patch_stability.draw(
+    datasets.read(snakemake.input.lengths),
+    datasets.read(snakemake.input.table),
+    [datasets.read(path) for path in snakemake.input.patches],
+)
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""))

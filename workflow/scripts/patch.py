@@ -1,0 +1,12 @@
+"""Follow the linear stability of one simulation's creeping patch."""
+
+from nucleation import datasets, provenance
+from nucleation.parameters import ExtractionSettings
+from nucleation.patch_stability import follow_patch
+
+params, output = snakemake.params, snakemake.output[0]
+simulation = datasets.read(snakemake.input[0])
+patch = follow_patch(simulation, ExtractionSettings(**params.extraction))
+attributes = provenance.attributes(params.extraction, params.digest, f"snakemake {output}")
+attributes["parameters"] = simulation.attrs["parameters"]
+datasets.write(patch, output, **attributes)
