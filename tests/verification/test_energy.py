@@ -1,0 +1,153 @@
+"""Energy balance through a whole event, on a coarse block.
+
+With the nodal forces F of the drive, of friction and of sigma0 on the top, and over one step
+
+    W = 1/2 (F_n + F_n+1) . (u_n+1 - u_n),    E = 1/2 u K u + 1/2 v M v,
+
+    W_drive + W_top = (E_n+1 - E_n) + friction's dissipation + the scheme's own dissipation,
+    scheme's own = 1/2 (a_n + a_n+1) . M (u_n+1 - u_n) - 1/2 [v M v]_n^n+1 .
+
+This holds exactly if every force and field of a step belongs to one equation of motion: what is
+left is Newton's tolerance. K and M are assembled from quadrature, not the solver's matrices. The
+scheme's dissipation is that of BDF2 in the inertial term and must vanish with the tolerance.
+"""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.fem.assembled import assemble, unknown
+from nucleation.fem.body import Body
+from nucleation.fem.grid import Grid
+from nucleation.fem.stepping import Formula, beta_of_step
+from nucleation.friction import Friction
+from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation import run
+
+
+def coarse(law, tolerance):
+    return Parameters(
+        geometry=Geometry(height=0.005, length=0.6),
+        mesh=Mesh(n_x=40, n_y=4, grading=2.0),
+        friction=Friction(evolution=law),
+        stepping=Stepping(tolerance=tolerance, longest_step=0.2),
+    )
+
+
+@dataclasses.dataclass
+class Ledger:
+    """Sums over the steps so far (J/m)."""
+
+    drive: float = 0.0
+    top: float = 0.0
+    friction: float = 0.0
+    friction_by_rates: float = 0.0  # the same from the slip rates, by the trapezoidal rule
+    scheme: float = 0.0
+    elastic: float = 0.0  # change since the start
+    kinetic: float = 0.0
+    most_kinetic: float = 0.0
+    fastest: float = 0.0
+    steps: int = 0
+
+    @property
+    def residual(self):
+        stored = self.elastic + self.kinetic
+        return self.drive + self.top - stored - self.friction - self.scheme
+
+
+class Accountant:
+    """Energies, forces and works from the nodal values of successive states."""
+
+    def __init__(self, parameters, grid, body):
+        self.velocity, self.body, self.grid = parameters.loading.velocity, body, grid
+        self.stiffness, self.mass = assemble(grid, parameters.material)
+        i, j = np.meshgrid(np.arange(grid.n_x + 1), np.arange(grid.n_y + 1))
+        self.x, self.y = unknown(grid, i, j, 0), unknown(grid, i, j, 1)
+        self.top = -parameters.loading.normal_stress * grid.nodal_lengths
+
+    def vector(self, field, uniform):
+        out = np.empty(self.stiffness.shape[0])
+        w_x, out[self.y] = self.body.nodal_values(field)
+        out[self.x] = w_x + uniform
+        return out
+
+    def books(self, instants, until):
+        """The ledger of the works and energies up to the time at which `until` is true."""
+        ledger, before = Ledger(), None
+        for instant in instants:
+            state, report = instant.state, instant.report
+            u = self.vector(state.displacement, self.velocity * state.time)
+            v = self.vector(state.velocity, self.velocity)
+            a = np.zeros_like(v) if before is None else self.acceleration(state, v, before)
+            if before is None:
+                start = 0.5 * u @ self.stiffness @ u, 0.5 * v @ self.mass @ v
+            else:
+                self.add(ledger, state.last_step, before, (u, v, a, report))
+            ledger.elastic = 0.5 * u @ self.stiffness @ u - start[0]
+            ledger.kinetic = 0.5 * v @ self.mass @ v - start[1]
+            ledger.most_kinetic = max(ledger.most_kinetic, ledger.kinetic)
+            ledger.fastest = max(ledger.fastest, report.interface.slip_rate.max())
+            ledger.steps += 1
+            if until(state, ledger, report):
+                return ledger
+            past_v = None if before is None else before[1]
+            before = (u, v, a, report, past_v, state.last_step)
+        raise AssertionError("the run ended before its event")
+
+    def acceleration(self, state, v, before):
+        past, earlier, previous_step = before[1], before[4], before[5]
+        step = state.last_step
+        if earlier is None:
+            return (v - past) / step
+        f = Formula.bdf2(beta_of_step(step, previous_step), previous_step)
+        return (v - f.c1 * past - f.c2 * earlier) / f.beta
+
+    def add(self, ledger, step, old, new):
+        du = new[0] - old[0]
+        drive = -0.5 * (old[3].driving_force + new[3].driving_force)
+        friction = 0.5 * (old[3].interface.tangential + new[3].interface.tangential)
+        ledger.drive += drive * du[self.x[0, 0]]
+        ledger.friction -= friction @ du[self.x[0]]
+        powers = [o.interface.tangential @ o.interface.slip_rate for o in (old[3], new[3])]
+        ledger.friction_by_rates -= 0.5 * step * sum(powers)
+        ledger.top += self.top @ du[self.y[-1]]
+        kinetic = [0.5 * q[1] @ self.mass @ q[1] for q in (old, new)]
+        ledger.scheme += 0.5 * (old[2] + new[2]) @ self.mass @ du - (kinetic[1] - kinetic[0])
+
+
+def event_is_over(state, ledger, report):
+    """The slip rate was above 1 cm/s and is below 10 V again."""
+    return ledger.fastest > 1e-2 and report.interface.slip_rate.max() < 1e-4
+
+
+def event(law, tolerance):
+    parameters = coarse(law, tolerance)
+    geometry, mesh = parameters.geometry, parameters.mesh
+    grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+    accountant = Accountant(parameters, grid, Body(grid, parameters.material))
+    return accountant.books(run(parameters), event_is_over)
+
+
+TOLERANCES = (1e-1, 1e-2, 1e-3)
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_energy_balance_through_an_event(law):
+    ledgers = [event(law, tolerance) for tolerance in TOLERANCES]
+    print(f"\nenergy (J/m), {law} law")
+    for tolerance, books in zip(TOLERANCES, ledgers, strict=True):
+        print(f"  tolerance {tolerance:g}: residual {books.residual / books.friction:.1e}", books)
+    for books in ledgers:
+        assert books.fastest > 1e-2
+        assert abs(books.residual) < 1e-10 * books.friction
+        assert books.most_kinetic > 1e6 * abs(books.residual)  # so inertia is seen, too
+        assert 0.0 < books.scheme < 3e-4 * books.friction
+    shares = [books.scheme / books.friction for books in ledgers]
+    assert shares[1] < 0.5 * shares[0]
+    assert shares[2] < 0.5 * shares[1]
+    assert shares[2] < 5e-5
+    mismatch = [abs(books.friction_by_rates / books.friction - 1) for books in ledgers]
+    print("  friction by slip rates, relative difference:", *(f"{m:.1e}" for m in mismatch))
+    assert mismatch[2] < 0.3 * mismatch[0]
+    assert mismatch[2] < 5e-4
