@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 	--workflow-profile workflow/profiles/default
 
 .DEFAULT_GOAL := help
-.PHONY: help paper quick test lint schema lock clean-venv
+.PHONY: help paper quick test lint reference schema lock clean-venv
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -27,6 +27,12 @@ test: $(STAMP) ## Run the tests
 
 lint: $(STAMP) ## Check the code's style
 	@$(BIN)/ruff check .
+
+reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
+	$(BIN)/snakemake paper figure_patch_stability --cores $(CORES) \
+		--workflow-profile workflow/profiles/default
+	mkdir -p results/reference
+	cp results/lengths.csv results/patch_stability.csv results/figures/*.png results/reference/
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml

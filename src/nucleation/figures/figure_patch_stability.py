@@ -78,15 +78,13 @@ def _draw_ratios(axes: Axes, lengths: xr.Dataset, table: xr.Dataset) -> None:
     kinds = (
         (_usual(table), "o", "aging law", style.AGING),
         (table["law"].values.astype(str) == "slip", "^", "slip law", style.SLIP),
-        (table["phi0"].values != USUAL_AGE, "s", "older interface", style.OLD_AGE),
+        (table["phi0"].values != USUAL_AGE, "s", "aging law, older interface", style.OLD_AGE),
     )
     theory = table["theory_length"].values
     for chosen, marker, label, colour in kinds:
         height = table["height"].values[chosen]
-        axes.plot(
-            height, (lengths["length"].values / theory)[chosen], marker, color=colour,
-            label=f"force drops, {label}",
-        )  # fmt: skip
+        drop = (lengths["length"].values / theory)[chosen]
+        axes.plot(height, drop, marker, color=colour, label=label)
         middle, low, high = (
             table[f"stability_length{end}"].values[chosen] / theory[chosen]
             for end in ("", "_low", "_high")
@@ -94,16 +92,16 @@ def _draw_ratios(axes: Axes, lengths: xr.Dataset, table: xr.Dataset) -> None:
         axes.errorbar(
             height, middle, yerr=np.clip([middle - low, high - middle], 0.0, None),
             linestyle="none", marker=marker, color=colour, markerfacecolor="white",
-            elinewidth=0.8, label=f"growth begins, {label}",
+            elinewidth=0.8,
         )  # fmt: skip
-    for value, name in ((1.0, "theory"), (0.5, "half of it")):
-        axes.axhline(
-            value, color=style.THEORY, linewidth=1.0, linestyle="-" if value == 1 else "--"
-        )
-        axes.text(0.125, value + 0.012, name, color=style.THEORY, ha="right", fontsize=style.SMALL)
+    for value, name, dashes in ((1.0, "theory", "-"), (0.5, "half of it", "--")):
+        axes.axhline(value, color=style.THEORY, linewidth=1.0, linestyle=dashes)
+        axes.text(0.0044, value - 0.035, name, color=style.THEORY, fontsize=style.SMALL)
+    axes.text(0.0068, 0.71, "the force drops (filled)", fontsize=style.SMALL)
+    axes.text(0.0132, 0.585, "growth begins (open)", fontsize=style.SMALL)
     axes.set_xscale("log")
     axes.set_xlim(0.004, 0.13)
-    axes.set_ylim(0.3, 1.35)
+    axes.set_ylim(0.4, 1.3)
     axes.set_xlabel("Height $H$ (m)")
     axes.set_ylabel("Length over theory")
-    axes.legend(loc="upper left", fontsize=style.SMALL, ncols=2, labelspacing=0.3)
+    axes.legend(loc="upper left", labelspacing=0.3)
