@@ -96,3 +96,12 @@ def test_fields_stay_finite(k):
 def test_block_field_needs_a_positive_wavenumber():
     with pytest.raises(ValueError, match="positive"):
         block_displacement(-1.0, 0.0, 1.0, NU)
+
+
+def test_block_field_has_the_printed_amplitude():
+    """Eq. (S-sol_inf) at the interface, ``y = 0``, where it simplifies."""
+    k = 9.0
+    q, kappa = k * HEIGHT, 3 - 4 * NU
+    numerator = 2 * (-2 * q**2 - kappa * np.cosh(2 * q) + 4 * (3 - 2 * NU) * NU - 5)
+    expected = numerator / (2 * q + np.exp(2 * q) + kappa)
+    assert block_displacement(k, 0.0, HEIGHT, NU, 1.0)[0] == pytest.approx(expected, rel=1e-13)
