@@ -2,11 +2,13 @@
 
 import dataclasses
 from collections import Counter
+from pathlib import Path
 
 import pytest
-from conftest import ROOT
 
 from nucleation.configuration import load, read_yaml
+
+ROOT = Path(__file__).parents[2]
 
 DRAWN = ("draw_figure_1", "draw_figure_2", "draw_figure_3", "draw_figure_s1", "draw_figure_s2")
 

@@ -4,17 +4,19 @@ import dataclasses
 import json
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import ROOT
 
 from nucleation import datasets, lengths
 from nucleation.configuration import load, read_yaml
 from nucleation.extraction import extract
 from nucleation.figures import figure_3
 from nucleation.parameters import Parameters
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
