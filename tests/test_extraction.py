@@ -6,7 +6,8 @@ import xarray as xr
 
 from nucleation.drop import DropWatch
 from nucleation.extraction import extract, find_onset, patch_edge, patch_lengths
-from nucleation.parameters import ExtractionSettings, Parameters
+from nucleation.parameters import Parameters
+from nucleation.settings import ExtractionSettings
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 VELOCITY = 1e-5

@@ -19,9 +19,9 @@ from jsonschema.exceptions import ValidationError
 
 from . import schema
 from .friction import Friction
-from .parameters import ExtractionSettings, Parameters
+from .parameters import Parameters
 from .quantities import ParameterError, refusal
-from .settings import Curves, FigureSettings, Limits
+from .settings import Curves, ExtractionSettings, FigureSettings, Limits
 from .stability import InterfaceState
 from .studies import (
     LARGEST_GRID,

@@ -6,13 +6,13 @@ every variable its unit, long name and paper symbol from :data:`VARIABLES`.
 
 from __future__ import annotations
 
-import contextlib
 import os
-from collections.abc import Iterable, Iterator
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import xarray as xr
+
+from .files import replacing
 
 
 class DatasetError(ValueError):
@@ -96,6 +96,18 @@ VARIABLES: dict[str, Variable] = {
     "direct_effect": Variable("1", "direct effect at V from Table S1", "a"),
     "velocity_weakening": Variable("1", "velocity weakening at V from Table S1", "zeta"),
     "velocity": Variable("m/s", "imposed velocity", "V"),
+    # Dispersion: modes of homogeneous sliding, measured and by Eq. (5)
+    "mode_wavenumber": Variable("1/m", "wavenumber of the seeded mode", "k"),
+    "measured_growth": Variable("1/s", "growth rate in the time integration", "Re Lambda"),
+    "measured_frequency": Variable("1/s", "angular frequency in the time integration", "Im Lambda"),
+    "theory_growth": Variable("1/s", "growth rate of the seeded mode, Eq. (5)", "Re Lambda"),
+    "theory_frequency": Variable(
+        "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"
+    ),
+    "curve_wavenumber": Variable("1/m", "wavenumber of the theory's curve", "k"),
+    "curve_growth": Variable("1/s", "growth rate, Eq. (5)", "Re Lambda"),
+    "curve_frequency": Variable("1/s", "angular frequency, Eq. (5)", "Im Lambda"),
+    "memory_time": Variable("s", "time over which friction forgets at V", "D/V"),
 }
 
 
@@ -140,21 +152,6 @@ def write_text(text: str, path: str | os.PathLike[str]) -> None:
         temporary.write_text(text, encoding="utf-8")
 
 
-@contextlib.contextmanager
-def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A temporary path to write to, which takes the place of `path` once it is on the disk."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        yield temporary
-        _flush(temporary)
-        os.replace(temporary, path)
-        _flush(path.parent)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
 def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Dataset:
     """Read a whole dataset into memory and check it.
 
@@ -177,12 +174,3 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
     if bare:
         raise DatasetError(f"{path} was not written by this project: no long_name on {bare}")
     return dataset
-
-
-def _flush(path: Path) -> None:
-    """Have a file's data, or a directory's entries, on the disk before going on."""
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

@@ -16,7 +16,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from .drop import WINDOW, DropWatch
-from .parameters import ExtractionSettings, Parameters
+from .parameters import Parameters
+from .settings import ExtractionSettings
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from .extraction import extract
-from .parameters import ExtractionSettings
+from .settings import ExtractionSettings
 
 MEASURED = (
     "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",

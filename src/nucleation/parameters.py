@@ -6,7 +6,6 @@ import dataclasses
 import json
 from typing import Any
 
-from .drop import DROP
 from .elasticity import Material
 from .friction import Friction
 from .quantities import Checked, quantity
@@ -74,26 +73,6 @@ class Stepping(Checked):
     shortest_step: float = quantity(
         "shortest time step, below which the run ends as failed", unit="s", low=0.0, high=1.0,
         default=1.0e-12,
-    )  # fmt: skip
-
-
-@dataclasses.dataclass(frozen=True)
-class ExtractionSettings(Checked):
-    """How the critical nucleation length is read from a simulation."""
-
-    edge_threshold: float = quantity(
-        "slip rate at the edge of the creep patch over the imposed velocity", low=0.0, high=1.0,
-        closed="high", default=0.01,
-    )  # fmt: skip
-    edge_threshold_high: float = quantity(
-        "largest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=0.5
-    )
-    edge_threshold_low: float = quantity(
-        "smallest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=1e-3
-    )
-    drop: float = quantity(
-        "abrupt drop of the driving force that makes an event, as a fraction", low=0.0, high=1.0,
-        default=DROP,
     )  # fmt: skip
 
 

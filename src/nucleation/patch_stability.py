@@ -32,7 +32,8 @@ from .fem.grid import Grid
 from .fem.operator import BodyOperator
 from .friction import Friction
 from .lengths import description
-from .parameters import ExtractionSettings, Parameters
+from .parameters import Parameters
+from .settings import ExtractionSettings
 
 Array = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ import yaml
 
 from .elasticity import Material
 from .friction import Friction
-from .parameters import ExtractionSettings, Loading, Stepping
+from .parameters import Loading, Stepping
 from .quantities import Quantity, declarations
-from .settings import Curves, FigureSettings, Limits
+from .settings import Curves, ExtractionSettings, FigureSettings, Limits
 from .stability import InterfaceState
 from .studies import RANGE, STUDY_PARAMETERS, StudySettings
 

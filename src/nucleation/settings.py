@@ -1,4 +1,4 @@
-"""Settings of the workflow beside the simulations' parameters: what is drawn, what is allowed."""
+"""Settings beside the simulations' parameters: what is measured, drawn and allowed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import dataclasses
 
 import numpy as np
 
+from .drop import DROP
 from .quantities import Checked, quantity
 
 
@@ -32,6 +33,26 @@ class Curves(Checked):
     slip_rates: tuple[float, ...] = quantity(
         "slip rates of steady sliding in Figure S1", unit="m/s", low=0.0, high=1e4,
         symbol="v", default=_spaced(1e-11, 1e1, 241),
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class ExtractionSettings(Checked):
+    """How the critical nucleation length is read from a simulation."""
+
+    edge_threshold: float = quantity(
+        "slip rate at the edge of the creep patch over the imposed velocity", low=0.0, high=1.0,
+        closed="high", default=0.01,
+    )  # fmt: skip
+    edge_threshold_high: float = quantity(
+        "largest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=0.5
+    )
+    edge_threshold_low: float = quantity(
+        "smallest edge threshold of the error bar", low=0.0, high=1.0, closed="high", default=1e-3
+    )
+    drop: float = quantity(
+        "abrupt drop of the driving force that makes an event, as a fraction", low=0.0, high=1.0,
+        default=DROP,
     )  # fmt: skip
 
 

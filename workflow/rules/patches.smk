@@ -53,6 +53,7 @@ rule draw_figure_patch_stability:
 rule figure_patch_stability:
     input:
         rules.draw_figure_patch_stability.output,
+        patches(),
         simulations(),
     message:
         "Stability of the patches is in {input[0]} and {PATCHES}"

@@ -1,7 +1,7 @@
 """Gather onset times and critical lengths of all simulations into one table."""
 
 from nucleation import datasets, lengths, provenance
-from nucleation.parameters import ExtractionSettings
+from nucleation.settings import ExtractionSettings
 
 params = snakemake.params
 table = lengths.gather(

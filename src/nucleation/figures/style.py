@@ -12,6 +12,8 @@ import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ..files import replacing
+
 P = ParamSpec("P")
 
 CENTIMETRE = 1.0 / 2.54  # inch
@@ -119,7 +121,6 @@ def save(figure: Figure, stem: str | os.PathLike[str]) -> tuple[Path, Path]:
         The PDF (vector, fonts embedded) and the PNG (300 dots per inch).
     """
     stem = Path(stem)
-    stem.parent.mkdir(parents=True, exist_ok=True)
     metadata = {
         "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": None},
         "png": {"Software": None},
@@ -128,12 +129,8 @@ def save(figure: Figure, stem: str | os.PathLike[str]) -> tuple[Path, Path]:
     with mpl.rc_context(STYLE):
         for suffix in ("pdf", "png"):
             path = stem.with_name(f"{stem.name}.{suffix}")
-            temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-            try:
+            with replacing(path) as temporary:
                 figure.savefig(temporary, format=suffix, metadata=metadata[suffix])
-                os.replace(temporary, path)
-            finally:
-                temporary.unlink(missing_ok=True)
             paths.append(path)
     figure.clear()
     return paths[0], paths[1]
