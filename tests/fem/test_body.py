@@ -37,17 +37,9 @@ def assembled_load(block, body, load):
 
 def balanced(operator, load, w):
     """Field, tangential and normal nodal forces with the right edge in balance."""
-    body = operator.body
-    amplitudes, edge = body.sine_amplitudes(w), np.zeros_like(load.edge)
-    modes, reduced = operator.solve(load, amplitudes, edge)
-    residual = operator.edge_residual(load, modes, edge)
-    edge = operator.edge_correction(residual)
-    tangential, normal = operator.interface_forces(amplitudes, reduced)
-    edge_tangential, edge_normal = operator.edge_to_interface
-    corner = operator.edge_schur[0] @ edge - residual[0]
-    modes, _ = operator.solve(load, amplitudes, edge)
-    normal = np.append(normal + edge @ edge_normal, corner)
-    return Field(modes, edge), tangential + edge @ edge_tangential, normal
+    response = operator.respond(load, w)
+    modes, _ = operator.solve(load, operator.body.sine_amplitudes(w), response.edge)
+    return Field(modes, response.edge), response.tangential, response.normal
 
 
 def relative(value, reference):

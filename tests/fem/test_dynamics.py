@@ -168,7 +168,7 @@ def test_newton_converges_quadratically():
     load = dynamics._inertia_from_past(state, formula, operator.s) + dynamics._load
     w_history = dynamics._interface_displacement(state, formula)
     guess = state.past_slip_rates[0][1:] * 1.05
-    response = dynamics._respond(operator, load, w_history + formula.beta * (guess - 1e-3))
+    response = operator.respond(load, w_history + formula.beta * (guess - 1e-3))
     psi = formula.c1 * state.past_log_states[0] + formula.c2 * state.past_log_states[1]
     type(interface)._updated = spy
     try:
@@ -179,3 +179,10 @@ def test_newton_converges_quadratically():
     assert len(errors) >= 3
     rates = [np.log(b) / np.log(a) for a, b in zip(errors[-3:-1], errors[-2:], strict=True)]
     assert max(rates) > 1.8, errors
+
+
+def test_first_step_from_rest_on_a_fine_mesh():
+    """The singular corner breaks loose at once; Newton's method gets there from rest."""
+    dynamics = Dynamics(Parameters(geometry=Geometry(0.005, 1.0), mesh=Mesh(3200, 20)))
+    _, report = dynamics.advance(dynamics.initial_state()[0], -92)
+    assert report.interface.iterations > 8

@@ -18,13 +18,14 @@ from ..parameters import Parameters
 from . import kernels
 from .body import Body, Field
 from .grid import Grid
-from .interface import Interface, InterfaceSolution, LinearResponse
+from .interface import Interface, InterfaceSolution
 from .operator import BodyOperator
 from .stepping import Formula, error_factor, extrapolation_weights, rung_value
 
 Array = NDArray[np.float64]
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
+MOST_ITERATIONS_AT_START = 50  # of Newton's method, which starts from rest
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
 SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
@@ -88,7 +89,7 @@ class Dynamics:
         n = self.grid.n_x
         operator = BodyOperator(self.body, 0.0)
         rest = np.zeros(n)
-        response = self._respond(operator, self._load, rest)
+        response = operator.respond(self._load, rest)
         modes, _ = operator.solve(self._load, rest, response.edge)
         displacement = Field(modes, response.edge)
         velocity = self.body.zero_field()
@@ -126,11 +127,14 @@ class Dynamics:
         guess, log_state_guess = self._extrapolated(state, state.time + formula.step, scale)
         w_history = self._interface_displacement(state, formula)
         w_guess = w_history + beta * (guess[1:] - self.velocity)
-        response = self._respond(operator, load, w_guess)
+        response = operator.respond(load, w_guess)
         log_state_history = formula.c1 * state.past_log_states[0]
         if not first:
             log_state_history = log_state_history + formula.c2 * state.past_log_states[1]
-        solution = self.interface.solve(
+        interface = self.interface
+        if first:
+            interface = dataclasses.replace(interface, most_iterations=MOST_ITERATIONS_AT_START)
+        solution = interface.solve(
             operator, response, w_history, log_state_history, beta, guess[1:]
         )
         error = np.inf if first else 0.0
@@ -186,21 +190,6 @@ class Dynamics:
         largest = 10.0 * np.abs(state.past_slip_rates[0]).max()
         guess = np.clip(scale * np.sinh(scaled), -largest, largest)
         return guess, weights @ state.past_log_states
-
-    def _respond(self, operator: BodyOperator, load: Field, w: Array) -> LinearResponse:
-        """The body's forces on the interface at given w (m), the right edge in balance."""
-        amplitudes = self.body.sine_amplitudes(w)
-        edge = np.zeros_like(load.edge)
-        modes, reduced = operator.solve(load, amplitudes, edge)
-        residual = operator.edge_residual(load, modes, edge)
-        edge = operator.edge_correction(residual)
-        tangential, normal = operator.interface_forces(amplitudes, reduced)
-        edge_tangential, edge_normal = operator.edge_to_interface
-        corner = operator.edge_schur[0] @ edge - residual[0]
-        return LinearResponse(
-            w, tangential + edge @ edge_tangential, np.append(normal + edge @ edge_normal, corner),
-            edge,
-        )  # fmt: skip
 
     def _completed(
         self, state: State, formula: Formula, operator: BodyOperator, load: Field,

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from ..friction import Friction
-from .operator import BodyOperator
+from .operator import BodyOperator, LinearResponse
 
 Array = NDArray[np.float64]
 
@@ -30,16 +30,6 @@ ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic
 
 class NewtonFailure(RuntimeError):
     """Newton's method did not converge; the step must be shortened."""
-
-
-@dataclasses.dataclass(frozen=True)
-class LinearResponse:
-    """The body's nodal forces p0 (n_x), R0 (n_x + 1) at w0 (n_x), and its edge values there."""
-
-    w: Array
-    tangential: Array
-    normal: Array
-    edge: Array
 
 
 @dataclasses.dataclass(frozen=True)

@@ -12,6 +12,7 @@ the edge adds a term of low rank. The interface has ``u_y = 0`` (rigid substrate
 
 from __future__ import annotations
 
+import dataclasses
 from functools import cached_property
 
 import numpy as np
@@ -24,6 +25,19 @@ from .body import Body, Field
 Array = NDArray[np.float64]
 
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
+
+
+@dataclasses.dataclass(frozen=True)
+class LinearResponse:
+    """Nodal forces (N/m) on the body at given w (m), and the edge values (m) in balance there.
+
+    `w` and `tangential` at the nodes 1..n_x, `normal` at 0..n_x, `edge` at the levels 0..n_y.
+    """
+
+    w: Array
+    tangential: Array
+    normal: Array
+    edge: Array
 
 
 class BodyOperator:
@@ -84,6 +98,18 @@ class BodyOperator:
         p = self.body.sine_forces(self._pivot[0] * w_amplitudes - reduced[0])
         normal = self.body.cosine_forces(self._pivot[1] * w_amplitudes - reduced[1])
         return p, normal
+
+    def respond(self, load: Field, w: Array) -> LinearResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance."""
+        amplitudes, edge = self.body.sine_amplitudes(w), np.zeros_like(load.edge)
+        modes, reduced = self.solve(load, amplitudes, edge)
+        residual = self.edge_residual(load, modes, edge)
+        edge = self.edge_correction(residual)
+        tangential, normal = self.interface_forces(amplitudes, reduced)
+        edge_tangential, edge_normal = self.edge_to_interface
+        corner = self.edge_schur[0] @ edge - residual[0]
+        normal = np.append(normal + edge @ edge_normal, corner)
+        return LinearResponse(w, tangential + edge @ edge_tangential, normal, edge)
 
     # -- the right edge -------------------------------------------------------------------------
 
