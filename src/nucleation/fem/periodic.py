@@ -1,0 +1,167 @@
+"""The same solver on a block that is periodic along x: homogeneous sliding and its modes.
+
+On n_x nodes (an odd number) per period, ``theta_m = 2 pi m / n_x``, the modes are
+
+    u_x = W0 + sum_m A_m sin(theta_m i) + B_m cos(theta_m i),   m = 1..(n_x - 1)/2
+    u_y = U0 + sum_m A_m cos(theta_m i) - B_m sin(theta_m i),   i = 0..n_x - 1
+
+with other A_m, B_m for either component. Each of the sets A and B obeys the block-tridiagonal
+system of :mod:`.body` at its theta, B being A shifted by a quarter wave; a travelling wave is the
+pair. There is no driven and no free edge: traction on the top drives the block. The interface,
+the step and the factorisation are those of the block.
+
+Interface arrays over "nodes 0..n_x" hold the period's nodes in the entries 1..n_x. Entry 0, in the
+block the node of the driven edge, slides at the imposed velocity and acts on nothing.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+from scipy.linalg import circulant
+
+from ..elasticity import Material
+from ..parameters import Parameters
+from .body import Body, Field
+from .dynamics import Dynamics, State
+from .grid import Grid
+from .operator import BodyOperator, LinearResponse
+from .stepping import rung_value
+
+Array = NDArray[np.float64]
+
+
+class PeriodicBody(Body):
+    """A layer of one period along x on the interface y = 0."""
+
+    def __init__(self, grid: Grid, material: Material) -> None:
+        if grid.n_x % 2 == 0:
+            raise ValueError(f"n_x = {grid.n_x} is not allowed: it must be odd in a periodic body")
+        super().__init__(grid, material)
+        half = np.arange(1, grid.n_x // 2 + 1)
+        theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
+        self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
+        self.x_mass = grid.dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
+        self.sine = np.sin(theta)
+        self.edge_weights = np.zeros((3, grid.n_x))  # there is no edge
+        self.x_integral = np.where(theta == 0.0, grid.length, 0.0)
+
+    def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
+        """The mean, A and B."""
+        half = self.grid.n_x // 2
+        return amplitudes[..., :1], amplitudes[..., 1 : half + 1], amplitudes[..., half + 1 :]
+
+    def _values(self, mean: Array, coefficients: NDArray[np.complex128]) -> Array:
+        """``mean + Re sum_m c_m exp(i theta_m i)`` at all nodes."""
+        n = self.grid.n_x
+        spectrum = np.concatenate((n * mean, 0.5 * n * coefficients), axis=-1)
+        return fft.irfft(spectrum, n)
+
+    def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values (last axis) in the basis of u_x."""
+        c = fft.rfft(nodal) / self.grid.n_x
+        return np.concatenate((c[..., :1].real, -2 * c[..., 1:].imag, 2 * c[..., 1:].real), axis=-1)
+
+    def sine_values(self, amplitudes: Array) -> Array:
+        """Nodal values (last axis) of amplitudes in the basis of u_x."""
+        mean, a, b = self._split(amplitudes)
+        return self._values(mean, b - 1j * a)
+
+    def cosine_values(self, amplitudes: Array) -> Array:
+        """Nodal values (last axis) of amplitudes in the basis of u_y."""
+        mean, a, b = self._split(amplitudes)
+        return self._values(mean, a + 1j * b)
+
+    def sine_forces(self, modal: Array) -> Array:
+        """Nodal forces along x of modal ones: all nodes are alike."""
+        return self.sine_values(modal)
+
+    def cosine_forces(self, modal: Array) -> Array:
+        """Nodal forces along y of modal ones."""
+        return self.cosine_values(modal)
+
+    def top_load(self, normal_stress: float, shear_stress: float = 0.0) -> Field:
+        """Nodal forces of a compressive and a shear stress (Pa) on the top (N/m)."""
+        load = self.zero_field()
+        load.modes[-1, :, 0] = shear_stress * self.grid.dx, -normal_stress * self.grid.dx
+        return load
+
+    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+        """Nodal w_x and u_y, each of shape (n_y + 1, n_x)."""
+        return self.sine_values(field.modes[:, 0]), self.cosine_values(field.modes[:, 1])
+
+
+class PeriodicOperator(BodyOperator):
+    """``K + s M`` of a :class:`PeriodicBody`; D and N are circulant."""
+
+    def apply(self, w: Array) -> tuple[Array, Array, Array]:
+        """``D w``, ``N w`` (with entry 0) and the edge values, which do not exist: zeros."""
+        p, reaction = self.interface_forces(self.body.sine_amplitudes(w), np.zeros((2, w.size)))
+        return p, with_entry_zero(reaction), np.zeros(self.body.grid.n_y + 1)
+
+    def respond(self, load: Field, w: Array) -> LinearResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load."""
+        amplitudes, edge = self.body.sine_amplitudes(w), np.zeros_like(load.edge)
+        _, reduced = self.solve(load, amplitudes, edge)
+        tangential, normal = self.interface_forces(amplitudes, reduced)
+        return LinearResponse(w, tangential, with_entry_zero(normal), edge)
+
+    @cached_property
+    def _columns(self) -> tuple[Array, Array]:
+        """First columns of D and N."""
+        unit = np.zeros(self.body.grid.n_x)
+        unit[0] = 1.0
+        p, normal, _ = self.apply(unit)
+        return p, normal[1:]
+
+    @cached_property
+    def diagonal(self) -> Array:
+        """Diagonal of D (N/m per m), shape (n_x,)."""
+        return np.full(self.body.grid.n_x, self._columns[0][0])
+
+    def tangent(self, nodes: Array) -> tuple[Array, Array]:
+        """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
+        block = np.ix_(nodes - 1, nodes - 1)
+        stiffness, coupling = (circulant(column)[block] for column in self._columns)
+        return stiffness, coupling
+
+
+def with_entry_zero(nodal: Array) -> Array:
+    """Values at the period's nodes as an interface array: entry 0 repeats the last node."""
+    return np.append(nodal[-1], nodal)
+
+
+class PeriodicDynamics(Dynamics):
+    """A period of a long block, driven at constant traction to slide homogeneously at V.
+
+    ``geometry.length`` is the period. The reports' driving force has no meaning here.
+    """
+
+    def __init__(self, parameters: Parameters) -> None:
+        super().__init__(parameters)
+        self.body = PeriodicBody(self.grid, parameters.material)
+        law, sigma0 = parameters.friction, parameters.loading.normal_stress
+        self._steady_log_state = float(np.log(law.steady_state(self.velocity)))
+        self._load = self.body.top_load(sigma0, sigma0 * law.steady_coefficient(self.velocity))
+
+    def sliding_state(self, perturbation: Array) -> State:
+        """Homogeneous steady sliding, with a perturbation of log(phi) at the period's nodes."""
+        n = self.grid.n_x
+        modes, _ = PeriodicOperator(self.body, 0.0).solve(
+            self._load, np.zeros(n), np.zeros(self.grid.n_y + 1)
+        )
+        displacement, velocity = Field(modes, np.zeros(modes.shape[0])), self.body.zero_field()
+        log_state = self._steady_log_state + np.append(0.0, perturbation)
+        rates = np.full((1, n + 1), self.velocity)
+        return State(
+            displacement, velocity, displacement, velocity, np.zeros(1), rates, log_state[None],
+            0.0, 0.0,
+        )  # fmt: skip
+
+    def _operator(self, rung: int) -> PeriodicOperator:
+        if rung not in self._operators:
+            self._operators[rung] = PeriodicOperator(self.body, 1.0 / rung_value(rung) ** 2)
+        return self._operators[rung]

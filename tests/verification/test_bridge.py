@@ -1,0 +1,229 @@
+"""The bridge: the finite elements and the time integration against the linear theory, Eq. (5)."""
+
+import dataclasses
+import functools
+
+import numpy as np
+import pytest
+from verification.manufactured import orders, table
+
+from nucleation import dispersion
+from nucleation.elasticity import Material
+from nucleation.fem.assembled import assemble, unknown
+from nucleation.fem.body import Body
+from nucleation.fem.grid import Grid
+from nucleation.fem.operator import BodyOperator
+from nucleation.fem.periodic import PeriodicBody, PeriodicDynamics, PeriodicOperator
+from nucleation.friction import Friction
+from nucleation.parameters import Parameters
+from nucleation.stability import RIGID, critical_wavenumber, growth_rates, transfer_functions
+from nucleation.stability import Body as Layer
+
+MATERIAL = Material(poisson_ratio=0.29)
+PARAMETERS = Parameters()
+AGREEMENT = 3e-3  # of the complex growth rate, relative; 1 % is asked for
+
+
+def relative(value, reference):
+    return np.abs(value - reference).max() / np.abs(reference).max()
+
+
+# -- the block's condensed stiffness and the transfer functions of Eq. (10) ----------------------
+
+
+@pytest.mark.parametrize(
+    ("layer_number", "bound"), [(0.1, 1.5e-4), (1.0, 1.5e-4), (3.0, 3e-4), (10.0, 5e-3)]
+)
+def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, bound):
+    """Per mode ``D = mu k G1 dx`` and ``N = mu k G2 dx``, with second order in h."""
+    errors = []
+    for n in (16, 32, 64, 128):
+        grid = Grid(length=1.0, height=layer_number / (1.5 * np.pi), n_x=n, n_y=n // 2)
+        operator = BodyOperator(Body(grid, MATERIAL), 0.0)
+        k = 1.5 * np.pi / grid.length  # the mode m = 1 of the block
+        scale = MATERIAL.shear_modulus * k * grid.dx
+        exact = transfer_functions(k, Layer(MATERIAL, grid.height, "traction"), RIGID)
+        found = operator._pivot[:2, 1] / scale
+        errors.append(np.abs(found - np.array(exact)).max() / exact[0])
+    table(f"G1, G2 at kH = {layer_number}", ["16x8", "32x16", "64x32", "128x64"], errors)
+    np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
+    assert errors[-1] < bound
+
+
+# -- the periodic block is the assembled matrix, wrapped around -----------------------------------
+
+
+class WrappedBlock:
+    """The assembled matrices of one period, the last column of nodes being the first."""
+
+    def __init__(self, grid, material):
+        n = grid.n_x
+        i, j = np.meshgrid(np.arange(n), np.arange(grid.n_y + 1))
+        self.x, self.y = unknown(grid, i, j, 0), unknown(grid, i, j, 1)
+        matrices = [m.toarray() for m in assemble(grid, material)]
+        for matrix in matrices:
+            for component in (0, 1):
+                first = unknown(grid, 0, np.arange(grid.n_y + 1), component)
+                last = unknown(grid, n, np.arange(grid.n_y + 1), component)
+                matrix[first] += matrix[last]
+                matrix[:, first] += matrix[:, last]
+        self.stiffness, self.mass = matrices
+        used = np.zeros(self.mass.shape[0], dtype=bool)
+        used[self.x] = used[self.y] = True
+        fixed = np.zeros_like(used)
+        fixed[self.x[0]] = fixed[self.y[0]] = True
+        self.free = used & ~fixed
+
+    def solve(self, s, load, w):
+        matrix = self.stiffness + s * self.mass
+        u = np.zeros(matrix.shape[0])
+        u[self.x[0]] = w
+        free = self.free
+        u[free] = np.linalg.solve(matrix[np.ix_(free, free)], (load - matrix @ u)[free])
+        return u, matrix @ u - load
+
+
+@pytest.mark.parametrize("s", [0.0, 1e8, 1e13])
+def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
+    rng = np.random.default_rng(1)
+    grid = Grid(0.7, 0.2, 9, 5, grading=3.0)
+    body, block = PeriodicBody(grid, MATERIAL), WrappedBlock(grid, MATERIAL)
+    operator = PeriodicOperator(body, s)
+    field = body.zero_field()
+    field.modes[:] = 1e-6 * rng.normal(size=field.modes.shape)
+    top = body.top_load(1e6, 4e5)
+    load = body.inertia_load(field, 1e9) + top
+    values, forces = np.zeros((2, block.mass.shape[0]))
+    values[block.x], values[block.y] = body.nodal_values(field)
+    forces[block.x[-1]], forces[block.y[-1]] = 4e5 * grid.dx, -1e6 * grid.dx
+    forces += 1e9 * block.mass @ values
+    w = 1e-6 * rng.normal(size=grid.n_x)
+    u, reaction = block.solve(s, forces, w)
+    modes, reduced = operator.solve(load, body.sine_amplitudes(w), field.edge)
+    u_x, u_y = body.nodal_values(dataclasses.replace(field, modes=modes))
+    tangential, normal = operator.interface_forces(body.sine_amplitudes(w), reduced)
+    assert relative(u_x, u[block.x]) < 1e-11
+    assert relative(u_y, u[block.y]) < 1e-11
+    assert relative(tangential, reaction[block.x[0]]) < 1e-11
+    assert relative(normal, reaction[block.y[0]]) < 1e-11
+    momentum = (block.mass @ values)[block.x].sum()
+    assert body.momentum_x(field) == pytest.approx(momentum, rel=1e-12)
+
+
+def test_periodic_tangent_is_the_matrix_of_apply():
+    grid = Grid(0.7, 0.2, 9, 4)
+    operator = PeriodicOperator(PeriodicBody(grid, MATERIAL), 1e8)
+    columns = [operator.apply(unit) for unit in np.eye(grid.n_x)]
+    d, n = np.array([c[0] for c in columns]).T, np.array([c[1][1:] for c in columns]).T
+    nodes = np.array([1, 2, 6, 9])
+    stiffness, coupling = operator.tangent(nodes)
+    block = np.ix_(nodes - 1, nodes - 1)
+    assert relative(stiffness, d[block]) < 1e-13
+    assert relative(coupling, n[block]) < 1e-13
+    assert relative(operator.diagonal, np.diag(d)) < 1e-13
+
+
+def test_a_periodic_body_needs_an_odd_number_of_nodes():
+    with pytest.raises(ValueError, match="n_x = 8 is not allowed: it must be odd"):
+        PeriodicBody(Grid(1.0, 0.1, 8, 4), MATERIAL)
+
+
+def test_homogeneous_sliding_persists():
+    parameters = dispersion.one_wavelength(PARAMETERS, 0.02, 20.0, nodes=17)
+    dynamics = PeriodicDynamics(parameters)
+    state = dynamics.sliding_state(np.zeros(17))
+    for _ in range(40):
+        state, report = dynamics.advance(state, -45)
+    loading, interface = parameters.loading, report.interface
+    np.testing.assert_allclose(interface.slip_rate, loading.velocity, rtol=1e-7)
+    np.testing.assert_allclose(interface.normal[1:], 1e6 * dynamics.grid.dx, rtol=1e-9)
+
+
+# -- the time integration and Eq. (5) ------------------------------------------------------------
+
+
+def theory(parameters, height, k):
+    layer = Layer(parameters.material, height, "traction")
+    return growth_rates(k, layer, RIGID, dispersion.interface_state(parameters))
+
+
+@functools.cache
+def critical(height):
+    layer = Layer(PARAMETERS.material, height, "traction")
+    return critical_wavenumber(layer, RIGID, dispersion.interface_state(PARAMETERS)).wavenumber
+
+
+@functools.cache
+def measured(height, ratio):
+    return dispersion.measured_rates(PARAMETERS, height, ratio * critical(height))
+
+
+@pytest.mark.parametrize("height", [0.005, 0.1, 0.5])
+@pytest.mark.parametrize("ratio", [0.6, 0.8, 0.97, 1.03, 1.25, 2.0])
+def test_modes_grow_and_turn_as_the_theory_says(height, ratio):
+    """Both roots, so the mode that travels along +x and the one along -x each in its place."""
+    found, expected = measured(height, ratio), theory(PARAMETERS, height, ratio * critical(height))
+    error = np.abs(found - expected) / np.abs(expected)
+    kh = ratio * critical(height) * height
+    print(f"\nH = {height}, kH = {kh:.3f}: {found * 0.05}, theory {expected * 0.05}, {error}")
+    assert error.max() < AGREEMENT
+    assert (found[0].real > 0.0) == (ratio < 1.0)
+
+
+@pytest.mark.parametrize("height", [0.005, 0.1, 0.5])
+def test_growth_changes_sign_at_the_critical_wavenumber(height):
+    low, high = (measured(height, ratio)[0].real for ratio in (0.97, 1.03))
+    crossing = 0.97 + 0.06 * low / (low - high)
+    print(f"\nH = {height}: growth vanishes at {crossing:.5f} k_c")
+    assert crossing == pytest.approx(1.0, abs=2e-3)
+
+
+def test_slip_law_has_the_same_spectrum():
+    slip = dataclasses.replace(PARAMETERS, friction=Friction(evolution="slip"))
+    k = 0.9 * critical(0.1)
+    found = dispersion.measured_rates(slip, 0.1, k)
+    expected = theory(slip, 0.1, k)
+    assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
+
+
+def test_growth_rates_converge_with_the_mesh(monkeypatch):
+    """Second order in h; the step is small enough not to be seen."""
+    monkeypatch.setattr(dispersion, "ROWS", (1, 100))
+    monkeypatch.setattr(dispersion, "GRADING", 1.0)
+    monkeypatch.setattr(dispersion, "STEP", 0.002)
+    monkeypatch.setattr(dispersion, "DURATION", 1.0)
+    monkeypatch.setattr(dispersion, "SKIPPED", 120)
+    monkeypatch.setattr(dispersion, "INTERVAL", 30)
+    height, errors, sizes = 0.5, [], (17, 33, 65)
+    k = 0.9 * critical(height)
+    for nodes in sizes:
+        found = dispersion.measured_rates(PARAMETERS, height, k, nodes)
+        expected = theory(PARAMETERS, height, k)
+        errors.append(np.abs(found - expected).max() / np.abs(expected).max())
+    ratio = np.array(sizes[1:]) / np.array(sizes[:-1])
+    order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
+    print("\ngrowth rate in h:", list(zip(sizes, errors, [np.nan, *order], strict=True)))
+    np.testing.assert_allclose(order, 2.0, atol=0.2)
+    assert errors[-1] < 1e-3
+
+
+def test_fit_recovers_two_exponentials():
+    t = 0.1 * np.arange(40)
+    rates = np.array([0.3 + 1.2j, -0.5 - 0.7j])
+    samples = (1.0 - 2.0j) * np.exp(rates[0] * t) + 0.3j * np.exp(rates[1] * t)
+    np.testing.assert_allclose(dispersion.fitted_rates(0.1, samples), rates, rtol=1e-9)
+
+
+def test_dataset_holds_what_the_figure_needs():
+    dataset = dispersion.dispersion_dataset(PARAMETERS, heights=[0.1], modes=[0.97])
+    assert dict(dataset.sizes) == {"height": 1, "mode": 1, "branch": 2, "curve": 171}
+    k = float(dataset["mode_wavenumber"][0, 0])
+    assert k == pytest.approx(0.97 * critical(0.1))
+    forward = np.argmax(theory(PARAMETERS, 0.1, k).imag)
+    expected, found = theory(PARAMETERS, 0.1, k)[forward], measured(0.1, 0.97)
+    along_x = dataset.isel(height=0, mode=0, branch=0)
+    assert float(along_x["theory_growth"]) == pytest.approx(expected.real)
+    assert float(along_x["theory_frequency"]) == pytest.approx(expected.imag)
+    assert float(along_x["measured_frequency"]) == pytest.approx(found.imag.max())
+    assert float(along_x["measured_growth"]) == pytest.approx(found[found.imag.argmax()].real)
+    assert (np.abs(np.diff(dataset["curve_frequency"], axis=1)) < 2.0).all()  # continuous
