@@ -70,7 +70,7 @@ def test_inertia_and_top_load_equal_assembled(grid):
     field.edge[0] = 0.0
     values = np.zeros(block.stiffness.shape[0])
     values[block.x], values[block.y] = body.nodal_values(field)
-    ours = assembled_load(block, body, body.inertia_load(field, 7.0))
+    ours = assembled_load(block, body, body.inertia_load(7.0, [(1.0, field)]))
     theirs = 7.0 * block.mass @ values
     theirs[block.x[:, 0]] = 0.0  # the driven edge moves by itself
     assert relative(ours, theirs) < 1e-12

@@ -165,7 +165,7 @@ def test_newton_converges_quadratically():
         return updated(self, v, change)
 
     formula = Formula.bdf2(rung_value(-58), state.last_step)
-    load = dynamics._inertia_from_past(state, formula, operator.s) + dynamics._load
+    load = dynamics._load_with_past(state, formula, operator.s)
     w_history = dynamics._interface_displacement(state, formula)
     guess = state.past_slip_rates[0][1:] * 1.05
     response = operator.respond(load, w_history + formula.beta * (guess - 1e-3))

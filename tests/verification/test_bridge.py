@@ -92,7 +92,7 @@ def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
     field = body.zero_field()
     field.modes[:] = 1e-6 * rng.normal(size=field.modes.shape)
     top = body.top_load(1e6, 4e5)
-    load = body.inertia_load(field, 1e9) + top
+    load = body.inertia_load(1e9, [(1.0, field)], top)
     values, forces = np.zeros((2, block.mass.shape[0]))
     values[block.x], values[block.y] = body.nodal_values(field)
     forces[block.x[-1]], forces[block.y[-1]] = 4e5 * grid.dx, -1e6 * grid.dx

@@ -19,6 +19,7 @@ A :class:`Body` knows the mesh and the material;
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -43,8 +44,8 @@ class Field:
     modes: Array
     edge: Array
 
-    def __add__(self, other: Field) -> Field:
-        return Field(self.modes + other.modes, self.edge + other.edge)
+
+Terms = Sequence[tuple[float, Field]]
 
 
 class Stacked(NamedTuple):
@@ -127,17 +128,28 @@ class Body:
         load.edge[-1] = forces[-1]
         return load
 
-    def inertia_load(self, field: Field, s: float) -> Field:
-        """``s M field`` in the scaling of :meth:`top_load` (field in m gives N/m)."""
+    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`.
+
+        Parameters
+        ----------
+        s : of ``K + s M`` (1/s^2).
+        terms : coefficients and fields (m).
+        load : a load (N/m) to add to; none by default.
+        """
+        load = self.zero_field() if load is None else load
+        coefficients = np.array([c for c, _ in terms])
+        edge = sum(c * field.edge for c, field in terms)
         rho_s = s * self.material.density
-        out = Field(np.empty_like(field.modes), np.empty_like(field.edge))
-        kernels.inertia(self.stacked.mass, rho_s * self.x_mass, field.modes, out.modes)
         edge_mass = rho_s * self.grid.dx / 6.0
-        coupling = (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ field.edge)
-        out.modes[:, 1] += coupling[:, None] * self.edge_weights[2]
-        near = field.modes[:, 1] @ self.edge_weights[2]
-        out.edge[:] = edge_mass * (self.mass @ (near + 2.0 * field.edge))
-        return out
+        near, modes = np.empty_like(load.edge), np.empty_like(load.modes)
+        kernels.add_inertia(
+            self.stacked.mass, rho_s * self.x_mass, coefficients,
+            tuple(field.modes for _, field in terms),
+            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],
+            load.modes, near, modes,
+        )  # fmt: skip
+        return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))
 
     def momentum_x(self, velocity: Field) -> float:
         """Momentum along x of the velocity field w_t (kg/s per unit depth)."""

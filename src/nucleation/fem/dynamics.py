@@ -122,7 +122,7 @@ class Dynamics:
             Formula.backward_euler(beta) if first else Formula.bdf2(beta, state.last_step)
         )  # fmt: skip
         operator = self._operator(rung)
-        load = self._inertia_from_past(state, formula, operator.s) + self._load
+        load = self._load_with_past(state, formula, operator.s)
         scale = self._rate_scale(state, formula.step)
         guess, log_state_guess = self._extrapolated(state, state.time + formula.step, scale)
         w_history = self._interface_displacement(state, formula)
@@ -158,14 +158,14 @@ class Dynamics:
         self._operators.move_to_end(rung)
         return self._operators[rung]
 
-    def _inertia_from_past(self, state: State, formula: Formula, s: float) -> Field:
+    def _load_with_past(self, state: State, formula: Formula, s: float) -> Field:
+        """The static load and the inertia that the step's formula takes from the past."""
         c1, c2, beta = formula.c1, formula.c2, formula.beta
-        u, v = state.displacement, state.velocity
-        u_past, v_past = state.previous_displacement, state.previous_velocity
-        modes = np.empty_like(u.modes)
-        kernels.carry_over(c1, c2, beta, u.modes, v.modes, u_past.modes, v_past.modes, modes)
-        edge = c1 * (u.edge + beta * v.edge) + c2 * (u_past.edge + beta * v_past.edge)
-        return self.body.inertia_load(Field(modes, edge), s)
+        terms = (
+            (c1, state.displacement), (c1 * beta, state.velocity),
+            (c2, state.previous_displacement), (c2 * beta, state.previous_velocity),
+        )  # fmt: skip
+        return self.body.inertia_load(s, terms, self._load)
 
     def _interface_displacement(self, state: State, formula: Formula) -> Array:
         """The part of w (m) at nodes 1..n_x that the step's formula takes from the past."""

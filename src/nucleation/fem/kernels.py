@@ -12,6 +12,7 @@ and ``T[j] = A[j,j+1] Q[j+1]`` (xx, xy, yx, yy).
 
 from __future__ import annotations
 
+import numpy as np
 from numba import njit
 
 compiled = njit(cache=True, fastmath={"contract", "reassoc", "nsz"}, error_model="numpy")
@@ -64,14 +65,28 @@ def factorise(kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, pivot, i
 
 
 @compiled
-def eliminate(lower, rhs):
-    """Forward sweep in place, from the top to the interface: ``r[j] -= T[j] r[j+1]``."""
-    n = rhs.shape[2]
-    for j in range(lower.shape[0] - 1, -1, -1):
-        for m in range(n):
-            x, y = rhs[j + 1, 0, m], rhs[j + 1, 1, m]
-            rhs[j, 0, m] -= lower[j, 0, m] * x + lower[j, 1, m] * y
-            rhs[j, 1, m] -= lower[j, 2, m] * x + lower[j, 3, m] * y
+def eliminate(lower, load, profiles, weights, scale, out):
+    """Forward sweep from the top to the interface, ``out[j] = r[j] - T[j] out[j+1]``.
+
+    The right-hand side is the load with the edge's values moved to it, ``r = load - scale G^T e``,
+    from the profiles (3, n_y + 1) of ``G^T e`` along y.
+    """
+    top, n = lower.shape[0], load.shape[2]
+    for j in range(top, -1, -1):
+        a, b, c = scale * profiles[0, j], scale * profiles[1, j], scale * profiles[2, j]
+        if j == top:
+            for m in range(n):
+                out[j, 0, m] = load[j, 0, m] - (a * weights[0, m] + b * weights[1, m])
+                out[j, 1, m] = load[j, 1, m] - c * weights[2, m]
+        else:
+            for m in range(n):
+                x, y = out[j + 1, 0, m], out[j + 1, 1, m]
+                out[j, 0, m] = (load[j, 0, m] - (a * weights[0, m] + b * weights[1, m])) - (
+                    lower[j, 0, m] * x + lower[j, 1, m] * y
+                )
+                out[j, 1, m] = (load[j, 1, m] - c * weights[2, m]) - (
+                    lower[j, 2, m] * x + lower[j, 3, m] * y
+                )
 
 
 @compiled
@@ -92,17 +107,37 @@ def substitute(inverse, lower, rhs):
 
 
 @compiled
-def inertia(mass, weight, field, out):
-    """``out = weight[m] M field``: the mass matrix in y times a field, scaled per mode."""
-    top = mass.shape[1] - 1
-    n = field.shape[2]
-    for j in range(top + 1):
-        lo, di, up = mass[0, j], mass[1, j], mass[2, j]
-        below, above = max(j - 1, 0), min(j + 1, top)  # factor zero where there is no neighbour
-        for c in range(2):
+def add_inertia(mass, weight, coefficients, fields, edge_load, edge_weight, load, near, out):
+    """``out = load + weight[m] M f + edge_load[j] edge_weight[m]`` with ``f = sum_i c_i f_i``.
+
+    M is the mass matrix in y, the last term acts along y only; ``near[j] = sum_m edge_weight f_y``.
+    """
+    top, n = mass.shape[1] - 1, load.shape[2]
+    rows = np.zeros((3, 2, n))  # f at the levels j - 1, j, j + 1, each at its level modulo 3
+    for level in range(top + 2):
+        if level <= top:
+            row = rows[level % 3]
+            for c in range(2):
+                for m in range(n):
+                    row[c, m] = coefficients[0] * fields[0][level, c, m]
+                for i in range(1, len(fields)):
+                    for m in range(n):
+                        row[c, m] += coefficients[i] * fields[i][level, c, m]
+            total = 0.0
             for m in range(n):
-                out[j, c, m] = weight[m] * (
-                    lo * field[below, c, m] + di * field[j, c, m] + up * field[above, c, m]
+                total += edge_weight[m] * row[1, m]
+            near[level] = total
+        if level == 0:
+            continue
+        j = level - 1
+        lo, di, up = mass[0, j], mass[1, j], mass[2, j]  # zero where there is no neighbour
+        below, here, above = rows[(j + 2) % 3], rows[j % 3], rows[(j + 1) % 3]
+        for c in range(2):
+            edge = edge_load[j] if c == 1 else 0.0
+            for m in range(n):
+                out[j, c, m] = load[j, c, m] + (
+                    weight[m] * (lo * below[c, m] + di * here[c, m] + up * above[c, m])
+                    + edge * edge_weight[m]
                 )
 
 
@@ -125,16 +160,6 @@ def diagonal_inverse(inverse, lower, out):
             out[j, 0, m] = inverse[j, 0, m] + txx * ax + tyx * ay
             out[j, 1, m] = inverse[j, 1, m] + txx * bx + tyx * by
             out[j, 2, m] = inverse[j, 2, m] + txy * bx + tyy * by
-
-
-@compiled
-def add_edge_load(profiles, weights, scale, modes):
-    """``modes -= scale G^T e`` for the profiles (3, n_y + 1) of ``G^T e`` along y."""
-    for j in range(modes.shape[0]):
-        a, b, c = scale * profiles[0, j], scale * profiles[1, j], scale * profiles[2, j]
-        for m in range(modes.shape[2]):
-            modes[j, 0, m] -= a * weights[0, m] + b * weights[1, m]
-            modes[j, 1, m] -= c * weights[2, m]
 
 
 @compiled
@@ -188,17 +213,6 @@ def edge_sums(weights, field, first, out):
             b += weights[1, m] * field[j, 0, m]
             c += weights[2, m] * field[j, 1, m]
         out[0, j], out[1, j], out[2, j] = a, b, c
-
-
-@compiled
-def carry_over(c1, c2, beta, u, v, u_past, v_past, out):
-    """``out = c1 (u + beta v) + c2 (u_past + beta v_past)``: what a step takes from the past."""
-    for j in range(u.shape[0]):
-        for c in range(2):
-            for m in range(u.shape[2]):
-                out[j, c, m] = c1 * (u[j, c, m] + beta * v[j, c, m]) + c2 * (
-                    u_past[j, c, m] + beta * v_past[j, c, m]
-                )
 
 
 @compiled

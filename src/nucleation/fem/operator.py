@@ -77,11 +77,11 @@ class BodyOperator:
         Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
         (2, n_x); all loads in the scaling of :meth:`Body.top_load` (N/m).
         """
-        modes = load.modes.copy()
-        kernels.add_edge_load(
-            self._edge_profiles(edge), self.body.edge_weights, 2.0 / self.body.grid.n_x, modes
-        )
-        kernels.eliminate(self._lower, modes)
+        modes = np.empty_like(load.modes)
+        kernels.eliminate(
+            self._lower, load.modes, self._edge_profiles(edge), self.body.edge_weights,
+            2.0 / self.body.grid.n_x, modes,
+        )  # fmt: skip
         reduced = modes[0].copy()
         modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
         kernels.substitute(self._inverse, self._lower, modes)
