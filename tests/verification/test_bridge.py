@@ -5,9 +5,10 @@ import functools
 
 import numpy as np
 import pytest
-from verification.manufactured import orders, table
+from verification.order_tables import print_orders
 
 from nucleation import dispersion
+from nucleation.convergence import orders
 from nucleation.elasticity import Material
 from nucleation.fem.assembled import assemble, unknown
 from nucleation.fem.body import Body
@@ -45,7 +46,7 @@ def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, b
         exact = transfer_functions(k, Layer(MATERIAL, grid.height, "traction"), RIGID)
         found = operator._pivot[:2, 1] / scale
         errors.append(np.abs(found - np.array(exact)).max() / exact[0])
-    table(f"G1, G2 at kH = {layer_number}", ["16x8", "32x16", "64x32", "128x64"], errors)
+    print_orders(f"G1, G2 at kH = {layer_number}", ["16x8", "32x16", "64x32", "128x64"], errors)
     np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
     assert errors[-1] < bound
 

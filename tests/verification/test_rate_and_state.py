@@ -1,0 +1,96 @@
+"""Manufactured rate-and-state friction with inertia: second order in h and in dt, for both laws.
+
+Friction with its state variable, the computed normal stress and the elastic body are solved
+together by the solver's own steps; source, traction and body force make chosen fields their
+solution (nucleation.manufactured.dynamics).
+"""
+
+import numpy as np
+import pytest
+from verification.order_tables import levels, print_orders
+
+from nucleation.convergence import (
+    ERRORS,
+    STEP_RUNGS,
+    errors,
+    manufactured,
+    mesh_errors,
+    orders,
+    step_errors,
+)
+from nucleation.fem.stepping import rung_value
+from nucleation.manufactured import dynamics
+
+LAWS = ("aging", "slip")
+# errors of displacement, slip rate and log(phi) with the finest mesh and the shortest step
+BOUNDS = {
+    ("aging", "mesh"): (5e-4, 5e-4, 2e-4),
+    ("slip", "mesh"): (7e-4, 1.4e-3, 5e-4),
+    ("aging", "step"): (8e-5, 3.3e-5, 1.2e-5),
+    ("slip", "step"): (8e-5, 3.3e-5, 1.2e-5),
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("refinement", ["mesh", "step"])
+def test_second_order(convergence, law, refinement):
+    for name, bound in zip(ERRORS, BOUNDS[law, refinement], strict=True):
+        found = convergence[name].sel(problem=law, refinement=refinement).values
+        print_orders(f"{law} law, {refinement}, {name}", levels(convergence, refinement), found)
+        np.testing.assert_allclose(orders(found)[1:], 2.0, atol=0.1)
+        assert found[-1] < bound
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_second_order_with_steps_that_change(law):
+    """Steps that grow and shrink along the ladder, by the same pattern at every level."""
+    found = step_errors(law, pattern=(0, 1, 2, 1, -1))
+    labels = [f"{1.5 * rung_value(rung):.3e}" for rung in STEP_RUNGS]
+    for name, column in zip(ERRORS, found.T, strict=True):
+        print_orders(f"{law} law, changing steps, {name}", labels, column)
+    np.testing.assert_allclose(orders(found)[1:], 2.0, atol=0.1)
+    assert (found[-1] < 1.5e-4).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_second_order_in_h_on_a_uniform_mesh(law):
+    found = mesh_errors(law, grading=1.0)
+    np.testing.assert_allclose(orders(found)[1:], 2.0, atol=0.1)
+    assert (found[-1] < BOUNDS[law, "mesh"]).all()
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_exact_for_bilinear_fields_quadratic_in_time(law):
+    """Elements and time stepping are exact for these fields: only round-off is left."""
+    found = errors(manufactured(law, "exact", rows=5), [-56] * 10)
+    print(f"\n{law} law, exact fields:", *(f"{e:.1e}" for e in found))
+    assert max(found) < 1e-11
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_forces_of_the_exact_fields(law):
+    """The reactions are the exact tractions, friction's and the applied one apart."""
+    problem = manufactured(law, "exact", rows=5)
+    state, report = problem.run(*[-56] * 10)
+    loads, interface = problem.loads, report.interface
+    shear, normal = (-loads.along_x @ stress for stress in loads.interface_stress(state.time))
+    applied = problem.applied_force(state.time)
+    np.testing.assert_allclose(interface.normal, normal, rtol=1e-9)
+    np.testing.assert_allclose(
+        interface.tangential[1:], (shear - applied)[1:], atol=1e-9 * np.abs(applied).max()
+    )
+    coefficient = problem.friction_coefficient(problem.grid.x, state.time)
+    np.testing.assert_allclose(interface.tangential, -coefficient * interface.normal, rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_every_part_counts(law, monkeypatch):
+    """Without the source, or with the other law's, the fields are no solution any more."""
+    other = dict(zip(LAWS, LAWS[::-1], strict=True))[law]
+    wrong = manufactured(other, "exact", rows=5).source
+    for source in (lambda self, time: 0.0 * wrong(time), lambda self, time: wrong(time)):
+        monkeypatch.setattr(dynamics.ManufacturedFriction, "source", source)
+        displacement, slip_rate, log_state = errors(manufactured(law, "exact", 5), [-56] * 10)
+        assert log_state > 1e-3
+        assert slip_rate > 1e-4
+        assert displacement > 1e-4
