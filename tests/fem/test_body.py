@@ -119,11 +119,10 @@ def test_transforms_are_inverse_and_dual(grid):
     assert work == pytest.approx(0.5 * grid.n_x * amplitudes @ body.sine_amplitudes(values))
 
 
-def test_rigid_translation_needs_no_force(grid):
-    """u_x = w everywhere is free of stress: only the left edge holds it back."""
+def test_uniform_extension_is_exact(grid):
+    """With no friction it is free of stress but sigma_xx: only the left edge holds it back."""
     operator = BodyOperator(Body(grid, MATERIAL), STATIC)
     body = operator.body
-    # a uniform extension along x with no interface friction is stress free at its free right edge
     strain, nu = 1e-5, MATERIAL.poisson_ratio
     u_x = np.tile(strain * grid.x, (grid.n_y + 1, 1))
     u_y = np.tile((-nu / (1 - nu) * strain * grid.y)[:, None], (1, grid.n_x + 1))
