@@ -62,8 +62,8 @@ class Reference:
     def step(self, beta, near):
         """One step; the root finder starts in the neighbourhood of the slip rates `near`."""
         f = Formula.bdf2(beta, self.steps[-1]) if self.steps else Formula.backward_euler(beta)
-        past = [f.c1 * q[-1] + (f.c2 * q[-2] if len(q) > 1 else 0) for q in (self.u, self.v)]
-        history = f.c1 * self.psi[-1] + (f.c2 * self.psi[-2] if len(self.psi) > 1 else 0)
+        past = [f.from_past(np.array(q[:-3:-1])) for q in (self.u, self.v)]
+        history = f.from_past(np.array(self.psi[:-3:-1]))
         self.time += f.step
         velocity = self.p.loading.velocity
         s = 1 / beta**2
@@ -166,10 +166,10 @@ def test_newton_converges_quadratically():
 
     formula = Formula.bdf2(rung_value(-58), state.last_step)
     load = dynamics._load_with_past(state, formula, operator.s)
-    w_history = dynamics._interface_displacement(state, formula)
+    w_history = formula.from_past(state.past_w)
     guess = state.past_slip_rates[0][1:] * 1.05
     response = operator.respond(load, w_history + formula.beta * (guess - 1e-3))
-    psi = formula.c1 * state.past_log_states[0] + formula.c2 * state.past_log_states[1]
+    psi = formula.from_past(state.past_log_states)
     type(interface)._updated = spy
     try:
         interface.solve(operator, response, w_history, psi, formula.beta, guess)

@@ -101,7 +101,7 @@ class Accountant:
         if earlier is None:
             return (v - past) / step
         f = Formula.bdf2(beta_of_step(step, previous_step), previous_step)
-        return (v - f.c1 * past - f.c2 * earlier) / f.beta
+        return (v - f.from_past(np.array([past, earlier]))) / f.beta
 
     def add(self, ledger, step, old, new):
         du = new[0] - old[0]

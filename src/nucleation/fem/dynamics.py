@@ -20,12 +20,19 @@ from .body import Body, Field
 from .grid import Grid
 from .interface import Interface, InterfaceSolution
 from .operator import BodyOperator
-from .stepping import Formula, error_factor, extrapolation_weights, rung_value
+from .stepping import (
+    LARGEST_GROWTH_OF_BDF3,
+    Formula,
+    error_factor,
+    extrapolation_weights,
+    rung_value,
+)
 
 Array = NDArray[np.float64]
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 MOST_ITERATIONS_AT_START = 50  # of Newton's method, which starts from rest
+QUASI_STATIC = 10.0  # crossings of the block's height by shear waves within a step
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
 SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
@@ -36,9 +43,9 @@ SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the
 class State:
     """The block at one instant; interface arrays are over the nodes 0..n_x, newest first.
 
-    ``past_times`` (s), ``past_slip_rates`` (m/s) and ``past_log_states`` hold up to three
-    instants, the first of them the present one. ``displacement`` is (w_x, u_y) of the body, with
-    u_x = V t + w_x.
+    ``past_times`` (s), ``past_slip_rates`` (m/s), ``past_log_states`` and ``past_w`` (m, w_x at
+    the nodes 1..n_x) hold up to three instants, the first of them the present one.
+    ``displacement`` is (w_x, u_y) of the body, with u_x = V t + w_x.
     """
 
     displacement: Field
@@ -48,8 +55,20 @@ class State:
     past_times: Array
     past_slip_rates: Array
     past_log_states: Array
+    past_w: Array
     momentum: float  # kg/s, along x, of the velocity w_t
     previous_momentum: float
+
+    @classmethod
+    def beginning(
+        cls, displacement: Field, velocity: Field, slip_rate: Array, log_state: Array, w: Array,
+        momentum: float,
+    ) -> State:  # fmt: skip
+        """The state at time zero, without a past."""
+        return cls(
+            displacement, velocity, displacement, velocity, np.zeros(1), slip_rate[None],
+            log_state[None], w[None], momentum, momentum,
+        )  # fmt: skip
 
     @property
     def time(self) -> float:
@@ -80,6 +99,7 @@ class Dynamics:
         self.body = Body(self.grid, parameters.material)
         self.velocity = loading.velocity
         self.interface = Interface(parameters.friction, loading.velocity)
+        self._crossing_time = geometry.height / parameters.material.shear_wave_speed
         self._initial_log_state = float(np.log(loading.initial_state))
         self._load = self.body.top_load(loading.normal_stress)
         self._operators: OrderedDict[int, BodyOperator] = OrderedDict()
@@ -97,10 +117,7 @@ class Dynamics:
         slip_rate = np.append(self.velocity, np.zeros(n))
         log_state = np.full(n + 1, self._initial_log_state)
         momentum = self.body.momentum_x(velocity)
-        state = State(
-            displacement, velocity, displacement, velocity, np.zeros(1), slip_rate[None],
-            log_state[None], momentum, momentum,
-        )  # fmt: skip
+        state = State.beginning(displacement, velocity, slip_rate, log_state, rest, momentum)
         # at rest no friction acts on the driven edge's own node
         tangential = np.append(0.0, response.tangential)
         at_rest = InterfaceSolution(
@@ -125,18 +142,17 @@ class Dynamics:
         load = self._load_with_past(state, formula, operator.s)
         scale = self._rate_scale(state, formula.step)
         guess, log_state_guess = self._extrapolated(state, state.time + formula.step, scale)
-        w_history = self._interface_displacement(state, formula)
-        w_guess = w_history + beta * (guess[1:] - self.velocity)
+        on_interface = self._formula_on_interface(state, formula)
+        w_history = on_interface.from_past(state.past_w)
+        w_guess = w_history + on_interface.beta * (guess[1:] - self.velocity)
         response = operator.respond(load, w_guess)
-        log_state_history = formula.c1 * state.past_log_states[0]
-        if not first:
-            log_state_history = log_state_history + formula.c2 * state.past_log_states[1]
         interface = self.interface
         if first:
             interface = dataclasses.replace(interface, most_iterations=MOST_ITERATIONS_AT_START)
         solution = interface.solve(
-            operator, response, w_history, log_state_history, beta, guess[1:]
-        )
+            operator, response, w_history, on_interface.from_past(state.past_log_states),
+            on_interface.beta, guess[1:],
+        )  # fmt: skip
         error = np.inf if first else 0.0
         if state.past_times.size == 3:
             error = error_factor(formula, state.past_times) * max(
@@ -160,17 +176,27 @@ class Dynamics:
 
     def _load_with_past(self, state: State, formula: Formula, s: float) -> Field:
         """The static load and the inertia that the step's formula takes from the past."""
-        c1, c2, beta = formula.c1, formula.c2, formula.beta
+        (c1, c2), beta = formula.past, formula.beta
         terms = (
             (c1, state.displacement), (c1 * beta, state.velocity),
             (c2, state.previous_displacement), (c2 * beta, state.previous_velocity),
         )  # fmt: skip
         return self.body.inertia_load(s, terms, self._load)
 
-    def _interface_displacement(self, state: State, formula: Formula) -> Array:
-        """The part of w (m) at nodes 1..n_x that the step's formula takes from the past."""
-        now, past = state.displacement.modes[0, 0], state.previous_displacement.modes[0, 0]
-        return self.body.sine_values(formula.c1 * now + formula.c2 * past)
+    def _formula_on_interface(self, state: State, formula: Formula) -> Formula:
+        """The step's formula for slip and state: of third order while the body is quasi-static.
+
+        BDF3 is not stable for undamped waves that a step resolves. Where waves cross the block
+        many times within a step, inertia (kept at second order) is a small correction, and the
+        third order follows the nucleating mode with longer steps.
+        """
+        times = state.past_times
+        if times.size < 3 or formula.step < QUASI_STATIC * self._crossing_time:
+            return formula
+        steps = np.array([formula.step, times[0] - times[1], times[1] - times[2]])
+        if (steps[:-1] > LARGEST_GROWTH_OF_BDF3 * steps[1:]).any():
+            return formula
+        return Formula.bdf3(formula.step, times)
 
     def _rate_scale(self, state: State, step: float) -> float:
         """Slip rate (m/s) from which on errors are relative: v counts as asinh(v / scale).
@@ -195,7 +221,7 @@ class Dynamics:
         self, state: State, formula: Formula, operator: BodyOperator, load: Field,
         solution: InterfaceSolution, error: float,
     ) -> tuple[State, StepReport]:  # fmt: skip
-        c1, c2, beta = formula.c1, formula.c2, formula.beta
+        (c1, c2), beta = formula.past, formula.beta
         modes, _ = operator.solve(load, self.body.sine_amplitudes(solution.w), solution.edge)
         u, u_past = state.displacement, state.previous_displacement
         rates = np.empty_like(modes)
@@ -210,6 +236,7 @@ class Dynamics:
             np.append(state.time + formula.step, state.past_times[keep]),
             np.vstack((solution.slip_rate, state.past_slip_rates[keep])),
             np.vstack((solution.log_state, state.past_log_states[keep])),
+            np.vstack((solution.w, state.past_w[keep])),
             momentum, state.momentum,
         )  # fmt: skip
         # discrete balance along x: the driven edge carries what friction and inertia leave

@@ -87,7 +87,7 @@ class Interface:
             damping = slope * normal[1:]
             elastic = beta * operator.diagonal
             resolved = np.abs(v) + self.friction.regularisation_slip_rate
-            scale = (elastic + np.abs(damping)) * (self.tolerance * resolved + rounding)
+            scale = (elastic + np.abs(damping)) * (self.tolerance * resolved) + elastic * rounding
             error = float(np.max(np.abs(residual) / scale))
             if not np.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")

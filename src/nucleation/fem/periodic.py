@@ -153,13 +153,12 @@ class PeriodicDynamics(Dynamics):
         modes, _ = PeriodicOperator(self.body, 0.0).solve(
             self._load, np.zeros(n), np.zeros(self.grid.n_y + 1)
         )
-        displacement, velocity = Field(modes, np.zeros(modes.shape[0])), self.body.zero_field()
+        displacement = Field(modes, np.zeros(modes.shape[0]))
         log_state = self._steady_log_state + np.append(0.0, perturbation)
-        rates = np.full((1, n + 1), self.velocity)
-        return State(
-            displacement, velocity, displacement, velocity, np.zeros(1), rates, log_state[None],
-            0.0, 0.0,
-        )  # fmt: skip
+        rates = np.full(n + 1, self.velocity)
+        return State.beginning(
+            displacement, self.body.zero_field(), rates, log_state, np.zeros(n), 0.0
+        )
 
     def _operator(self, rung: int) -> PeriodicOperator:
         if rung not in self._operators:

@@ -1,6 +1,6 @@
-"""Variable-step BDF2: second order, L-stable, with an error estimate and a step-size ladder.
+"""Variable-step BDF2, L-stable, with an error estimate and a step-size ladder; and BDF3.
 
-For ``dy/dt = g`` the step from t to t + h, after a step h', reads (r = h/h')
+For ``dy/dt = g`` the BDF2 step from t to t + h, after a step h', reads (r = h/h')
 
     y = c1 y_n + c2 y_{n-1} + beta g,   beta = h (1 + r)/(1 + 2 r),
     c1 = (1 + r)^2/(1 + 2 r),           c2 = -r^2/(1 + 2 r).
@@ -20,17 +20,17 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 RUNGS_PER_OCTAVE = 4
-LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step
+LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step,
+LARGEST_GROWTH_OF_BDF3 = 1.5  # BDF3 up to (1 + sqrt(5)) / 2
 
 
 @dataclasses.dataclass(frozen=True)
 class Formula:
-    """Coefficients of one step: ``y = c1 y_n + c2 y_{n-1} + beta dy/dt``."""
+    """Coefficients of one step: ``y = sum_i past_i y_{n-i} + beta dy/dt``, newest value first."""
 
     step: float
     beta: float
-    c1: float
-    c2: float
+    past: tuple[float, ...]
 
     @classmethod
     def bdf2(cls, beta: float, previous_step: float) -> Formula:
@@ -38,12 +38,35 @@ class Formula:
         half = beta - 0.5 * previous_step
         step = half + math.sqrt(half * half + beta * previous_step)
         r = step / previous_step
-        return cls(step, beta, (1 + r) ** 2 / (1 + 2 * r), -(r**2) / (1 + 2 * r))
+        return cls(step, beta, ((1 + r) ** 2 / (1 + 2 * r), -(r**2) / (1 + 2 * r)))
 
     @classmethod
     def backward_euler(cls, beta: float) -> Formula:
         """The first step, of first order."""
-        return cls(beta, beta, 1.0, 0.0)
+        return cls(beta, beta, (1.0, 0.0))
+
+    @classmethod
+    def bdf3(cls, step: float, past_times: Array) -> Formula:
+        """The BDF3 step of length `step` (s) after three past times (s), newest first.
+
+        It is the derivative of the cubic through the new and the past values.
+        """
+        ago = step + past_times[0] - past_times  # from each past time to the new one
+        beta = 1.0 / float((1.0 / ago).sum())
+        others = (np.delete(ago, i) for i in range(3))
+        past = (
+            beta * float(other.prod() / ((other - own).prod() * own))
+            for own, other in zip(ago, others, strict=True)
+        )
+        return cls(step, beta, tuple(past))
+
+    def from_past(self, values: Array) -> Array:
+        """What the step takes from past values, newest first along the first axis.
+
+        Values that are not there yet count as zero: the first step has one past value.
+        """
+        used = min(len(self.past), values.shape[0])
+        return np.asarray(self.past[:used]) @ values[:used]
 
 
 def rung_below(beta: float) -> int:
