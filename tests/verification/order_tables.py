@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nucleation.convergence import orders
+from nucleation.convergence import REFINEMENTS, SPACINGS, orders
 
 
 def print_orders(title, labels, errors):
@@ -14,5 +14,5 @@ def print_orders(title, labels, errors):
 
 def levels(dataset, refinement):
     """Labels of the levels of a refinement of the convergence dataset."""
-    spacing = {"mesh": "element_size", "step": "step_size"}[refinement]
+    spacing = dict(zip(REFINEMENTS, SPACINGS, strict=True))[refinement]
     return [f"{value:.3e}" for value in dataset[spacing].values]

@@ -80,8 +80,7 @@ class ManufacturedDynamics(Dynamics):
     def prescribe(self, time: float) -> None:
         """Set the load and the interface of the step that ends at `time` (s)."""
         self._load = self.loads.field(self.loads.nodal(time))
-        w = self.exact.value(0, self.grid.x[1:], np.zeros(self.grid.n_x), time)
-        self.interface = GivenDisplacement(self.interface.friction, w)
+        self.interface = GivenDisplacement(self.interface.friction, self.exact_w(time))
 
     def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
         """One step of the solver, its loads being those at the new time."""
@@ -101,6 +100,10 @@ class ManufacturedDynamics(Dynamics):
         """Exact w_x and u_y (m) at the nodes, or a derivative, (2, n_y + 1, n_x + 1)."""
         x, y = self.grid.x[None], self.grid.y[:, None]
         return np.array([self.exact.value(c, x, y, time, **orders) for c in (0, 1)])
+
+    def exact_w(self, time: float) -> Array:
+        """Exact w_x (m) at the interface's nodes 1..n_x."""
+        return self.exact.value(0, self.grid.x[1:], np.zeros(self.grid.n_x), time)
 
     def exact_slip_rate(self, x: Array, time: float, by_t: int = 0) -> Array:
         """Exact slip rate (m/s) at x (m), or its derivative in time."""
@@ -125,9 +128,10 @@ class ManufacturedDynamics(Dynamics):
         fields = [
             self.as_field(self.nodal_exact(t, by_t=order)) for t in times[:2] for order in (0, 1)
         ]
-        states = np.array([self.exact_log_state(self.grid.x, t) for t in times])
+        states = [self.exact_log_state(self.grid.x, t) for t in times]
+        w = [self.exact_w(t) for t in times]
         momenta = [self.body.momentum_x(fields[i]) for i in (1, 3)]
-        return State(*fields, times, np.array(rates), states, *momenta)
+        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta)
 
     # -- errors ---------------------------------------------------------------------------------
 
