@@ -38,6 +38,7 @@ except ParameterError as error:
 
 RESULTS = settings.results
 RUNS = {run.id: run for run in settings.runs}
+SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
 THEORY = f"{RESULTS}/theory.nc"
 LENGTHS = f"{RESULTS}/lengths.nc"
 
@@ -47,9 +48,9 @@ def simulation(id):
     return f"{RESULTS}/simulations/{id}.nc"
 
 
-def simulations(study=None):
-    """The datasets of all simulations, or of one study's."""
-    return [simulation(id) for id, run in RUNS.items() if study in (None, run.study)]
+def simulations(*studies):
+    """The datasets of some studies' simulations, of all in lengths.csv if none is named."""
+    return [simulation(id) for id, run in RUNS.items() if run.study in (studies or SHARED)]
 
 
 def figure(name):

@@ -1,6 +1,7 @@
 """The configuration: what is made of a good one, and what is said about a bad one."""
 
 import copy
+import json
 import math
 from pathlib import Path
 
@@ -17,7 +18,8 @@ from nucleation.stability import InterfaceState, critical_length
 from nucleation.studies import expand
 
 CONFIG = Path(__file__).parents[1] / "config"
-PAPER = read_yaml(CONFIG / "config.yaml")
+# without the sharing of nodes that YAML's aliases bring: a change is to be one change
+PAPER = json.loads(json.dumps(read_yaml(CONFIG / "config.yaml")))
 
 
 def changed(place: str, value: object) -> dict:
@@ -267,22 +269,30 @@ def test_default_configuration_is_the_papers():
 
 
 def test_papers_study():
-    paper = load(CONFIG / "config.yaml")
-    aging = [r for r in paper.runs if r.labels["law"] == "aging" and r.labels["phi0"] == 1.0]
+    runs = load(CONFIG / "config.yaml").runs_of("paper")
+    aging = [r for r in runs if r.labels["law"] == "aging" and r.labels["phi0"] == 1.0]
     heights = [0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1]
     assert [run.labels["height"] for run in aging] == heights
     assert aging[0].id == "paper-aging-H0.005-phi1"
-    others = {run.id for run in paper.runs} - {run.id for run in aging}
+    others = {run.id for run in runs} - {run.id for run in aging}
     assert others == {
         "paper-slip-H0.01-phi1",
         "paper-slip-H0.05-phi1",
         "paper-aging-H0.1-phi1000",
     }
-    for run in paper.runs:
+    for run in runs:
         assert (run.parameters.mesh.n_x, run.parameters.mesh.n_y) == (400, 150)
         expected = critical_length(run.labels["height"], Material(), InterfaceState())
         assert run.theory_length == pytest.approx(float(expected), rel=1e-12)
         assert run.parameters.geometry.length == pytest.approx(6.0 * expected, rel=1e-3)
+
+
+def test_converged_study_has_the_papers_runs():
+    config = load(CONFIG / "config.yaml")
+    labels = [
+        [(r.labels | {"study": ""}) for r in config.runs_of(s)] for s in ("paper", "converged")
+    ]
+    assert labels[0] == labels[1]
 
 
 def test_quick_configuration_has_what_the_figures_show():

@@ -21,17 +21,19 @@ from . import schema
 from .friction import Friction
 from .parameters import Parameters
 from .quantities import ParameterError, refusal
-from .settings import Curves, ExtractionSettings, FigureSettings, Limits
+from .settings import CrosscheckSettings, Curves, ExtractionSettings, FigureSettings, Limits
 from .stability import InterfaceState
 from .studies import (
     LARGEST_GRID,
     Run,
+    StudySettings,
     estimated_megabytes,
     expand,
     grid_size,
     loaded,
     range_problem,
     study_runs,
+    study_settings,
 )
 
 
@@ -46,7 +48,13 @@ class Configuration:
     extraction: ExtractionSettings
     figures: FigureSettings
     limits: Limits
+    crosscheck: CrosscheckSettings
+    studies: dict[str, StudySettings]
     runs: tuple[Run, ...]
+
+    def runs_of(self, study: str) -> list[Run]:
+        """The runs of one study, none if there is no such study."""
+        return [run for run in self.runs if run.study == study]
 
     @property
     def friction(self) -> Friction:
@@ -124,7 +132,10 @@ def configure(values: Any) -> Configuration:
         found.extend(study_runs(name, study, base, interface))
     _stop_on(_run_problems(found, groups["limits"]))
     runs = tuple(run for _, run in found if isinstance(run, Run))
-    return Configuration(values.get("results", "results"), base, interface, runs=runs, **groups)
+    studies = {name: study_settings(study) for name, study in values["studies"].items()}
+    return Configuration(
+        values.get("results", "results"), base, interface, studies=studies, runs=runs, **groups
+    )
 
 
 def _stop_on(problems: Iterable[str]) -> None:

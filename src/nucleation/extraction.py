@@ -111,13 +111,12 @@ def extract(
         return dict.fromkeys(names, float("nan"))
     instants = time[[onset.start, onset.steep, onset.end]]
     frames = np.abs(simulation["time"].values[:, None] - instants).argmin(axis=0)
-    x, rates = simulation["x"].values, simulation["slip_rate"].values
+    before = simulation.isel(time=slice(0, int(frames.max()) + 1))
     thresholds = (
         settings.edge_threshold, settings.edge_threshold_high, settings.edge_threshold_low,
     )  # fmt: skip
-    edges = np.array(
-        [[patch_edge(x, rates[i], share * velocity) for share in thresholds] for i in frames]
-    )
+    reach = [np.maximum.accumulate(patch_lengths(before, share * velocity)) for share in thresholds]
+    edges = np.array(reach).T[frames]
     lengths = (edges[0, 0], edges.min(), edges.max())
     values = (instants[0], instants.min(), instants.max(), *lengths)
     return dict(zip(names, map(float, values), strict=True))

@@ -21,6 +21,8 @@ DIAGNOSTICS = ("status", "steps", "wall_seconds", "peak_megabytes")
 
 COLUMNS = (
     "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
+    "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
+    "applied_stress",
 )  # fmt: skip
 
 
@@ -51,6 +53,11 @@ def gather(
     return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
 
 
+def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """One table of the rows of several."""
+    return xr.concat(list(tables), dim="run", combine_attrs="drop")
+
+
 def description(run: dict[str, Any]) -> dict[str, Any]:
     """The columns that say which simulation a row is about, and the theory's length for it."""
     parameters = run["parameters"]
@@ -63,6 +70,14 @@ def description(run: dict[str, Any]) -> dict[str, Any]:
         "n_x": parameters["mesh"]["n_x"],
         "n_y": parameters["mesh"]["n_y"],
         "theory_length": run["theory_length"],
+        "block_length": parameters["geometry"]["length"],
+        "grading": parameters["mesh"]["grading"],
+        "tolerance": parameters["stepping"]["tolerance"],
+        "longest_step": parameters["stepping"]["longest_step"],
+        "density": parameters["material"]["density"],
+        "slip_distance": parameters["friction"]["characteristic_slip_distance"],
+        "velocity": parameters["loading"]["velocity"],
+        "applied_stress": parameters["loading"]["normal_stress"],
     }
 
 

@@ -68,7 +68,7 @@ class Stepping(Checked):
     )  # fmt: skip
     longest_step: float = quantity(
         "longest time step over the memory time D/V", low=0.0, high=1.0, closed="high",
-        default=0.04,
+        default=0.1,
     )  # fmt: skip
     shortest_step: float = quantity(
         "shortest time step, below which the run ends as failed", unit="s", low=0.0, high=1.0,

@@ -56,6 +56,11 @@ class StudySettings(Checked):
         "or each run's own friction law expanded at its velocity",
         choices=("main_text", "friction_law"), default="friction_law",
     )  # fmt: skip
+    table: str = quantity(
+        "where its lengths go: with the other studies into lengths.csv, and so into the targets "
+        "lengths and simulations; or into its own table alone",
+        choices=("lengths", "own"), default="lengths",
+    )  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -148,6 +153,11 @@ def theory_length(height: float, material: Material, interface: InterfaceState) 
     return float(critical_length(height, material, interface))
 
 
+def study_settings(study: dict[str, Any]) -> StudySettings:
+    """The settings in a study's section of the configuration."""
+    return StudySettings(**{k: v for k, v in study.items() if k not in ("defaults", "runs")})
+
+
 def study_runs(
     name: str, study: dict[str, Any], base: Parameters, main_text: InterfaceState
 ) -> Iterator[tuple[str, Run | str]]:
@@ -164,7 +174,7 @@ def study_runs(
     main_text : InterfaceState
         The main text's rounded interface.
     """
-    settings = StudySettings(**{k: v for k, v in study.items() if k not in ("defaults", "runs")})
+    settings = study_settings(study)
     for number, entry in enumerate(study["runs"]):
         key = f"studies.{name}.runs[{number}]"
         for values in itertools.product(*(expand(v) for v in entry.values())):

@@ -19,9 +19,10 @@ def paper(workflow):
 
 
 def test_default_target_is_the_whole_paper(paper):
-    runs = len(load(paper.config).runs)
-    once = ("theory", "extract", "write_table_s1", "paper", *DRAWN)
-    assert paper.planned() == {"simulate": runs, **dict.fromkeys(once, 1)}
+    config = load(paper.config)
+    runs = len(config.runs_of("paper")) + len(config.runs_of("converged"))
+    once = ("theory", "gather_lengths", "write_table_s1", "paper", *DRAWN)
+    assert paper.planned() == {"simulate": runs, "extract": 2, **dict.fromkeys(once, 1)}
 
 
 @pytest.mark.parametrize(
@@ -30,9 +31,12 @@ def test_default_target_is_the_whole_paper(paper):
         ("theory", {"theory": 1}),
         ("figure_1 table_s1", {"draw_figure_1": 1, "write_table_s1": 1}),
         ("figure_2 figure_s1", {"theory": 1, "draw_figure_2": 1, "draw_figure_s1": 1}),
-        ("simulations", {"simulate": 5}),
-        ("lengths", {"simulate": 5, "extract": 1}),
-        ("figure_3", {"theory": 1, "simulate": 5, "extract": 1, "draw_figure_3": 1}),
+        ("simulations", {"simulate": 6}),
+        ("lengths", {"simulate": 6, "extract": 2, "gather_lengths": 1}),
+        (
+            "figure_3",
+            {"theory": 1, "simulate": 6, "extract": 2, "gather_lengths": 1, "draw_figure_3": 1},
+        ),
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
     ],
 )

@@ -1,23 +1,44 @@
-# One table of all simulations with onset time and critical length.
+# A table with onset time and critical length for each study, and one of the studies that share it.
+def study_lengths(study):
+    """The table of one study's lengths."""
+    return f"{RESULTS}/lengths/{study}.nc"
+
+
 rule extract:
     input:
-        simulations(),
+        lambda wildcards: simulations(wildcards.study),
     output:
-        dataset=LENGTHS,
-        table=f"{RESULTS}/lengths.csv",
+        dataset=study_lengths("{study}"),
+        table=f"{RESULTS}/lengths/{{study}}.csv",
+    wildcard_constraints:
+        study="|".join(settings.studies),
     params:
-        runs=[run.to_dict() for run in RUNS.values()],
+        runs=lambda wildcards: [run.to_dict() for run in settings.runs_of(wildcards.study)],
         extraction=asdict(settings.extraction),
         digest=digest("nucleation.lengths"),
     message:
-        "Critical lengths of all simulations"
+        "Critical lengths of the study {wildcards.study}"
     script:
         "../scripts/extract.py"
 
 
+rule gather_lengths:
+    input:
+        [study_lengths(study) for study in SHARED],
+    output:
+        dataset=LENGTHS,
+        table=f"{RESULTS}/lengths.csv",
+    params:
+        digest=digest("nucleation.lengths"),
+    message:
+        "Critical lengths of the studies " + ", ".join(SHARED)
+    script:
+        "../scripts/gather_lengths.py"
+
+
 rule lengths:
     input:
-        rules.extract.output,
+        rules.gather_lengths.output,
         simulations(),
     message:
         "Critical lengths are in {input[0]} and {input[1]}"

@@ -80,7 +80,7 @@ rule draw_figure_s1:
 
 rule draw_figure_s2:
     input:
-        lengths=LENGTHS,
+        lengths=study_lengths("paper"),
         simulation=lambda wildcards: simulation(space_time_id(wildcards)),
     output:
         figure("figure_s2"),
@@ -123,7 +123,7 @@ rule figure_2:
 rule figure_3:
     input:
         figure("figure_3"),
-        simulations("paper"),
+        simulations(),
     message:
         "Figure 3 is in {input[0]}"
 

@@ -3,7 +3,7 @@ PATCHES = f"{RESULTS}/patch_stability.nc"
 
 
 def patches():
-    return [f"{RESULTS}/patches/{id}.nc" for id in RUNS]
+    return [f"{RESULTS}/patches/{run.id}.nc" for run in settings.runs_of("paper")]
 
 
 rule patch:
@@ -27,7 +27,7 @@ rule gather_patches:
         dataset=PATCHES,
         table=f"{RESULTS}/patch_stability.csv",
     params:
-        runs=[run.to_dict() for run in RUNS.values()],
+        runs=[run.to_dict() for run in settings.runs_of("paper")],
         digest=digest("nucleation.patch_stability"),
     message:
         "Patch lengths at which growth begins"
@@ -37,7 +37,7 @@ rule gather_patches:
 
 rule draw_figure_patch_stability:
     input:
-        lengths=LENGTHS,
+        lengths=study_lengths("paper"),
         table=PATCHES,
         patches=patches(),
     output:
@@ -54,6 +54,6 @@ rule figure_patch_stability:
     input:
         rules.draw_figure_patch_stability.output,
         patches(),
-        simulations(),
+        simulations("paper"),
     message:
         "Stability of the patches is in {input[0]} and {PATCHES}"
