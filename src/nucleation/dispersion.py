@@ -176,3 +176,24 @@ def dispersion_dataset(
         },
         {"height": heights},
     )
+
+
+def disagreement(dataset: xr.Dataset) -> xr.DataArray:
+    """``|Lambda - Lambda_theory| / |Lambda_theory|`` on (height, mode, branch)."""
+    growth = dataset["measured_growth"] - dataset["theory_growth"]
+    frequency = dataset["measured_frequency"] - dataset["theory_frequency"]
+    return np.hypot(growth, frequency) / np.hypot(
+        dataset["theory_growth"], dataset["theory_frequency"]
+    )
+
+
+def to_csv(dataset: xr.Dataset) -> str:
+    """Measured and theoretical rates of every mode as comma-separated text."""
+    rates = [
+        f"{kind}_{part}" for kind in ("measured", "theory") for part in ("growth", "frequency")
+    ]
+    ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
+    columns = dataset[["mode_wavenumber", *rates]].assign(wavenumber_over_critical=ratio)
+    table = columns.assign(disagreement=disagreement(dataset)).to_dataframe().reset_index()
+    order = ["height", "wavenumber_over_critical", "branch", "mode_wavenumber", *rates]
+    return table[[*order, "disagreement"]].to_csv(index=False, float_format="%.8g")

@@ -1,11 +1,20 @@
+# Verification of the solver, no part of the paper (docs/verification.md).
+#
 # The bridge between simulation and theory: single modes of homogeneous sliding, integrated in time
-# by the simulations' solver, beside the spectrum. A part of the verification, not of the paper.
+# by the simulations' solver, beside the spectrum. Orders of convergence: manufactured solutions,
+# which depend on no configuration.
 DISPERSION = f"{RESULTS}/dispersion.nc"
+CONVERGENCE = f"{RESULTS}/convergence.nc"
+
+
+localrules:
+    figure_dispersion, figure_verification,
 
 
 rule dispersion:
     output:
-        DISPERSION,
+        dataset=DISPERSION,
+        table=f"{RESULTS}/dispersion.csv",
     params:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
@@ -31,12 +40,41 @@ rule draw_figure_dispersion:
         "../scripts/figure_dispersion.py"
 
 
-localrules:
-    figure_dispersion,
-
-
 rule figure_dispersion:
     input:
         figure("figure_dispersion"),
     message:
         "The dispersion figure is in {input[0]}"
+
+
+rule convergence:
+    output:
+        dataset=CONVERGENCE,
+        table=f"{RESULTS}/convergence.csv",
+    params:
+        digest=digest("nucleation.convergence"),
+    threads: 1
+    message:
+        "Convergence: errors of manufactured solutions against element size and time step"
+    script:
+        "../scripts/convergence.py"
+
+
+rule draw_figure_verification:
+    input:
+        convergence=CONVERGENCE,
+    output:
+        figure("figure_verification"),
+    params:
+        digest=drawing_digest("figure_verification"),
+    message:
+        "Verification figure: orders of convergence"
+    script:
+        "../scripts/figure_verification.py"
+
+
+rule figure_verification:
+    input:
+        figure("figure_verification"),
+    message:
+        "The verification figure is in {input[0]}"

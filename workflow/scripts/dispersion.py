@@ -1,7 +1,7 @@
 """Integrate single modes of homogeneous sliding and compare with the spectrum."""
 
 from nucleation import datasets, provenance
-from nucleation.dispersion import dispersion_dataset
+from nucleation.dispersion import dispersion_dataset, to_csv
 from nucleation.elasticity import Material
 from nucleation.friction import Friction
 from nucleation.parameters import Loading, Parameters
@@ -16,4 +16,5 @@ dataset = dispersion_dataset(
 )
 settings = {name: value for name, value in params.items() if name != "digest"}
 attributes = provenance.attributes(settings, params.digest, "snakemake figure_dispersion")
-datasets.write(dataset, snakemake.output[0], **attributes)
+datasets.write(dataset, snakemake.output.dataset, **attributes)
+datasets.write_text(to_csv(dataset), snakemake.output.table)

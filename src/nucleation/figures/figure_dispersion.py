@@ -29,7 +29,8 @@ def draw(dispersion: xr.Dataset) -> Figure:
     Figure
         Two columns wide: growth rates on the left, frequencies on the right.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 7.4 * style.CENTIMETRE)
+    figure = style.new_figure(style.DOUBLE_COLUMN, 8.8 * style.CENTIMETRE)
+    figure.get_layout_engine().set(wspace=0.05)
     growth, frequency = figure.subplots(1, 2, sharex=True)
     heights = dispersion["height"].values
     shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.85, heights.size))
@@ -38,7 +39,8 @@ def draw(dispersion: xr.Dataset) -> Figure:
         for axes, name in ((growth, "growth"), (frequency, "frequency")):
             _draw_height(axes, one, name, shade)
     growth.axhline(0.0, color=style.GUIDE, linewidth=0.7)
-    for axes in (growth, frequency):
+    for axes, letter in ((growth, "(a)"), (frequency, "(b)")):
+        axes.set_title(letter, loc="left")
         axes.axvline(1.0, color=style.GUIDE, linestyle="--", linewidth=0.9)
         axes.set_xlabel(r"Wavenumber $k/k_c$")
         axes.minorticks_on()
@@ -47,7 +49,8 @@ def draw(dispersion: xr.Dataset) -> Figure:
     modes = (dispersion["mode_wavenumber"] / dispersion["critical_wavenumber"]).values
     margin = 0.04 * (modes.max() - modes.min())
     growth.set_xlim(modes.min() - margin, modes.max() + margin)
-    _limit_growth(growth, dispersion)
+    for axes in (growth, frequency):
+        _limit_to_lines(axes)
     _legends(growth, frequency, heights, shades)
     return figure
 
@@ -65,10 +68,16 @@ def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: np.ndarray) -> N
         )  # fmt: skip
 
 
-def _limit_growth(axes: Axes, dispersion: xr.Dataset) -> None:
-    """Show the faster mode of every wavenumber; strongly damped slower ones may leave below."""
-    fast = (dispersion["measured_growth"].max("branch") * dispersion["memory_time"]).values
-    axes.set_ylim(fast.min() - 0.1 * np.ptp(fast), fast.max() + 0.1 * np.ptp(fast))
+def _limit_to_lines(axes: Axes) -> None:
+    """Limit the ordinate so that nothing within the abscissa's limits is cut."""
+    left, right = axes.get_xlim()
+    shown = []
+    for line in axes.get_lines():
+        x, y = line.get_xdata(), line.get_ydata()
+        if line.get_transform() == axes.transData:
+            shown.append(y[(x >= left) & (x <= right)])
+    low, high = np.concatenate(shown).min(), np.concatenate(shown).max()
+    axes.set_ylim(low - 0.04 * (high - low), high + 0.04 * (high - low))
 
 
 def _legends(growth: Axes, frequency: Axes, heights: np.ndarray, shades: np.ndarray) -> None:
