@@ -29,10 +29,11 @@ lint: $(STAMP) ## Check the code's style
 	@$(BIN)/ruff check .
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
-	$(BIN)/snakemake paper figure_patch_stability --cores $(CORES) \
-		--workflow-profile workflow/profiles/default
+	$(BIN)/snakemake paper figure_patch_stability figure_verification figure_dispersion \
+		--cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
-	cp results/lengths.csv results/patch_stability.csv results/figures/*.png results/reference/
+	cp results/lengths.csv results/patch_stability.csv results/convergence.csv \
+		results/dispersion.csv results/figures/*.png results/reference/
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml

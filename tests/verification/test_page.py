@@ -1,0 +1,113 @@
+"""docs/verification.md against the reference set, and the reference set against today's code."""
+
+import csv
+import io
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+import pytest
+from verification.verification_page import PAGE, rows
+
+from nucleation import convergence as orders_of_convergence
+from nucleation import dispersion
+from nucleation.parameters import Parameters
+
+REFERENCE = Path(__file__).parents[2] / "results" / "reference"
+
+
+def reference(name):
+    text = (REFERENCE / name).read_text(encoding="utf-8")
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+CONVERGENCE, DISPERSION = reference("convergence.csv"), reference("dispersion.csv")
+QUANTITIES = {
+    "displacement": "displacement_error",
+    "slip rate": "slip_rate_error",
+    "log(phi)": "log_state_error",
+}
+
+
+@pytest.mark.parametrize(
+    ("heading", "refinement", "number"),
+    [
+        ("Element size", "mesh", 7),
+        ("Time step", "step", 7),
+        ("Time step, quasi-static", "quasi_static_step", 6),
+    ],
+)
+def test_orders_are_those_of_the_reference(heading, refinement, number):
+    table = rows(heading)
+    assert len(table) == number
+    for problem, quantity, *cells in table:
+        name = QUANTITIES[quantity]
+        levels = [
+            row
+            for row in CONVERGENCE
+            if (row["problem"], row["refinement"]) == (problem, refinement)
+        ]
+        assert cells[:-1] == [f"{float(row[name]):.2e}" for row in levels]
+        expected = [f"{float(row[f'{name}_order']):.2f}" for row in levels[1:]]
+        assert cells[-1].split(", ") == expected
+
+
+def test_reference_orders_are_measured_today(convergence):
+    """To two digits of the errors: they are no round-off."""
+    text = orders_of_convergence.to_csv(convergence)
+    for now, stored in zip(csv.DictReader(io.StringIO(text)), CONVERGENCE, strict=True):
+        for name in QUANTITIES.values():
+            assert (now["problem"], now["refinement"]) == (stored["problem"], stored["refinement"])
+            assert bool(now[name]) == bool(stored[name])
+            if now[name]:
+                assert float(now[name]) == pytest.approx(float(stored[name]), rel=5e-3)
+
+
+def by_height():
+    groups = defaultdict(list)
+    for row in DISPERSION:
+        groups[float(row["height"])].append({k: float(v) for k, v in row.items()})
+    return groups
+
+
+def test_bridge_is_that_of_the_reference():
+    table, groups = rows("The bridge to the linear theory"), by_height()
+    assert [float(row[0]) for row in table] == list(groups)
+    for (_, kh, worst, crossing), (height, modes) in zip(table, groups.items(), strict=True):
+        k = [mode["mode_wavenumber"] * height for mode in modes]
+        assert kh == f"{min(k):.2f} to {max(k):.2f}"
+        assert worst == f"{100 * max(mode['disagreement'] for mode in modes):.2f} %"
+        assert crossing == f"{vanishing(modes):.4f}"
+
+
+def vanishing(modes):
+    """k / k_c where the faster mode's measured growth changes sign, by linear interpolation."""
+    growth = defaultdict(list)
+    for mode in modes:
+        growth[mode["wavenumber_over_critical"]].append(mode["measured_growth"])
+    ratio = np.array(sorted(growth))
+    fastest = np.array([max(growth[r]) for r in ratio])
+    i = np.flatnonzero(np.diff(np.sign(fastest)))[0]
+    return ratio[i] + (ratio[i + 1] - ratio[i]) * fastest[i] / (fastest[i] - fastest[i + 1])
+
+
+def test_reference_bridge_is_measured_today():
+    rows_now = dispersion.to_csv(dispersion.dispersion_dataset(Parameters(), [0.1], [1.25]))
+    for now in csv.DictReader(io.StringIO(rows_now)):
+        (stored,) = (
+            row
+            for row in DISPERSION
+            if (row["height"], row["wavenumber_over_critical"], row["branch"])
+            == ("0.1", "1.25", now["branch"])
+        )
+        for name in ("measured_growth", "measured_frequency", "theory_growth", "theory_frequency"):
+            assert float(now[name]) == pytest.approx(float(stored[name]), rel=1e-4)
+
+
+def test_files_that_the_page_names_exist():
+    words = PAGE.read_text(encoding="utf-8").replace("(", "`").replace(")", "`").split("`")
+    named = [word for word in words if word.endswith((".py", ".png", ".csv"))]
+    assert len(named) > 6
+    for name in named:
+        root = PAGE.parent if name.startswith("..") else PAGE.parents[1]
+        assert (root / name).is_file(), name
