@@ -19,10 +19,13 @@ def record() -> xr.Dataset:
     )
 
 
+TEXTS = ("id", "study", "law", "status", "problem", "refinement")
+
+
 def test_every_variable_of_the_table_is_described():
     for name, entry in VARIABLES.items():
         assert entry.long_name, name
-        assert entry.units or name in ("id", "study", "law", "status"), name
+        assert entry.units or name in TEXTS, name
 
 
 def test_written_dataset_is_read_again_with_metadata(record, tmp_path):
