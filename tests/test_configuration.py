@@ -60,7 +60,7 @@ BAD = {
     ),
     "negative density": (
         changed("material.density", -1200),
-        ["material.density = -1200 kg/m^3", "(0, 1e+06) kg/m^3"],
+        ["material.density = -1200 kg/m^3", "[0, 1e+06) kg/m^3"],
     ),
     "tension": (changed("loading.normal_stress", -1e6), ["normal_stress = -1000000.0 Pa"]),
     "infinite stress": (changed("loading.normal_stress", math.inf), ["inf Pa", "(0, 1e+10)"]),

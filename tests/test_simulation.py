@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from nucleation.datasets import VARIABLES
+from nucleation.elasticity import Material
 from nucleation.extraction import extract
 from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation import Outcome, SimulationFailure, run, simulate
@@ -92,6 +93,18 @@ def test_block_length_plays_no_role():
     assert float(one["driving_force"][-1]) == pytest.approx(
         float(np.interp(one["step_time"][-1], two["step_time"], two["driving_force"])), rel=1e-6
     )
+
+
+def test_quasi_static_run_covers_its_event(coarse_run):
+    """Friction strengthens at high rates and bounds the slip rate in place of inertia."""
+    stepping = dataclasses.replace(COARSE.stepping, time_after_event=0.0)
+    quasi_static = simulate(
+        dataclasses.replace(COARSE, stepping=stepping, material=Material(density=0.0))
+    )
+    assert quasi_static.attrs["status"] == Outcome.AFTER_EVENT.value
+    one, other = extract(coarse_run), extract(quasi_static)
+    assert other["onset_time"] == pytest.approx(one["onset_time"], rel=0.01)
+    assert other["length"] == pytest.approx(one["length"], rel=0.02)
 
 
 def test_step_underflow_is_a_named_failure():

@@ -19,8 +19,9 @@ class Material(Checked):
         "Poisson's ratio", low=-1.0, high=0.5, symbol="nu", default=1.0 / 3.0
     )
     density: float = quantity(
-        "mass density", unit="kg/m^3", low=0.0, high=1e6, symbol="rho", default=1200.0
-    )
+        "mass density; zero makes the block quasi-static, without inertia", unit="kg/m^3",
+        low=0.0, high=1e6, closed="low", symbol="rho", default=1200.0,
+    )  # fmt: skip
 
     @property
     def lame_modulus(self) -> float:
@@ -34,10 +35,13 @@ class Material(Checked):
 
     @property
     def shear_wave_speed(self) -> float:
-        """``sqrt(mu / rho)`` (m/s)."""
-        return math.sqrt(self.shear_modulus / self.density)
+        """``sqrt(mu / rho)`` (m/s), infinite without inertia."""
+        return self._wave_speed(self.shear_modulus)
 
     @property
     def p_wave_speed(self) -> float:
-        """``sqrt((lambda + 2 mu) / rho)`` (m/s)."""
-        return math.sqrt(self.p_wave_modulus / self.density)
+        """``sqrt((lambda + 2 mu) / rho)`` (m/s), infinite without inertia."""
+        return self._wave_speed(self.p_wave_modulus)
+
+    def _wave_speed(self, modulus: float) -> float:
+        return math.sqrt(modulus / self.density) if self.density else math.inf

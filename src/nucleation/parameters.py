@@ -27,6 +27,15 @@ class Loading(Checked):
         "initial state variable (age) of the interface", unit="s", low=0.0, high=1e12,
         symbol="phi0", default=1.0,
     )  # fmt: skip
+    initial_stress: str = quantity(
+        "static field at the start: that of an interface that has not slipped, or of one that has "
+        "slipped to the uniform shear stress initial_shear_stress",
+        choices=("no_slip", "uniform_shear"), default="no_slip",
+    )  # fmt: skip
+    initial_shear_stress: float = quantity(
+        "shear stress at the interface at the start, if initial_stress is uniform_shear",
+        unit="Pa", low=0.0, high=1e10, closed="low", symbol="tau0", default=0.0,
+    )  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)

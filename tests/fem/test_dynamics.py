@@ -7,7 +7,9 @@ import pytest
 from fem.assembled_problem import AssembledBlock
 from scipy.optimize import brentq, root
 
+from nucleation.elasticity import Material
 from nucleation.fem.dynamics import Dynamics
+from nucleation.fem.operator import BodyOperator
 from nucleation.fem.stepping import Formula, rung_value
 from nucleation.friction import Friction
 from nucleation.parameters import Geometry, Loading, Mesh, Parameters
@@ -134,6 +136,51 @@ def test_initial_force_is_that_of_uniaxial_strain():
     nu = parameters.material.poisson_ratio
     expected = -nu / (1 - nu) * parameters.loading.normal_stress * parameters.geometry.height
     assert report.driving_force == pytest.approx(expected, rel=1e-9)
+
+
+def test_start_in_uniform_shear_carries_it_at_every_node():
+    shear = 5e4
+    loading = Loading(initial_stress="uniform_shear", initial_shear_stress=shear)
+    dynamics = Dynamics(dataclasses.replace(small(), loading=loading))
+    state, report = dynamics.initial_state()
+    forces = shear * dynamics.grid.nodal_lengths[1:]
+    # the tangent leaves out couplings through the right edge below 1e-8
+    np.testing.assert_allclose(report.interface.tangential[1:], -forces, rtol=3e-8)
+    assert report.driving_force == pytest.approx(-forces.sum(), rel=1e-8)
+    np.testing.assert_array_equal(state.past_w[0], report.interface.w)
+
+
+def test_start_without_shear_is_uniaxial_stress():
+    """The relaxed start: sigma_xx = sigma_xy = 0 everywhere, which bilinear elements hold."""
+    parameters = dataclasses.replace(small(), loading=Loading(initial_stress="uniform_shear"))
+    dynamics = Dynamics(parameters)
+    state, report = dynamics.initial_state()
+    u_x, u_y = dynamics.body.nodal_values(state.displacement)
+    material, stress = parameters.material, parameters.loading.normal_stress
+    x, y = np.meshgrid(dynamics.grid.x, dynamics.grid.y)
+    nu, scale = material.poisson_ratio, stress / (2.0 * material.shear_modulus)
+    np.testing.assert_allclose(u_x, nu * scale * x, atol=1e-9 * scale)
+    np.testing.assert_allclose(u_y, -(1.0 - nu) * scale * y, atol=1e-9 * scale)
+    assert abs(report.driving_force) < 1e-8 * stress * parameters.geometry.height
+    np.testing.assert_allclose(
+        report.interface.normal, stress * dynamics.grid.nodal_lengths, rtol=1e-8
+    )
+
+
+def test_without_density_every_step_is_a_static_field():
+    parameters = dataclasses.replace(small(), material=Material(density=0.0))
+    dynamics = Dynamics(parameters)
+    static = BodyOperator(dynamics.body, 0.0)
+    load = dynamics.body.top_load(parameters.loading.normal_stress)
+    state, _ = dynamics.initial_state()
+    for rung in LADDER[:40]:
+        state, report = dynamics.advance(state, rung)
+        expected = static.respond(load, report.interface.w)
+        p, scale = report.interface.tangential[1:], np.abs(expected.tangential).max()
+        np.testing.assert_allclose(p, expected.tangential, rtol=1e-7, atol=1e-7 * scale)
+        np.testing.assert_allclose(report.interface.normal, expected.normal, rtol=1e-7)
+        assert report.driving_force == report.interface.tangential.sum()
+        assert state.momentum == 0.0
 
 
 def test_a_step_changes_nothing_and_repeats_exactly():

@@ -102,26 +102,34 @@ class Dynamics:
         self._crossing_time = geometry.height / parameters.material.shear_wave_speed
         self._initial_log_state = float(np.log(loading.initial_state))
         self._load = self.body.top_load(loading.normal_stress)
+        self._initial_shear = (
+            loading.initial_shear_stress if loading.initial_stress == "uniform_shear" else None
+        )
         self._operators: OrderedDict[int, BodyOperator] = OrderedDict()
 
     def initial_state(self) -> tuple[State, StepReport]:
-        """The static field under the normal stress, without slip and at rest."""
+        """The static field under the normal stress at rest, without slip or in uniform shear."""
         n = self.grid.n_x
         operator = BodyOperator(self.body, 0.0)
-        rest = np.zeros(n)
-        response = operator.respond(self._load, rest)
-        modes, _ = operator.solve(self._load, rest, response.edge)
+        response = operator.respond(self._load, np.zeros(n))
+        if self._initial_shear is not None:
+            forces = -self._initial_shear * self.grid.nodal_lengths[1:]
+            stiffness, _ = operator.tangent(np.arange(1, n + 1))
+            slipped = np.linalg.solve(stiffness, forces - response.tangential)
+            response = operator.respond(self._load, slipped)
+        w = response.w
+        modes, _ = operator.solve(self._load, self.body.sine_amplitudes(w), response.edge)
         displacement = Field(modes, response.edge)
         velocity = self.body.zero_field()
         velocity.modes[:, 0] = -self.velocity * self.body.sine_amplitudes(np.ones(n))
         slip_rate = np.append(self.velocity, np.zeros(n))
         log_state = np.full(n + 1, self._initial_log_state)
         momentum = self.body.momentum_x(velocity)
-        state = State.beginning(displacement, velocity, slip_rate, log_state, rest, momentum)
+        state = State.beginning(displacement, velocity, slip_rate, log_state, w, momentum)
         # at rest no friction acts on the driven edge's own node
         tangential = np.append(0.0, response.tangential)
         at_rest = InterfaceSolution(
-            slip_rate, log_state, tangential, response.normal, rest, response.edge, 0
+            slip_rate, log_state, tangential, response.normal, w, response.edge, 0
         )
         return state, StepReport(at_rest, float(tangential.sum()), 0.0)
 
