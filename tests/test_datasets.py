@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation import datasets, provenance
+from nucleation import datasets, lengths, provenance
 from nucleation.datasets import VARIABLES, DatasetError
 
 
@@ -149,3 +149,13 @@ def test_attributes_are_text(monkeypatch):
     assert attributes["created"] == "1970-01-01T00:00:00+00:00"
     assert attributes["parameters"] == '{"a": [1], "b": 1e-09}'
     assert json.loads(attributes["versions"])["numpy"] == np.__version__
+
+
+def test_joined_tables_keep_their_longest_text(tmp_path):
+    """The text length of the file that was read first must not cut the others."""
+    for name in ("short", "a longer one"):
+        datasets.write(xr.Dataset({"id": ("run", [name])}), tmp_path / f"{len(name)}.nc")
+    tables = [datasets.read(path) for path in sorted(tmp_path.iterdir(), reverse=True)]
+    datasets.write(lengths.join(tables), tmp_path / "all.nc")
+    joined = datasets.read(tmp_path / "all.nc")
+    assert list(joined["id"].values) == ["short", "a longer one"]

@@ -117,7 +117,7 @@ VARIABLES: dict[str, Variable] = {
     "memory_time": Variable("s", "time over which friction forgets at V", "D/V"),
     # The same runs by an independent solver, FreeFem++
     "factorisations": Variable("1", "factorised matrices of the step"),
-    "elapsed_time": Variable("s", "wall time since the start of the run"),
+    "elapsed_time": Variable("s", "processor time since the start of the run"),
     "onset_time_freefem": Variable("s", "onset of the event, by FreeFem++", "t"),
     "length_freefem": Variable("m", "critical nucleation length, by FreeFem++", "L_c"),
     "patch_length_rms": Variable("1", "relative difference of L(t), root mean square"),
@@ -125,8 +125,8 @@ VARIABLES: dict[str, Variable] = {
     "patch_length_elements": Variable("1", "largest difference of L(t) over the element's length"),
     "driving_force_rms": Variable("1", "relative difference of f_d(t), root mean square"),
     "driving_force_largest": Variable("1", "relative difference of f_d(t), largest"),
-    "step_seconds": Variable("s", "wall time of a step, median"),
-    "step_seconds_freefem": Variable("s", "wall time of a step of FreeFem++, median"),
+    "step_seconds": Variable("s", "processor time of a step, median"),
+    "step_seconds_freefem": Variable("s", "processor time of a step of FreeFem++, median"),
     "steps_freefem": Variable("1", "number of time steps of FreeFem++"),
     # Orders of convergence on manufactured solutions
     "problem": Variable("", "elastodynamics alone, or with friction by an evolution law"),
@@ -163,7 +163,8 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
 
     Numbers are stored with a checksum per chunk, so that :func:`read` detects damage.
     """
-    complete = annotate(dataset).assign_attrs(attributes)
+    # an encoding left from reading may fit less: texts were cut to the length they had in a file
+    complete = annotate(dataset).drop_encoding().assign_attrs(attributes)
     stored = {"zlib": True, "complevel": 1, "shuffle": True, "fletcher32": True}
     encoding = {
         name: stored
