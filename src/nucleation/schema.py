@@ -10,7 +10,7 @@ from .elasticity import Material
 from .friction import Friction
 from .parameters import Loading, Stepping
 from .quantities import Quantity, declarations
-from .settings import Curves, ExtractionSettings, FigureSettings, Limits
+from .settings import CrosscheckSettings, Curves, ExtractionSettings, FigureSettings, Limits
 from .stability import InterfaceState
 from .studies import RANGE, STUDY_PARAMETERS, StudySettings
 
@@ -27,6 +27,7 @@ GROUPS: dict[str, type] = {
     "extraction": ExtractionSettings,
     "figures": FigureSettings,
     "limits": Limits,
+    "crosscheck": CrosscheckSettings,
 }
 """The sections of the configuration that are one dataclass each."""
 

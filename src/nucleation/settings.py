@@ -81,3 +81,40 @@ class Limits(Checked):
         "time after which a cluster may end a simulation", unit="min", low=1.0, high=1e5,
         closed="both", default=60.0,
     )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class CrosscheckSettings(Checked):
+    """The runs made with the independent solver as well, and its time steps."""
+
+    heights: tuple[float, ...] = quantity(
+        "block heights of the runs made with both solvers", unit="m", low=0.0, high=1e6,
+        symbol="H", default=(0.005, 0.05),
+    )  # fmt: skip
+    length_over_critical: float = quantity(
+        "block length over the theory's critical length", low=1.0, high=1000.0, symbol="L/L_c",
+        default=6.0,
+    )  # fmt: skip
+    n_x: int = quantity("number of elements along x of both solvers", low=8, high=100000,
+                        closed="both", symbol="N_x", default=400)  # fmt: skip
+    n_y: int = quantity("number of elements along y of both solvers", low=2, high=10000,
+                        closed="both", symbol="N_y", default=8)  # fmt: skip
+    longest_step: float = quantity(
+        "longest time step of the independent solver over the memory time D/V", low=0.0, high=1.0,
+        closed="high", default=0.04,
+    )  # fmt: skip
+    slip_per_step: float = quantity(
+        "largest slip within a step of the independent solver over D", low=0.0, high=1.0,
+        closed="high", default=0.2,
+    )  # fmt: skip
+    time_after_event: float = quantity(
+        "time simulated by both solvers after the onset of the event", unit="s", low=0.0,
+        high=1e12, closed="low", default=0.05,
+    )  # fmt: skip
+    timing_n_x: int = quantity("number of elements along x of the mesh on which steps are timed",
+                               low=8, high=100000, closed="both", default=400)  # fmt: skip
+    timing_n_y: int = quantity("number of elements along y of the mesh on which steps are timed",
+                               low=2, high=10000, closed="both", default=150)  # fmt: skip
+    timing_end: float = quantity(
+        "simulated time of the run that times steps", unit="s", low=0.0, high=1e12, default=0.1
+    )
