@@ -1,0 +1,143 @@
+"""Two independent solvers on the same runs: which runs, and by how much their results differ.
+
+Both solvers get the same parameters and the same nodes along x. Differences are relative to the
+project's own solver. They are measured over the creep before the event: from the time when the
+patch is some elements long until the growing oscillation of the patch, which every hop of the
+front from node to node shakes, begins to tell the two apart.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from .elasticity import Material
+from .extraction import extract, patch_lengths
+from .parameters import Parameters
+from .settings import CrosscheckSettings, ExtractionSettings
+from .simulation import simulate
+from .stability import InterfaceState
+from .studies import theory_length
+
+Array = NDArray[np.float64]
+
+TIMING = "timing"  # name of the run that times steps on the paper's mesh
+SETTLED = 20.0  # start of the comparison, in units of D/V
+BEFORE_ONSET = 0.9  # end of the comparison, as a part of the earlier onset
+INSTANTS = 2000  # at which two records are compared
+COLUMNS = (
+    "id", "height", "n_x", "n_y", "onset_time", "onset_time_freefem", "length", "length_freefem",
+    "patch_length_rms", "patch_length_largest", "patch_length_elements", "driving_force_rms",
+    "driving_force_largest", "step_seconds", "step_seconds_freefem", "steps", "steps_freefem",
+)  # fmt: skip
+
+
+def runs(
+    base: Parameters, settings: CrosscheckSettings, interface: InterfaceState
+) -> dict[str, Parameters]:
+    """The simulations to make with both solvers, by name.
+
+    Parameters
+    ----------
+    base : material, friction, loading and stepping.
+    settings : heights, meshes and time after the event.
+    interface : of the linear theory, in whose critical length the block's length is measured.
+    """
+    common = {"evolution": "aging", "grading": 1.0, "time_after_event": settings.time_after_event}
+    found = {}
+    for height in settings.heights:
+        length = _block_length(height, base.material, interface, settings)
+        mesh = {"n_x": settings.n_x, "n_y": settings.n_y}
+        found[f"H{height:g}"] = base.replaced(common | mesh | {"height": height, "length": length})
+    height = settings.heights[0]
+    timing = {
+        "height": height, "length": _block_length(height, base.material, interface, settings),
+        "n_x": settings.timing_n_x, "n_y": settings.timing_n_y, "end_time": settings.timing_end,
+    }  # fmt: skip
+    return found | {TIMING: base.replaced(common | timing)}
+
+
+def _block_length(
+    height: float, material: Material, interface: InterfaceState, settings: CrosscheckSettings
+) -> float:
+    critical = theory_length(height, material, interface)
+    return float(f"{settings.length_over_critical * critical:.4g}")
+
+
+def compare(
+    own: xr.Dataset, freefem: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+) -> dict[str, float]:
+    """The numbers of one row of the table: onset, critical length, differences, cost.
+
+    Parameters
+    ----------
+    own, freefem : records of the same run by :func:`simulate_timed` and
+        :func:`nucleation.freefem.run`.
+    settings : edge of the patch and drop of the force.
+
+    Returns
+    -------
+    All of :data:`COLUMNS` but ``id``. Times in s, lengths in m; the time of a step is the median
+    processor time of the run's steps. Root mean squares and largest differences of L(t) and f_d(t)
+    are relative; the largest difference of L(t) is given in elements as well. NaN where a run has
+    no event or is too short.
+    """
+    parameters = Parameters.from_json(own.attrs["parameters"])
+    theirs, ours = extract(freefem, settings), extract(own, settings)
+    ends = (ours["onset_time"], theirs["onset_time"])
+    instants = np.linspace(SETTLED * parameters.memory_time, BEFORE_ONSET * np.min(ends), INSTANTS)
+    threshold = settings.edge_threshold * parameters.loading.velocity
+    patch, patch_freefem = (
+        np.interp(instants, run["time"].values, patch_lengths(run, threshold))
+        for run in (own, freefem)
+    )
+    force, force_freefem = (
+        np.interp(instants, run["step_time"].values, run["driving_force"].values)
+        for run in (own, freefem)
+    )
+    dx = parameters.geometry.length / parameters.mesh.n_x
+    difference, force_difference = patch_freefem / patch - 1.0, force_freefem / force - 1.0
+    return {
+        "height": parameters.geometry.height,
+        "n_x": parameters.mesh.n_x,
+        "n_y": parameters.mesh.n_y,
+        "onset_time": ours["onset_time"],
+        "onset_time_freefem": theirs["onset_time"],
+        "length": ours["length"],
+        "length_freefem": theirs["length"],
+        "patch_length_rms": _rms(difference),
+        "patch_length_largest": float(np.abs(difference).max()),
+        "patch_length_elements": float(np.abs(patch_freefem - patch).max() / dx),
+        "driving_force_rms": _rms(force_difference),
+        "driving_force_largest": float(np.abs(force_difference).max()),
+        "step_seconds": _seconds_per_step(own),
+        "step_seconds_freefem": _seconds_per_step(freefem),
+        "steps": own.attrs["steps"],
+        "steps_freefem": freefem.attrs["steps"],
+    }
+
+
+def simulate_timed(parameters: Parameters) -> xr.Dataset:
+    """The record of the project's own solver, with the processor's ``elapsed_time`` (s)."""
+    elapsed: list[float] = []
+    began = time.process_time()
+    record = simulate(parameters, progress=lambda _: elapsed.append(time.process_time() - began))
+    return record.assign(elapsed_time=("step", elapsed))
+
+
+def _seconds_per_step(record: xr.Dataset) -> float:
+    return float(np.median(np.diff(record["elapsed_time"].values)))
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:
+    """The table of all rows, by the runs' names, on the dimension ``run``."""
+    listed: Sequence[dict[str, object]] = [{"id": name, **row} for name, row in rows.items()]
+    return xr.Dataset({name: ("run", [row[name] for row in listed]) for name in COLUMNS})

@@ -1,0 +1,145 @@
+"""The project's solver against an independent one: the same block solved by FreeFem++.
+
+The two codes share nothing but the problem: elements, time integration, linear algebra and the
+treatment of the interface differ. At the same nodes along x they have to agree before the event.
+"""
+
+import dataclasses
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nucleation import crosscheck, freefem
+from nucleation.extraction import patch_lengths
+from nucleation.friction import Friction
+from nucleation.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.settings import CrosscheckSettings, ExtractionSettings
+from nucleation.simulation import simulate
+
+SCRIPT = Path(__file__).parents[2] / "workflow" / "crosscheck" / "block.edp"
+END = 2.0  # s
+PARAMETERS = Parameters(
+    geometry=Geometry(height=0.005, length=0.5),
+    mesh=Mesh(n_x=100, n_y=4),
+    stepping=Stepping(end_time=END),
+)
+
+
+def solved_by_freefem(directory, parameters=PARAMETERS):
+    """The record of FreeFem++. It may be missing on a developer's machine, but not in CI."""
+    if not freefem.installed() and os.environ.get("CI") != "true":
+        pytest.skip(freefem.MISSING)
+    return freefem.run(SCRIPT, directory, parameters, CrosscheckSettings())
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory):
+    """The record of both solvers, over some thousand steps."""
+    theirs = solved_by_freefem(tmp_path_factory.mktemp("freefem"))
+    return simulate(PARAMETERS), theirs
+
+
+def at_end(record, name):
+    """A field of the interface at the end of the run, at the same nodes for both solvers."""
+    return record[name].isel(time=-1).values
+
+
+def test_driving_force(pair):
+    times = np.linspace(0.2, END, 200)
+    forces = [np.interp(times, r["step_time"].values, r["driving_force"].values) for r in pair]
+    difference = forces[1] / forces[0] - 1.0
+    assert np.abs(difference).max() < 0.01
+    assert np.sqrt(np.mean(difference**2)) < 0.004
+
+
+def test_patch_length(pair):
+    """Either front hops from node to node: at any time they are less than one hop apart."""
+    times = np.linspace(0.2, END, 200)
+    edges = [
+        np.interp(times, r["time"].values, patch_lengths(r, 0.01 * PARAMETERS.loading.velocity))
+        for r in pair
+    ]
+    dx = PARAMETERS.geometry.length / PARAMETERS.mesh.n_x
+    assert np.abs(edges[1] - edges[0]).max() < dx
+    assert edges[0][-1] > 10.0 * dx
+
+
+def test_fields_inside_the_patch(pair):
+    """Slip, its rate, age and both stresses of the creeping nodes, two nodes from either end."""
+    own, theirs = pair
+    inside = slice(2, 9)
+    for name, tolerance in {
+        "slip_rate": 0.03, "slip": 0.02, "state": 0.03, "shear_stress": 0.01,
+        "normal_stress": 0.01,
+    }.items():  # fmt: skip
+        first, second = at_end(own, name)[inside], at_end(theirs, name)[inside]
+        np.testing.assert_allclose(second, first, rtol=tolerance, err_msg=name)
+
+
+def has_friction_of(record, friction):
+    """Whether shear over normal stress is a friction law of this project at every node."""
+    last = record.isel(time=-1)
+    found = -last["shear_stress"] / last["normal_stress"]
+    coefficient = friction.coefficient(last["slip_rate"], last["state"])
+    return np.allclose(found, coefficient, rtol=1e-6, atol=1e-9)
+
+
+def test_same_friction_law(pair):
+    assert has_friction_of(pair[1], PARAMETERS.friction)
+
+
+def test_every_parameter_reaches_the_other_solver(tmp_path):
+    """Numbers that all differ from the defaults arrive, and the two solvers agree on them."""
+    changed = Parameters(
+        material=dataclasses.replace(PARAMETERS.material, poisson_ratio=0.2, shear_modulus=2.0e9),
+        friction=Friction(
+            characteristic_slip_distance=6e-7, aging_coefficient=0.06, slip_rate_scale=2e-7,
+            base_friction=0.3, state_scale=5e-4, regularisation_slip_rate=2e-9,
+            rate_coefficient=0.006,
+        ),
+        loading=Loading(normal_stress=8e5, velocity=2e-5, initial_state=3.0),
+        geometry=Geometry(height=0.006, length=0.5),
+        mesh=Mesh(n_x=80, n_y=4),
+        stepping=Stepping(end_time=0.5),
+    )  # fmt: skip
+    theirs = solved_by_freefem(tmp_path, changed)
+    own = simulate(changed)
+    forces = [float(record["driving_force"][-1]) for record in (own, theirs)]
+    assert forces[1] == pytest.approx(forces[0], rel=0.01)
+    assert has_friction_of(theirs, changed.friction)
+    assert at_end(theirs, "slip_rate")[0] == changed.loading.velocity
+    assert at_end(theirs, "state")[0] == pytest.approx(changed.memory_time, rel=1e-3)  # D/V
+    ahead = slice(40, 70)  # nothing happens there
+    assert at_end(theirs, "state")[ahead] == pytest.approx(3.5, rel=0.01)  # it ages
+    assert at_end(theirs, "normal_stress")[ahead] == pytest.approx(-8e5, rel=1e-3)
+
+
+def test_other_laws_are_refused():
+    slip = PARAMETERS.replaced({"evolution": "slip"})
+    with pytest.raises(freefem.FreeFemError, match="aging law"):
+        freefem.arguments(slip, CrosscheckSettings(), ExtractionSettings())
+
+
+def test_rows_of_the_table(pair):
+    """A run without an event has costs but no differences."""
+    own = crosscheck.simulate_timed(PARAMETERS.replaced({"end_time": 0.05}))
+    row = crosscheck.compare(own, pair[1])
+    assert set(row) == set(crosscheck.COLUMNS) - {"id"}
+    assert np.isnan(row["onset_time"]) and np.isnan(row["patch_length_rms"])
+    assert 0.0 < row["step_seconds"] < 10.0 * row["step_seconds_freefem"] < 10.0
+    table = crosscheck.gather({"one": row})
+    assert table["id"].values.tolist() == ["one"]
+
+
+def test_comparison_of_a_record_with_itself_and_with_one_that_lags(pair):
+    """A drop is added to a record, so that it has an event; then it is shifted in time."""
+    record = crosscheck.simulate_timed(PARAMETERS)
+    late = record["step_time"] > 0.95 * END
+    record["driving_force"] = record["driving_force"].where(~late, 0.5 * record["driving_force"])
+    same = crosscheck.compare(record, record)
+    assert same["onset_time"] == same["onset_time_freefem"] < END
+    assert same["patch_length_rms"] == same["driving_force_largest"] == 0.0
+    scaled = record.assign(driving_force=1.02 * record["driving_force"])
+    assert crosscheck.compare(record, scaled)["driving_force_rms"] == pytest.approx(0.02)
