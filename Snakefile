@@ -69,6 +69,7 @@ include: "workflow/rules/extract.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/patches.smk"
 include: "workflow/rules/verification.smk"
+include: "workflow/rules/crosscheck.smk"
 
 
 # Targets. Each names the simulations it stands on, not only its own files: after a simulation

@@ -1,0 +1,64 @@
+"""The crosscheck's figure shows both records."""
+
+import drawn_layout
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.figures import figure_crosscheck
+from nucleation.parameters import Parameters
+
+ONSETS = (10.0, 9.5)  # s
+
+
+def record(height, factor):
+    """A patch that grows like the root of time, with a force that follows it."""
+    time, x = np.linspace(0.0, 11.0, 300), np.linspace(0.0, 1.0, 401)
+    edge = factor * 0.1 * np.sqrt(time / 10.0)
+    rate = 1e-5 * np.where(x < edge[:, None], 1.0, 1e-9)
+    return xr.Dataset(
+        {
+            "slip_rate": (("time", "x"), rate),
+            "step_time": ("step", time),
+            "driving_force": ("step", -7e4 * factor * np.sqrt(time / 10.0)),
+        },
+        coords={"time": time, "x": x},
+        attrs={"parameters": Parameters().replaced({"height": height}).to_json()},
+    )
+
+
+@pytest.fixture
+def drawn():
+    table = xr.Dataset(
+        {
+            "onset_time": ("run", [ONSETS[0]] * 2),
+            "onset_time_freefem": ("run", [ONSETS[1]] * 2),
+            "length": ("run", [0.1] * 2),
+            "length_freefem": ("run", [0.098] * 2),
+        }
+    )
+    pairs = [(record(height, 1.0), record(height, 1.02)) for height in (0.005, 0.05)]
+    return figure_crosscheck.draw(pairs, table)
+
+
+def test_curves(drawn):
+    force = drawn.axes[2]
+    assert [line.get_label() for line in force.lines] == ["this project", "FreeFem++"]
+    np.testing.assert_allclose(force.lines[1].get_ydata(), 1.02 * force.lines[0].get_ydata())
+    difference = drawn.axes[4].lines[1]
+    assert difference.get_label() == "$f_d(t)$"
+    np.testing.assert_allclose(difference.get_ydata(), 2.0, atol=1e-6)
+    assert difference.get_xdata()[-1] == ONSETS[1]
+
+
+def test_onsets_are_marked(drawn):
+    marks = {
+        tuple(line.get_xydata()[0]) for line in drawn.axes[0].lines if len(line.get_xdata()) == 1
+    }
+    assert marks == {(ONSETS[0], 0.1), (ONSETS[1], 0.098)}
+
+
+def test_text_is_legible_and_neither_overlaps_nor_is_cut(drawn):
+    assert drawn_layout.overlaps(drawn) == []
+    assert drawn_layout.cut_off(drawn) == []
+    assert drawn_layout.sizes(drawn).min() >= 7.5

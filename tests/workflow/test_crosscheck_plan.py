@@ -1,0 +1,29 @@
+"""The independent solver in the workflow: what it plans, and that it is optional."""
+
+import shutil
+
+import pytest
+
+from nucleation import freefem
+
+
+def test_plan(workflow, monkeypatch, tmp_path):
+    """Three runs by both solvers; planning needs a program of the name, which is not run."""
+    program = tmp_path / freefem.PROGRAM
+    program.write_text("#!/bin/sh\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+    once = ("compare_crosscheck", "draw_figure_crosscheck", "crosscheck")
+    expected = {"crosscheck_own": 3, "crosscheck_freefem": 3, **dict.fromkeys(once, 1)}
+    assert workflow.planned("crosscheck") == expected
+
+
+@pytest.mark.parametrize("target", ["crosscheck", "figure_crosscheck"])
+def test_without_the_program_one_sentence_says_how_to_get_it(workflow, monkeypatch, target):
+    monkeypatch.setenv("PATH", "/nonexistent")
+    assert shutil.which(freefem.PROGRAM) is None
+    done = workflow(target)
+    assert done.returncode != 0
+    assert freefem.MISSING in done.stdout
+    assert "workflow/install-debian.sh crosscheck" in freefem.MISSING
+    assert not (workflow.directory / "results").exists()

@@ -1,0 +1,25 @@
+"""Run one simulation of the crosscheck with FreeFem++."""
+
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from nucleation import datasets, freefem, provenance
+from nucleation.parameters import Parameters
+from nucleation.settings import CrosscheckSettings, ExtractionSettings
+
+params, output = snakemake.params, snakemake.output[0]
+settings = {**params.settings, "heights": tuple(params.settings["heights"])}
+with TemporaryDirectory() as directory:
+    try:
+        record = freefem.run(
+            Path(snakemake.input.script),
+            Path(directory),
+            Parameters.from_dict(params.parameters),
+            CrosscheckSettings(**settings),
+            ExtractionSettings(**params.extraction),
+        )
+    except freefem.FreeFemError as error:
+        sys.exit(str(error))
+attributes = provenance.attributes(params.parameters, params.digest, f"snakemake {output}")
+datasets.write(record, output, **attributes)
