@@ -15,6 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from . import freefem
 from .elasticity import Material
 from .extraction import extract, patch_lengths
 from .parameters import Parameters
@@ -47,7 +48,7 @@ def runs(
     settings : heights, meshes and time after the event.
     interface : of the linear theory, in whose critical length the block's length is measured.
     """
-    common = {"evolution": "aging", "grading": 1.0, "time_after_event": settings.time_after_event}
+    common = freefem.FIXED | {"time_after_event": settings.time_after_event}
     found = {}
     for height in settings.heights:
         length = _block_length(height, base.material, interface, settings)
@@ -69,13 +70,13 @@ def _block_length(
 
 
 def compare(
-    own: xr.Dataset, freefem: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+    own: xr.Dataset, theirs: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
 ) -> dict[str, float]:
     """The numbers of one row of the table: onset, critical length, differences, cost.
 
     Parameters
     ----------
-    own, freefem : records of the same run by :func:`simulate_timed` and
+    own, theirs : records of the same run by :func:`simulate_timed` and
         :func:`nucleation.freefem.run`.
     settings : edge of the patch and drop of the force.
 
@@ -87,17 +88,17 @@ def compare(
     no event or is too short.
     """
     parameters = Parameters.from_json(own.attrs["parameters"])
-    theirs, ours = extract(freefem, settings), extract(own, settings)
-    ends = (ours["onset_time"], theirs["onset_time"])
+    measured, measured_freefem = extract(own, settings), extract(theirs, settings)
+    ends = (measured["onset_time"], measured_freefem["onset_time"])
     instants = np.linspace(SETTLED * parameters.memory_time, BEFORE_ONSET * np.min(ends), INSTANTS)
     threshold = settings.edge_threshold * parameters.loading.velocity
     patch, patch_freefem = (
         np.interp(instants, run["time"].values, patch_lengths(run, threshold))
-        for run in (own, freefem)
+        for run in (own, theirs)
     )
     force, force_freefem = (
         np.interp(instants, run["step_time"].values, run["driving_force"].values)
-        for run in (own, freefem)
+        for run in (own, theirs)
     )
     dx = parameters.geometry.length / parameters.mesh.n_x
     difference, force_difference = patch_freefem / patch - 1.0, force_freefem / force - 1.0
@@ -105,19 +106,19 @@ def compare(
         "height": parameters.geometry.height,
         "n_x": parameters.mesh.n_x,
         "n_y": parameters.mesh.n_y,
-        "onset_time": ours["onset_time"],
-        "onset_time_freefem": theirs["onset_time"],
-        "length": ours["length"],
-        "length_freefem": theirs["length"],
+        "onset_time": measured["onset_time"],
+        "onset_time_freefem": measured_freefem["onset_time"],
+        "length": measured["length"],
+        "length_freefem": measured_freefem["length"],
         "patch_length_rms": _rms(difference),
         "patch_length_largest": float(np.abs(difference).max()),
         "patch_length_elements": float(np.abs(patch_freefem - patch).max() / dx),
         "driving_force_rms": _rms(force_difference),
         "driving_force_largest": float(np.abs(force_difference).max()),
         "step_seconds": _seconds_per_step(own),
-        "step_seconds_freefem": _seconds_per_step(freefem),
+        "step_seconds_freefem": _seconds_per_step(theirs),
         "steps": own.attrs["steps"],
-        "steps_freefem": freefem.attrs["steps"],
+        "steps_freefem": theirs.attrs["steps"],
     }
 
 

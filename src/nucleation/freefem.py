@@ -25,6 +25,10 @@ MISSING = (
     "run workflow/install-debian.sh crosscheck"
 )
 MOST_STEPS = 200_000  # a run that needs more has failed
+FIXED = {"evolution": "aging", "grading": 1.0, "initial_stress": "no_slip"}
+"""Parameters for which the script has this one value."""
+UNUSED = ("initial_shear_stress", "tolerance", "shortest_step")
+"""Parameters without meaning for the script."""
 FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
 COLUMNS = (
     "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
@@ -49,14 +53,15 @@ def arguments(
     Raises
     ------
     FreeFemError
-        The script knows the aging law and uniform meshes only.
+        The script can't do what a parameter asks for, see :data:`FIXED`.
     """
-    groups = parameters.to_dict()
-    if groups["friction"].pop("evolution") != "aging" or groups["mesh"].pop("grading") != 1.0:
-        raise FreeFemError("the script for FreeFem++ has the aging law and uniform meshes only")
-    stepping = groups.pop("stepping")
-    values = {name: value for group in groups.values() for name, value in group.items()}
-    values |= {name: stepping[name] for name in ("end_time", "time_after_event")}
+    groups = parameters.to_dict().values()
+    values = {name: value for group in groups for name, value in group.items()}
+    for name, only in FIXED.items():
+        if values.pop(name) != only:
+            raise FreeFemError(f"the script for FreeFem++ has {name} = {only} only")
+    for name in UNUSED:
+        del values[name]
     values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
     values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
     return {name: repr(value) for name, value in values.items()}

@@ -6,6 +6,7 @@ treatment of the interface differ. At the same nodes along x they have to agree 
 
 import dataclasses
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -116,9 +117,15 @@ def test_every_parameter_reaches_the_other_solver(tmp_path):
     assert at_end(theirs, "normal_stress")[ahead] == pytest.approx(-8e5, rel=1e-3)
 
 
+def test_script_takes_every_argument_and_no_other():
+    taken = set(re.findall(r'(?:number|text)\("(\w+)"\)', SCRIPT.read_text()))
+    given = freefem.arguments(PARAMETERS, CrosscheckSettings(), ExtractionSettings())
+    assert taken == {*given, "directory"}
+
+
 def test_other_laws_are_refused():
     slip = PARAMETERS.replaced({"evolution": "slip"})
-    with pytest.raises(freefem.FreeFemError, match="aging law"):
+    with pytest.raises(freefem.FreeFemError, match="evolution = aging only"):
         freefem.arguments(slip, CrosscheckSettings(), ExtractionSettings())
 
 
