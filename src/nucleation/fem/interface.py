@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 
 ROUNDING = 1e-14  # relative, of displacements
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
+ENOUGH = 0.1  # error expected of an iteration with old factors, in units of the tolerance
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
 
@@ -43,6 +44,52 @@ class InterfaceSolution:
     w: Array  # m, nodes 1..n_x
     edge: Array  # m, levels 0..n_y
     iterations: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Factors:
+    """Newton's matrix among the nodes that elasticity couples, factorised; others are alone."""
+
+    active: NDArray[np.intp]
+    damping: Array  # R df/dv at the active nodes when it was factorised
+    lu: Array
+    pivots: NDArray[np.int32]
+
+    @classmethod
+    def of(
+        cls, operator: BodyOperator, coefficient: Array, damping: Array, elastic: Array,
+        beta: float,
+    ) -> Factors:  # fmt: skip
+        """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
+        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
+        if not active.size:
+            return cls(active, damping[active], np.empty((0, 0)), np.empty(0, dtype=np.int32))
+        stiffness, coupling = operator.tangent(active + 1)
+        coupling *= coefficient[active, None]
+        stiffness += coupling
+        stiffness *= beta
+        stiffness[np.diag_indices_from(stiffness)] += damping[active]
+        lu, pivots, info = lapack.dgetrf(stiffness.T, overwrite_a=True)  # of the transpose
+        if info:
+            raise NewtonFailure("the interface's tangent is singular")
+        return cls(active, damping[active], lu, pivots)
+
+    def change(self, damping: Array, elastic: Array) -> float:
+        """Largest relative change of a node's slope since, by which an iteration would err."""
+        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
+        if not np.array_equal(active, self.active):
+            return np.inf
+        change = np.abs(damping[active] - self.damping) / (elastic[active] + np.abs(self.damping))
+        return float(change.max(initial=0.0))
+
+    def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
+        """Newton's direction for a residual, to first order in the change since factorising."""
+        change = -residual / (elastic + damping)
+        if self.active.size:
+            change[self.active], _ = lapack.dgetrs(
+                self.lu, self.pivots, -residual[self.active], trans=1
+            )
+        return change
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,13 +125,14 @@ class Interface:
         NewtonFailure
             No convergence, or a nodal normal force that is tensile or not finite.
         """
-        v, w = guess, response.w
+        v, w, factors = guess, response.w, None
         rounding = ROUNDING * np.abs(w_history).max() / beta  # of v = (w - w_history) / beta
         p, normal, edge = response.tangential, response.normal, response.edge
         for iteration in range(self.most_iterations + 1):
-            coefficient, slope, psi = self._friction(v, log_state_history[1:], beta)
-            residual = p + coefficient * normal[1:]
-            damping = slope * normal[1:]
+            rates = np.append(self.velocity, v)
+            coefficient, slope, psi = self._friction(rates, log_state_history, beta)
+            residual = p + coefficient[1:] * normal[1:]
+            damping = slope[1:] * normal[1:]
             elastic = beta * operator.diagonal
             resolved = np.abs(v) + self.friction.regularisation_slip_rate
             scale = (elastic + np.abs(damping)) * (self.tolerance * resolved) + elastic * rounding
@@ -92,10 +140,15 @@ class Interface:
             if not np.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
             if error < 1.0:
-                return self._finish(log_state_history, beta, v, psi, p, normal, w, edge, iteration)
-            v = self._updated(
-                v, self._direction(operator, residual, coefficient, damping, elastic, beta)
-            )
+                if normal.min() <= 0.0:
+                    raise NewtonFailure("the interface is in tension")
+                # node 0 belongs to the driven edge; its friction follows from its rate V
+                tangential = np.append(-coefficient[0] * normal[0], p)
+                return InterfaceSolution(rates, psi, tangential, normal, w, edge, iteration)
+            # old factors serve where they promise that one more iteration is enough
+            if factors is None or error * factors.change(damping, elastic) > ENOUGH:
+                factors = Factors.of(operator, coefficient[1:], damping, elastic, beta)
+            v = self._updated(v, factors.direction(residual, damping, elastic))
             w = w_history + beta * (v - self.velocity)
             dp, dnormal, dedge = operator.apply(w - response.w)
             p, normal, edge = (
@@ -117,24 +170,6 @@ class Interface:
         slope = aging * rate_slope + aging_slope * rate * psi_by_rate * v / (speed * distance)
         return aging * rate, slope, psi
 
-    def _direction(
-        self, operator: BodyOperator, residual: Array, coefficient: Array, damping: Array,
-        elastic: Array, beta: float,
-    ) -> Array:  # fmt: skip
-        """Newton's direction: dense where elasticity couples the nodes, else node by node."""
-        change = -residual / (elastic + damping)
-        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
-        if active.size:
-            stiffness, coupling = operator.tangent(active + 1)
-            coupling *= coefficient[active, None]
-            stiffness += coupling
-            stiffness *= beta
-            stiffness[np.diag_indices_from(stiffness)] += damping[active]
-            _, _, change[active], info = lapack.dgesv(stiffness, -residual[active])
-            if info:
-                raise NewtonFailure("the interface's tangent is singular")
-        return change
-
     def _updated(self, v: Array, change: Array) -> Array:
         """``v + change``, but a slip rate that shrinks does so in asinh(v / v0).
 
@@ -143,21 +178,9 @@ class Interface:
         """
         v0 = self.friction.regularisation_slip_rate
         ratio = change / np.hypot(v, v0)
+        updated = v + change
         shrinking = (v * change < 0.0) & (np.abs(ratio) > 0.5)
-        shift = np.clip(ratio, -LARGEST_SHIFT, LARGEST_SHIFT)
-        shrunk = v0 * np.sinh(np.arcsinh(v / v0) + np.where(shrinking, shift, 0.0))
-        return np.where(shrinking, shrunk, v + change)
-
-    def _finish(
-        self, log_state_history: Array, beta: float, v: Array, psi: Array, p: Array, normal: Array,
-        w: Array, edge: Array, iterations: int,
-    ) -> InterfaceSolution:  # fmt: skip
-        """Add node 0: it belongs to the driven edge and its friction follows from its rate V."""
-        if normal.min() <= 0.0:
-            raise NewtonFailure("the interface is in tension")
-        driven = np.array([self.velocity])
-        coefficient, _, driven_psi = self._friction(driven, log_state_history[:1], beta)
-        return InterfaceSolution(
-            np.append(driven, v), np.append(driven_psi, psi),
-            np.append(-coefficient * normal[0], p), normal, w, edge, iterations,
-        )  # fmt: skip
+        if shrinking.any():
+            shift = np.clip(ratio[shrinking], -LARGEST_SHIFT, LARGEST_SHIFT)
+            updated[shrinking] = v0 * np.sinh(np.arcsinh(v[shrinking] / v0) + shift)
+        return updated

@@ -24,6 +24,7 @@ from .body import Body, Field
 
 Array = NDArray[np.float64]
 
+NEGLIGIBLE = 1e-17  # of the edge's largest force on a node
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
 
 
@@ -106,10 +107,11 @@ class BodyOperator:
         residual = self.edge_residual(load, modes, edge)
         edge = self.edge_correction(residual)
         tangential, normal = self.interface_forces(amplitudes, reduced)
-        edge_tangential, edge_normal = self.edge_to_interface
+        near, edge_tangential, edge_normal = self._felt
+        tangential[near:] += edge @ edge_tangential
+        normal[near:] += edge @ edge_normal
         corner = self.edge_schur[0] @ edge - residual[0]
-        normal = np.append(normal + edge @ edge_normal, corner)
-        return LinearResponse(w, tangential + edge @ edge_tangential, normal, edge)
+        return LinearResponse(w, tangential, np.append(normal, corner), edge)
 
     # -- the right edge -------------------------------------------------------------------------
 
@@ -196,13 +198,29 @@ class BodyOperator:
 
         Shapes (n_x,), (n_x + 1,) and (n_y + 1,).
         """
-        tangential, normal = self.edge_to_interface
+        near, tangential, normal = self._felt
         amplitudes = self.body.sine_amplitudes(w)
         p, reaction = self.interface_forces(amplitudes, np.zeros((2, w.size)))
-        edge = self._edge_response @ w
-        corner = tangential[0] @ w + self.edge_schur[0] @ edge
-        p += edge @ tangential
-        return p, np.append(reaction + edge @ normal, corner), edge
+        edge = self._edge_response[:, near:] @ w[near:]
+        corner = tangential[0] @ w[near:] + self.edge_schur[0] @ edge
+        p[near:] += edge @ tangential
+        reaction[near:] += edge @ normal
+        return p, np.append(reaction, corner), edge
+
+    @cached_property
+    def _felt(self) -> tuple[int, Array, Array]:
+        """The parts of :attr:`edge_to_interface` beyond round-off, and the column they begin at.
+
+        The edge's influence falls exponentially over some heights of the block.
+        """
+        tangential, normal = self.edge_to_interface
+        largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
+        near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
+        return (
+            near,
+            np.ascontiguousarray(tangential[:, near:]),
+            np.ascontiguousarray(normal[:, near:]),
+        )
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:

@@ -51,14 +51,14 @@ class Formula:
 
         It is the derivative of the cubic through the new and the past values.
         """
-        ago = step + past_times[0] - past_times  # from each past time to the new one
-        beta = 1.0 / float((1.0 / ago).sum())
-        others = (np.delete(ago, i) for i in range(3))
+        a, b, c = (step + past_times[0] - past_times).tolist()  # from each past time to the new one
+        beta = 1.0 / (1.0 / a + 1.0 / b + 1.0 / c)
         past = (
-            beta * float(other.prod() / ((other - own).prod() * own))
-            for own, other in zip(ago, others, strict=True)
+            beta * b * c / ((b - a) * (c - a) * a),
+            beta * a * c / ((a - b) * (c - b) * b),
+            beta * a * b / ((a - c) * (b - c) * c),
         )
-        return cls(step, beta, tuple(past))
+        return cls(step, beta, past)
 
     def from_past(self, values: Array) -> Array:
         """What the step takes from past values, newest first along the first axis.
