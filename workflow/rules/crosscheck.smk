@@ -95,13 +95,15 @@ localrules:
 rule figure_crosscheck:
     input:
         rules.draw_figure_crosscheck.output,
+        crosscheck_records("own"),
+        crosscheck_records("freefem"),
     message:
         "The crosscheck's figure is in {input[0]}"
 
 
 rule crosscheck:
     input:
-        rules.figure_crosscheck.input,
-        rules.compare_crosscheck.output,
+        table=rules.compare_crosscheck.output.table,
+        figure=rules.figure_crosscheck.input,
     message:
-        "The two solvers are compared in {input[0]} and {input[3]}"
+        "The two solvers are compared in {input.table} and {input.figure[0]}"
