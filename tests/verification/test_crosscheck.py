@@ -4,6 +4,7 @@ The two codes share nothing but the problem: elements, time integration, linear 
 treatment of the interface differ. At the same nodes along x they have to agree before the event.
 """
 
+import csv
 import dataclasses
 import os
 import re
@@ -150,3 +151,29 @@ def test_comparison_of_a_record_with_itself_and_with_one_that_lags(pair):
     assert same["patch_length_rms"] == same["driving_force_largest"] == 0.0
     scaled = record.assign(driving_force=1.02 * record["driving_force"])
     assert crosscheck.compare(record, scaled)["driving_force_rms"] == pytest.approx(0.02)
+
+
+def test_page_states_the_reference():
+    """Every number of the tables in docs/crosscheck.md is that of the reference set."""
+    root = SCRIPT.parents[2]
+    page = (root / "docs" / "crosscheck.md").read_text(encoding="utf-8")
+    with open(root / "results" / "reference" / "crosscheck.csv", encoding="utf-8") as file:
+        thin, thick, timing = csv.DictReader(file)
+    quantities = {
+        "onset, this project (s)": ("onset_time", "{:.3f}", 1.0),
+        "onset, FreeFem++ (s)": ("onset_time_freefem", "{:.3f}", 1.0),
+        "L_c, this project (m)": ("length", "{:.4f}", 1.0),
+        "L_c, FreeFem++ (m)": ("length_freefem", "{:.4f}", 1.0),
+        "L(t), root mean square difference": ("patch_length_rms", "{:.2f} %", 100.0),
+        "L(t), largest difference": ("patch_length_largest", "{:.1f} %", 100.0),
+        "L(t), largest difference (elements)": ("patch_length_elements", "{:.2f}", 1.0),
+        "f_d(t), root mean square difference": ("driving_force_rms", "{:.3f} %", 100.0),
+        "f_d(t), largest difference": ("driving_force_largest", "{:.2f} %", 100.0),
+    }
+    for label, (name, form, scale) in quantities.items():
+        first, second = (form.format(scale * float(row[name])) for row in (thin, thick))
+        assert f"| {label} | {first} | {second} |" in page
+    for row in (thin, thick, timing):
+        own, theirs = float(row["step_seconds"]), float(row["step_seconds_freefem"])
+        assert f"| {own:.2g} | {theirs:.2g} | {theirs / own:.0f} |" in page
+    assert f"{thin['steps']} and {thin['steps_freefem']}\nsteps" in page
