@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 	--workflow-profile workflow/profiles/default
 
 .DEFAULT_GOAL := help
-.PHONY: help paper quick test lint reference schema lock clean-venv
+.PHONY: help paper quick test lint bench reference schema lock clean-venv
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -27,6 +27,10 @@ test: $(STAMP) ## Run the tests
 
 lint: $(STAMP) ## Check the code's style
 	@$(BIN)/ruff check .
+
+bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.benchmark \
+		config/config.yaml
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper figure_patch_stability figure_verification figure_dispersion \
