@@ -2,7 +2,8 @@
 
 Onset is the start of the abrupt drop: the instant from which ``|f_d|`` falls without rising again
 until the event. The critical length is the extent of the creep patch at that instant, out to the
-point where the slip rate falls below a fraction of the imposed velocity V. Both are definitions;
+furthest point at which the slip rate has exceeded a fraction of the imposed velocity V: what has
+crept belongs to the patch, though its slip rate oscillates before the onset. Both are definitions;
 the error bar spans other reasonable ones: edges from 0.5 V to 1e-3 V, and instants up to the one
 where the drop is complete.
 """
