@@ -87,6 +87,20 @@ VARIABLES: dict[str, Variable] = {
     "stability_length_high": Variable("m", "where growth fills a hop of the front", "L_s"),
     "stability_frequency": Variable("1/s", "angular frequency where growth begins", "omega"),
     "mode_amplitude": Variable("1", "modulus of the growing mode's displacement where it begins"),
+    # Refinement of mesh and steps, and the hops of the front
+    "length_change": Variable("1", "relative change of L_c, against the coarser run or the base"),
+    "length_over_theory": Variable("1", "critical length over that of the linear theory"),
+    "drop_time_change": Variable("s", "change of the drop's time against the coarser run"),
+    "observed_order": Variable("1", "observed order of the drop's time"),
+    "hop_time": Variable("s", "time at which the front reaches the node", "t"),
+    "hop_length": Variable("m", "position of the node", "x"),
+    "hop_frequency": Variable("1/s", "angular frequency of the hops", "2 pi (dL/dt)/dx"),
+    "inner_slip_rate": Variable("m/s", "slip rate half-way along the patch", "v"),
+    # Sensitivity to parameters and definitions
+    "varied": Variable("", "parameter or definition that is varied"),
+    "variation": Variable("", "how it is varied"),
+    "ratio_change": Variable("1", "relative change of L_c over the theory's length"),
+    "onset_change": Variable("1", "relative change of the onset time"),
     # Theory
     "critical_length": Variable("m", "critical nucleation length", "L_c"),
     "critical_wavenumber": Variable("1/m", "critical wavenumber", "k_c"),

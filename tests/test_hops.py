@@ -1,0 +1,45 @@
+"""Hops of a made-up front that advances evenly."""
+
+import made_up_runs
+import numpy as np
+import pytest
+
+from nucleation.hops import crossing_times, follow_hops, hop_frequency
+
+
+def test_crossing_times_between_samples():
+    time, length = np.arange(5.0), np.array([0.0, 1.0, 1.0, 0.5, 3.0])
+    times = crossing_times(time, length, np.array([0.5, 1.0, 2.0, 3.5]))
+    np.testing.assert_allclose(times, [0.5, 3.0, 3.5, np.nan])
+
+
+@pytest.mark.parametrize("span", [0.01, 0.1])
+def test_frequency_of_even_hops(span):
+    hops = 3.0 + 0.2 * np.arange(60)
+    frequency = hop_frequency(hops, 0.005, span)
+    known = np.isfinite(frequency)
+    each_way = max(1, round(0.5 * span / 0.005))
+    assert known.sum() == 60 - 2 * each_way
+    np.testing.assert_allclose(frequency[known], 2 * np.pi / 0.2)
+
+
+def test_front_that_hops_evenly():
+    period = 0.125
+    run = made_up_runs.record(period)
+    hops = follow_hops(run)
+    count = int(made_up_runs.ONSET / period)
+    np.testing.assert_allclose(hops["hop_length"], run["x"].values[1 : count + 1])
+    np.testing.assert_allclose(np.diff(hops["hop_time"]), period, atol=0.011)  # frames are 10 ms
+    spacing, speed = 0.01, 0.01 / period
+    expected = 2 * np.pi * speed / spacing
+    middle = hops["hop_frequency"].values[5:-5]
+    np.testing.assert_allclose(middle, expected, rtol=0.05)
+    assert float(hops["onset_time"]) == pytest.approx(made_up_runs.ONSET)
+    assert int(hops["n_x"]) == 200
+
+
+def test_run_without_an_event_has_no_last_hop():
+    run = made_up_runs.record()
+    run["driving_force"] = run["driving_force"] * 0.0 - 1e4
+    with pytest.raises(ValueError, match="no event"):
+        follow_hops(run)
