@@ -69,6 +69,7 @@ include: "workflow/rules/extract.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/patches.smk"
 include: "workflow/rules/verification.smk"
+include: "workflow/rules/studies.smk"
 include: "workflow/rules/crosscheck.smk"
 
 

@@ -15,7 +15,7 @@ from nucleation.simulation import simulate
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"
 SETTINGS = configure(read_yaml(ROOT / "config" / "config.yaml"))
-RUNS = {run.id: run for run in SETTINGS.runs}
+RUNS = {run.id: run for run in SETTINGS.runs if SETTINGS.studies[run.study].table == "lengths"}
 
 
 def table(name):

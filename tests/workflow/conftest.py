@@ -53,6 +53,12 @@ class Workflow:
         return dataclasses.replace(self, config=path)
 
 
+@pytest.fixture(scope="session")
+def workflow_type() -> type[Workflow]:
+    """The class itself, for workflows that several tests share."""
+    return Workflow
+
+
 @pytest.fixture
 def workflow(tmp_path: Path) -> Workflow:
     """The workflow with no results yet."""

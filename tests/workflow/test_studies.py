@@ -1,0 +1,48 @@
+"""The targets of refinement and sensitivity on coarse grids."""
+
+import pandas as pd
+import pytest
+
+from nucleation import datasets, refinement, sensitivity
+from nucleation.configuration import load
+
+TARGETS = ("figure_convergence", "figure_sensitivity")
+
+
+@pytest.fixture(scope="module")
+def studies(tmp_path_factory, workflow_type):
+    made = workflow_type(tmp_path_factory.mktemp("studies"))
+    done = made(*TARGETS)
+    assert done.returncode == 0, done.stdout
+    return made
+
+
+def test_targets_leave_figures_and_tables_and_are_complete(studies):
+    results = studies.directory / "results" / "quick"
+    for name in TARGETS:
+        assert (results / "figures" / f"{name}.pdf").read_bytes().startswith(b"%PDF")
+        assert (results / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    for name, columns in (("refinement", refinement.COLUMNS), ("sensitivity", sensitivity.COLUMNS)):
+        table = datasets.read(results / f"{name}.nc", requires=columns)
+        assert list(pd.read_csv(results / f"{name}.csv")["id"]) == list(table["id"].values)
+    runs = [run.id for run in load(studies.config).runs_of("sensitivity")]
+    assert set(pd.read_csv(results / "sensitivity.csv")["id"]) == set(runs)
+    assert studies.planned(*TARGETS) == {}
+
+
+def test_lost_simulation_is_missed_by_its_figure(studies):
+    path = next((studies.directory / "results/quick/simulations").glob("convergence_step-*.nc"))
+    away = path.rename(path.with_suffix(".away"))
+    try:
+        assert studies.planned("figure_convergence")["simulate"] == 1
+        assert "simulate" not in studies.planned("figure_sensitivity")
+    finally:
+        away.rename(path)
+
+
+def test_convergence_without_its_studies_says_so(workflow):
+    other = workflow.configured({"studies": {"mine": {"runs": [{"height": 0.1}]}}})
+    done = other("figure_convergence", "--dry-run")
+    assert done.returncode != 0
+    assert "no study convergence... has a run with height 0.005" in done.stdout
+    assert "Traceback (most recent call last)" not in done.stdout

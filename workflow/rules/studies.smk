@@ -1,0 +1,110 @@
+# Beyond the paper: what mesh, steps, parameters and definitions do to the critical length.
+#
+# Every study whose name begins with `convergence` takes part in the table of refinement; the first
+# of them refines along x, and its runs at the height of Figure S2 show the hops of the front.
+REFINEMENT = f"{RESULTS}/refinement.nc"
+SENSITIVITY = f"{RESULTS}/sensitivity.nc"
+CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
+
+
+localrules:
+    figure_convergence, figure_sensitivity,
+
+
+def hopping(wildcards):
+    """The runs whose hops are shown, from coarse to fine."""
+    height = settings.figures.space_time_height
+    studies = CONVERGENCE_STUDIES[:1]
+    runs = [run for study in studies for run in settings.runs_of(study)]
+    runs = [run for run in runs if run.parameters.geometry.height == height]
+    if not runs:
+        raise WorkflowError(f"no study convergence... has a run with height {height:g}")
+    return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
+
+
+rule refinement:
+    input:
+        [study_lengths(study) for study in CONVERGENCE_STUDIES],
+    output:
+        dataset=REFINEMENT,
+        table=f"{RESULTS}/refinement.csv",
+    params:
+        digest=digest("nucleation.refinement"),
+    message:
+        "Critical lengths against mesh and steps"
+    script:
+        "../scripts/refinement.py"
+
+
+rule hops:
+    input:
+        simulation("{id}"),
+    output:
+        f"{RESULTS}/hops/{{id}}.nc",
+    params:
+        extraction=asdict(settings.extraction),
+        digest=digest("nucleation.hops"),
+    message:
+        "Hops of the front of {wildcards.id}"
+    script:
+        "../scripts/hops.py"
+
+
+rule draw_figure_convergence:
+    input:
+        table=REFINEMENT,
+        hops=lambda wildcards: [f"{RESULTS}/hops/{run.id}.nc" for run in hopping(wildcards)],
+        patch=lambda wildcards: f"{RESULTS}/patches/{hopping(wildcards)[0].id}.nc",
+    output:
+        figure("figure_convergence"),
+    params:
+        digest=drawing_digest("figure_convergence"),
+    message:
+        "Convergence figure: critical length against mesh and steps"
+    script:
+        "../scripts/figure_convergence.py"
+
+
+rule figure_convergence:
+    input:
+        rules.draw_figure_convergence.output,
+        simulations(*CONVERGENCE_STUDIES),
+    message:
+        "The convergence figure is in {input[0]}, its table in {REFINEMENT}"
+
+
+rule sensitivity:
+    input:
+        simulations("sensitivity"),
+    output:
+        dataset=SENSITIVITY,
+        table=f"{RESULTS}/sensitivity.csv",
+    params:
+        runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
+        extraction=asdict(settings.extraction),
+        digest=digest("nucleation.sensitivity"),
+    message:
+        "Sensitivity of critical lengths"
+    script:
+        "../scripts/sensitivity.py"
+
+
+rule draw_figure_sensitivity:
+    input:
+        table=SENSITIVITY,
+    output:
+        figure("figure_sensitivity"),
+    params:
+        digest=drawing_digest("figure_sensitivity"),
+    message:
+        "Sensitivity figure: changes of the critical length"
+    script:
+        "../scripts/figure_sensitivity.py"
+
+
+rule figure_sensitivity:
+    input:
+        rules.draw_figure_sensitivity.output,
+        simulations("sensitivity"),
+    message:
+        "The sensitivity figure is in {input[0]}, its table in {SENSITIVITY}"
