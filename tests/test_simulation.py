@@ -8,6 +8,7 @@ import pytest
 from nucleation.datasets import VARIABLES
 from nucleation.elasticity import Material
 from nucleation.extraction import extract
+from nucleation.fem.interface import Interface, Tension
 from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation import Outcome, SimulationFailure, run, simulate
 
@@ -123,3 +124,19 @@ def test_progress_sees_every_step():
         progress=lambda instant: seen.append(instant.state.time),
     )
     np.testing.assert_array_equal(seen, dataset["step_time"])
+
+
+def test_tension_is_a_named_failure(monkeypatch):
+    """However short the step: as in the slip law's event on fine meshes."""
+    solved = Interface.solve
+
+    def solve(self, operator, *arguments):
+        if arguments[0].w[0] < -1e-6:  # the foot of the pushed edge lags behind by 1 um
+            raise Tension("the interface is in tension")
+        return solved(self, operator, *arguments)
+
+    monkeypatch.setattr(Interface, "solve", solve)
+    dataset = simulate(COARSE)
+    assert dataset.attrs["status"] == Outcome.TENSION.value
+    assert not dataset.attrs["completed"]
+    assert 0.0 < float(dataset["step_time"][-1]) < COARSE.stepping.end_time

@@ -17,7 +17,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from .fem.dynamics import Dynamics, State, StepReport
-from .fem.interface import NewtonFailure
+from .fem.interface import NewtonFailure, Tension
 from .fem.stepping import LARGEST_GROWTH, beta_of_step, rung_below, rung_value
 from .parameters import Parameters
 from .recording import Recorder
@@ -35,6 +35,7 @@ class Outcome(enum.Enum):
     END_TIME = "completed: the end time was reached"
     AFTER_EVENT = "completed: the event and the time asked for after it are covered"
     STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
+    TENSION = "failed: the interface came under tension, where the friction law has no meaning"
 
     @property
     def completed(self) -> bool:
@@ -65,7 +66,8 @@ def run(parameters: Parameters) -> Iterator[Instant]:
     Raises
     ------
     SimulationFailure
-        The step size fell below ``stepping.shortest_step``.
+        The step size fell below ``stepping.shortest_step``, for its own sake or because every
+        longer step ends in tension.
     """
     dynamics = Dynamics(parameters)
     stepping = parameters.stepping
@@ -74,19 +76,22 @@ def run(parameters: Parameters) -> Iterator[Instant]:
     longest_step = stepping.longest_step * parameters.memory_time
     longest = beta_of_step(longest_step, longest_step)
     wanted, rejected, growth = min(FIRST_STEP, longest), 0, LARGEST_GROWTH
+    cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
     while True:
         rung = rung_below(min(wanted, longest))
         beta = rung_value(rung)
         if beta < stepping.shortest_step:
-            raise SimulationFailure(Outcome.STEP_UNDERFLOW, state, f"step {beta:.3g} s")
+            outcome = Outcome.TENSION if isinstance(cause, Tension) else Outcome.STEP_UNDERFLOW
+            raise SimulationFailure(outcome, state, f"step {beta:.3g} s; {cause}")
         try:
             new, report = dynamics.advance(state, rung)
-        except NewtonFailure:
+        except NewtonFailure as failure:
+            cause = failure
             wanted, rejected, growth = 0.5 * beta, rejected + 1, 1.0
             continue
         factor = _step_factor(report.error / stepping.tolerance)
         if report.error > stepping.tolerance and np.isfinite(report.error):
-            wanted, rejected = beta * min(factor, 0.9), rejected + 1
+            wanted, rejected, cause = beta * min(factor, 0.9), rejected + 1, None
             continue
         state = new
         factor = min(factor, growth)  # not at once back to where Newton's method failed

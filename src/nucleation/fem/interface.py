@@ -33,6 +33,10 @@ class NewtonFailure(RuntimeError):
     """Newton's method did not converge; the step must be shortened."""
 
 
+class Tension(NewtonFailure):
+    """The interface is in tension somewhere, where the friction law has no meaning."""
+
+
 @dataclasses.dataclass(frozen=True)
 class InterfaceSolution:
     """The interface at the new time; arrays over the nodes 0..n_x unless said otherwise."""
@@ -123,7 +127,9 @@ class Interface:
         Raises
         ------
         NewtonFailure
-            No convergence, or a nodal normal force that is tensile or not finite.
+            No convergence, or a force that is not finite.
+        Tension
+            A nodal normal force of the solution is tensile.
         """
         v, w, factors = guess, response.w, None
         rounding = ROUNDING * np.abs(w_history).max() / beta  # of v = (w - w_history) / beta
@@ -141,7 +147,7 @@ class Interface:
                 raise NewtonFailure("slip rate is not finite")
             if error < 1.0:
                 if normal.min() <= 0.0:
-                    raise NewtonFailure("the interface is in tension")
+                    raise Tension("the interface is in tension")
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = np.append(-coefficient[0] * normal[0], p)
                 return InterfaceSolution(rates, psi, tangential, normal, w, edge, iteration)
