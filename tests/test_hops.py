@@ -4,7 +4,7 @@ import made_up_runs
 import numpy as np
 import pytest
 
-from nucleation.hops import crossing_times, follow_hops, hop_frequency
+from nucleation.hops import crossing_times, follow_hops, hop_frequency, oscillation
 
 
 def test_crossing_times_between_samples():
@@ -43,3 +43,16 @@ def test_run_without_an_event_has_no_last_hop():
     run["driving_force"] = run["driving_force"] * 0.0 - 1e4
     with pytest.raises(ValueError, match="no event"):
         follow_hops(run)
+
+
+def test_amplitude_of_a_growing_oscillation_on_a_trend():
+    time = np.unique(np.concatenate([np.linspace(3.0, 12.0, 700), np.linspace(8.0, 9.0, 300)]))
+    grown = 1e-8 * np.exp(0.8 * time)
+    rate = 5e-6 * np.sqrt(time) + grown * np.sin(12.0 * time)
+    samples, amplitude = oscillation(time, rate, 0.05)
+    assert samples[0] == pytest.approx(4.0) and samples[-1] == pytest.approx(11.0, abs=0.02)
+    # the trend follows some of so slow an oscillation: its amplitude is met to a fifth
+    np.testing.assert_allclose(amplitude, 1e-8 * np.exp(0.8 * samples), rtol=0.3)
+    growth = np.polyfit(samples, np.log(amplitude), 1)[0]
+    assert growth == pytest.approx(0.8, rel=0.02)
+    assert oscillation(time[:20], rate[:20], 0.05)[0].size == 0

@@ -96,6 +96,8 @@ VARIABLES: dict[str, Variable] = {
     "hop_length": Variable("m", "position of the node", "x"),
     "hop_frequency": Variable("1/s", "angular frequency of the hops", "2 pi (dL/dt)/dx"),
     "inner_slip_rate": Variable("m/s", "slip rate half-way along the patch", "v"),
+    "sample_time": Variable("s", "middle of the window of the amplitude", "t"),
+    "oscillation_amplitude": Variable("m/s", "amplitude of the slip rate about its trend"),
     # Sensitivity to parameters and definitions
     "varied": Variable("", "parameter or definition that is varied"),
     "variation": Variable("", "how it is varied"),

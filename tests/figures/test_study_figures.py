@@ -52,6 +52,8 @@ def hops():
                     "hop_length": ("hop", 0.2 * np.sqrt(hop / 19.0)),
                     "hop_frequency": ("hop", np.linspace(90.0, 11.0, hop.size) * n_x / 400),
                     "inner_slip_rate": ("time", rate),
+                    "sample_time": ("sample", time[600:-80]),
+                    "oscillation_amplitude": ("sample", 1e-9 * np.exp(0.3 * time[600:-80])),
                     "onset_time": 19.0,
                     "velocity": 1e-5,
                     "n_x": n_x,
@@ -121,9 +123,9 @@ def test_every_run_is_a_point(table, hops, patch, row, name):
 
 def test_steps_get_finer_to_the_right_and_orders_have_a_guide(table, hops, patch):
     figure = figure_convergence.draw(table, hops, patch)
-    for axes in (figure.axes[2], figure.axes[8]):
+    for axes in (figure.axes[2], figure.axes[9]):
         assert axes.get_xlim()[0] > axes.get_xlim()[1]
-    (guide,) = (line for line in figure.axes[8].get_lines() if line.get_linestyle() == ":")
+    (guide,) = (line for line in figure.axes[9].get_lines() if line.get_linestyle() == ":")
     (x0, y0), (x1, y1) = guide.get_xydata()
     assert np.log(y1 / y0) / np.log(x1 / x0) == pytest.approx(3.0)
 

@@ -15,7 +15,7 @@ from . import style
 
 MILLI = 1e3
 LOOKS = (("o", style.VERMILLION), ("s", style.BLUE), ("D", style.BLACK), ("^", style.GREEN))
-SHOWN_TIME = (-4.0, 0.12)  # s about the onset
+SHOWN_TIME = (-5.0, 0.12)  # s about the onset
 SHOWN_RATE = 1.25  # largest slip rate shown over V, above which curves would cross
 SHIFT = 1.1  # between the curves of slip rate, over V
 ORDER = 3  # of the scheme while the body is quasi-static
@@ -38,10 +38,13 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
     Returns
     -------
     Figure
-        Two columns wide, three rows: lengths, times, and the mechanism.
+        Two columns wide: lengths, times, and two rows on what makes the difference.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 18.5 * style.CENTIMETRE)
-    panels = figure.subplots(3, 3)
+    figure = style.new_figure(style.DOUBLE_COLUMN, 22.0 * style.CENTIMETRE)
+    grid = figure.add_gridspec(4, 3)
+    panels = [[figure.add_subplot(grid[row, i]) for i in range(3)] for row in range(2)]
+    wide = figure.add_subplot(grid[2, :])
+    lowest = [figure.add_subplot(grid[3, i]) for i in range(3)]
     for row, (name, label) in enumerate(
         (
             ("length_over_theory", "$L_c$ over the theory's"),
@@ -58,10 +61,11 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
         axes.set_xlabel(label)
     for axes in panels[0]:
         axes.tick_params(labelbottom=False)
-    _draw_slip_rates(panels[2][0], hops)
-    _draw_frequencies(panels[2][1], hops, patch)
-    _draw_orders(panels[2][2], table)
-    for axes, letter in zip(panels.flat, "abcdefghi", strict=True):
+    _draw_slip_rates(wide, hops)
+    _draw_amplitudes(lowest[0], hops)
+    _draw_frequencies(lowest[1], hops, patch)
+    _draw_orders(lowest[2], table)
+    for axes, letter in zip(figure.axes, "abcdefghij", strict=True):
         axes.set_title(f"({letter})", loc="left")
     _add_legend(figure, table)
     return figure
@@ -134,18 +138,31 @@ def _draw_slip_rates(axes: Axes, hops: Sequence[xr.Dataset]) -> None:
     axes.set_ylabel("Slip rate $v/V$, shifted")
 
 
+def _draw_amplitudes(axes: Axes, hops: Sequence[xr.Dataset]) -> None:
+    """Amplitude of the slip rate's oscillation against time."""
+    for run, colour in zip(hops, _shades(len(hops)), strict=True):
+        amplitude = run["oscillation_amplitude"].values / float(run["velocity"])
+        axes.plot(run["sample_time"].values, amplitude, color=colour, linewidth=1.0)
+    axes.set_yscale("log")
+    axes.set_xlabel("Time $t$ (s)")
+    axes.set_ylabel("Oscillation of $v/V$")
+
+
 def _draw_frequencies(axes: Axes, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> None:
     """Frequency of the hops on each mesh, and the patch's own, against the patch's length."""
     for run, colour in zip(hops, _shades(len(hops)), strict=True):
         axes.plot(
             run["hop_length"].values, run["hop_frequency"].values, color=colour,
         )  # fmt: skip
-    own = patch["growth_frequency"].values > 0.0
+    own = patch.get("oscillation_frequency", patch["growth_frequency"]).values
+    seen = own > 0.0  # a short patch has no oscillating mode
     axes.plot(
-        patch["patch_length"].values[own], patch["growth_frequency"].values[own], ".",
-        color=style.BLACK, markersize=1.5, rasterized=True,
+        patch["patch_length"].values[seen], own[seen], ".", color=style.BLACK, markersize=2.0,
+        rasterized=True,
     )  # fmt: skip
     axes.axvline(float(patch["stability_length"]), color=style.GUIDE, linewidth=0.8, linestyle=":")
+    axes.text(0.96, 0.05, "the patch's own", transform=axes.transAxes, ha="right",
+              fontsize=style.SMALL)  # fmt: skip
     axes.set_yscale("log")
     axes.set_ylim(5.0, 300.0)
     axes.set_yticks([10.0, 100.0], ["10", "100"])
