@@ -19,6 +19,7 @@ BASE = Case("base", PARAMETERS, 0.5, None)
         ({"density": 600.0}, 0.5, ("density", "rho x 0.5")),
         ({"density": 0.0}, 0.5, ("density", "rho = 0")),
         ({"velocity": 2e-5, "length": 2.001}, 0.5, ("velocity", "V x 2")),
+        ({"time_after_event": 0.1}, 0.5, ("base", "base")),
         ({"length": 4.0, "n_x": 400}, 0.5, ("length", "L x 2")),
         ({"characteristic_slip_distance": 1e-6, "length": 4.0}, 1.0,
          ("characteristic_slip_distance", "D x 2")),
