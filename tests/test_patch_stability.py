@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import eig
 from scipy.optimize import brentq
 
 from nucleation.elasticity import Material
@@ -9,7 +10,7 @@ from nucleation.fem.body import Body
 from nucleation.fem.grid import Grid
 from nucleation.fem.operator import BodyOperator
 from nucleation.friction import Friction
-from nucleation.patch_stability import crossing, log_state_derivatives, patch_spectrum
+from nucleation.patch_stability import frozen_patch, log_state_derivatives
 
 
 @pytest.mark.parametrize("law", ["aging", "slip"])
@@ -27,26 +28,35 @@ def test_log_state_derivatives(law):
         assert by_psi == pytest.approx((rate(v, psi + h) - rate(v, psi - h)) / (2 * h), rel=1e-6)
 
 
-@pytest.mark.parametrize("law", ["aging", "slip"])
-def test_spectrum_equals_that_of_differences(law):
+GRID = Grid(0.8, 0.02, 32, 5)
+OPERATOR = BodyOperator(Body(GRID, Material()), 0.0)
+RATE = np.where(GRID.x < 0.26, 1e-5 * np.exp(-GRID.x / 0.3), 1e-12)
+STATE = 0.07 * (1 + GRID.x)
+FORCE = 1e6 * (1 + 0.1 * np.cos(5 * GRID.x)) * GRID.nodal_lengths
+
+
+@pytest.fixture(params=["aging", "slip"])
+def friction(request):
+    return Friction(evolution=request.param)
+
+
+@pytest.fixture
+def patch(friction):
+    return frozen_patch(OPERATOR, friction, RATE, STATE, FORCE, 1e-7)
+
+
+def test_spectrum_equals_that_of_differences(friction, patch):
     """Jacobian of (dw/dt, dpsi/dt), v from nodal force balance by bracketing."""
-    friction = Friction(evolution=law)
-    grid = Grid(0.8, 0.02, 32, 5)
-    operator = BodyOperator(Body(grid, Material()), 0.0)
-    rate = np.where(grid.x < 0.26, 1e-5 * np.exp(-grid.x / 0.3), 1e-12)
-    state = 0.07 * (1 + grid.x)
-    stress = -1e6 * (1 + 0.1 * np.cos(5 * grid.x))
-    spectrum = patch_spectrum(operator, friction, rate, state, stress, 1e-7)
-    nodes, n = spectrum.nodes, spectrum.nodes.size
+    nodes, n = patch.nodes, patch.nodes.size
     assert n == 10
-    base = -friction.coefficient(rate, state)[nodes] * -stress[nodes] * grid.dx
+    base = -friction.coefficient(RATE, STATE)[nodes] * FORCE[nodes]
 
     def time_derivative(z):
-        w = np.zeros(grid.n_x)
+        w = np.zeros(GRID.n_x)
         w[nodes - 1] = z[:n]
-        psi = np.log(state[nodes]) + z[n:]
-        p, normal, _ = operator.apply(w)
-        p, normal = base + p[nodes - 1], -stress[nodes] * grid.dx + normal[nodes]
+        psi = np.log(STATE[nodes]) + z[n:]
+        p, normal, _ = OPERATOR.apply(w)
+        p, normal = base + p[nodes - 1], FORCE[nodes] + normal[nodes]
         v = np.array(
             [
                 brentq(lambda v, i=i: p[i] + friction.coefficient(v, np.exp(psi[i])) * normal[i],
@@ -64,24 +74,34 @@ def test_spectrum_equals_that_of_differences(law):
     reference = np.linalg.eigvals(np.array(columns).T)
     reference = reference[np.argsort(-reference.real)]
     scale = np.abs(reference[:4]).max()
-    np.testing.assert_allclose(spectrum.eigenvalues[:4].real, reference[:4].real, atol=1e-4 * scale)
+    np.testing.assert_allclose(patch.eigenvalues[:4].real, reference[:4].real, atol=1e-4 * scale)
     np.testing.assert_allclose(
-        np.abs(spectrum.eigenvalues[:4].imag), np.abs(reference[:4].imag), atol=1e-3 * scale
+        np.abs(patch.eigenvalues[:4].imag), np.abs(reference[:4].imag), atol=1e-3 * scale
     )
 
 
-def test_crossing_finds_where_growth_begins():
-    length = np.linspace(0.1, 0.3, 401)
-    low, middle, high = crossing(length, 3.0 * (length - 0.2), 0.01)
-    assert middle == pytest.approx(0.2, abs=1e-3)
-    assert low <= middle <= high
-    # growth that varies within each hop widens the error bar, not the middle
-    shaken = 3.0 * (length - 0.2) + 0.06 * np.sin(2 * np.pi * length / 0.01)
-    low, again, high = crossing(length, shaken, 0.01)
-    assert again == pytest.approx(middle, abs=5e-3)
-    assert low == pytest.approx(0.18, abs=6e-3)
-    assert high == pytest.approx(0.22, abs=6e-3)
+def test_modes_and_amplitudes_are_eigenvectors_of_the_whole_matrix(patch):
+    """Right and left eigenvectors of the matrix, of twice the size, by LAPACK."""
+    values, left, right = eig(patch.matrix, left=True)
+    for i in np.argsort(-values.real)[:6]:
+        w, log_state = patch.mode(values[i])
+        own = np.concatenate([w, log_state])
+        assert np.abs(w).max() == pytest.approx(1.0)
+        known = right[:, i] / right[np.abs(right[: w.size, i]).argmax(), i]
+        np.testing.assert_allclose(own, known, rtol=0, atol=1e-6 * np.abs(known).max())
+        weights = patch.amplitude(values[i])
+        known = left[:, i].conj() / (left[:, i].conj() @ own)
+        np.testing.assert_allclose(weights, known, rtol=0, atol=1e-6 * np.abs(known).max())
 
 
-def test_no_growth_no_length():
-    assert np.isnan(crossing(np.linspace(0, 1, 50), -np.ones(50), 0.1)).all()
+def test_amplitude_sees_one_mode_alone(patch):
+    fastest, other = patch.eigenvalues[0], patch.eigenvalues[4]
+    mixed = 3.0 * np.concatenate(patch.mode(fastest)) + 2.0 * np.concatenate(patch.mode(other))
+    assert complex(patch.amplitude(fastest) @ mixed) == pytest.approx(3.0, rel=1e-6)
+
+
+def test_oscillating_mode_is_the_fastest_of_its_kind(patch):
+    rate = patch.oscillating(1.0)
+    values = patch.eigenvalues
+    assert rate == values[values.imag >= 1.0][0]
+    assert np.isnan(patch.oscillating(1e9))

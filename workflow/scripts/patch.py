@@ -1,8 +1,8 @@
 """Follow the linear stability of one simulation's creeping patch."""
 
 from nucleation import datasets, provenance
-from nucleation.patch_stability import follow_patch
 from nucleation.settings import ExtractionSettings
+from nucleation.stability_length import follow_patch
 
 params, output = snakemake.params, snakemake.output[0]
 simulation = datasets.read(snakemake.input[0])
