@@ -1,68 +1,145 @@
-"""The companion figure of the patches' stability shows its datasets."""
+"""The figures of the patches' stability show their datasets, legibly."""
 
+import drawn_layout
 import numpy as np
 import pytest
 import xarray as xr
+from conftest import critical_length
 
-from nucleation.figures import figure_patch_stability
+from nucleation.figures import figure_3_extended, figure_patch_stability, style
 
-HEIGHTS = np.array([0.005, 0.02, 0.1, 0.02, 0.1])
-THEORY = np.array([0.2, 0.4, 0.8, 0.4, 0.8])
+HEIGHTS = np.array([0.005, 0.02, 0.1, 0.02, 0.1] * 2)
+THEORY = critical_length(HEIGHTS)
+X = np.linspace(0.0, 1.0, 101)
 
 
 @pytest.fixture
-def drawn():
-    common = {
-        "law": ("run", ["aging", "aging", "aging", "slip", "aging"]),
-        "height": ("run", HEIGHTS),
-        "phi0": ("run", [1.0, 1.0, 1.0, 1.0, 1e3]),
-        "theory_length": ("run", THEORY),
+def table():
+    ratio = np.array([0.50] * 5 + [0.55] * 5)
+    columns = {
+        "study": ["paper"] * 5 + ["converged"] * 5,
+        "law": ["aging", "aging", "aging", "slip", "aging"] * 2,
+        "height": HEIGHTS,
+        "phi0": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,
+        "theory_length": THEORY,
+        "stability_length": ratio * THEORY,
+        "stability_length_low": (ratio - 0.01) * THEORY,
+        "stability_length_high": (ratio + 0.02) * THEORY,
     }
-    lengths = xr.Dataset({**common, "length": ("run", 0.8 * THEORY)})
-    table = xr.Dataset(
-        {
-            **common,
-            "stability_length": ("run", 0.5 * THEORY),
-            "stability_length_low": ("run", 0.45 * THEORY),
-            "stability_length_high": ("run", 0.6 * THEORY),
+    return xr.Dataset({name: ("run", np.asarray(values)) for name, values in columns.items()})
+
+
+@pytest.fixture
+def patches(table):
+    """Growth from -3 to 3 and a mode of half a wave, phase turned, for each run."""
+    made = []
+    for theory, length in zip(THEORY, table["stability_length"].values, strict=True):
+        shape = np.where(length > X, np.sin(np.pi * X / length), 0.0) * np.exp(0.4j)
+        columns = {
+            "patch_length": theory * np.linspace(0.1, 0.9, 30),
+            "oscillation_growth": np.linspace(-3.0, 3.0, 30),
+            "oscillation_frequency": np.linspace(17.0, 9.0, 30),
         }
-    )
-    patches = [
-        xr.Dataset(
-            {
-                "patch_length": ("instant", length * np.linspace(0.1, 0.9, 30)),
-                "growth_rate": ("instant", np.linspace(-1.0, 1.0, 30)),
-            }
+        fields = {"mode_real": ("x", shape.real), "mode_imaginary": ("x", shape.imag)}
+        made.append(
+            xr.Dataset(
+                {name: ("instant", values) for name, values in columns.items()} | fields,
+                coords={"x": X},
+            )
         )
-        for length in THEORY
+    return made
+
+
+@pytest.fixture
+def twins():
+    columns = {
+        "law": ["aging", "aging", "slip"],
+        "height": [0.005, 0.005, 0.02],
+        "theory_length": critical_length(np.array([0.005, 0.005, 0.02])),
+        "twin_length": critical_length(np.array([0.005, 0.005, 0.02])) * [0.5, 0.6, 0.5],
+        "twin_growth": [-1.0, 1.0, -1.0],
+        "twin_frequency": [13.0, 11.0, 12.0],
+    }
+    return xr.Dataset({name: ("twin", np.asarray(values)) for name, values in columns.items()})
+
+
+@pytest.fixture
+def drawn(table, patches, twins):
+    return figure_patch_stability.draw(table, patches, twins)
+
+
+@pytest.fixture
+def extended(theory, lengths, table):
+    return figure_3_extended.draw(theory, lengths, table)
+
+
+def test_growth_and_frequency_of_the_converged_runs(drawn):
+    for axes, first in zip(drawn.axes[:2], (-3.0, 17.0), strict=True):
+        clouds = [line for line in axes.lines if len(line.get_xdata()) == 30]
+        assert len(clouds) == 3
+        for line in clouds:
+            np.testing.assert_allclose(line.get_xdata(), np.linspace(0.1, 0.9, 30))
+            assert line.get_ydata()[0] == first
+
+
+def test_paper_runs_stand_in_where_there_are_no_converged_ones(table, patches, twins):
+    drawn = figure_patch_stability.draw(table.isel(run=slice(0, 5)), patches[:5], twins)
+    assert sum(len(line.get_xdata()) == 30 for line in drawn.axes[0].lines) == 3
+
+
+def test_twins_of_the_aging_law(drawn):
+    points = [
+        (float(line.get_xdata()[0]), float(line.get_ydata()[0]))
+        for line in drawn.axes[0].lines
+        if line.get_marker() == "o" and len(line.get_xdata()) == 1
     ]
-    return figure_patch_stability.draw(lengths, table, patches)
+    assert points == [(pytest.approx(0.5), -1.0), (pytest.approx(0.6), 1.0)]
 
 
-def test_growth_of_the_usual_runs(drawn):
-    clouds = [line for line in drawn.axes[0].lines if line.get_xdata().__len__() == 30]
-    assert len(clouds) == 3
-    for line in clouds:
-        np.testing.assert_allclose(line.get_xdata(), np.linspace(0.1, 0.9, 30))
-        np.testing.assert_allclose(line.get_ydata(), np.linspace(-1.0, 1.0, 30))
+def test_no_twins_no_legend_of_them(table, patches, twins):
+    drawn = figure_patch_stability.draw(table, patches, twins.isel(twin=slice(0, 0)))
+    assert "twin runs" not in drawn.axes[1].get_legend_handles_labels()[1]
 
 
-def test_ratios_and_their_error_bars(drawn):
-    axes = drawn.axes[1]
-    labels = axes.get_legend_handles_labels()[1]
-    assert labels == ["aging law", "slip law", "aging law, older interface"]
-    for container in axes.containers:
-        np.testing.assert_allclose(container.lines[0].get_ydata(), 0.5)
-        for low, high in (bar[:, 1] for bar in container.lines[2][0].get_segments()):
-            assert (low, high) == (pytest.approx(0.45), pytest.approx(0.6))
-    drops = [line for line in axes.lines if line.get_label() in labels]
-    heights = np.concatenate([line.get_xdata() for line in drops])
-    np.testing.assert_allclose(np.sort(heights), np.sort(HEIGHTS))
-    assert all(np.allclose(line.get_ydata(), 0.8) for line in drops)
+def test_shape_of_the_mode_is_its_modulus_over_the_patch(drawn):
+    modes = [line for line in drawn.axes[2].lines if len(line.get_xdata()) == X.size]
+    assert len(modes) == 3
+    for line in modes:
+        x, y = line.get_data()
+        np.testing.assert_allclose(y[x < 1], np.sin(np.pi * x[x < 1]), atol=1e-12)
 
 
-def test_axes_have_labels_with_units(drawn):
-    for axes in drawn.axes:
-        assert axes.get_xlabel()
-        assert axes.get_ylabel()
-    assert "1/s" in drawn.axes[0].get_ylabel()
+def test_extended_figure_has_all_lengths(extended, lengths, table):
+    left, right = extended.axes
+    for axes, scale_lengths, scale_table in (
+        (left, 1.0, 1.0),
+        (right, lengths["theory_length"].values, THEORY),
+    ):
+        points = {tuple(p) for c in axes.containers for p in np.transpose(c.lines[0].get_data())}
+        drops = zip(lengths["height"].values, lengths["length"].values / scale_lengths, strict=True)
+        assert {point for point in drops if np.isfinite(point[1])} <= points
+        values = table["stability_length"].values / scale_table
+        grown = zip(HEIGHTS[5:], np.broadcast_to(values, HEIGHTS.shape)[5:], strict=True)
+        assert set(grown) <= points
+    bars = [c.lines[2][0] for c in right.containers if c.lines[2] and "unstable" in c.get_label()]
+    ends = np.concatenate([[segment[:, 1] for segment in bar.get_segments()] for bar in bars])
+    np.testing.assert_allclose(ends, np.broadcast_to([0.54, 0.57], ends.shape))
+
+
+def test_theory_and_its_half(extended, theory):
+    solid, dashed = extended.axes[0].lines[:2]
+    np.testing.assert_array_equal(solid.get_ydata(), theory["critical_length"])
+    np.testing.assert_array_equal(dashed.get_ydata(), 0.5 * theory["critical_length"])
+
+
+@pytest.mark.parametrize("name", ["drawn", "extended"])
+def test_figures_are_legible_and_their_files_reproducible(name, request, tmp_path):
+    figure = request.getfixturevalue(name)
+    assert drawn_layout.overlaps(figure) == []
+    assert drawn_layout.cut_off(figure) == []
+    assert drawn_layout.sizes(figure).min() >= style.SMALL
+    for axes in figure.axes:
+        assert axes.get_xlabel() and axes.get_ylabel()
+    pdf, png = style.save(figure, tmp_path / "a")
+    assert pdf.read_bytes().startswith(b"%PDF") and len(pdf.read_bytes()) < 1_000_000
+    assert png.read_bytes().startswith(b"\x89PNG")
