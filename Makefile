@@ -33,10 +33,11 @@ bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
 		config/config.yaml
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
-	$(BIN)/snakemake paper figure_patch_stability figure_verification figure_dispersion \
-		--cores $(CORES) --workflow-profile workflow/profiles/default
+	$(BIN)/snakemake paper figure_patch_stability figure_3_extended \
+		figure_verification figure_dispersion --cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
-	cp results/lengths.csv results/patch_stability.csv results/convergence.csv \
+	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
+		results/twin_runs.csv results/convergence.csv \
 		results/dispersion.csv results/figures/*.png results/reference/
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
