@@ -19,7 +19,7 @@ def record() -> xr.Dataset:
     )
 
 
-TEXTS = ("id", "study", "law", "status", "problem", "refinement")
+TEXTS = ("id", "study", "law", "status", "problem", "refinement", "varied")
 
 
 def test_every_variable_of_the_table_is_described():

@@ -70,7 +70,7 @@ def patch():
     return xr.Dataset(
         {
             "patch_length": ("instant", length),
-            "growth_frequency": ("instant", 18.0 - 40.0 * length),
+            "oscillation_frequency": ("instant", 18.0 - 40.0 * length),
             "stability_length": 0.13,
         }
     )

@@ -32,8 +32,8 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
     hops : sequence of Dataset
         From :func:`nucleation.hops.follow_hops`, of one height, from coarse to fine along x.
     patch : Dataset
-        The stability of that height's patch: ``patch_length`` (m), ``growth_frequency`` (1/s) on
-        ``instant``, and ``stability_length`` (m).
+        The stability of that height's patch: ``patch_length`` (m), ``oscillation_frequency``
+        (1/s) on ``instant``, and ``stability_length`` (m).
 
     Returns
     -------
@@ -154,7 +154,7 @@ def _draw_frequencies(axes: Axes, hops: Sequence[xr.Dataset], patch: xr.Dataset)
         axes.plot(
             run["hop_length"].values, run["hop_frequency"].values, color=colour,
         )  # fmt: skip
-    own = patch.get("oscillation_frequency", patch["growth_frequency"]).values
+    own = patch["oscillation_frequency"].values
     seen = own > 0.0  # a short patch has no oscillating mode
     axes.plot(
         patch["patch_length"].values[seen], own[seen], ".", color=style.BLACK, markersize=2.0,
