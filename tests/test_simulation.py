@@ -8,6 +8,7 @@ import pytest
 from nucleation.datasets import VARIABLES
 from nucleation.elasticity import Material
 from nucleation.extraction import extract
+from nucleation.fem.dynamics import Dynamics
 from nucleation.fem.interface import Interface, Tension
 from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation import Outcome, SimulationFailure, run, simulate
@@ -140,3 +141,17 @@ def test_tension_is_a_named_failure(monkeypatch):
     assert dataset.attrs["status"] == Outcome.TENSION.value
     assert not dataset.attrs["completed"]
     assert 0.0 < float(dataset["step_time"][-1]) < COARSE.stepping.end_time
+
+
+def test_nothing_but_numbers_in_a_completed_run(monkeypatch):
+    """Should a value ever not be finite, the run has failed and says so."""
+    advance = Dynamics.advance
+
+    def spoilt(self, state, rung):
+        new, report = advance(self, state, rung)
+        return new, dataclasses.replace(report, driving_force=np.nan)
+
+    monkeypatch.setattr(Dynamics, "advance", spoilt)
+    dataset = simulate(dataclasses.replace(COARSE, stepping=Stepping(end_time=1e-5)))
+    assert dataset.attrs["status"] == Outcome.NOT_FINITE.value
+    assert not dataset.attrs["completed"]

@@ -10,6 +10,11 @@ from __future__ import annotations
 
 from collections import deque
 
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
 DROP = 0.02  # fraction of the force
 WINDOW = 1.0  # in units of D/V
 
@@ -21,6 +26,15 @@ class DropWatch:
         """`window` in seconds, `drop` as a fraction of the force."""
         self._window, self._drop = window, drop
         self._largest: deque[tuple[float, float]] = deque()  # falling maxima of the window
+
+    @property
+    def maxima(self) -> Array:
+        """Times (s) and force magnitudes (N/m) that are still of interest, shape (n, 2)."""
+        return np.array(self._largest).reshape(-1, 2)
+
+    @maxima.setter
+    def maxima(self, values: Array) -> None:
+        self._largest = deque((time, force) for time, force in values.tolist())
 
     def dropped(self, time: float, force: float) -> bool:
         """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop."""

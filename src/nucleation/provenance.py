@@ -120,6 +120,12 @@ def versions() -> dict[str, str]:
     return {PACKAGE: __version__, "python": platform.python_version(), **found}
 
 
+def fingerprint(parameters: Any, code_digest: str) -> str:
+    """Digest of parameters (JSON-serialisable) and code, which tells whether a result is theirs."""
+    text = json.dumps([parameters, code_digest], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def attributes(parameters: Any, code_digest: str, command: str) -> dict[str, str]:
     """The attributes of a dataset that say how it was made (all of them text).
 

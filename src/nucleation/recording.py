@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -99,6 +101,33 @@ class Recorder:
             x, y = self._body.nodal_values(value)
             fields += [x + uniform, y]
         return np.array(fields)
+
+    def to_arrays(self) -> dict[str, NDArray]:
+        """Everything recorded, as plain arrays by name, to be stored; exact."""
+        return {
+            "rows": np.array(self._rows),
+            "frame_times": np.array([t for t, _ in self._frames]),
+            "frames": np.array([fields for _, fields in self._frames]),
+            "last_frame_step": np.array(self._last_frame_step),
+            "snapshot_times": np.array([t for t, _ in self._snapshots]),
+            "snapshots": np.array([fields for _, fields in self._snapshots]),
+            "next_snapshot_rate": np.array(self._next_snapshot_rate),
+            "watched": self._watch.maxima,
+            "event_time": np.array(self._event_time),
+        }
+
+    def restore(self, arrays: Mapping[str, NDArray]) -> None:
+        """The inverse of :meth:`to_arrays`, on a recorder of the same parameters."""
+        self._rows = [(*row[:4], int(row[4])) for row in arrays["rows"].tolist()]
+        self._frames = list(zip(arrays["frame_times"].tolist(), arrays["frames"], strict=True))
+        self._last_scaled = np.arcsinh(self._frames[-1][1][0] / self._velocity)
+        self._last_frame_step = int(arrays["last_frame_step"])
+        times = arrays["snapshot_times"].tolist()
+        self._snapshots = list(zip(times, arrays["snapshots"], strict=True))
+        self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
+        self._watch.maxima = arrays["watched"]
+        self._event_time = float(arrays["event_time"])
+        self._time = self._rows[-1][0]
 
     def dataset(self) -> xr.Dataset:
         """Everything recorded, without metadata of the variables."""

@@ -1,6 +1,7 @@
 """The simulation: physics, finite elements and stepping put together.
 
-:func:`run` yields one state after another; :func:`simulate` records them into a dataset.
+:func:`run` yields one state after another; :func:`simulate` records them into a dataset. Both can
+go on from arrays stored earlier, to the last bit as if they had never stopped.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import resource
 import sys
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -19,10 +21,11 @@ from numpy.typing import NDArray
 from .fem.dynamics import Dynamics, State, StepReport
 from .fem.interface import NewtonFailure, Tension
 from .fem.stepping import LARGEST_GROWTH, beta_of_step, rung_below, rung_value
-from .parameters import Parameters
+from .parameters import Parameters, Stepping
 from .recording import Recorder
 
 Array = NDArray[np.float64]
+Arrays = dict[str, NDArray]
 
 FIRST_STEP = 1.0e-7  # s
 SAFETY = 0.85  # of the step size against the estimated error
@@ -36,6 +39,7 @@ class Outcome(enum.Enum):
     AFTER_EVENT = "completed: the event and the time asked for after it are covered"
     STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
     TENSION = "failed: the interface came under tension, where the friction law has no meaning"
+    NOT_FINITE = "failed: a recorded value is not finite"
 
     @property
     def completed(self) -> bool:
@@ -52,16 +56,33 @@ class SimulationFailure(RuntimeError):
 
 
 @dataclasses.dataclass(frozen=True)
+class Control:
+    """What the control of the step size carries from one accepted step to the next."""
+
+    wanted: float  # leading coefficient beta (s) of the next step
+    steps: int = 0  # accepted so far
+    rejected: int = 0  # so far
+
+
+@dataclasses.dataclass(frozen=True)
 class Instant:
     """One accepted step of a run."""
 
     state: State
     report: StepReport
-    rejected: int  # steps rejected so far
+    control: Control
 
 
-def run(parameters: Parameters) -> Iterator[Instant]:
+def run(
+    parameters: Parameters, start: tuple[State, Control] | None = None
+) -> Iterator[Instant]:
     """Integrate in time, yielding the initial state and then every accepted step, without end.
+
+    Parameters
+    ----------
+    parameters : everything the result depends on.
+    start : state and control of an instant of an earlier run with the same parameters: yields
+        what follows it there, to the last bit.
 
     Raises
     ------
@@ -70,12 +91,24 @@ def run(parameters: Parameters) -> Iterator[Instant]:
         longer step ends in tension.
     """
     dynamics = Dynamics(parameters)
-    stepping = parameters.stepping
-    state, report = dynamics.initial_state()
-    yield Instant(state, report, 0)
-    longest_step = stepping.longest_step * parameters.memory_time
+    longest_step = parameters.stepping.longest_step * parameters.memory_time
     longest = beta_of_step(longest_step, longest_step)
-    wanted, rejected, growth = min(FIRST_STEP, longest), 0, LARGEST_GROWTH
+    if start is None:
+        state, report = dynamics.initial_state()
+        start = state, Control(min(FIRST_STEP, longest))
+        yield Instant(state, report, start[1])
+    state, control = start
+    while True:
+        instant = _accepted_step(dynamics, parameters.stepping, state, control, longest)
+        state, control = instant.state, instant.control
+        yield instant
+
+
+def _accepted_step(
+    dynamics: Dynamics, stepping: Stepping, state: State, control: Control, longest: float
+) -> Instant:
+    """The next step whose error is within the tolerance; `longest` is the largest beta (s)."""
+    wanted, rejected, growth = control.wanted, control.rejected, LARGEST_GROWTH
     cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
     while True:
         rung = rung_below(min(wanted, longest))
@@ -93,10 +126,9 @@ def run(parameters: Parameters) -> Iterator[Instant]:
         if report.error > stepping.tolerance and np.isfinite(report.error):
             wanted, rejected, cause = beta * min(factor, 0.9), rejected + 1, None
             continue
-        state = new
         factor = min(factor, growth)  # not at once back to where Newton's method failed
-        wanted, growth = beta_of_step(state.last_step * factor, state.last_step), LARGEST_GROWTH
-        yield Instant(state, report, rejected)
+        wanted = beta_of_step(new.last_step * factor, new.last_step)
+        return Instant(new, report, Control(wanted, control.steps + 1, rejected))
 
 
 def _step_factor(error: float) -> float:
@@ -108,7 +140,11 @@ def _step_factor(error: float) -> float:
 
 
 def simulate(
-    parameters: Parameters, *, progress: Callable[[Instant], None] | None = None
+    parameters: Parameters,
+    *,
+    progress: Callable[[Instant], None] | None = None,
+    start: Arrays | None = None,
+    keep: Callable[[Callable[[], Arrays]], None] | None = None,
 ) -> xr.Dataset:
     """Run one simulation to its end and return its record.
 
@@ -116,6 +152,10 @@ def simulate(
     ----------
     parameters : everything the result depends on.
     progress : called with every accepted step.
+    start : arrays that `keep` was offered by an earlier run with the same parameters; the run goes
+        on from there, to the last bit as if it had never stopped.
+    keep : called after every step with a function that returns all that the run is made of at this
+        instant, to be stored for `start` (:class:`nucleation.checkpoints.Checkpoint`).
 
     Returns
     -------
@@ -124,11 +164,18 @@ def simulate(
     units are listed in :mod:`nucleation.datasets`. A run that fails numerically returns what it
     recorded, with ``status`` telling so.
     """
-    started = time.perf_counter()
+    began = time.perf_counter()
     recorder = Recorder(parameters)
+    control, position, earlier = Control(0.0), None, 0.0
+    if start is not None:
+        recorder.restore(start)
+        control = Control(float(start["wanted"]), recorder.steps, int(start["rejected"]))
+        position = State.from_arrays(start), control
+        earlier = float(start["wall_seconds"])
     outcome = Outcome.END_TIME
     try:
-        for instant in run(parameters):
+        for instant in run(parameters, position):
+            control = instant.control
             recorder.record(instant.state, instant.report)
             if progress is not None:
                 progress(instant)
@@ -137,18 +184,33 @@ def simulate(
                 break
             if instant.state.time >= parameters.stepping.end_time:
                 break
+            if keep is not None:
+                seconds = earlier + time.perf_counter() - began
+                keep(partial(_arrays, instant, recorder, seconds))
     except SimulationFailure as failure:
         outcome = failure.outcome
     dataset = recorder.dataset()
+    if not all(np.isfinite(values).all() for values in dataset.variables.values()):
+        outcome = Outcome.NOT_FINITE
     dataset.attrs |= {
         "status": outcome.value,
         "completed": int(outcome.completed),
         "steps": recorder.steps,
-        "rejected_steps": instant.rejected,
-        "wall_seconds": time.perf_counter() - started,
+        "rejected_steps": control.rejected,
+        "wall_seconds": earlier + time.perf_counter() - began,
         "peak_megabytes": peak_megabytes(),
     }
     return dataset
+
+
+def _arrays(instant: Instant, recorder: Recorder, seconds: float) -> Arrays:
+    """All that a run is made of after a step, from which it can go on."""
+    control = {
+        "wanted": np.array(instant.control.wanted),
+        "rejected": np.array(instant.control.rejected),
+        "wall_seconds": np.array(seconds),
+    }
+    return control | instant.state.to_arrays() | recorder.to_arrays()
 
 
 def peak_megabytes() -> float:

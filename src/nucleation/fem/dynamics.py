@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import dataclasses
 from collections import OrderedDict
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,6 +71,29 @@ class State:
             displacement, velocity, displacement, velocity, np.zeros(1), slip_rate[None],
             log_state[None], w[None], momentum, momentum,
         )  # fmt: skip
+
+    def to_arrays(self) -> dict[str, Array]:
+        """The state as plain arrays by name, to be stored; exact."""
+        arrays = {}
+        for entry in dataclasses.fields(self):
+            value = getattr(self, entry.name)
+            if isinstance(value, Field):
+                arrays |= {f"{entry.name}_modes": value.modes, f"{entry.name}_edge": value.edge}
+            else:
+                arrays[entry.name] = np.asarray(value)
+        return arrays
+
+    @classmethod
+    def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
+        """The inverse of :meth:`to_arrays`."""
+        values: dict[str, Any] = {}
+        for entry in dataclasses.fields(cls):
+            name = entry.name
+            if entry.type == "Field":
+                values[name] = Field(arrays[f"{name}_modes"], arrays[f"{name}_edge"])
+            else:
+                values[name] = float(arrays[name]) if entry.type == "float" else arrays[name]
+        return cls(**values)
 
     @property
     def time(self) -> float:
