@@ -22,6 +22,7 @@ os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get(
 from nucleation.configuration import configure, read_yaml
 from nucleation.provenance import digest
 from nucleation.quantities import ParameterError
+from nucleation.report.catalogue import FIGURES
 from nucleation.studies import estimated_megabytes
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
@@ -54,8 +55,24 @@ def simulations(*studies):
 
 
 def figure(name):
-    """The files of a figure."""
-    return multiext(f"{RESULTS}/figures/{name}", ".pdf", ".png")
+    """The files of a figure, shown in reports with its caption if they list it."""
+    pdf, png = multiext(f"{RESULTS}/figures/{name}", ".pdf", ".png")
+    return [pdf, captioned(png, name) if name in FIGURES else png]
+
+
+def captioned(path, name):
+    """A file for reports: Snakemake's own (--report) and the project's have the same captions."""
+    entry = FIGURES[name]
+    return report(
+        path, caption=caption_file(name), category=entry.category, labels={"shows": entry.title}
+    )
+
+
+def caption_file(name):
+    return str(Path(workflow.basedir, "workflow", "report", f"{name}.rst"))
+
+
+report: str(Path(workflow.basedir, "workflow", "report", "workflow.rst"))
 
 
 localrules:
@@ -71,6 +88,7 @@ include: "workflow/rules/patches.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/studies.smk"
 include: "workflow/rules/crosscheck.smk"
+include: "workflow/rules/report.smk"
 
 
 # Targets. Each names the simulations it stands on, not only its own files: after a simulation

@@ -51,6 +51,8 @@ VARIABLES: dict[str, Variable] = {
     "displacement_y": Variable("m", "displacement along y", "u_y"),
     "velocity_x": Variable("m/s", "velocity along x", "du_x/dt"),
     "velocity_y": Variable("m/s", "velocity along y", "du_y/dt"),
+    # Film of a run
+    "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy"),
     # Table of nucleation lengths, one row per simulation
     "id": Variable("", "name of the simulation"),
     "study": Variable("", "study of the configuration"),

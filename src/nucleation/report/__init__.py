@@ -1,0 +1,6 @@
+"""The report: one HTML file that holds everything a reader needs and works without a network.
+
+:func:`.page.build` puts it together from datasets, figures and captions. What can be moved in the
+page is computed there: the theory's curve by ``theory.js``, the player from the data of
+:mod:`.player`. Plotly draws; ``page.js`` connects it with the controls.
+"""

@@ -1,0 +1,29 @@
+"""Putting files and arrays into a page: data addresses and typed arrays."""
+
+from __future__ import annotations
+
+import base64
+import json
+import mimetypes
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+mimetypes.add_type("application/x-netcdf", ".nc")
+
+
+def data_address(content: bytes, name: str) -> str:
+    """A ``data:`` address that holds a whole file, of the type its name says."""
+    kind = mimetypes.guess_type(name)[0] or "application/octet-stream"
+    return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
+
+
+def float32(values: ArrayLike) -> str:
+    """Values as little-endian 32-bit floats in base64, which the page reads as a Float32Array."""
+    return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
+
+
+def script_json(value: Any) -> str:
+    """JSON that can stand inside a ``<script>`` element: no text in it can end the element."""
+    return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("</", "<\\/")

@@ -1,0 +1,216 @@
+"""Putting the report's page together."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import plotly.offline
+import xarray as xr
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from .. import datasets
+from ..elasticity import Material
+from ..figures import style, table_s1
+from ..friction import Friction
+from ..parameters import Parameters
+from ..stability import InterfaceState
+from . import catalogue, encode, explorer, tables
+from .captions import caption_html
+
+HERE = Path(__file__).parent
+HEIGHTS = np.geomspace(1e-3, 10.0, 241)
+"""Heights (m) of the theory's curve in the page."""
+
+CURVES = ("slip_rate", "stress_ratio", "state")
+
+
+class Picture(NamedTuple):
+    """A figure or an animation of the page: files, caption's template and its parameters."""
+
+    name: str
+    title: str
+    category: str
+    files: list[Path]  # the first is shown, the others can be downloaded
+    caption: str
+    params: dict[str, Any]
+    data: tuple[catalogue.Data, ...] = ()
+
+
+class Player(NamedTuple):
+    """The run in the player, thinned, and its entry of the table of lengths."""
+
+    run: xr.Dataset  # of player.player_dataset
+    row: xr.Dataset
+
+
+class Content(NamedTuple):
+    """Everything the page shows, read from files."""
+
+    material: Material
+    friction: Friction
+    interface: InterfaceState
+    config: dict[str, Any]  # as given
+    provenance: dict[str, str]  # of nucleation.provenance.attributes
+    results: dict[str, xr.Dataset]  # datasets by name
+    pictures: list[Picture]
+    claims: list[dict[str, Any]] | None = None
+    player: Player | None = None
+
+
+def build(content: Content) -> str:
+    """The whole page as HTML.
+
+    Parameters
+    ----------
+    content : Content
+        What is shown; sections without content are left out.
+    """
+    environment = Environment(
+        loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True,
+    )  # fmt: skip
+    lengths = content.results.get("lengths")
+    return environment.get_template("template.html").render(
+        styles=_source("page.css"),
+        scripts=[Markup(plotly.offline.get_plotlyjs()), _source("theory.js"), _source("page.js")],
+        data=Markup(encode.script_json(_data(content, lengths))),
+        claims=tables.claim_rows(content.claims or []),
+        counts=tables.verdict_counts(content.claims or []),
+        controls=explorer.controls(content.material, content.interface),
+        groups=_groups(content),
+        table_s1=table_s1.rows(content.friction),
+        value_text=table_s1.value_text,
+        length_columns=tables.LENGTH_COLUMNS,
+        lengths=tables.length_rows(lengths) if lengths is not None else [],
+        run=_run(content),
+        origin=_origin(content),
+    )
+
+
+def _source(name: str) -> Markup:
+    return Markup((HERE / name).read_text(encoding="utf-8"))
+
+
+def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
+    """What the page's code reads."""
+    return {
+        "controls": explorer.controls(content.material, content.interface),
+        "base": explorer.si_values(content.material, content.interface),
+        "heights": HEIGHTS.tolist(),
+        "points": tables.point_series(lengths) if lengths is not None else [],
+        "player": _player(content),
+        "colours": {
+            "theory": style.THEORY,
+            "mark": style.VERMILLION,
+            "fields": [style.BLUE, style.GREEN, style.PURPLE],
+        },
+    }
+
+
+def _player(content: Content) -> dict[str, Any] | None:
+    """The player's data: times in seconds from the onset, lengths in m, fields by frame."""
+    if content.player is None:
+        return None
+    run, row = content.player
+    loading = Parameters.from_json(run.attrs["parameters"]).loading
+    onset, length = (float(row[name]) for name in ("onset_time", "length"))
+    start = onset if np.isfinite(onset) else 0.0
+    fields = {
+        "slip_rate": np.where(run["slip_rate"] > 0.0, run["slip_rate"], np.nan),
+        "stress_ratio": run["shear_stress"].values / loading.normal_stress,
+        "state": run["state"].values,
+    }
+    return {
+        "onset": start,
+        "length": length if np.isfinite(length) else None,
+        "event": [run.attrs["event_start"] - start, run.attrs["event_end"] - start],
+        "frames": run.sizes["time"],
+        "x": encode.float32(run["x"]),
+        "since": encode.float32(run["time"] - start),
+        "edge": encode.float32(run["patch_length"]),
+        "force_since": encode.float32(run["step_time"] - start),
+        "force": encode.float32(-run["driving_force"] / 1e3),
+        **{name: encode.float32(fields[name]) for name in CURVES},
+    }
+
+
+def _run(content: Content) -> dict[str, Any] | None:
+    """What is said about the player's run, and its data to download."""
+    if content.player is None:
+        return None
+    run, row = content.player
+    name = f"{row['id'].values}.nc"
+    return {
+        "id": str(row["id"].values),
+        "height": Parameters.from_json(run.attrs["parameters"]).geometry.height,
+        "onset": float(row["onset_time"]),
+        "length": float(row["length"]),
+        "frames": run.sizes["time"],
+        "data": {"name": name, "address": encode.data_address(_netcdf(run), name)},
+    }
+
+
+def _netcdf(dataset: xr.Dataset) -> bytes:
+    """A dataset as the bytes of a netCDF file, numbers with single precision."""
+    with tempfile.TemporaryDirectory() as directory:
+        path = Path(directory, "run.nc")
+        single = dataset.map(lambda v: v.astype("f4") if v.ndim > 1 else v, keep_attrs=True)
+        datasets.write(single, path)
+        return path.read_bytes()
+
+
+def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
+    """The pictures by category."""
+    groups: dict[str, list[dict[str, Any]]] = {}
+    for picture in content.pictures:
+        shown, *others = picture.files
+        downloads = [
+            {"name": path.name, "address": encode.data_address(path.read_bytes(), path.name)}
+            for path in others
+        ]
+        downloads += [_table(content.results, data) for data in picture.data]
+        groups.setdefault(picture.category, []).append(
+            {
+                "name": picture.name,
+                "title": picture.title,
+                "moves": shown.suffix == ".gif",
+                "image": encode.data_address(shown.read_bytes(), shown.name),
+                "caption": Markup(caption_html(picture.caption, picture.params, content.config)),
+                "downloads": downloads,
+            }
+        )
+    return groups
+
+
+def _table(results: Mapping[str, xr.Dataset], data: catalogue.Data) -> dict[str, str]:
+    text = tables.csv_text(results[data.dataset], data.variables)
+    return {"name": data.name, "address": encode.data_address(text.encode(), data.name)}
+
+
+def _origin(content: Content) -> dict[str, Any]:
+    """Versions, the configuration, and which code made each dataset."""
+    made = dict(content.results)
+    if content.player is not None:
+        made[f"simulations/{content.player.row['id'].values}"] = content.player.run
+    configuration = json.dumps(content.config, indent=2)
+    return {
+        "versions": json.loads(content.provenance["versions"]),
+        "created": content.provenance["created"],
+        "digest": content.provenance["code_digest"],
+        "datasets": [
+            {"name": name, **{key: dataset.attrs.get(key, "") for key in ("code_digest", "created",
+                                                                         "command")}}
+            for name, dataset in made.items()
+        ],
+        "config": configuration,
+        "download": {
+            "name": "configuration.json",
+            "address": encode.data_address(configuration.encode(), "configuration.json"),
+        },
+    }  # fmt: skip

@@ -1,0 +1,72 @@
+"""The data of the player: the run through nucleation, thinned to what a page can show."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..extraction import patch_lengths
+from ..moments import chosen_frames, event_interval, thinned
+from ..parameters import Parameters
+from ..settings import ExtractionSettings
+
+Array = NDArray[np.float64]
+
+MOST_FRAMES = (150, 140, 40)  # before, in and after the event
+MOST_NODES = 401
+MOST_STEPS = 1200  # values of the force
+
+
+def thinned_curve(time: Array, value: Array, most: int) -> NDArray[np.intp]:
+    """Indices that keep a curve's look: the least and the greatest value of each of many bins."""
+    if time.size <= most:
+        return np.arange(time.size)
+    bins = np.array_split(np.arange(time.size), most // 2)
+    kept = [part[[value[part].argmin(), value[part].argmax()]] for part in bins]
+    return np.unique(np.concatenate([*kept, [0, time.size - 1]]))
+
+
+def player_dataset(
+    simulation: xr.Dataset, row: xr.Dataset, settings: ExtractionSettings
+) -> xr.Dataset:
+    """What the player shows of one simulation.
+
+    Parameters
+    ----------
+    simulation : Dataset
+        The record of :func:`nucleation.simulation.simulate`.
+    row : Dataset
+        Its entry of the table of lengths, with ``onset_time`` (s).
+    settings : ExtractionSettings
+        How the edge of the patch is defined.
+
+    Returns
+    -------
+    Dataset
+        ``slip_rate`` (m/s), ``shear_stress`` (Pa) and ``state`` (s) on (time, x), ``patch_length``
+        (m) on (time), the furthest that has crept until then; ``driving_force`` (N/m) on (step).
+        The attributes ``event_start`` and ``event_end`` (s) are those of
+        :func:`nucleation.moments.event_interval`.
+    """
+    parameters = Parameters.from_json(simulation.attrs["parameters"])
+    threshold = settings.edge_threshold * parameters.loading.velocity
+    edge = np.maximum.accumulate(patch_lengths(simulation, threshold))
+    event = event_interval(simulation, float(row["onset_time"]))
+    frames = chosen_frames(simulation["time"].values, event, MOST_FRAMES)
+    nodes = thinned(np.arange(simulation.sizes["x"]), MOST_NODES)
+    fields = simulation[["slip_rate", "shear_stress", "state"]].isel(time=frames, x=nodes)
+    step_time, force = simulation["step_time"].values, simulation["driving_force"].values
+    inside = np.flatnonzero((step_time >= event[0]) & (step_time <= event[1]))
+    steps = np.concatenate(
+        [
+            thinned_curve(step_time, force, MOST_STEPS),
+            inside[thinned_curve(step_time[inside], force[inside], MOST_STEPS)],
+        ]
+    )
+    kept = np.unique(steps)
+    return fields.assign(
+        patch_length=("time", edge[frames]),
+        step_time=("step", step_time[kept]),
+        driving_force=("step", force[kept]),
+    ).assign_attrs(event_start=event[0], event_end=event[1])

@@ -1,0 +1,157 @@
+"""Tables of the report: verdicts, lengths with their cost, points of the theory's plot, CSV."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..datasets import VARIABLES
+from ..figures import figure_3
+
+VERDICTS = {
+    "replicated": ("✓", "yes"),
+    "replicated with a deviation that is explained": ("≈", "nearly"),
+    "not replicated": ("✗", "no"),
+    "cannot be checked": ("?", "open"),
+}
+"""Every verdict with its sign and the class of its colour, from best to worst."""
+
+
+class Cell(NamedTuple):
+    """One cell of a table: what is read, and by what it is sorted."""
+
+    text: str
+    key: float | str
+
+
+def number(value: float, digits: int = 4) -> Cell:
+    """A number with so many significant digits; a dash where there is none."""
+    if not math.isfinite(value):
+        return Cell("–", -math.inf)
+    return Cell(f"{value:.{digits}g}", float(value))
+
+
+def claim_rows(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The claims, ready to be shown: numbers as text, the verdict's sign and rank.
+
+    Raises
+    ------
+    ValueError
+        If a verdict is none of :data:`VERDICTS`.
+    """
+    rows = []
+    for claim in claims:
+        if claim["verdict"] not in VERDICTS:
+            raise ValueError(f"claim {claim['id']}: verdict {claim['verdict']!r} is not known")
+        sign, kind = VERDICTS[claim["verdict"]]
+        shown = {name: _shown(claim[name]) for name in ("paper", "ours", "unit")}
+        shown["unit"] = "" if shown["unit"] == "1" else shown["unit"]
+        if re.fullmatch(r"[\d.e+-]+", shown["paper"]):  # a number, not words with their own units
+            shown["paper"] = f"{shown['paper']} {shown['unit']}".rstrip()
+        shown["spread"] = _spread(claim["ours"], claim["uncertainty"])
+        rank = list(VERDICTS).index(claim["verdict"])
+        rows.append({**claim, **shown, "sign": sign, "kind": kind, "rank": rank})
+    return rows
+
+
+def _shown(value: float | str | None) -> str:
+    """A number with four digits, a text as it is, None as nothing."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return number(float(value)).text
+
+
+def _spread(ours: float | None, ends: list[float | None] | None) -> str:
+    """The ends of a range about our number; nothing if they don't differ from it as shown."""
+    low, high = (_shown(end) for end in ends or (None, None))
+    if ours is None or low == high == _shown(ours):
+        return ""
+    return f"({low or '–∞'} to {high or '∞'})"
+
+
+def verdict_counts(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """How many claims have each verdict, from best to worst; verdicts of none are left out."""
+    counts = Counter(claim["verdict"] for claim in claims)
+    return [
+        {"verdict": verdict, "sign": sign, "kind": kind, "count": counts[verdict]}
+        for verdict, (sign, kind) in VERDICTS.items()
+        if counts[verdict]
+    ]
+
+
+LENGTH_COLUMNS = (
+    "Simulation", "H (m)", "Onset (s)", "Length (m)", "Range (m)", "Over theory", "Elements",
+    "Steps", "Time (s)", "Memory (MB)",
+)  # fmt: skip
+
+
+def length_rows(lengths: xr.Dataset) -> list[list[Cell]]:
+    """One row of :data:`LENGTH_COLUMNS` for every simulation of a table of lengths."""
+    rows = []
+    for i in range(lengths.sizes["run"]):
+        run = {name: lengths[name].values[i] for name in lengths.data_vars}
+        elements = int(run["n_x"]) * int(run["n_y"])
+        low, high = (number(run[name], 3) for name in ("length_low", "length_high"))
+        rows.append(
+            [
+                Cell(str(run["id"]), str(run["id"])),
+                *(number(run[name]) for name in ("height", "onset_time", "length")),
+                Cell(f"{low.text} to {high.text}", low.key),
+                number(run["length"] / run["theory_length"], 3),
+                Cell(f"{run['n_x']} × {run['n_y']}", elements),
+                Cell(str(run["steps"]), int(run["steps"])),
+                number(run["wall_seconds"], 3),
+                number(run["peak_megabytes"], 3),
+            ]
+        )
+    return rows
+
+
+SYMBOLS = {"o": "circle", "^": "triangle-up", "s": "square", "v": "triangle-down"}
+
+
+def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
+    """The simulated lengths as series of points, one for each study, law and initial state.
+
+    Markers and colours are those of Figure 3.
+    """
+    names, laws = (lengths[n].values.astype(str) for n in ("study", "law"))
+    ages, usable = lengths["phi0"].values, np.isfinite(lengths["length"].values)
+    kinds = zip(names[usable], laws[usable], ages[usable], strict=True)
+    result = []
+    for study, law, age in dict.fromkeys(kinds):
+        runs = lengths.isel(
+            run=np.flatnonzero(usable & (names == study) & (laws == law) & (ages == age))
+        )
+        aged = not np.isclose(age, figure_3.USUAL_AGE)
+        kind = figure_3.KINDS[law, aged]
+        columns = ("height", "length", "length_low", "length_high", "onset_time", "theory_length")
+        result.append(
+            {
+                "label": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else ""),
+                "symbol": SYMBOLS[kind.marker],
+                "colour": kind.colour,
+                "filled": study == "paper",
+                "id": runs["id"].values.astype(str).tolist(),
+                **{name: runs[name].values.tolist() for name in columns},
+            }
+        )
+    return result
+
+
+def csv_text(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> str:
+    """Some variables of a dataset (all if none is named) as CSV, units in the header."""
+    chosen = dataset[list(variables)] if variables else dataset
+    frame = chosen.to_dataframe().reset_index()
+    frame = frame.drop(columns=[c for c in frame if c not in dataset.variables])
+    return frame.rename(columns=_with_unit).to_csv(index=False)
+
+
+def _with_unit(name: str) -> str:
+    units = VARIABLES[name].units
+    return name if units in ("", "1") else f"{name} ({units})"

@@ -1,0 +1,151 @@
+"""A report on a small run, and a browser that opens it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from playwright.sync_api import sync_playwright
+
+from nucleation import lengths, provenance
+from nucleation.configuration import configure
+from nucleation.figures import figure_2, style
+from nucleation.report import catalogue, page
+from nucleation.report.player import player_dataset
+from nucleation.settings import Curves, ExtractionSettings
+from nucleation.simulation import simulate
+from nucleation.theory import theory_dataset
+
+ROOT = Path(__file__).parents[2]
+MISSING = "chromium is missing: workflow/install-debian.sh browser"
+CONFIG = {
+    "stepping": {"end_time": 30.0, "time_after_event": 0.2, "tolerance": 0.05,
+                 "longest_step": 0.2},
+    "studies": {"paper": {"length_over_critical": 4.0, "interface": "main_text",
+                          "runs": [{"height": 0.005, "n_x": 60, "n_y": 6}]}},
+}  # fmt: skip
+CLAIMS = [
+    {"id": "onset", "where": "Fig. S2", "statement": "It runs away after 13 s.", "paper": "13",
+     "ours": 12.78, "uncertainty": [12.78, 12.87], "unit": "s", "verdict": "replicated",
+     "reason": "Inside.", "quotation": "<b>13 s</b>", "method": "The force's drop."},
+    {"id": "ratio", "where": "Eq. (6)", "statement": "Larger than by springs.", "paper": "2.36",
+     "ours": 2.356, "uncertainty": [2.356, 2.356], "unit": "1",
+     "verdict": "replicated with a deviation that is explained", "reason": "Rounded.",
+     "quotation": "", "method": "A formula."},
+    {"id": "open", "where": "Sect. 5", "statement": "Nobody knows.", "paper": None, "ours": None,
+     "uncertainty": None, "unit": "1", "verdict": "cannot be checked", "reason": "No number.",
+     "quotation": "", "method": "None."},
+    {"id": "wrong", "where": "Fig. 3", "statement": "It is 100 m.", "paper": "100", "ours": 9.0,
+     "uncertainty": [8.0, 11.0], "unit": "m", "verdict": "not replicated", "reason": "Far off.",
+     "quotation": "", "method": "A ruler."},
+]  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def settings():
+    return configure(CONFIG)
+
+
+@pytest.fixture(scope="session")
+def simulation(settings):
+    """A run through nucleation on a coarse mesh."""
+    return simulate(settings.runs[0].parameters)
+
+
+@pytest.fixture(scope="session")
+def table(settings, simulation):
+    return lengths.gather([settings.runs[0].to_dict()], [simulation], ExtractionSettings())
+
+
+@pytest.fixture(scope="session")
+def content(settings, simulation, table, tmp_path_factory):
+    """A report with all sections."""
+    theory = theory_dataset(
+        settings.base.material, settings.base.friction, settings.main_text_interface,
+        Curves(heights=tuple(np.geomspace(0.004, 0.1, 5))),
+    )  # fmt: skip
+    stem = tmp_path_factory.mktemp("figures") / "figure_2"
+    pdf, png = style.save(figure_2.draw(theory), stem)
+    entry = catalogue.FIGURES["figure_2"]
+    caption = (ROOT / "workflow" / "report" / "figure_2.rst").read_text(encoding="utf-8")
+    row = lengths.row(table, settings.runs[0].id)
+    return page.Content(
+        material=settings.base.material,
+        friction=settings.base.friction,
+        interface=settings.main_text_interface,
+        config=CONFIG,
+        provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
+        results={"theory": theory, "lengths": table},
+        pictures=[
+            page.Picture("figure_2", entry.title, entry.category, [png, pdf], caption, {},
+                         entry.data)
+        ],
+        claims=CLAIMS,
+        player=page.Player(player_dataset(simulation, row, ExtractionSettings()), row),
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def report(content, tmp_path_factory) -> Path:
+    """The report as a file."""
+    path = tmp_path_factory.mktemp("report") / "report.html"
+    path.write_text(page.build(content), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """A headless Chromium. It may be missing on a developer's machine, but not in CI."""
+    program = shutil.which("chromium")
+    if program is None and os.environ.get("CI") == "true":
+        pytest.fail(MISSING)
+    if program is None:
+        pytest.skip(MISSING)
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        yield started
+        started.close()
+
+
+class Opened:
+    """A page of the browser, with what it asked for and what it complained about."""
+
+    def __init__(self, browser, path: Path, **options) -> None:
+        self.page = browser.new_context(**options).new_page()
+        self.requests: list[str] = []
+        self.complaints: list[str] = []
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.on("console", lambda message: self.complaints.append(message.text))
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.goto(path.as_uri())
+        self.page.wait_for_selector("#theory-plot .main-svg")
+
+
+@pytest.fixture(scope="session")
+def opened(browser, report) -> Opened:
+    """The report on a wide screen, opened once."""
+    return Opened(browser, report, viewport={"width": 1280, "height": 900})
+
+
+@pytest.fixture
+def web(opened):
+    """The open page; nothing may go wrong in it while a test uses it."""
+    yield opened.page
+    assert opened.complaints == []
+
+
+@pytest.fixture
+def open_report(browser, report):
+    """Open the report once more, on a screen of other properties."""
+    made = []
+
+    def open_(**options) -> Opened:
+        made.append(Opened(browser, report, **options))
+        return made[-1]
+
+    yield open_
+    for one in made:
+        one.page.context.close()

@@ -1,0 +1,217 @@
+"""What the report is made of, without a browser."""
+
+import base64
+import dataclasses
+import io
+import json
+import re
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from docutils.utils import SystemMessage
+from jinja2 import UndefinedError
+
+from nucleation import moments
+from nucleation.figures import figure_3
+from nucleation.quantities import declarations
+from nucleation.report import catalogue, encode, explorer, page, player, tables
+from nucleation.report.captions import caption_html
+from nucleation.settings import ExtractionSettings
+
+ROOT = page.HERE.parents[2]
+
+
+def downloads(html):
+    """Every file that a page offers: name to content."""
+    found = re.findall(r'download="([^"]+)" href="data:[^;]+;base64,([^"]+)"', html)
+    return {name: base64.b64decode(content) for name, content in found}
+
+
+@pytest.fixture(scope="module")
+def html(report):
+    return report.read_text(encoding="utf-8")
+
+
+# ---- Files that can be taken out of the page
+
+
+def test_tables_can_be_downloaded_with_units_and_all_values(html, content):
+    files = downloads(html)
+    assert files["figure_2.pdf"].startswith(b"%PDF")
+    assert json.loads(files["configuration.json"]) == content.config
+    ratio = pd.read_csv(io.BytesIO(files["theory-bimaterial_length_ratio.csv"]))
+    expected = content.results["theory"]["bimaterial_length_ratio"]
+    assert list(ratio.columns) == ["zeta_over_a", "f_beta", "bimaterial_length_ratio"]
+    for row in ratio.sample(20, random_state=1).itertuples():
+        value = expected.sel(zeta_over_a=row.zeta_over_a, f_beta=row.f_beta)
+        assert row.bimaterial_length_ratio == pytest.approx(float(value), rel=1e-12)
+
+
+def test_run_of_the_player_can_be_downloaded(html, content, tmp_path):
+    (name,) = (name for name in downloads(html) if name.endswith(".nc"))
+    path = tmp_path / name
+    path.write_bytes(downloads(html)[name])
+    with xr.open_dataset(path, decode_times=False) as stored:
+        assert stored["slip_rate"].attrs["units"] == "m/s"
+        np.testing.assert_allclose(stored["state"], content.player.run["state"], rtol=1e-6)
+
+
+def test_csv_has_only_the_datasets_own_columns():
+    table = xr.Dataset(
+        {"height": ("run", [0.1, 0.2]), "id": ("run", ["a", "b"]), "steps": ("run", [1, 2])}
+    )
+    assert tables.csv_text(table) == "height (m),id,steps\n0.1,a,1\n0.2,b,2\n"
+    assert tables.csv_text(table, ("id",)) == "id\na\nb\n"
+
+
+# ---- Parts
+
+
+def test_sections_without_content_are_left_out(content):
+    bare = page.build(content._replace(claims=None, player=None, pictures=[], results={}))
+    for part in ('id="verdicts"', 'id="player"', "<figure", 'id="lengths"'):
+        assert part not in bare
+    assert 'id="theory"' in bare
+
+
+def test_page_has_no_address_of_the_network_in_it(html):
+    """Leaving aside Plotly's own code, which the browser's test watches."""
+    own = re.sub(r"<script>.*?</script>", "", html, flags=re.S)
+    assert not re.findall(r'(?:src|href)="(?!data:|#)[^"]*"', own)
+
+
+def test_every_claim_and_run_is_in_the_tables(html, table):
+    assert html.count('<tr role="row" data-kind=') == 4
+    (row,) = tables.length_rows(table)
+    assert len(row) == len(tables.LENGTH_COLUMNS)
+    shown = dict(zip(tables.LENGTH_COLUMNS, row, strict=True))
+    assert shown["Length (m)"].key == float(table["length"][0])
+    assert shown["Time (s)"].key == float(table["wall_seconds"][0])
+    ratio = float(table["length"][0] / table["theory_length"][0])
+    assert float(shown["Over theory"].text) == pytest.approx(ratio, rel=5e-3)
+
+
+def test_claims_as_they_are_shown(content):
+    onset, ratio, unknown, wrong = tables.claim_rows(content.claims)
+    assert (onset["paper"], onset["ours"], onset["spread"]) == ("13 s", "12.78", "(12.78 to 12.87)")
+    assert (ratio["ours"], ratio["spread"], ratio["unit"]) == ("2.356", "", "")
+    assert (unknown["paper"], unknown["ours"], unknown["spread"]) == ("", "", "")
+    assert wrong["spread"] == "(8 to 11)"
+    counts = {c["verdict"]: c["count"] for c in tables.verdict_counts(content.claims)}
+    assert counts == dict.fromkeys(tables.VERDICTS, 1)
+
+
+def test_unknown_verdict_is_refused(content):
+    claim = {**content.claims[0], "verdict": "probably"}
+    with pytest.raises(ValueError, match="claim onset: verdict 'probably' is not known"):
+        tables.claim_rows([claim])
+
+
+def test_runs_without_an_event_have_dashes_and_no_point(table):
+    without = table.assign(length=("run", [np.nan]), onset_time=("run", [np.nan]))
+    assert tables.point_series(without) == []
+    cells = dict(zip(tables.LENGTH_COLUMNS, tables.length_rows(without)[0], strict=True))
+    assert cells["Onset (s)"].text == cells["Over theory"].text == "–"
+
+
+def test_points_have_the_marks_of_figure_3(table):
+    (series,) = tables.point_series(table)
+    kind = figure_3.KINDS["aging", False]
+    assert series["colour"] == kind.colour and series["filled"]
+    assert series["label"] == "paper, aging law"
+    assert series["length"] == table["length"].values.tolist()
+
+
+def test_sliders_are_parameters_of_the_library_at_the_configurations_values(settings):
+    material, interface = settings.base.material, settings.main_text_interface
+    controls = explorer.controls(material, interface)
+    values = explorer.si_values(material, interface)
+    for slider, control in zip(explorer.SLIDERS, controls, strict=True):
+        declaration = declarations(slider.group)[slider.parameter]
+        assert control["value"] * control["factor"] == pytest.approx(values[slider.key], rel=1e-11)
+        assert declaration.low <= slider.low * slider.factor
+        assert slider.high * slider.factor <= declaration.high
+        assert (declaration.unit == "1") == (slider.unit == "")
+    wide = explorer.controls(dataclasses.replace(material, shear_modulus=1e12), interface)
+    assert wide[0]["high"] == wide[0]["value"] == 1000.0
+
+
+# ---- The player's data
+
+
+def test_player_keeps_the_event_and_the_look_of_the_force(simulation, table):
+    row = table.isel(run=0)
+    run = player.player_dataset(simulation, row, ExtractionSettings())
+    times, onset = simulation["time"].values, float(row["onset_time"])
+    start, end = run.attrs["event_start"], run.attrs["event_end"]
+    assert start < onset < end
+    peak = simulation["step_time"][simulation["maximal_slip_rate"].values.argmax()]
+    assert start < float(peak) < end
+    kept = run["time"].values
+    inside = times[(times >= start) & (times < end)]
+    assert np.isin(kept, times).all() and (np.diff(kept) > 0).all()
+    assert np.isin(inside, kept).sum() == min(inside.size, player.MOST_FRAMES[1])
+    force = simulation["driving_force"].values
+    assert run["driving_force"].min() == force.min()
+    assert run["driving_force"].max() == force.max()
+    assert (np.diff(run["patch_length"]) >= 0.0).all()
+    assert run["patch_length"].sel(time=onset, method="nearest") == pytest.approx(
+        float(row["length"]), rel=0.02
+    )
+
+
+def test_run_without_an_event_is_shown_evenly(simulation, table):
+    time = simulation["time"].values
+    event = moments.event_interval(simulation, np.nan)
+    chosen = moments.chosen_frames(time, event, (20, 20, 20))
+    assert chosen[0] == 0 and time[chosen[-1]] == time[-1]
+    assert chosen.size in (20, 21)  # the last one may count as after the event
+
+
+def test_thinned_keeps_ends_and_few_as_they_are():
+    assert moments.thinned(np.arange(5), 7).tolist() == [0, 1, 2, 3, 4]
+    assert moments.thinned(np.arange(101), 3).tolist() == [0, 50, 100]
+
+
+# ---- Texts
+
+
+def test_every_figure_has_a_caption_that_is_valid():
+    names = {path.stem for path in (ROOT / "workflow" / "report").glob("*.rst")} - {"workflow"}
+    assert names == set(catalogue.FIGURES)
+    for name in names:
+        template = (ROOT / "workflow" / "report" / f"{name}.rst").read_text(encoding="utf-8")
+        shown = caption_html(template, {"id": "the-run"}, {})
+        assert ("the-run" in shown) == ("snakemake" in template)
+        assert "{" not in shown and ":math:" not in shown
+
+
+def test_caption_with_mathematics_needs_no_script():
+    shown = caption_html("Length :math:`L_c` of ``{{ snakemake.params.id }}``.", {"id": "r1"}, {})
+    assert "<math" in shown and "r1" in shown and "<script" not in shown
+
+
+@pytest.mark.parametrize(
+    ("template", "error"),
+    [("{{ snakemake.params.height }}", UndefinedError), ("*not closed", SystemMessage)],
+)
+def test_mistakes_in_captions_stop_the_report(template, error):
+    with pytest.raises(error):
+        caption_html(template, {}, {})
+
+
+def test_no_text_can_end_the_script_that_holds_the_data():
+    text = encode.script_json({"name": "</script><b>"})
+    assert "</script" not in text
+    assert json.loads(text) == {"name": "</script><b>"}
+    with pytest.raises(ValueError, match="JSON compliant"):
+        encode.script_json(float("nan"))
+
+
+def test_catalogue_names_figures_that_exist_and_what_they_stand_on():
+    drawn = {path.stem for path in (ROOT / "src/nucleation/figures").glob("figure_*.py")}
+    assert set(catalogue.FIGURES) - {"animation"} == drawn - {"figure_crosscheck"}
+    assert "figure_3" not in catalogue.drawable(["mine"])
+    assert {"figure_2", "figure_3", "animation"} <= set(catalogue.drawable(["paper"]))

@@ -1,0 +1,313 @@
+"""The report in a real browser: what it loads, shows, computes and plays."""
+
+import dataclasses
+import time
+
+import numpy as np
+import pytest
+
+from nucleation.elasticity import Material
+from nucleation.report import explorer, page
+from nucleation.stability import RIGID, Body, InterfaceState, critical_length, critical_wavenumber
+
+THEORY_TRACE = 2
+PARAMETER_OF = {slider.key: slider for slider in explorer.SLIDERS}
+
+
+def test_loads_without_network_and_complaints(opened, report):
+    assert opened.requests == [report.as_uri()]
+    assert opened.complaints == []
+    assert opened.page.title() == "Critical nucleation length: the replication"
+    headings = opened.page.locator("h2").all_inner_texts()
+    assert headings[0] == "What was replicated"
+    assert "The paper's figures" in headings and "Provenance" in headings
+    assert report.stat().st_size < 8e6
+    broken = "[...document.images].filter((image) => !image.naturalWidth).length"
+    assert opened.page.evaluate(broken) == 0
+
+
+# ---- The theory
+
+
+def library_point(p):
+    """The critical point by the library, for parameters under the page's names."""
+    interface = InterfaceState(p["f"], p["a"], p["zeta"], p["ell"], p["V"], p["sigma0"])
+    return critical_wavenumber(Body(Material(p["mu"], p["nu"]), p["H"], "traction"), RIGID,
+                               interface)  # fmt: skip
+
+
+def test_theory_in_the_page_is_that_of_the_library(web):
+    """Lengths and frequencies for random materials and interfaces, thin blocks and half-spaces."""
+    random = np.random.default_rng(5)
+    cases = []
+    for height in np.geomspace(1e-3, 1e3, 60):
+        case = {"H": float(height)}
+        for slider in explorer.SLIDERS:
+            part = random.uniform()
+            low, high = slider.low * slider.factor, slider.high * slider.factor
+            value = low * (high / low) ** part if slider.logarithmic else low + part * (high - low)
+            case[slider.key] = float(value)
+        cases.append(case)
+    found = web.evaluate("(cases) => cases.map((p) => Theory.solver(p)(p.H))", cases)
+    for case, point in zip(cases, found, strict=True):
+        expected = library_point(case)
+        assert point["length"] == pytest.approx(expected.length, rel=1e-9)
+        assert point["frequency"] == pytest.approx(expected.angular_frequency, rel=1e-9)
+
+
+def drawn_curve(web):
+    """Heights and lengths (m) of the curve, once the page has drawn what it was told."""
+    web.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")
+    script = (
+        f"() => {{ const t = element('theory-plot').data[{THEORY_TRACE}]; return [t.x, t.y]; }}"
+    )
+    return np.array(web.evaluate(script))
+
+
+def expected_curve(settings, **changes):
+    material, interface = settings.base.material, settings.main_text_interface
+    for name, value in changes.items():
+        if hasattr(material, name):
+            material = dataclasses.replace(material, **{name: value})
+        else:
+            interface = dataclasses.replace(interface, **{name: value})
+    return critical_length(page.HEIGHTS, material, interface)
+
+
+@pytest.mark.parametrize("slider", explorer.SLIDERS, ids=lambda slider: slider.parameter)
+def test_every_slider_moves_the_curve_to_the_right_values(web, settings, slider):
+    control = web.locator(f"#range-{slider.key}")
+    control.focus()
+    before = drawn_curve(web)[1]
+    web.keyboard.press("PageUp")
+    web.keyboard.press("ArrowRight")
+    value = float(web.locator(f"#number-{slider.key}").input_value())
+    assert control.get_attribute("aria-valuetext") == f"{value:g}"
+    heights, length = drawn_curve(web)
+    np.testing.assert_allclose(heights, page.HEIGHTS, rtol=1e-12)
+    expected = expected_curve(settings, **{slider.parameter: value * slider.factor})
+    np.testing.assert_allclose(length, expected, rtol=1e-6)
+    moved = not np.allclose(length, before, rtol=1e-6)
+    assert moved == (slider.parameter != "velocity")  # V sets the frequency alone
+    web.click("#reset")
+    np.testing.assert_allclose(drawn_curve(web)[1], before, rtol=1e-12)
+
+
+def test_values_can_be_typed_and_bad_ones_change_nothing(web, settings):
+    web.fill("#number-mu", "31")
+    web.fill("#number-H", "0.02")
+    expected = expected_curve(settings, shear_modulus=31e9)
+    np.testing.assert_allclose(drawn_curve(web)[1], expected, rtol=1e-6)
+    interface = settings.main_text_interface
+    length = float(critical_length(0.02, Material(shear_modulus=31e9), interface))
+    values = web.locator("#values dd").all_inner_texts()
+    assert float(values[0].removesuffix(" m")) == pytest.approx(length, rel=1e-4)
+    assert float(values[1].removesuffix(" rad/m")) == pytest.approx(2 * np.pi / length, rel=1e-4)
+    for bad in ("", "0", "-3", "1e9"):
+        web.fill("#number-mu", bad)
+        assert web.get_attribute("#number-mu", "aria-invalid") == "true"
+        np.testing.assert_allclose(drawn_curve(web)[1], expected, rtol=1e-6)
+    web.click("#reset")
+    assert web.get_attribute("#number-mu", "aria-invalid") is None
+    np.testing.assert_allclose(drawn_curve(web)[1], expected_curve(settings), rtol=1e-6)
+
+
+def test_axes_like_those_of_figure_3(web):
+    web.check("#linear")
+    drawn_curve(web)
+    layout = "() => { const l = element('theory-plot').layout; return [l.xaxis, l.yaxis]; }"
+    for axis in web.evaluate(layout):
+        assert axis["type"] == "linear"
+        assert axis["range"][0] == 0
+    web.uncheck("#linear")
+
+
+def test_points_tell_their_values(web, table):
+    """The text beside the pointer on a point of a simulation."""
+    web.evaluate("""() => {
+      const last = element("theory-plot").data.length - 1;
+      Plotly.Fx.hover(element("theory-plot"), [{ curveNumber: last, pointNumber: 0 }]);
+    }""")
+    text = web.locator("#theory-plot .hoverlayer").text_content()
+    assert str(table["id"].values[0]) in text
+    for name, digits in (("length", 4), ("height", 4), ("onset_time", 4), ("length_low", 3)):
+        assert f"{float(table[name][0]):.{digits}g}" in text
+
+
+# ---- The player
+
+
+def until(web, condition, seconds=10.0):
+    """Wait for an expression to be true; the page itself forbids that a test's text is run in it
+    as playwright does it for waiting."""
+    end = time.monotonic() + seconds
+    while not web.evaluate(f"() => {condition}"):
+        assert time.monotonic() < end, condition
+        web.wait_for_timeout(20)
+
+
+def moment(web):
+    return int(web.input_value("#moment"))
+
+
+def test_player_plays_pauses_and_stops_at_the_end(web, content):
+    last = content.player.run.sizes["time"] - 1
+    web.locator("#moment").fill(str(last - 25))
+    play = web.get_by_role("button", name="Play")
+    play.focus()
+    web.keyboard.press("Enter")
+    assert web.inner_text("#play") == "Pause"
+    until(web, f"Number(element('moment').value) > {last - 20}")
+    web.click("#play")
+    assert web.inner_text("#play") == "Play"
+    paused = moment(web)
+    web.wait_for_timeout(200)
+    assert moment(web) == paused < last
+    web.click("#play")
+    until(web, f"Number(element('moment').value) === {last}")
+    until(web, "element('play').textContent === 'Play'")
+    web.click("#play")  # once more, from the beginning
+    until(web, f"Number(element('moment').value) < {last // 2}")
+    web.click("#play")
+
+
+def test_player_shows_the_run(web, content, table):
+    """Fields, edge, force and clock at moments before and in the event, reached by the keys."""
+    run = content.player.run
+    sigma = 1e6
+    expected = {
+        "slip_rate": run["slip_rate"].values,
+        "stress_ratio": run["shear_stress"].values / sigma,
+        "state": run["state"].values,
+    }
+    web.click("#to-onset")
+    onset = float(table["onset_time"][0])
+    assert moment(web) == np.abs(run["time"].values - onset).argmin()
+    web.locator("#moment").focus()
+    web.keyboard.press("ArrowRight")
+    web.click("#forward")
+    web.click("#back")
+    for frame in (moment(web), 10):
+        web.locator("#moment").fill(str(frame))
+        for name, values in expected.items():
+            trace = f"element('plot-{name}').data[0]"
+            drawn = web.evaluate(f"() => [Array.from({trace}.x), Array.from({trace}.y)]")
+            np.testing.assert_allclose(drawn[0], run["x"].values, rtol=1e-6)
+            shown = np.array(drawn[1], dtype=float)
+            usable = np.isfinite(shown)
+            np.testing.assert_allclose(shown[usable], values[frame][usable], rtol=1e-5, atol=1e-9)
+            assert (values[frame][~usable] <= 0.0).all()
+        edge = web.evaluate("() => element('plot-slip_rate').layout.shapes[0].x0")
+        assert edge == pytest.approx(float(run["patch_length"][frame]), rel=1e-6)
+        now = float(run["time"][frame])
+        marker = web.evaluate("() => { const t = element('plot-force').data[2];"
+                              " return [t.x[0], t.y[0]]; }")  # fmt: skip
+        force = np.interp(now, run["step_time"].values, -run["driving_force"].values / 1e3)
+        assert marker == pytest.approx([now, force], rel=1e-2)
+        assert f"t = {now:.4f} s" in web.inner_text("#clock")
+        assert web.get_attribute("#moment", "aria-valuetext") == web.inner_text("#clock")
+
+
+# ---- Tables
+
+
+def column(web, number):
+    return web.locator(f"#claims tbody tr:not([hidden]) td:nth-child({number})").all_inner_texts()
+
+
+def test_tables_sort_both_ways_with_missing_values_last(web):
+    header = web.locator("#claims th").nth(3)
+    button = header.get_by_role("button", name="Ours")
+    assert header.get_attribute("aria-sort") == "none"
+    button.click()
+    assert header.get_attribute("aria-sort") == "ascending"
+    ours = [text.split()[0] for text in column(web, 4)]
+    assert ours == ["2.356", "9", "12.78", "–"]  # by number: not as text
+    button.press("Enter")
+    assert header.get_attribute("aria-sort") == "descending"
+    assert [text.split()[0] for text in column(web, 4)] == ["12.78", "9", "2.356", "–"]
+    verdict = web.locator("#claims th").nth(4)
+    verdict.get_by_role("button").click()
+    assert header.get_attribute("aria-sort") == "none"
+    assert [text.split()[0] for text in column(web, 5)] == ["✓", "≈", "✗", "?"]
+    web.locator("#claims th").nth(1).get_by_role("button").click()
+    assert column(web, 1) == ["Fig. 3", "Fig. S2", "Eq. (6)", "Sect. 5"]
+    web.locator("#claims th").nth(0).get_by_role("button").click()
+
+
+def test_verdicts_can_be_shown_alone(web):
+    everything = web.get_by_role("button", name="4 all")
+    wrong = web.get_by_role("button", name="1 not replicated")
+    wrong.click()
+    assert wrong.get_attribute("aria-pressed") == "true"
+    assert everything.get_attribute("aria-pressed") == "false"
+    assert column(web, 1) == ["Fig. 3"]
+    everything.click()
+    assert len(column(web, 1)) == 4
+
+
+def test_texts_of_claims_stay_texts(web):
+    assert web.locator("#claims q").first.text_content() == "<b>13 s</b>"
+
+
+# ---- For everyone, on every screen
+
+
+def test_every_control_has_a_name_and_every_picture_a_text(opened):
+    session = opened.page.context.new_cdp_session(opened.page)
+    nodes = session.send("Accessibility.getFullAXTree")["nodes"]
+    controls = {"button", "slider", "spinbutton", "checkbox", "link", "img", "image", "table"}
+    found = {}
+    for node in nodes:
+        role = node.get("role", {}).get("value")
+        if role in controls and not node["ignored"]:
+            found.setdefault(role, []).append(node.get("name", {}).get("value", ""))
+    assert set(found) >= {"button", "slider", "spinbutton", "checkbox", "link"}
+    assert len(found["slider"]) == len(explorer.SLIDERS) + 2  # height and moment
+    for role, names in found.items():
+        assert all(name.strip() for name in names), role
+    regions = opened.page.locator("main section")
+    for index in range(regions.count()):
+        assert regions.nth(index).get_attribute("aria-labelledby")
+
+
+def test_headings_that_sort_are_buttons(web):
+    sortable = web.locator("th[aria-sort]")
+    assert sortable.count() == web.locator("th[aria-sort] > button").count() > 10
+
+
+def test_first_stop_of_the_keyboard_skips_to_the_content(open_report):
+    web = open_report(viewport={"width": 1280, "height": 900}).page
+    web.keyboard.press("Tab")
+    assert web.evaluate("document.activeElement.textContent") == "Skip to the content"
+
+
+@pytest.mark.parametrize("width", [320, 390, 768])
+def test_phone_shows_all_without_scrolling_sideways(open_report, width):
+    opened = open_report(viewport={"width": width, "height": 800}, is_mobile=True, has_touch=True)
+    web = opened.page
+    for details in web.locator("details").all():
+        details.evaluate("(element) => { element.open = true; }")
+    assert web.evaluate("document.documentElement.scrollWidth") <= width
+    outside = web.evaluate("""() => [...document.querySelectorAll("button, input, .plot, img")]
+      .filter((one) => !one.closest(".wide") && one.getBoundingClientRect().width > 0)
+      .filter((one) => one.getBoundingClientRect().right > innerWidth + 1)
+      .map((one) => one.outerHTML.slice(0, 80))""")
+    assert outside == []
+    assert opened.complaints == []
+
+
+def test_dark_screens_get_their_own_colours(open_report):
+    web = open_report(color_scheme="light").page
+    shade = "() => element('theory-plot').data[2].line.color"
+    light = web.evaluate(shade)
+    web.emulate_media(color_scheme="dark")
+    until(web, f"({shade})() !== '{light}'")
+    assert web.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 24, 27)"
+
+
+def test_prints(open_report):
+    opened = open_report()
+    opened.page.emulate_media(media="print")
+    assert opened.page.pdf().startswith(b"%PDF")
+    assert opened.complaints == []

@@ -1,0 +1,107 @@
+# The report: one HTML file with every figure that the configuration has the studies for, the
+# theory with sliders, a player of the run of Figure S2, tables and provenance; and the animation,
+# of the run in the inset of Figure 3.
+from nucleation.report import catalogue
+
+FILM = f"{RESULTS}/film.nc"
+ANIMATION = f"{RESULTS}/figures/animation.gif"
+REPORT_FILES = [
+    Path(SOURCE, "nucleation", "report", name)
+    for name in ("template.html", "page.css", "page.js", "theory.js")
+]
+REPORTED = catalogue.drawable(list(settings.studies))
+SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": inset_id}
+"""The simulation that a figure's caption names."""
+
+
+localrules:
+    animation, report,
+
+
+def shown_files(name):
+    """The files of a figure or of the animation, the one that is looked at last."""
+    return [ANIMATION] if name == "animation" else figure(name)
+
+
+def caption_params(wildcards):
+    return {name: {"id": chosen(wildcards)} for name, chosen in SHOWN_RUNS.items()
+            if name in REPORTED}  # fmt: skip
+
+
+def player_input(wildcards):
+    """The run in the player; without the paper's study there is none."""
+    if "figure_s2" not in REPORTED:
+        return []
+    return simulation(space_time_id(wildcards))
+
+
+rule film:
+    input:
+        lengths=LENGTHS,
+        simulation=lambda wildcards: simulation(inset_id(wildcards)),
+    output:
+        FILM,
+    params:
+        id=inset_id,
+        digest=digest("nucleation.film"),
+    threads: 1
+    message:
+        "Film: a run once more, for the stress in its block"
+    script:
+        "../scripts/film.py"
+
+
+rule draw_animation:
+    input:
+        film=FILM,
+        lengths=LENGTHS,
+    output:
+        captioned(ANIMATION, "animation"),
+    params:
+        id=inset_id,
+        digest=digest("nucleation.figures.animation", libraries=(*DRAWING, "pillow")),
+    message:
+        "Animation of creep, nucleation and rupture"
+    script:
+        "../scripts/animation.py"
+
+
+rule animation:
+    input:
+        rules.draw_animation.output,
+        simulations("paper"),
+    message:
+        "The animation is in {input[0]}"
+
+
+rule write_report:
+    input:
+        figures=[path for name in REPORTED for path in shown_files(name)],
+        captions=[caption_file(name) for name in REPORTED],
+        datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(REPORTED)],
+        player=player_input,
+        claims=[],
+    output:
+        f"{RESULTS}/report.html",
+    params:
+        figures=REPORTED,
+        captions=caption_params,
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        main_text_interface=asdict(settings.main_text_interface),
+        extraction=asdict(settings.extraction),
+        config=config,
+        digest=digest("nucleation.report.page", "nucleation.report.player", libraries=DRAWING)
+        + sha256(b"".join(path.read_bytes() for path in REPORT_FILES)).hexdigest(),
+    message:
+        "Report"
+    script:
+        "../scripts/report.py"
+
+
+rule report:
+    input:
+        rules.write_report.output,
+        simulations(*{study for name in REPORTED for study in FIGURES[name].studies}),
+    message:
+        "The report is in {input[0]}"

@@ -1,0 +1,46 @@
+"""Write the report."""
+
+import json
+from pathlib import Path
+
+from nucleation import datasets, provenance
+from nucleation.elasticity import Material
+from nucleation.friction import Friction
+from nucleation.lengths import row
+from nucleation.report import catalogue, page
+from nucleation.report.player import player_dataset
+from nucleation.settings import ExtractionSettings
+from nucleation.stability import InterfaceState
+
+params, given = snakemake.params, snakemake.input
+results = {Path(path).stem: datasets.read(path) for path in given.datasets}
+player = None
+if given.player:
+    simulation = datasets.read(given.player)
+    entry = row(results["lengths"], Path(given.player).stem)
+    player = page.Player(
+        player_dataset(simulation, entry, ExtractionSettings(**params.extraction)), entry
+    )
+pictures = []
+for name, caption in zip(params.figures, given.captions, strict=True):
+    entry = catalogue.FIGURES[name]
+    files = [Path(path) for path in given.figures if Path(path).stem == name]
+    text = Path(caption).read_text(encoding="utf-8")
+    pictures.append(
+        page.Picture(
+            name, entry.title, entry.category, files[::-1], text, params.captions.get(name, {}),
+            entry.data,
+        )
+    )  # fmt: skip
+content = page.Content(
+    material=Material(**params.material),
+    friction=Friction(**params.friction),
+    interface=InterfaceState(**params.main_text_interface),
+    config=params.config,
+    provenance=provenance.attributes(params.config, params.digest, "snakemake report"),
+    results=results,
+    pictures=pictures,
+    claims=json.loads(Path(given.claims).read_text(encoding="utf-8")) if given.claims else None,
+    player=player,
+)
+datasets.write_text(page.build(content), snakemake.output[0])
