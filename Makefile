@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 	--workflow-profile workflow/profiles/default
 
 .DEFAULT_GOAL := help
-.PHONY: help paper quick test lint bench reference schema lock clean-venv
+.PHONY: help paper report quick test lint bench reference schema lock clean-venv
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -18,6 +18,9 @@ help: ## This list
 
 paper: $(STAMP) ## Make every figure and table of the paper, in results/
 	$(SNAKEMAKE)
+
+report: $(STAMP) ## Make results/report.html: verdicts, figures, theory with sliders, in half an hour
+	$(BIN)/snakemake report --cores $(CORES) --workflow-profile workflow/profiles/default
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(SNAKEMAKE) --configfile config/quick.yaml
@@ -34,11 +37,12 @@ bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper figure_patch_stability figure_3_extended \
-		figure_verification figure_dispersion --cores $(CORES) --workflow-profile workflow/profiles/default
+		figure_verification figure_dispersion animation --cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/convergence.csv \
-		results/dispersion.csv results/figures/*.png results/reference/
+		results/dispersion.csv results/figures/*.png results/figures/animation.gif \
+		results/reference/
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs programs from Debian's archive that the optional parts of the workflow call.
 #
-#   workflow/install-debian.sh GROUP...        groups: crosscheck
+#   workflow/install-debian.sh GROUP...        groups: browser crosscheck
 #
 # Needs root or sudo. Everything else the project needs is installed by make, in .venv.
 set -eu
@@ -9,15 +9,16 @@ set -eu
 packages=
 for group in "$@"; do
     case $group in
+    browser) packages="$packages chromium" ;;
     crosscheck) packages="$packages freefem++ libfreefem++" ;; # MUMPS is in the library's package
     *)
-        echo "$0: unknown group $group; known: crosscheck" >&2
+        echo "$0: unknown group $group; known: browser crosscheck" >&2
         exit 2
         ;;
     esac
 done
 if [ -z "$packages" ]; then
-    echo "usage: $0 GROUP...   groups: crosscheck" >&2
+    echo "usage: $0 GROUP...   groups: browser crosscheck" >&2
     exit 2
 fi
 
