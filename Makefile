@@ -64,4 +64,6 @@ $(STAMP): environment.txt
 		-r environment.txt
 	$(BIN)/python -c 'import pathlib, sysconfig; \
 		pathlib.Path(sysconfig.get_path("purelib"), "nucleation.pth").write_text("$(CURDIR)/src\n")'
+	printf '#!/bin/sh\nexec "%s/$(BIN)/python" -m nucleation "$$@"\n' "$(CURDIR)" > $(BIN)/nucleation
+	chmod +x $(BIN)/nucleation
 	@touch $@

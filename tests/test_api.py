@@ -5,6 +5,7 @@ import inspect
 import math
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -198,7 +199,8 @@ def test_the_theory_does_not_load_the_solver():
         "import sys, nucleation.api as api; assert 'numba' not in sys.modules; "
         "api.simulate; assert 'numba' in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", code], check=True)
+    source = str(Path(api.__file__).parents[1])
+    subprocess.run([sys.executable, "-c", code], check=True, cwd=source)
 
 
 def test_states_of_a_run():

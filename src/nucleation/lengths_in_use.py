@@ -51,7 +51,7 @@ class Length:
         return {"units": "m", **{name: getattr(self, name) for name in names}}
 
 
-_WEAKENING = "velocity weakening, near steady sliding, aging and slip law"
+_WEAKENING = "velocity weakening, near steady sliding, either law"
 
 LENGTHS = (
     Length(

@@ -1,0 +1,90 @@
+"""The command ``nucleation``: lengths of a fault, simulations, and what is in a dataset.
+
+:func:`run` turns every failure into one message on the standard error and an exit code.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import signal
+import sys
+from collections.abc import Sequence
+
+import click
+
+from .. import __version__
+
+DONE = 0
+FAILED = 1
+REFUSED = 2
+STABLE = 3
+INTERRUPTED = 128 + signal.SIGINT
+
+EXIT_CODES = f"""\b
+Exit codes:
+  {DONE}    done
+  {FAILED}    the simulation failed numerically; its record is kept beside
+  {REFUSED}    a value, an option or a file is wrong, or can't be written
+  {STABLE}    homogeneous sliding is stable: there is no critical length
+  {INTERRUPTED}  interrupted
+"""
+
+COMPLETION = """\b
+Completion of commands and options in bash (zsh and fish in the same way):
+  eval "$(_NUCLEATION_COMPLETE=bash_source nucleation)"
+"""
+
+COMMANDS = ("length", "simulate", "show")
+
+
+class LazyGroup(click.Group):
+    """Commands of this package, each imported when it is used: help and completion stay quick."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        if name not in COMMANDS:
+            return None
+        return importlib.import_module(f".{name}", __package__).command
+
+
+@click.command(
+    cls=LazyGroup, epilog=f"{EXIT_CODES}\n{COMPLETION}", context_settings={"max_content_width": 100}
+)
+@click.version_option(__version__, prog_name="nucleation")
+def main() -> None:
+    """How long must a slipping patch of a frictional fault grow before it runs away?
+
+    Values are written with their unit, "30 GPa", 5um, 1mm/yr, or as a bare number in SI units.
+    """
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run a command line, without its name, and return the exit code."""
+    from ..datasets import DatasetError
+    from ..quantities import ParameterError
+
+    try:
+        return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except (ParameterError, DatasetError, MemoryError) as error:
+        return _refuse(str(error) or "not enough memory")
+    except OSError as error:
+        return _refuse(
+            ": ".join(filter(None, [str(error.filename or ""), error.strerror or str(error)]))
+        )
+    except click.Abort:
+        click.echo("Interrupted", err=True)
+        return INTERRUPTED
+
+
+def _refuse(message: str) -> int:
+    if sys.exc_info()[0] is BrokenPipeError:  # such as `| head`: nobody is left to tell
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    else:
+        click.echo(f"Error: {message}", err=True)
+    return REFUSED

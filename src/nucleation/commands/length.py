@@ -1,0 +1,211 @@
+"""``nucleation length``: the theory's critical length of a fault beside the lengths in use."""
+
+from __future__ import annotations
+
+import json
+import math
+import textwrap
+from typing import Any
+
+import click
+import numpy as np
+
+from ..api import CriticalMode, critical_mode
+from ..elasticity import Material
+from ..fault import QUANTITIES, Fault
+from ..lengths_in_use import LENGTHS, WEAKENING_RATE, lengths_of
+from ..quantities import ParameterError, declarations
+from . import DONE, EXIT_CODES, STABLE, units
+
+WIDTH = 98  # of the text printed
+
+DENSITY = declarations(Material)["density"]
+
+
+def _option(*names: str, key: str, **settings: Any) -> Any:
+    return units.option(*names, key=key, entry=QUANTITIES[key], **settings)
+
+
+@click.command("length", epilog=EXIT_CODES)
+@_option("--shear-modulus", key="shear_modulus", required=True)
+@_option("--poisson", "--poisson-ratio", key="poisson_ratio", required=True)
+@_option("--normal-stress", key="normal_stress", required=True)
+@_option("--a", key="a", required=True)
+@_option("--b", key="b", note="this or --zeta")
+@_option("--zeta", key="zeta", note="zeta = b - a")
+@_option("--slip-distance", key="slip_distance", required=True)
+@_option("--friction", key="friction", note="needed where the bodies differ")
+@_option("--velocity", key="velocity", note="for frequencies alone")
+@_option("--height", key="height", default="inf", show_default=True)
+@_option("--far-side", key="far_side", default="traction", show_default=True)
+@click.option(
+    "--second-body", default="same", show_default=True, metavar="BODY",
+    help="same; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3",
+)  # fmt: skip
+@units.option(
+    "--density", key="density", entry=DENSITY,
+    note="to check that inertia does not matter; needs --velocity",
+)  # fmt: skip
+@units.option(
+    "--weakening-rate", key="weakening_rate", entry=WEAKENING_RATE,
+    note="of Uenishi and Rice's length; b sigma0/D if left out",
+)  # fmt: skip
+@click.option("--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10")
+@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+def command(
+    second_body: str, density: float | None, weakening_rate: float | None,
+    per_decade: bool, as_json: bool, **parameters: Any,
+) -> int:  # fmt: skip
+    """Critical nucleation length of a fault: the theory's, and others in use.
+
+    Friction is f0 + a log(v/V) + b log(phi V/D) with NATURAL logarithms; zeta = b - a > 0 weakens.
+
+    \b
+    Example:
+      nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
+          --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
+    """
+    given = {k: v for k, v in parameters.items() if v is not None} | _second(second_body)
+    if per_decade:
+        given |= {k: given[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in given}
+    if density is not None and "velocity" not in given:
+        raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
+    fault = Fault(**given)
+    mode = critical_mode(
+        **given if "velocity" in given else {**given, "velocity": _unit_rate(fault)}
+    )
+    lengths = lengths_of(fault, weakening_rate)
+    print_as = _as_json if as_json else _as_text
+    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))
+    return DONE if np.isfinite(mode.length) else STABLE
+
+
+def _second(text: str) -> dict[str, float]:
+    """The parameters of the second body."""
+    if text == "same":
+        return {}
+    if text == "rigid":
+        return {"second_shear_modulus": math.inf}
+    keys = ("second_shear_modulus", "second_poisson_ratio", "second_height")
+    parts = text.split(",")
+    if not 2 <= len(parts) <= 3:
+        raise ParameterError(
+            f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
+            f"in {units.bounds(QUANTITIES[keys[0]])}, Poisson's ratio in "
+            f"{units.bounds(QUANTITIES[keys[1]])} and perhaps a height, with commas between"
+        )
+    return {k: units.parse(k, part, QUANTITIES[k]) for k, part in zip(keys, parts, strict=False)}
+
+
+def _unit_rate(fault: Fault) -> float:
+    """The velocity (m/s) at which V/D is one per second."""
+    return float(fault.slip_distance)
+
+
+def _as_json(
+    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
+) -> str:
+    names = (name for name in QUANTITIES if getattr(fault, name) is not None)
+    return json.dumps(
+        {
+            "parameters": {name: _plain(getattr(fault, name)) for name in names},
+            "theory": {
+                "critical_length": _plain(mode.length),
+                "critical_wavenumber": _plain(mode.wavenumber),
+                "critical_frequency": fault.velocity and _plain(mode.angular_frequency),
+                "speed_over_shear_wave": _plain(_speed_ratio(fault, mode, density)),
+            },
+            "lengths": [
+                {"key": length.key, "length": _plain(lengths[length.key]), **length.words()}
+                for length in LENGTHS
+            ],
+        },
+        indent=2,
+    )  # fmt: skip
+
+
+def _plain(value: Any) -> Any:
+    """A number as JSON has them: null for NaN, text for infinity."""
+    if value is None or isinstance(value, str):
+        return value
+    number = float(value)
+    return None if math.isnan(number) else "inf" if math.isinf(number) else number
+
+
+def _as_text(
+    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
+) -> str:
+    lines = [*_theory_lines(fault, mode, density)]
+    for system in dict.fromkeys(length.system for length in LENGTHS):
+        lines += ["", f"Lengths in use, for {system}:"]
+        for length in LENGTHS:
+            if length.system == system:
+                lines += _length_lines(length, lengths[length.key], fault, float(mode.length))
+    lines += ["", "with mu* = mu/(1 - nu), b = a + zeta, natural logarithms; all are full lengths"]
+    return "\n".join(lines)
+
+
+def _theory_lines(fault: Fault, mode: CriticalMode, density: float | None) -> list[str]:
+    """Length, wavenumber and frequency of the critical mode."""
+    head = "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):"
+    if not np.isfinite(mode.length):
+        reason = f"zeta = {float(fault.zeta):.4g}, a = {float(fault.a):.4g}"
+        return [head, f"  sliding is stable at every wavelength ({reason}): no critical length"]
+    frequency = float(mode.angular_frequency)
+    lines = [
+        head,
+        f"  L_c    {_metres(mode.length):<16} critical nucleation length, 2 pi/k_c",
+        f"  k_c    {f'{float(mode.wavenumber):.4g} 1/m':<16} critical wavenumber",
+    ]
+    unit, note = "rad/s", "angular frequency of the critical mode"
+    if fault.velocity is None:
+        unit, note = "V/D", f"{note} (in rad/s with --velocity)"
+    lines.append(f"  omega  {f'{frequency:.4g} {unit}':<16} {note}")
+    ratio = _speed_ratio(fault, mode, density)
+    if ratio is not None:
+        verdict = "inertia does not matter" if ratio < 0.1 else "INERTIA MATTERS: beyond the theory"
+        lines.append(f"  c/c_s  {ratio:<16.4g} its speed over the shear waves': {verdict}")
+    return lines
+
+
+def _speed_ratio(fault: Fault, mode: CriticalMode, density: float | None) -> float | None:
+    """Phase speed of the critical mode over the shear waves' of the first body."""
+    if density is None:
+        return None
+    speed = abs(float(mode.angular_frequency)) / float(mode.wavenumber)
+    return speed / Material(float(fault.shear_modulus), density=density).shear_wave_speed
+
+
+def _length_lines(length: Any, value: float, fault: Fault, critical: float) -> list[str]:
+    """One length: value, formula; source and validity."""
+    if np.isfinite(value):
+        ratio = f"{value / critical:.3g} L_c" if np.isfinite(critical) else ""
+        said = f"{_metres(value):<11} {ratio:<10} {length.formula}"
+        rest = f"{length.source}. Valid: {length.validity}."
+    else:
+        said = f"{'-':<11} {'':<10} {length.formula}"
+        rest = f"{length.source}. OUTSIDE ITS VALIDITY, {length.needs}: {_why(length, fault)}."
+    return [f"  {length.title:<28} {said}", *_wrapped(rest)]
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, WIDTH, initial_indent=" " * 6, subsequent_indent=" " * 6)
+
+
+def _why(length: Any, fault: Fault) -> str:
+    """What of the fault decides on the validity of a length."""
+    a, b, zeta, height = (float(x) for x in (fault.a, fault.b, fault.zeta, fault.height))
+    facts = []
+    if "a/b" in length.needs:
+        facts.append(f"a/b = {a / b:.4g}" if b > 0.0 else f"b = {b:.4g}")
+    if "zeta" in length.needs:
+        facts.append(f"zeta = {zeta:.4g}")
+    if "b > 0" in length.needs or "W > 0" in length.needs:
+        facts.append(f"b = {b:.4g}")
+    if "H/L" in length.needs:
+        facts.append(f"H = {height:g} m")
+    return ", ".join(facts)
+
+
+def _metres(value: Any) -> str:
+    return f"{float(value):.4g} m"

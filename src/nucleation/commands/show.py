@@ -1,0 +1,207 @@
+"""``nucleation show``: what is in a dataset of the project, and a picture of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+import numpy as np
+import xarray as xr
+
+from .. import datasets, provenance
+from ..extraction import extract
+from ..parameters import Parameters
+from ..quantities import ParameterError
+from ..studies import linearised, theory_length
+from . import DONE, EXIT_CODES, text
+
+SHOWN_ROWS = 60
+
+
+class Kind(NamedTuple):
+    """A kind of dataset: what tells it from others, its summary and its picture."""
+
+    name: str
+    marks: tuple[str, ...]  # variables
+    summary: Callable[[xr.Dataset], list[str]]
+    figure: Callable[[xr.Dataset], Any] | None
+
+
+@click.command("show", epilog=EXIT_CODES)
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option(
+    "--plot", type=click.Path(dir_okay=False, path_type=Path), metavar="OUT.png",
+    help="draw it; PNG or PDF by the name",
+)  # fmt: skip
+@click.option("--force", is_flag=True, help="replace the plot if it exists")
+def command(file: Path, plot: Path | None, force: bool) -> int:
+    """Summarise a dataset of the project: what it is, how it was made, what is in it.
+
+    \b
+    Example:
+      nucleation show run.nc --plot run.png
+    """
+    dataset = datasets.read(file)
+    kind = kind_of(dataset)
+    if plot:
+        _check_plot(plot, kind, force)
+    lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
+    click.echo("\n".join(lines))
+    if plot and kind.figure:
+        _save(kind.figure(dataset), plot)
+        click.echo(f"plot: {plot}")
+    return DONE
+
+
+def kind_of(dataset: xr.Dataset) -> Kind:
+    """The first kind all of whose marks are in the dataset."""
+    return next(kind for kind in KINDS if set(kind.marks) <= set(map(str, dataset.variables)))
+
+
+def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
+    if kind.figure is None:
+        known = ", ".join(k.name for k in KINDS if k.figure)
+        raise ParameterError(f"a {kind.name} has no plot; those that have: {known}")
+    if plot.suffix not in (".png", ".pdf"):
+        raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
+    if plot.exists() and not force:
+        raise ParameterError(f"{plot} exists already; --force replaces it")
+
+
+def _save(figure: Any, plot: Path) -> None:
+    """Write the figure as the project's are written, keeping the format asked for."""
+    import matplotlib as mpl
+
+    from ..figures import style
+    from ..files import replacing
+
+    with mpl.rc_context(style.STYLE), replacing(plot) as temporary:
+        figure.savefig(temporary, format=plot.suffix[1:])
+
+
+def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
+    """Command, date, code and versions."""
+    attributes = dataset.attrs
+    lines = [f"{name}: {attributes[name]}" for name in ("command", "created") if name in attributes]
+    if "code_digest" in attributes:
+        digest = attributes["code_digest"]
+        verdict = ""
+        if kind.name == SIMULATION:
+            same = digest == provenance.digest("nucleation.simulation")
+            verdict = ", that of this installation" if same else ", NOT that of this installation"
+        lines.append(f"code: {digest[:12]}{verdict}")
+    if "versions" in attributes:
+        versions = json.loads(attributes["versions"])
+        lines.append("versions: " + ", ".join(f"{k} {v}" for k, v in versions.items()))
+    return lines
+
+
+def _simulation_lines(dataset: xr.Dataset) -> list[str]:
+    attributes = dataset.attrs
+    parameters = Parameters.from_json(attributes["parameters"])
+    interface = linearised(parameters.friction, parameters.loading)
+    theory = theory_length(parameters.geometry.height, parameters.material, interface)
+    wall = f"{attributes['wall_seconds']:.4g} s of wall time"
+    return [
+        *text.parameter_lines(parameters.to_dict()),
+        f"status: {attributes['status']}",
+        f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, {wall}, "
+        f"{attributes['peak_megabytes']:.0f} MB",
+        f"record: {float(dataset['step_time'][-1]):.6g} s, {dataset.sizes['time']} frames of "
+        f"{dataset.sizes['x']} points, {dataset.sizes.get('snapshot', 0)} snapshots of the block",
+        f"theory: {theory:.4g} m, of the friction law expanded at V",
+        *text.event_lines(extract(dataset), theory),
+    ]
+
+
+def _length_rows(dataset: xr.Dataset) -> list[str]:
+    """The table of lengths, one run in a line."""
+    lines = [f"{'id':<44} {'H (m)':>8} {'onset (s)':>10} {'L_c (m)':>9} {'theory':>8}  /theory"]
+    for number in range(min(dataset.sizes["run"], SHOWN_ROWS)):
+        row = dataset.isel(run=number)
+        length, theory = float(row["length"]), float(row["theory_length"])
+        height, onset = float(row["height"]), float(row["onset_time"])
+        lines.append(
+            f"{row['id'].item():<44} {height:>8.4g} {onset:>10.4g} {length:>9.4g} {theory:>8.4g}"
+            f"  {length / theory:.3f}"
+        )
+    hidden = dataset.sizes["run"] - SHOWN_ROWS
+    return lines + ([f"and {hidden} more"] if hidden > 0 else [])
+
+
+def _variable_lines(dataset: xr.Dataset) -> list[str]:
+    """Every variable with its meaning, unit, shape and range."""
+    lines = []
+    for name, variable in dataset.variables.items():
+        shape = " x ".join(f"{n} {d}" for d, n in variable.sizes.items()) or "one value"
+        unit = variable.attrs.get("units", "")
+        span = ""
+        if variable.dtype.kind in "fiu" and np.isfinite(variable.values).any():
+            low, high = np.nanmin(variable.values), np.nanmax(variable.values)
+            span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+            span += "" if unit in ("", "1") else f" {unit}"
+        lines.append(f"  {name!s:<28} {variable.attrs['long_name']}: {shape}; {span}".rstrip("; "))
+    return lines
+
+
+def _draw_simulation(dataset: xr.Dataset) -> Any:
+    from ..figures import figure_s2
+
+    return figure_s2.draw(dataset, xr.Dataset(extract(dataset)))
+
+
+def _draw_theory(dataset: xr.Dataset) -> Any:
+    from ..figures import overview
+
+    return overview.draw_theory(dataset)
+
+
+def _draw_lengths(dataset: xr.Dataset) -> Any:
+    from ..figures import overview
+
+    return overview.draw_lengths(dataset)
+
+
+def _draw_patch(dataset: xr.Dataset) -> Any:
+    from ..figures import overview
+
+    return overview.draw_patch(dataset)
+
+
+def _draw_dispersion(dataset: xr.Dataset) -> Any:
+    from ..figures import figure_dispersion
+
+    return figure_dispersion.draw(dataset)
+
+
+def _draw_convergence(dataset: xr.Dataset) -> Any:
+    from ..figures import figure_verification
+
+    return figure_verification.draw(dataset)
+
+
+def _draw_sensitivity(dataset: xr.Dataset) -> Any:
+    from ..figures import figure_sensitivity
+
+    return figure_sensitivity.draw(dataset)
+
+
+SIMULATION = "simulation"
+
+KINDS = (
+    Kind(
+        SIMULATION, ("slip_rate", "driving_force", "step_time", "shear_stress"),
+        _simulation_lines, _draw_simulation,
+    ),
+    Kind("sensitivity table", ("varied", "length"), _length_rows, _draw_sensitivity),
+    Kind("table of refinement", ("length_change", "length"), _length_rows, None),
+    Kind("table of lengths", ("id", "onset_time", "theory_length"), _length_rows, _draw_lengths),
+    Kind("patch's stability", ("instant_time", "growth_rate"), _variable_lines, _draw_patch),
+    Kind("dispersion relation", ("measured_growth",), _variable_lines, _draw_dispersion),
+    Kind("orders of convergence", ("displacement_error",), _variable_lines, _draw_convergence),
+    Kind("theory", ("critical_length", "thin_limit_length"), _variable_lines, _draw_theory),
+    Kind("dataset", (), _variable_lines, None),
+)  # fmt: skip

@@ -1,0 +1,257 @@
+"""``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import os
+import shlex
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .. import datasets, provenance
+from ..configuration import configure, load, read_yaml
+from ..extraction import extract
+from ..parameters import Parameters
+from ..quantities import ParameterError, check, declarations
+from ..settings import Limits
+from ..studies import STUDY_PARAMETERS, Run, StudySettings, estimated_megabytes
+from . import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
+from .text import event_lines, parameter_lines, with_unit
+
+KNOWN = 30  # names listed in a message
+STUDY = "command"  # name of the study of one run that a command line amounts to
+
+
+def _flat(parameters: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Parameters in groups by their names in studies."""
+    fields = {name: value for group in parameters.values() for name, value in group.items()}
+    return {name: fields[field] for name, (field, _) in STUDY_PARAMETERS.items() if field in fields}
+
+
+DEFAULTS = _flat(Parameters().to_dict())
+RATIO = declarations(StudySettings)["length_over_critical"]
+MEMORY = declarations(Limits)["memory"]
+
+
+def _parameter_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """One option for each parameter of a simulation, from its declaration."""
+    for name, (_, entry) in reversed(STUDY_PARAMETERS.items()):
+        note = f"default {with_unit(DEFAULTS[name], entry)}" if name in DEFAULTS else ""
+        note = "6 critical lengths if left out" if name == "length" else note
+        add = units.option(f"--{name.replace('_', '-')}", key=name, entry=entry, note=note)
+        function = add(function)
+    return function
+
+
+@click.command("simulate", epilog=EXIT_CODES)
+@click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
+@click.option(
+    "--parameters", "file", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="YAML or JSON file of parameters by the names below, with units if you like; or the "
+    "dataset of an earlier simulation",
+)  # fmt: skip
+@click.option("--run", "run_id", metavar="ID", help="a run of the configuration, by its id")
+@click.option(
+    "--config", type=click.Path(dir_okay=False), default="config/config.yaml",
+    show_default=True, help="the configuration that --run is in",
+)  # fmt: skip
+@_parameter_options
+@units.option("--length-over-critical", key="length_over_critical", entry=RATIO)
+@units.option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
+@click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
+@click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
+def command(
+    output: Path, file: Path | None, run_id: str | None, config: str, force: bool, dry_run: bool,
+    length_over_critical: float | None, memory: float | None, **options: Any,
+) -> int:  # fmt: skip
+    """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
+
+    What an option does not give is taken from --parameters or --run, or is the default. A bar on
+    the terminal shows how far the simulation is, a log gets a line now and then. Ctrl-C and SIGTERM
+    leave a checkpoint from which the same command goes on. A simulation that fails numerically
+    keeps its record beside, in a file that ends in .failed.nc.
+
+    \b
+    Example:
+      nucleation simulate run.nc --height 5mm --n-x 100 --n-y 10
+    """
+    if file and run_id:
+        raise ParameterError("--parameters and --run can't be combined")
+    _check_output(output, force)
+    values = _of_file(file) if file else _of_run(config, run_id) if run_id else {}
+    values |= {name: value for name, value in options.items() if value is not None}
+    study = {"length_over_critical": length_over_critical}
+    run = planned(values, study, {"memory": memory})
+    if dry_run:
+        click.echo("\n".join([*parameter_lines(run.parameters.to_dict()), *_plan_lines(run)]))
+        return DONE
+    click.echo("\n".join(_plan_lines(run)))
+    return _simulate(run, output, _command(output, run))
+
+
+def planned(values: dict[str, Any], study: dict[str, Any], limits: dict[str, Any]) -> Run:
+    """The run that values by their names in studies stand for, checked as a configuration.
+
+    Raises
+    ------
+    ParameterError
+        With all that is wrong with it.
+    """
+    runs = {"runs": [{"height": DEFAULTS["height"], **values}]}
+    try:
+        settings = configure({"studies": {STUDY: _given(study) | runs}, "limits": _given(limits)})
+    except ParameterError as error:
+        place = f"studies.{STUDY}.runs[0]"
+        raise ParameterError(
+            str(error).replace(f"{place}: ", "").replace(f"{place}.", "")
+        ) from None
+    return settings.runs[0]
+
+
+def _given(values: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _check_output(output: Path, force: bool) -> None:
+    """Refuse an output that can't be written, before hours are spent on it."""
+    if output.suffix != ".nc":
+        raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
+    if output.exists() and not force:
+        raise ParameterError(f"{output} exists already; --force replaces it")
+    folder = next(p for p in output.absolute().parents if p.exists())
+    if not folder.is_dir() or not os.access(folder, os.W_OK):
+        raise ParameterError(f"{output} can't be written: {folder} is no writable directory")
+
+
+def _of_run(config: str, run_id: str) -> dict[str, Any]:
+    """The parameters of a configuration's run."""
+    runs = {run.id: run for run in load(config).runs}
+    if run_id not in runs:
+        raise ParameterError(f"--run = {run_id!r} is not in {config}{_similar(run_id, runs)}")
+    return _flat(runs[run_id].parameters.to_dict())
+
+
+def _of_file(path: Path) -> dict[str, Any]:
+    """Parameters from a YAML or JSON file, flat or in the configuration's groups."""
+    if path.suffix == ".nc":
+        attributes = datasets.read(path, requires=["slip_rate", "driving_force"]).attrs
+        return _flat(Parameters.from_json(attributes["parameters"]).to_dict())
+    content = read_yaml(path)
+    if not isinstance(content, dict):
+        raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
+    flat: dict[str, Any] = {}
+    for key, value in content.items():
+        group = value if isinstance(value, dict) else {key: value}
+        twice = sorted(flat.keys() & group.keys())
+        if twice:
+            raise ParameterError(f"{path}: {', '.join(twice)} is given twice")
+        flat |= group
+    fields = {field: name for name, (field, _) in STUDY_PARAMETERS.items()}
+    return {
+        fields.get(key, key): _file_value(path, fields.get(key, key), value)
+        for key, value in flat.items()
+    }
+
+
+def _file_value(path: Path, key: str, value: Any) -> Any:
+    """One value of a file, in SI units."""
+    if key not in STUDY_PARAMETERS:
+        hint = _similar(str(key), STUDY_PARAMETERS)
+        raise ParameterError(f"{path}: {key} = {value!r} is not allowed: unknown key{hint}")
+    entry = STUDY_PARAMETERS[key][1]
+    try:
+        if isinstance(value, str):
+            return units.parse(key, value, entry)
+        check(key, value, entry)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
+    return value
+
+
+def _similar(name: str, known: Any) -> str:
+    close = difflib.get_close_matches(name, list(known), n=1)
+    listing = ", ".join([*list(known)[:KNOWN], *(["..."] if len(known) > KNOWN else [])])
+    return f"; did you mean {close[0]}?" if close else f"; known: {listing}"
+
+
+def _plan_lines(run: Run) -> list[str]:
+    mesh = run.parameters.mesh
+    element = run.parameters.geometry.length / mesh.n_x
+    return [
+        f"theory: critical length {run.theory_length:.4g} m, {run.theory_length / element:.4g} "
+        f"elements of {element:.4g} m",
+        f"memory: about {estimated_megabytes(mesh):.0f} MB",
+    ]
+
+
+def _command(output: Path, run: Run) -> str:
+    """A command line that makes the dataset again: what differs from the defaults."""
+    values = _flat(run.parameters.to_dict())
+    changed = {k: v for k, v in values.items() if v != DEFAULTS[k] or k == "length"}
+    words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
+    return shlex.join(["nucleation", "simulate", str(output), *words])
+
+
+def _simulate(run: Run, output: Path, command_line: str) -> int:
+    """Run it and write its record, beside the place of the result if it failed."""
+    from ..checkpoints import Checkpoint, Stopped
+    from ..progress import Progress
+    from ..simulation import simulate
+
+    parameters, digest = run.parameters.to_dict(), provenance.digest("nucleation.simulation")
+    checkpoint = Checkpoint(
+        output.with_suffix(".checkpoint.npz"), provenance.fingerprint(parameters, digest)
+    )
+    progress = Progress(run.parameters, sys.stderr)
+    try:
+        with _listening(checkpoint):
+            dataset = simulate(
+                run.parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep
+            )
+    except Stopped as stopped:
+        click.echo(f"Error: {stopped}", err=True)
+        return INTERRUPTED
+    finally:
+        progress.close()
+    attributes = provenance.attributes(parameters, digest, command_line)
+    failed = output.with_suffix(".failed.nc")
+    completed = bool(dataset.attrs["completed"])
+    datasets.write(dataset, output if completed else failed, **attributes)
+    checkpoint.remove()
+    if not completed:
+        click.echo(f"Error: {dataset.attrs['status']}; its record is in {failed}", err=True)
+        return FAILED
+    failed.unlink(missing_ok=True)
+    click.echo(_result(dataset, run, output))
+    return DONE
+
+
+@contextlib.contextmanager
+def _listening(checkpoint: Any) -> Iterator[None]:
+    """Signals stop the run after its present step, within the context alone."""
+    from ..checkpoints import SIGNALS
+
+    before = {number: signal.getsignal(number) for number in SIGNALS}
+    checkpoint.listen()
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _result(dataset: Any, run: Run, output: Path) -> str:
+    attributes, found = dataset.attrs, extract(dataset)
+    lines = [
+        f"{attributes['status']}",
+        f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s",
+        *event_lines(found, run.theory_length),
+        f"written to {output}",
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,151 @@
+"""Wrong command lines: each ends with one clear message, exit code 2, and nothing done."""
+
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
+GOOD = {
+    "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
+    "--b": "0.015", "--slip-distance": "5um",
+}  # fmt: skip
+
+
+def length(**changes):
+    """The words of a command line of ``length`` with other options; None leaves one out."""
+    options = GOOD | {f"--{k.replace('_', '-')}": v for k, v in changes.items()}
+    return ["length", *(word for k, v in options.items() if v is not None for word in (k, v))]
+
+
+LENGTH = [
+    (length(shear_modulus="5um"), ["--shear-modulus", "'5um'", "unit of length", "(0, 1e+13) Pa"]),
+    (length(shear_modulus="-1"), ["shear_modulus = -1.0 Pa", "(0, 1e+13) Pa"]),
+    (length(shear_modulus="30 Gigapascals?"), ["not a known unit", "(0, 1e+13) Pa"]),
+    (length(shear_modulus="abc"), ["'abc'", "no number", "(0, 1e+13) Pa"]),
+    (length(shear_modulus=""), ["no number"]),
+    (length(shear_modulus="nan"), ["'nan'", "no number"]),
+    (length(shear_modulus=None), ["Missing option '--shear-modulus'"]),
+    (length(poisson="0.5"), ["poisson_ratio = 0.5", "(-1, 0.5)"]),
+    (length(poisson="0.25 Pa"), ["unit of stress", "no dimension"]),
+    (length(normal_stress="0"), ["normal_stress = 0.0 Pa", "(0, 1e+13) Pa"]),
+    (length(normal_stress="50 MPa/s"), ["Pa is needed"]),
+    (length(a="0"), ["a = 0.0 is not allowed", "(0, 10)"]),
+    (length(b=None), ["zeta or b", "one of them and not both"]),
+    (length(zeta="0.005"), ["zeta or b", "not both"]),
+    (length(slip_distance="5 kg"), ["slip_distance = '5 kg'", "m is needed"]),
+    (length(slip_distance="2 km"), ["slip_distance = 2000.0 m", "(0, 1000) m"]),
+    (length(velocity="1 yr"), ["velocity", "m/s is needed"]),
+    (length(height="0"), ["height = 0.0 m", "(0, inf] m"]),
+    (length(height="-inf"), ["height = -inf m", "(0, inf] m"]),
+    (length(friction="-0.1"), ["friction = -0.1", "[0, 10)"]),
+    (length(far_side="free"), ["far_side = 'free'", "velocity, traction"]),
+    (length(density="2700"), ["velocity is missing"]),
+    (length(density="2.7 g", velocity="1"), ["density = '2.7 g'", "kg/m^3 is needed"]),
+    (length(weakening_rate="5 MPa"), ["weakening_rate", "Pa/m is needed"]),
+    (length(second_body="steel"), ["second_body = 'steel'", "same, rigid"]),
+    (length(second_body="rigid"), ["friction is missing"]),
+    (length(second_body="60GPa,0.3"), ["friction is missing"]),
+    (length(second_body="60GPa,0.7", friction="0.6"), ["second_poisson_ratio = 0.7", "(-1, 0.5)"]),
+    (length(second_body="60m,0.3", friction="0.6"), ["second_shear_modulus", "Pa is needed"]),
+    (length(second_body="60GPa,0.3,1m,2m", friction="0.6"), ["second_body", "same, rigid"]),
+    (length(shear_modulos="1"), ["No such option '--shear-modulos'", "--shear-modulus"]),
+    ([*length(), "extra"], ["unexpected extra argument"]),
+    (["lenght"], ["No such command 'lenght'"]),
+    (["--nonsense"], ["No such option '--nonsense'"]),
+]
+
+SIMULATE = [
+    ([], ["Missing argument 'OUTPUT'"]),
+    (["run.txt"], ["OUTPUT = 'run.txt'", "must end in .nc"]),
+    (["there.nc"], ["there.nc exists already", "--force"]),
+    (["file/run.nc"], ["can't be written", "no writable directory"]),
+    (["new.nc", "--height", "5 s"], ["--height", "m is needed", "(0, 1e+06) m"]),
+    (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
+    (["new.nc", "--n-x", "60.5"], ["n_x = '60.5'", "an integer in [8, 100000]"]),
+    (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
+    (["new.nc", "--law", "ageing"], ["law = 'ageing'", "one of aging, slip"]),
+    (["new.nc", "--length", "1cm"], ["length = 0.01 m", "critical"]),
+    (["new.nc", "--length-over-critical", "0.5"], ["length_over_critical = 0.5", "(1, 1000)"]),
+    (["new.nc", "--n-x", "20000"], ["n_x = 20000", "MB", "memory"]),
+    (["new.nc", "--memory", "1 GPa"], ["memory", "MB is needed"]),
+    (["new.nc", "--aging-coefficient", "0"], ["a + zeta = 0 is not positive"]),
+    (["new.nc", "--run", "x", "--config", CONFIG], ["--run = 'x' is not in", "known: paper-aging"]),
+    (["new.nc", "--run", "paper-aging-H0.005", "--config", CONFIG], ["did you mean paper-aging-H"]),
+    (["new.nc", "--run", "x", "--config", "none.yaml"], ["none.yaml"]),
+    (["new.nc", "--parameters", "none.yaml"], ["--parameters", "none.yaml", "does not exist"]),
+    (["new.nc", "--parameters", "list.yaml"], ["list.yaml must hold a mapping"]),
+    (["new.nc", "--parameters", "broken.yaml"], ["broken.yaml is not valid YAML"]),
+    (["new.nc", "--parameters", "unknown.yaml"], ["heigth = '5mm'", "did you mean height"]),
+    (["new.nc", "--parameters", "unit.yaml"], ["unit.yaml: height = '5 s'", "m is needed"]),
+    (["new.nc", "--parameters", "bool.yaml"], ["bool.yaml: n_x = True", "integer"]),
+    (["new.nc", "--parameters", "twice.yaml"], ["height is given twice"]),
+    (["new.nc", "--parameters", "theory.nc"], ["theory.nc lacks the variables"]),
+    (["new.nc", "--parameters", "unit.yaml", "--run", "x"], ["can't be combined"]),
+]
+
+SHOW = [
+    ([], ["Missing argument 'FILE'"]),
+    (["none.nc"], ["none.nc", "does not exist"]),
+    (["file"], ["file is damaged or not a netCDF file"]),
+    (["foreign.nc"], ["foreign.nc was not written by this project"]),
+    (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
+    (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
+    (["plain.nc", "--plot", "new.png"], ["has no plot"]),
+]
+
+LINES = [
+    *LENGTH,
+    *((["simulate", *words], said) for words, said in SIMULATE),
+    *((["show", *words], said) for words, said in SHOW),
+]
+
+
+@pytest.fixture(scope="module")
+def directory(tmp_path_factory):
+    """Files that command lines name."""
+    folder = tmp_path_factory.mktemp("files")
+    texts = {
+        "there.nc": "", "there.png": "", "file": "no netCDF", "list.yaml": "- 1\n",
+        "broken.yaml": "a: [1\n", "unknown.yaml": "heigth: 5mm\n", "unit.yaml": "height: 5 s\n",
+        "bool.yaml": "mesh: {n_x: true}\n", "twice.yaml": "height: 1\ngeometry: {height: 2}\n",
+    }  # fmt: skip
+    for name, text in texts.items():
+        (folder / name).write_text(text)
+    named = ("m", {"long_name": "length", "units": "m"})
+    theory = {
+        "critical_length": ("height", np.ones(2), named[1]),
+        "thin_limit_length": ("height", np.ones(2), named[1]),
+    }
+    height = {"height": ("height", np.arange(2.0), named[1])}
+    xr.Dataset(theory, height).to_netcdf(folder / "theory.nc")
+    xr.Dataset({"x": ("n", np.ones(2), named[1])}).to_netcdf(folder / "plain.nc")
+    xr.Dataset({"x": ("n", np.ones(2))}).to_netcdf(folder / "foreign.nc")
+    return folder
+
+
+@pytest.mark.parametrize(("words", "said"), LINES, ids=lambda x: " ".join(x)[-60:])
+def test_bad_command_lines(nucleation, directory, monkeypatch, words, said):
+    monkeypatch.chdir(directory)
+    before = sorted(directory.iterdir())
+    ended = nucleation(*words)
+    message = " ".join(ended.err.split())
+    assert ended.code == 2 and ended.out == ""
+    assert "Error: " in message and "Traceback" not in message
+    assert all(text in message for text in said), message
+    assert sorted(directory.iterdir()) == before
+
+
+def test_number_of_bad_command_lines():
+    assert len(LINES) >= 60
+
+
+def test_as_a_program(program):
+    """The exit code and the message as a shell sees them."""
+    ended = subprocess.run(
+        [*program, *length(poisson="0.7")], capture_output=True, text=True, check=False
+    )
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert "poisson_ratio = 0.7 is not allowed" in ended.stderr

@@ -1,0 +1,87 @@
+"""The command as a whole: help, version, completion, exit codes."""
+
+import os
+import shlex
+import subprocess
+
+import pytest
+from click.shell_completion import ShellComplete
+
+from nucleation import __version__, commands
+from nucleation.fault import QUANTITIES
+
+
+@pytest.mark.parametrize("words", [[], ["length"], ["simulate"], ["show"]])
+def test_help(nucleation, words):
+    ended = nucleation(*words, "--help")
+    assert (ended.code, ended.err) == (0, "") and "Exit codes:" in ended.out
+    assert len(ended.out.splitlines()) > 12
+
+
+def test_help_states_units_and_ranges_of_the_declarations(nucleation):
+    text = " ".join(nucleation("length", "--help").out.split())
+    for name in ("shear_modulus", "normal_stress", "slip_distance", "velocity", "height"):
+        entry = QUANTITIES[name]
+        assert f"in {entry.range_text()} {entry.unit}" in text, name
+
+
+def test_version(nucleation):
+    assert nucleation("--version").out == f"nucleation, version {__version__}\n"
+
+
+def test_no_command_shows_the_help(nucleation):
+    ended = nucleation()
+    assert ended.code == 2 and "length" in ended.err and "simulate" in ended.err
+
+
+def test_completion():
+    """The shell's completion knows commands, options and choices."""
+    shell = ShellComplete(commands.main, {}, "nucleation", "_NUCLEATION_COMPLETE")
+
+    def complete(*words):
+        return [item.value for item in shell.get_completions(list(words[:-1]), words[-1])]
+
+    assert complete("le") == ["length"]
+    assert "--shear-modulus" in complete("length", "--sh")
+    assert complete("simulate", "--law", "s") == ["slip"]
+
+
+def test_script_of_the_completion(program):
+    """The line of the help."""
+    environment = os.environ | {"_NUCLEATION_COMPLETE": "bash_source"}
+    ended = subprocess.run(program, env=environment, capture_output=True, text=True, check=True)
+    assert "complete -o nosort -F _nucleation_completion nucleation" in ended.stdout
+
+
+def test_interruption(nucleation, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("nucleation.datasets.read", interrupted)
+    ended = nucleation("show", __file__)
+    assert ended.code == commands.INTERRUPTED and "Traceback" not in ended.err
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (OSError(28, "No space left on device", "run.nc"), "run.nc: No space left on device"),
+        (PermissionError(13, "Permission denied", "a/run.nc"), "a/run.nc: Permission denied"),
+        (MemoryError(), "not enough memory"),
+    ],
+)
+def test_what_the_system_refuses(nucleation, monkeypatch, error, words):
+    def failing(*_, **__):
+        raise error
+
+    monkeypatch.setattr("nucleation.datasets.read", failing)
+    ended = nucleation("show", __file__)
+    assert ended.code == 2 and ended.err == f"Error: {words}\n"
+
+
+def test_a_reader_that_leaves_is_no_failure_with_a_traceback(program):
+    ended = subprocess.run(
+        f"{shlex.join(program)} simulate --help | head -1",
+        shell=True, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert ended.stdout.startswith("Usage") and ended.stderr == ""

@@ -1,0 +1,123 @@
+"""``nucleation show``: every kind of dataset, its summary and its plot."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.image import imread
+
+from nucleation import datasets, provenance
+from nucleation.commands import show
+from nucleation.elasticity import Material
+from nucleation.friction import Friction
+from nucleation.lengths import gather
+from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.settings import Curves, ExtractionSettings
+from nucleation.simulation import simulate
+from nucleation.stability import InterfaceState
+from nucleation.theory import theory_dataset
+
+PARAMETERS = Parameters(
+    geometry=Geometry(0.005, 0.9), mesh=Mesh(60, 6),
+    stepping=Stepping(end_time=30.0, time_after_event=0.01, tolerance=0.05, longest_step=0.2),
+)  # fmt: skip
+
+
+def kept(folder, name, dataset, parameters, digest="0" * 64):
+    path = folder / f"{name}.nc"
+    datasets.write(dataset, path, **provenance.attributes(parameters, digest, f"make {name}"))
+    return path
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """A real dataset of each kind that is quickly made, by name."""
+    folder = tmp_path_factory.mktemp("datasets")
+    whole = simulate(PARAMETERS)
+    values, digest = PARAMETERS.to_dict(), provenance.digest("nucleation.simulation")
+    short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
+    row = {"id": "a-run", "study": "mine", "parameters": values, "theory_length": 0.238}
+    curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))
+    theory = theory_dataset(Material(), Friction(), InterfaceState(), curves)
+    patch = xr.Dataset(
+        {
+            "instant_time": ("instant", np.arange(9.0)),
+            "patch_length": ("instant", np.linspace(0.1, 0.2, 9)),
+            "growth_rate": ("instant", np.linspace(-1.0, 1.0, 9)),
+            "growth_frequency": ("instant", np.linspace(12.0, 13.0, 9)),
+            "stability_length": 0.15,
+        }
+    )
+    hops = xr.Dataset({"hop_time": ("hop", [1.0, 2.0]), "hop_length": ("hop", [0.1, np.nan])})
+    return {
+        "run": kept(folder, "run", whole, values, digest),
+        "short": kept(folder, "short", simulate(short), short.to_dict()),
+        "theory": kept(folder, "theory", theory, {}),
+        "lengths": kept(folder, "lengths", gather([row], [whole], ExtractionSettings()), {}),
+        "patch": kept(folder, "patch", patch, {}),
+        "hops": kept(folder, "hops", hops, {}),
+    }
+
+
+KINDS = {
+    "run": "simulation", "short": "simulation", "theory": "theory", "lengths": "table of lengths",
+    "patch": "patch's stability", "hops": "dataset",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_summary(nucleation, files, name):
+    ended = nucleation("show", files[name])
+    assert (ended.code, ended.err) == (0, "")
+    lines = ended.out.splitlines()
+    assert lines[0] == f"{files[name]}: {KINDS[name]}"
+    assert f"command: make {name}" in lines
+    assert any(line.startswith("versions: ") and "numpy" in line for line in lines)
+
+
+def test_summary_of_a_simulation(nucleation, files):
+    said = nucleation("show", files["run"]).out
+    found = show.extract(datasets.read(files["run"]))
+    assert f"L_c: {found['length']:.4g} (" in said and f"onset: {found['onset_time']:.4g} (" in said
+    assert "status: completed: the event" in said
+    assert "normal_stress                1e+06 Pa" in said
+    assert ", that of this installation" in said and "NOT that" not in said
+    short = nucleation("show", files["short"]).out
+    assert "no event" in short and ", NOT that of this installation" in short
+
+
+def test_summary_of_lengths(nucleation, files):
+    said = nucleation("show", files["lengths"]).out
+    length = float(datasets.read(files["lengths"])["length"][0])
+    assert f"{length:.4g}" in said and f"{length / 0.238:.3f}" in said and "a-run" in said
+
+
+def test_variables_of_other_datasets(nucleation, files):
+    said = nucleation("show", files["hops"]).out
+    assert "hop_time" in said and "2 hop; 1 to 2 s" in said and "2 hop; 0.1 m" in said
+
+
+@pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if kind != "dataset"])
+def test_plot(nucleation, files, tmp_path, name):
+    plot = tmp_path / "plot.png"
+    ended = nucleation("show", files[name], "--plot", plot)
+    assert ended.code == 0 and f"plot: {plot}" in ended.out, ended.err
+    image = imread(plot)
+    assert min(image.shape[:2]) > 500 and image[..., :3].std() > 0.02
+
+
+def test_plot_as_pdf(nucleation, files, tmp_path):
+    words = ["show", files["patch"], "--plot", tmp_path / "plot.pdf"]
+    assert nucleation(*words).code == 0
+    assert (tmp_path / "plot.pdf").read_bytes().startswith(b"%PDF")
+    assert nucleation(*words).code == 2
+    assert nucleation(*words, "--force").code == 0
+
+
+def test_damaged_file(nucleation, files, tmp_path):
+    whole = files["run"].read_bytes()
+    broken = tmp_path / "broken.nc"
+    broken.write_bytes(whole[: len(whole) // 2])
+    ended = nucleation("show", broken)
+    assert ended.code == 2 and "broken.nc is damaged" in ended.err

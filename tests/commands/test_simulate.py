@@ -1,0 +1,169 @@
+"""``nucleation simulate``: small runs, from options, files and a configuration."""
+
+import json
+import shlex
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from nucleation import datasets, provenance
+from nucleation.extraction import extract
+from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.quantities import declarations
+from nucleation.simulation import simulate
+from nucleation.studies import STUDY_PARAMETERS
+
+CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
+SMALL = ["--height", "5mm", "--length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms"]
+PARAMETERS = Parameters(
+    geometry=Geometry(0.005, 0.9), mesh=Mesh(16, 2), stepping=Stepping(end_time=0.02)
+)
+
+
+def parameters_of(path):
+    return Parameters.from_json(datasets.read(path).attrs["parameters"])
+
+
+def test_record_is_that_of_the_library(nucleation, tmp_path):
+    output = tmp_path / "new" / "run.nc"
+    ended = nucleation("simulate", output, *SMALL)
+    assert ended.code == 0 and "no event: the force has not dropped" in ended.out
+    assert "t = 0 s" in ended.err  # the progress, as a line
+    dataset, expected = datasets.read(output), simulate(PARAMETERS)
+    for name in expected.variables:
+        np.testing.assert_array_equal(dataset[name], expected[name])
+    assert parameters_of(output) == PARAMETERS
+    assert dataset.attrs["code_digest"] == provenance.digest("nucleation.simulation")
+    assert [path.name for path in output.parent.iterdir()] == ["run.nc"]  # no checkpoint is left
+
+
+def test_the_command_in_the_dataset_makes_it_again(nucleation, tmp_path):
+    output = tmp_path / "a run.nc"
+    nucleation("simulate", output, *SMALL, "--law", "slip", "--phi0", "20 min", "--density", "0")
+    first = datasets.read(output)
+    command = shlex.split(first.attrs["command"])
+    assert command[:3] == ["nucleation", "simulate", str(output)]
+    assert nucleation(*command[1:], "--force").code == 0
+    again = datasets.read(output)
+    assert again.attrs["parameters"] == first.attrs["parameters"]
+    assert json.loads(first.attrs["parameters"])["loading"]["initial_state"] == 1200.0
+    np.testing.assert_array_equal(again["slip_rate"], first["slip_rate"])
+
+
+def test_existing_files_are_kept_unless_forced(nucleation, tmp_path):
+    output = tmp_path / "run.nc"
+    output.write_text("mine")
+    ended = nucleation("simulate", output, *SMALL)
+    assert ended.code == 2 and "exists already" in ended.err and output.read_text() == "mine"
+    assert nucleation("simulate", output, *SMALL, "--force").code == 0
+    assert parameters_of(output) == PARAMETERS
+
+
+def test_an_event_is_reported(nucleation, tmp_path):
+    output = tmp_path / "run.nc"
+    ended = nucleation(
+        "simulate", output, "--height=5mm", "--n-x=60", "--n-y=6", "--length=0.9",
+        "--end-time=30s", "--time-after-event=0", "--tolerance=0.05", "--longest-step=0.2",
+    )  # fmt: skip
+    found = extract(datasets.read(output))
+    assert ended.code == 0
+    assert f"onset: {found['onset_time']:.4g} (" in ended.out
+    assert f"L_c: {found['length']:.4g} (" in ended.out and "of the theory's" in ended.out
+
+
+def test_a_failed_simulation_keeps_its_record(nucleation, tmp_path):
+    output = tmp_path / "run.nc"
+    ended = nucleation("simulate", output, *SMALL, "--shortest-step", "0.5s")
+    assert ended.code == 1 and not output.exists()
+    assert "failed: the step size fell below" in ended.err and "run.failed.nc" in ended.err
+    record = datasets.read(tmp_path / "run.failed.nc")
+    assert record.attrs["completed"] == 0 and "created" in record.attrs
+    assert nucleation("simulate", output, *SMALL).code == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+
+
+def planned(ended):
+    """The parameters that a dry run prints."""
+    lines = (line.split() for line in ended.out.splitlines() if line.startswith("  "))
+    return {words[0]: words[1] for words in lines}
+
+
+def test_dry_run_writes_nothing(nucleation, tmp_path):
+    ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--dry-run")
+    assert ended.code == 0 and "theory: critical length 0.238 m" in ended.out
+    assert "memory: about" in ended.out and not list(tmp_path.iterdir())
+    assert planned(ended)["n_x"] == "16" and planned(ended)["height"] == "0.005"
+
+
+def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
+    six = nucleation("simulate", tmp_path / "run.nc", "--dry-run")
+    four = nucleation("simulate", tmp_path / "run.nc", "--dry-run", "--length-over-critical", "4")
+    ratio = float(planned(four)["length"]) / float(planned(six)["length"])
+    assert ratio == pytest.approx(4 / 6, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("flat.yaml", "height: 20 mm\nn_x: 80\nphi0: 1e3\nlaw: slip\n"),
+        ("groups.yaml", "geometry: {height: 2 cm}\nmesh: {n_x: 80}\nfriction: {evolution: slip}\n"
+                        "loading: {initial_state: 1000}\n"),
+        ("flat.json", '{"height": 0.02, "n_x": 80, "initial_state": 1e3, "law": "slip"}'),
+    ],
+)  # fmt: skip
+def test_parameters_from_a_file(nucleation, tmp_path, name, text):
+    (tmp_path / name).write_text(text)
+    words = ["simulate", tmp_path / "run.nc", "--dry-run", "--parameters", tmp_path / name]
+    found = planned(nucleation(*words))
+    assert (found["height"], found["n_x"], found["initial_state"]) == ("0.02", "80", "1000")
+    assert found["evolution"] == "slip"
+    assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
+
+
+def test_parameters_of_an_earlier_dataset(nucleation, tmp_path):
+    nucleation("simulate", tmp_path / "first.nc", *SMALL)
+    words = ["simulate", tmp_path / "second.nc", "--parameters", tmp_path / "first.nc"]
+    assert nucleation(*words).code == 0
+    assert parameters_of(tmp_path / "second.nc") == PARAMETERS
+
+
+def test_a_run_of_the_configuration(nucleation, tmp_path):
+    words = ["simulate", tmp_path / "run.nc", "--config", CONFIG, "--dry-run"]
+    found = planned(nucleation(*words, "--run", "converged-slip-H0.05-phi1"))
+    assert (found["evolution"], found["n_x"], found["grading"]) == ("slip", "1600", "20")
+    assert found["time_after_event"] == "0"
+
+
+def test_every_parameter_has_an_option(nucleation):
+    text = " ".join(nucleation("simulate", "--help").out.split())
+    for name, (_, entry) in STUDY_PARAMETERS.items():
+        assert f"--{name.replace('_', '-')} " in text
+        assert entry.range_text().replace("one of ", "").split(", ")[0] in text
+    fields = {field for field, _ in STUDY_PARAMETERS.values()}
+    for group in PARAMETERS.to_dict():
+        assert set(declarations(type(getattr(PARAMETERS, group)))) <= fields
+
+
+def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
+    """A signal leaves a checkpoint; the same command goes on to the same record."""
+    output = tmp_path / "run.nc"
+    command = [*program, "simulate", str(output), "--height=5mm",
+               "--length=0.9", "--n-x=60", "--n-y=6", "--end-time=3"]  # fmt: skip
+    log = tmp_path / "log"
+    with log.open("w") as stream:
+        process = subprocess.Popen(command, stderr=stream, stdout=stream)
+        deadline = time.monotonic() + 60.0
+        while "t = 0 s" not in log.read_text() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60) == 130, log.read_text()
+    assert "stopped by SIGINT" in log.read_text() and not output.exists()
+    ended = nucleation(*command[len(program) :])
+    assert ended.code == 0 and "the run goes on from" in ended.err
+    whole = Parameters(geometry=Geometry(0.005, 0.9), mesh=Mesh(60, 6), stepping=Stepping(3.0))
+    np.testing.assert_array_equal(datasets.read(output)["slip_rate"], simulate(whole)["slip_rate"])
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["log", "run.nc"]
