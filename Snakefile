@@ -10,6 +10,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -19,10 +20,13 @@ SOURCE = str(Path(workflow.basedir, "src"))
 sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
 
-from nucleation.configuration import configure, read_yaml
+from nucleation.advice import advise
+from nucleation.configuration import configure
+from nucleation.contradictions import directory_problem
 from nucleation.provenance import digest
 from nucleation.quantities import ParameterError
 from nucleation.report.catalogue import FIGURES
+from nucleation.strict_yaml import read_yaml
 from nucleation.studies import estimated_megabytes
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
@@ -34,8 +38,18 @@ try:
     for path in workflow.configfiles:
         read_yaml(path)  # finds keys that stand twice, of which Snakemake keeps the last
     settings = configure(config)
+    unusable = directory_problem(settings.results, write=not workflow.dryrun)
+    if unusable:
+        raise ParameterError(unusable)
 except ParameterError as error:
     raise WorkflowError(str(error)) from None
+
+if workflow.resource_settings.cores is not None and workflow.resource_settings.cores < 1:
+    raise WorkflowError("--cores must be 1 or more: with less, Snakemake waits forever")
+
+if workflow.is_main_process:  # and not again in each job
+    for warning in advise(settings.runs):
+        logger.warning(f"Warning: {warning}")
 
 RESULTS = settings.results
 RUNS = {run.id: run for run in settings.runs}
@@ -52,6 +66,18 @@ def simulation(id):
 def simulations(*studies):
     """The datasets of some studies' simulations, of all in lengths.csv if none is named."""
     return [simulation(id) for id, run in RUNS.items() if run.study in (studies or SHARED)]
+
+
+def needed(files, what):
+    """An input function that gives some files, or says what the configuration lacks for them."""
+
+    def given(wildcards):
+        found = files(wildcards) if callable(files) else files
+        if not found:
+            raise WorkflowError(f"the configuration has no {what}, which this target needs")
+        return found
+
+    return given
 
 
 def figure(name):

@@ -1,51 +1,19 @@
 """The configuration: what is made of a good one, and what is said about a bad one."""
 
-import copy
-import json
 import math
-from pathlib import Path
 
 import pytest
 import yaml
+from configurations import CONFIG, PAPER, changed, messages, with_run
 
 from nucleation import schema
-from nucleation.configuration import configure, load, read_yaml
+from nucleation.configuration import configure, load
 from nucleation.elasticity import Material
 from nucleation.friction import Friction
 from nucleation.parameters import Loading, Parameters
 from nucleation.quantities import ParameterError
 from nucleation.stability import InterfaceState, critical_length
 from nucleation.studies import expand
-
-CONFIG = Path(__file__).parents[1] / "config"
-# without the sharing of nodes that YAML's aliases bring: a change is to be one change
-PAPER = json.loads(json.dumps(read_yaml(CONFIG / "config.yaml")))
-
-
-def changed(place: str, value: object) -> dict:
-    """The paper's configuration with one value changed, ``a.b.0.c`` naming its place."""
-    config = copy.deepcopy(PAPER)
-    *parents, last = place.split(".")
-    node = config
-    for part in parents:
-        node = node[int(part)] if isinstance(node, list) else node[part]
-    if isinstance(node, list):
-        node[int(last) : int(last) + 1] = [value]
-    else:
-        node[last] = value
-    return config
-
-
-def with_run(**entry: object) -> dict:
-    """The paper's configuration with one more entry of runs (its number is 3)."""
-    return changed("studies.paper.runs.3", entry)
-
-
-def messages(config: object) -> str:
-    with pytest.raises(ParameterError) as caught:
-        configure(config)
-    return str(caught.value)
-
 
 NU = ["material.poisson_ratio", "Poisson's ratio", "(-1, 0.5)"]
 RUN = "studies.paper.runs[3]"
@@ -332,7 +300,7 @@ def test_grid_and_identifiers():
     )
     ids = [run.id for run in config.runs]
     assert len(ids) == 6
-    assert ids[0] == "grid-aging-H0.01-phi1000000-n_x100-shear_modulus4000000000"
+    assert ids[0] == "grid-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
     assert {run.labels["height"] for run in config.runs} == {0.01, 0.1, 1.0}
     for run in config.runs:
         assert run.parameters.material == Material(4.0e9, 0.25)
@@ -345,6 +313,53 @@ def test_identifier_does_not_depend_on_other_entries():
     entries = [{"height": 0.01, "n_x": 100}, {"height": 0.01, "density": [1000, 1200]}]
     together = configure({"studies": {"s": {"runs": entries}}})
     assert alone.runs[0] == together.runs[0]
+
+
+def identifiers(*runs):
+    return [run.id for run in configure({"studies": {"s": {"runs": list(runs)}}}).runs]
+
+
+def test_identifiers_stay_when_studies_are_edited():
+    """Values added or reordered, keys reordered, runs added before: the others keep their names."""
+    first = identifiers({"height": [0.01, 0.02], "tolerance": 0.001, "n_x": [100, 200]})
+    edits = [
+        [{"n_x": [200, 400, 100], "height": [0.03, 0.02, 0.01], "tolerance": 0.001}],
+        [{"height": 0.05}, {"tolerance": 0.001, "n_x": [100, 200], "height": [0.01, 0.02]}],
+    ]
+    for runs in edits:
+        assert set(first) < set(identifiers(*runs))
+
+
+def test_identifiers_do_not_depend_on_notation(tmp_path):
+    forms = [
+        "{height: 0.005, n_x: 100, density: 1200, characteristic_slip_distance: 5.0e-7}",
+        "{height: 5.0e-3, n_x: 1_00, density: 1.2e+3, characteristic_slip_distance: 0.0000005}",
+        "{height: 0.0050, n_x: +100, density: 1200.0, characteristic_slip_distance: 5.00E-7}",
+    ]
+    found = []
+    for form in forms:
+        path = tmp_path / "config.yaml"
+        path.write_text(f"studies: {{s: {{runs: [{form}]}}}}")
+        found.append(load(path).runs)
+    assert repr(found[0]) == repr(found[1]) == repr(found[2])
+    assert found[0][0].id == (
+        "s-aging-H0.005-phi1-density1200-characteristic_slip_distance5e-7-n_x100"
+    )
+
+
+def test_constants_of_the_law_in_a_study():
+    ratios = [0.5, 2.0]
+    config = configure({"studies": {"s": {"runs": [{"height": 0.01, "zeta_over_a": ratios}]}}})
+    usual = Friction().expansion(1e-5)
+    for run, ratio in zip(config.runs, ratios, strict=True):
+        assert run.id == f"s-aging-H0.01-phi1-zeta_over_a{ratio:g}"
+        f, a, zeta = run.parameters.friction.expansion(1e-5)
+        assert (f, a, zeta / a) == pytest.approx((usual.f0, usual.a, ratio), rel=1e-10)
+        expected = critical_length(0.01, Material(), InterfaceState(f, a, zeta))
+        assert run.theory_length == pytest.approx(float(expected), rel=1e-10)
+        assert run.value("zeta_over_a") == ratio
+        assert run.value("direct_effect") == pytest.approx(usual.a)
+        assert run.value("phi0") == 1.0
 
 
 def test_theory_of_each_runs_own_friction():

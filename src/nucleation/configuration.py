@@ -7,27 +7,27 @@ from __future__ import annotations
 
 import dataclasses
 import difflib
-import math
 import numbers
 import os
+import sys
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 import jsonschema
-import yaml
 from jsonschema.exceptions import ValidationError
 
 from . import schema
+from .contradictions import results_problems, run_problems, setting_problems
 from .friction import Friction
 from .parameters import Parameters
 from .quantities import ParameterError, refusal
 from .settings import CrosscheckSettings, Curves, ExtractionSettings, FigureSettings, Limits
 from .stability import InterfaceState
+from .strict_yaml import read_yaml
 from .studies import (
     LARGEST_GRID,
     Run,
     StudySettings,
-    estimated_megabytes,
     expand,
     grid_size,
     loaded,
@@ -81,39 +81,6 @@ def load(path: str | os.PathLike[str]) -> Configuration:
     return configure(read_yaml(path))
 
 
-def read_yaml(path: str | os.PathLike[str]) -> Any:
-    """The contents of a YAML file in which no key stands twice.
-
-    Raises
-    ------
-    ParameterError
-        Naming file, line and key; also for a file that is not YAML.
-    """
-    try:
-        with open(path, encoding="utf-8") as file:
-            return yaml.load(file, Loader=_StrictLoader)
-    except OSError as error:
-        raise ParameterError(f"{path} can't be read: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
-        raise ParameterError(f"{path} is not valid YAML: {error}") from error
-
-
-class _StrictLoader(yaml.SafeLoader):
-    """YAML's safe loader, which refuses a key given twice in one mapping."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        lines: dict[str, int] = {}
-        for key, _ in node.value:
-            line = key.start_mark.line + 1
-            if key.value in lines and key.tag != "tag:yaml.org,2002:merge":
-                raise ParameterError(
-                    f"{key.start_mark.name}: the key {key.value} stands twice, "
-                    f"in lines {lines[key.value]} and {line}"
-                )
-            lines[str(key.value)] = line
-        return super().construct_mapping(node, deep)
-
-
 def configure(values: Any) -> Configuration:
     """The configuration in plain dictionaries, as read from YAML.
 
@@ -123,14 +90,20 @@ def configure(values: Any) -> Configuration:
         With one line for each problem found.
     """
     _stop_on(_schema_problems(values))
-    _stop_on(_range_problems(values))
+    _stop_on([*_range_problems(values), *results_problems(values.get("results", "results"))])
     groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
     base = Parameters(**{k: groups.pop(k) for k in ("material", "friction", "loading", "stepping")})
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
         found.extend(study_runs(name, study, base, interface))
-    _stop_on(_run_problems(found, groups["limits"]))
+    settings = {k: v for k, v in groups.items() if k != "figures"}
+    _stop_on(
+        [
+            *_run_problems(found, groups["limits"]),
+            *setting_problems(base, interface, **settings),
+        ]
+    )
     runs = tuple(run for _, run in found if isinstance(run, Run))
     studies = {name: study_settings(study) for name, study in values["studies"].items()}
     return Configuration(
@@ -164,7 +137,9 @@ def _is_integer(_: Any, value: Any) -> bool:
 
 
 def _is_finite(_: Any, value: Any) -> bool:
-    return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        return False
+    return abs(value) <= sys.float_info.max  # also of integers beyond the largest float; not NaN
 
 
 _Validator = jsonschema.validators.extend(
@@ -208,10 +183,10 @@ def _messages(error: ValidationError) -> Iterator[str]:
         yield f"{key} = {error.instance!r} is empty: it needs at least one entry"
     elif error.validator == "uniqueItems":
         yield f"{key} = {_short(error.instance)} has a value twice"
-    elif error.validator == "pattern":
+    elif "propertyNames" in error.absolute_schema_path:
         yield (
-            f"{key}: {error.instance!r} is not allowed as a name: it must be made of letters, "
-            "digits and _, beginning with a letter"
+            f"{key}: {error.instance!r} is not allowed as a name: it must be made of at most 60 "
+            "letters, digits and _, beginning with a letter"
         )
     elif leaf and entry is not None:
         yield refusal(key, error.instance, entry)
@@ -258,7 +233,7 @@ def _range_problems(values: dict[str, Any]) -> Iterator[str]:
 
 
 def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterator[str]:
-    """Runs that can't be made, stand twice or need too much memory."""
+    """Runs that can't be made, stand twice or contradict themselves."""
     seen: dict[Any, str] = {}
     for key, run in found:
         if isinstance(run, str):
@@ -268,13 +243,7 @@ def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterato
             if mark in seen:
                 yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
             seen[mark] = key
-        need = estimated_megabytes(run.parameters.mesh)
-        if need > limits.memory:
-            mesh = run.parameters.mesh
-            yield (
-                f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y} is not allowed: the simulation would "
-                f"need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
-            )
+        yield from run_problems(key, run, limits)
 
 
 if __name__ == "__main__":  # python -m nucleation.configuration > config/schema.yaml

@@ -70,7 +70,7 @@ def build() -> Node:
         "description": "named sets of simulations; the paper's figures stand on the study paper",
         "type": "object",
         "minProperties": 1,
-        "propertyNames": {"pattern": "^[A-Za-z][A-Za-z0-9_]*$"},
+        "propertyNames": {"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_]*$", "maxLength": 60},
         "additionalProperties": {"$ref": "#/$defs/study"},
     }
     return {

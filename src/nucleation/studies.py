@@ -13,6 +13,7 @@ import numpy as np
 
 from .elasticity import Material
 from .friction import Friction
+from .full_law import CONSTANTS, constants, with_constants
 from .parameters import Loading, Mesh, Parameters
 from .quantities import Checked, ParameterError, Quantity, declarations, quantity
 from .stability import InterfaceState, NoInstability, critical_length
@@ -22,15 +23,33 @@ SHORT_NAMES = {"evolution": "law", "initial_state": "phi0"}
 
 
 def _study_parameters() -> dict[str, tuple[str, Quantity]]:
-    """Every parameter of a simulation by its name in studies: field name and declaration."""
-    return {
+    """Everything a study may vary by its name there: name of a field (if any) and declaration."""
+    fields = {
         SHORT_NAMES.get(name, name): (name, entry)
         for group in dataclasses.fields(Parameters)
         for name, entry in declarations(type(group.default)).items()
     }
+    return fields | {name: (name, entry) for name, entry in CONSTANTS.items()}
 
 
 STUDY_PARAMETERS = _study_parameters()
+
+
+def _identifier_order() -> tuple[str, ...]:
+    """Names in the order of identifiers, whatever the order in the configuration.
+
+    By the groups of the parameters; within a group words before numbers, then by name.
+    """
+    groups = [declarations(type(f.default)) for f in dataclasses.fields(Parameters)] + [CONSTANTS]
+    keys = {
+        SHORT_NAMES.get(name, name): (number, not entry.choices, name)
+        for number, group in enumerate(groups)
+        for name, entry in group.items()
+    }
+    return tuple(sorted(keys, key=keys.__getitem__))
+
+
+IDENTIFIER_ORDER = _identifier_order()
 
 RANGE: dict[str, Quantity] = {
     "num": Quantity("number of values", low=2, high=10000, closed="both", kind="int"),
@@ -71,10 +90,21 @@ class Run:
     study: str
     parameters: Parameters
     theory_length: float
+    given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
 
     def to_dict(self) -> dict[str, Any]:
         """The run as plain nested dictionaries."""
-        return dataclasses.asdict(self)
+        return {k: v for k, v in dataclasses.asdict(self).items() if k != "given"}
+
+    def value(self, name: str) -> Any:
+        """What a parameter of studies is in this run, also if its study doesn't give it."""
+        if name in self.given:
+            return self.given[name]
+        friction, loading = self.parameters.friction, self.parameters.loading
+        if name in CONSTANTS:
+            return constants(friction, loading.velocity)[name]
+        values = {k: v for group in self.parameters.to_dict().values() for k, v in group.items()}
+        return values[STUDY_PARAMETERS[name][0]]
 
     @property
     def labels(self) -> dict[str, Any]:
@@ -116,13 +146,16 @@ def range_problem(value: Any) -> str | None:
         return f"start {value['start']!r} must be less than stop {value['stop']!r}"
     if value.get("scale") == "log" and not value["start"] > 0.0:
         return f"start {value['start']!r} must be positive on a log scale"
+    if len(set(expand(value))) < value["num"]:
+        return f"its {value['num']} values from {value['start']!r} on are not all different"
     return None
 
 
 def identifier(study: str, labels: dict[str, Any], varied: dict[str, Any]) -> str:
     """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``."""
     parts = [study, labels["law"], f"H{_text(labels['height'])}", f"phi{_text(labels['phi0'])}"]
-    parts += [f"{name}{_text(value)}" for name, value in varied.items() if name not in labels]
+    others = [name for name in IDENTIFIER_ORDER if name in varied and name not in labels]
+    parts += [f"{name}{_text(varied[name])}" for name in others]
     return "-".join(parts)
 
 
@@ -200,6 +233,8 @@ def _run(
     parameters = base.replaced({STUDY_PARAMETERS[k][0]: _number(k, v) for k, v in values.items()})
     height = parameters.geometry.height
     loading = parameters.loading
+    friction = with_constants(parameters.friction, loading.velocity, values)
+    parameters = dataclasses.replace(parameters, friction=friction)
     if settings.interface == "main_text":
         interface = loaded(main_text, loading)
     else:
@@ -212,7 +247,7 @@ def _run(
             f"nucleation length of the theory, {critical:.3g} m, better 6 times as long"
         )
     parameters = parameters.replaced({"length": float(length)})
-    run = Run("", study, parameters, critical)
+    run = Run("", study, parameters, critical, {k: _number(k, v) for k, v in values.items()})
     return dataclasses.replace(run, id=identifier(study, run.labels, varied))
 
 

@@ -1,6 +1,7 @@
 """What the workflow would run, and what stops it before it runs anything."""
 
 import dataclasses
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -56,6 +57,17 @@ QUICK = read_yaml(ROOT / "config" / "quick.yaml")
             {"studies": {"s": {"runs": [{"height": -1, "law": "agin", "n_x": 0}]}}},
             ["height = -1 m", "law = 'agin'", "n_x = 0", "has 3 problems"],
         ),
+        (
+            {"studies": {"s": {"runs": [{"height": 0.1, "length": 0.5}]}}},
+            ["studies.s.runs[0]: length = 0.5 m", "critical nucleation length of the theory, 0.81"],
+        ),
+        (
+            {"studies": {"s": {"runs": [{"height": 0.1, "n_x": 90000, "n_y": 9000}]}}},
+            ["n_x = 90000, n_y = 9000", "MB, more than limits.memory = 2000 MB"],
+        ),
+        ("studies: {s: {runs: [{height: 0.1, n_x: 0400}]}}\n", ["YAML takes 0400 for 256"]),
+        ("studies:\n\ts: 1\n", ["make sure to not mix whitespace and tab"]),
+        ("", ["must be given as JSON or YAML with keys at top level"]),
         ("results: a\nresults: b\n", ["the key results stands twice, in lines 1 and 2"]),
         ("stepping: {tolerance: 1e-2}\n", ["tolerance = '1e-2'", "write 1.0e-2"]),
     ],
@@ -76,6 +88,73 @@ def test_bad_value_on_the_command_line_stops_before_any_job(workflow):
     assert not (workflow.directory / "results").exists()
 
 
+@pytest.mark.parametrize(
+    ("content", "fragment"),
+    [
+        (None, "No such file or directory: '"),
+        (b"\xff\xfe\x00\x01", "codec can't decode byte 0xff"),
+    ],
+)
+def test_unreadable_configuration_runs_nothing(workflow, content, fragment):
+    """Snakemake opens the file before it reads ours: its own last line says what is wrong."""
+    path = workflow.directory / "config.yaml"
+    if content is not None:
+        path.write_bytes(content)
+    done = dataclasses.replace(workflow, config=path)()
+    assert done.returncode != 0
+    assert fragment in done.stdout.strip().splitlines()[-1]
+    assert list(workflow.directory.iterdir()) == ([path] if content is not None else [])
+
+
+def test_results_in_the_place_of_a_file_stop_before_any_job(workflow):
+    place = "taken/below"
+    (workflow.directory / "taken").write_text("kept")
+    done = workflow.configured({**QUICK, "results": place})("table_s1")
+    assert done.returncode != 0
+    assert f"results = '{place}' is not allowed" in done.stdout
+    assert "taken is no directory" in done.stdout
+    assert (workflow.directory / "taken").read_text() == "kept"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "fragment"),
+    [
+        (["figure_4"], "No rule to produce figure_4"),
+        (["table_s1", "--cores", "0"], "--cores must be 1 or more"),
+        (["table_s1", "--config", "results="], "results = None is not allowed"),
+    ],
+)
+def test_bad_command_line_stops_before_any_job(workflow, arguments, fragment):
+    done = workflow(*arguments)
+    assert done.returncode != 0
+    assert fragment in done.stdout
+    assert "Traceback (most recent call last)" not in done.stdout
+    assert not (workflow.directory / "results").exists()
+
+
+def test_warnings_come_once_before_the_jobs(workflow):
+    done = workflow("table_s1")
+    assert done.returncode == 0, done.stdout
+    (warning,) = re.findall("Warning: studies.paper: mesh too coarse along x .*", done.stdout)
+    assert "2.6 to a process zone of 0.104 m; recommended is n_x = 92 or more" in warning
+    assert done.stdout.index(warning) < done.stdout.index("Building DAG of jobs")
+
+
+@pytest.mark.parametrize(
+    ("target", "missing"),
+    [
+        ("lengths", "study with table: lengths"),
+        ("figure_sensitivity", "study sensitivity"),
+    ],
+)
+def test_target_without_its_studies_says_which(workflow, target, missing):
+    study = {"table": "own", "runs": [{"height": 0.1}]}
+    done = workflow.configured({"studies": {"mine": study}})(target, "--dry-run")
+    assert done.returncode != 0
+    assert f"the configuration has no {missing}, which this target needs" in done.stdout
+    assert "Traceback (most recent call last)" not in done.stdout
+
+
 def test_figure_without_its_simulation_says_which(workflow):
     other = workflow.configured({"studies": {"mine": {"runs": [{"height": 0.1}]}}})
     done = other("figure_3", "--dry-run")
@@ -93,10 +172,10 @@ def test_own_study_needs_no_study_of_the_paper(workflow):
 
 def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
     """A run whose steps may not get short has to fail, at once and by name."""
-    run = {"height": 0.01, "n_x": 16, "n_y": 4, "shortest_step": 0.5}
+    run = {"height": 0.01, "n_x": 16, "n_y": 4, "shortest_step": 0.0049}
     done = workflow.configured({"studies": {"fails": {"runs": [run]}}})("lengths")
     assert done.returncode != 0
     (record,) = (workflow.directory / "results" / "simulations").iterdir()
-    assert record.name == "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step0.5.failed.nc"
+    assert record.name == "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step0.0049.failed.nc"
     assert "failed: the step size fell below the shortest step allowed" in done.stdout
     assert not (workflow.directory / "results" / "lengths.nc").exists()

@@ -24,7 +24,7 @@ rule extract:
 
 rule gather_lengths:
     input:
-        [study_lengths(study) for study in SHARED],
+        needed([study_lengths(study) for study in SHARED], "study with table: lengths"),
     output:
         dataset=LENGTHS,
         table=f"{RESULTS}/lengths.csv",

@@ -38,7 +38,10 @@ rule patch:
 
 rule gather_patches:
     input:
-        lambda wildcards: patches(*PATCH_TABLES[wildcards.table]),
+        needed(
+            lambda wildcards: patches(*PATCH_TABLES[wildcards.table]),
+            "study paper, converged or patch_convergence",
+        ),
     output:
         dataset=f"{RESULTS}/{{table}}.nc",
         table=f"{RESULTS}/{{table}}.csv",

@@ -30,6 +30,6 @@ rule simulate:
 
 rule simulations:
     input:
-        simulations(),
+        needed(simulations(), "study with table: lengths"),
     message:
         f"All simulations are in {RESULTS}/simulations"

@@ -75,7 +75,7 @@ rule figure_convergence:
 
 rule sensitivity:
     input:
-        simulations("sensitivity"),
+        needed(simulations("sensitivity"), "study sensitivity"),
     output:
         dataset=SENSITIVITY,
         table=f"{RESULTS}/sensitivity.csv",

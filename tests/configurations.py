@@ -1,0 +1,46 @@
+"""The paper's configuration with one thing changed, and what is said about it."""
+
+import copy
+import json
+from pathlib import Path
+
+import pytest
+
+from nucleation.configuration import configure
+from nucleation.quantities import ParameterError
+from nucleation.strict_yaml import read_yaml
+
+CONFIG = Path(__file__).parents[1] / "config"
+# without the sharing of nodes that YAML's aliases bring: a change is to be one change
+PAPER = json.loads(json.dumps(read_yaml(CONFIG / "config.yaml")))
+
+
+def changed(place: str, value: object) -> dict:
+    """The paper's configuration with one value changed, ``a.b.0.c`` naming its place."""
+    config = copy.deepcopy(PAPER)
+    *parents, last = place.split(".")
+    node = config
+    for part in parents:
+        node = node[int(part)] if isinstance(node, list) else node[part]
+    if isinstance(node, list):
+        node[int(last) : int(last) + 1] = [value]
+    else:
+        node[last] = value
+    return config
+
+
+def with_run(**entry: object) -> dict:
+    """The paper's configuration with one more entry of runs (its number is 3)."""
+    return changed("studies.paper.runs.3", entry)
+
+
+def study(*runs: dict, **settings: object) -> dict:
+    """A configuration of one study, ``s``, and defaults for all else."""
+    return {"studies": {"s": {**settings, "runs": list(runs)}}}
+
+
+def messages(config: object) -> str:
+    """What a bad configuration is told."""
+    with pytest.raises(ParameterError) as caught:
+        configure(config)
+    return str(caught.value)
