@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs programs from Debian's archive that the optional parts of the workflow call.
 #
-#   workflow/install-debian.sh GROUP...        groups: browser crosscheck
+#   workflow/install-debian.sh GROUP...        groups: browser cluster crosscheck
 #
 # Needs root or sudo. Everything else the project needs is installed by make, in .venv.
 set -eu
@@ -10,15 +10,16 @@ packages=
 for group in "$@"; do
     case $group in
     browser) packages="$packages chromium" ;;
+    cluster) packages="$packages slurm-wlm munge" ;; # a batch system on one machine, for the tests
     crosscheck) packages="$packages freefem++ libfreefem++" ;; # MUMPS is in the library's package
     *)
-        echo "$0: unknown group $group; known: browser crosscheck" >&2
+        echo "$0: unknown group $group; known: browser cluster crosscheck" >&2
         exit 2
         ;;
     esac
 done
 if [ -z "$packages" ]; then
-    echo "usage: $0 GROUP...   groups: browser crosscheck" >&2
+    echo "usage: $0 GROUP...   groups: browser cluster crosscheck" >&2
     exit 2
 fi
 

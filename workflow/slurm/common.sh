@@ -1,0 +1,26 @@
+# Shared by start.sh and stop.sh. (Munge's daemon is left running: it belongs to the machine.)
+CONFIG=/etc/slurm/slurm.conf # the place where programs look for it, whatever the environment says
+STATE=/run/nucleation-slurm
+NODES="n1 n2"
+unset SLURM_CONF
+PATH=$PATH:/usr/sbin:/sbin
+
+die() {
+    echo "$0: $1" >&2
+    exit 1
+}
+
+# Whether the configuration is start.sh's.
+ours() {
+    head -n 1 $CONFIG 2>/dev/null | grep -q '^# nucleation: '
+}
+
+# Whether the daemon of this name runs.
+daemon() {
+    [ -s "$STATE/$1.pid" ] && kill -0 "$(cat "$STATE/$1.pid")" 2>/dev/null
+}
+
+if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || die "run it as root, or install sudo"
+    exec sudo "$0" "$@"
+fi
