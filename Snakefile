@@ -12,8 +12,13 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
+from snakemake_executor_plugin_slurm import common_settings as slurm_settings
 
 min_version("9.0")
+
+# Members of a group run side by side only if the Snakemake within the Slurm job is told of the
+# group, which the plugin omits (its issue 469): they would run one after the other.
+slurm_settings.pass_group_args = True
 
 # The one place that says where the package is, for this file and for the scripts of all jobs.
 SOURCE = str(Path(workflow.basedir, "src"))

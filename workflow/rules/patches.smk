@@ -65,9 +65,7 @@ rule twin:
         digest=digest("nucleation.twin_runs"),
     threads: 1
     resources:
-        mem_mb=lambda wildcards: ceil(
-            2 * estimated_megabytes(run_of(wildcards).parameters.mesh)
-        ),
+        mem_mb=lambda wildcards, attempt: 2 * memory(wildcards, attempt),
         runtime=ceil(settings.limits.runtime),
     message:
         "Twin runs of {wildcards.id}"

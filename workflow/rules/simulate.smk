@@ -8,6 +8,11 @@ def run_of(wildcards):
     return RUNS[wildcards.id]
 
 
+def memory(wildcards, attempt):
+    """Memory (MB) of a job with one simulation, the Snakemake in it included."""
+    return attempt * ceil(150 + estimated_megabytes(run_of(wildcards).parameters.mesh))
+
+
 rule simulate:
     output:
         simulation("{id}"),
@@ -20,7 +25,7 @@ rule simulate:
         f"{RESULTS}/logs/simulate/{{id}}.log",
     threads: 1
     resources:
-        mem_mb=lambda wildcards: ceil(estimated_megabytes(run_of(wildcards).parameters.mesh)),
+        mem_mb=memory,
         runtime=ceil(settings.limits.runtime),
     message:
         "Simulation {wildcards.id}"
