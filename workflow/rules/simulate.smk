@@ -9,8 +9,8 @@ def run_of(wildcards):
 
 
 def memory(wildcards, attempt):
-    """Memory (MB) of a job with one simulation, the Snakemake in it included."""
-    return attempt * ceil(150 + estimated_megabytes(run_of(wildcards).parameters.mesh))
+    """Memory (MB) of a cluster job with one simulation: two Snakemakes in it need 150 MB each."""
+    return attempt * ceil(300 + estimated_megabytes(run_of(wildcards).parameters.mesh))
 
 
 rule simulate:
