@@ -10,7 +10,7 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 	--workflow-profile workflow/profiles/default
 
 .DEFAULT_GOAL := help
-.PHONY: help paper report quick test lint bench reference schema lock clean-venv
+.PHONY: help paper report quick test lint docs bench reference schema lock clean-venv
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -30,6 +30,9 @@ test: $(STAMP) ## Run the tests
 
 lint: $(STAMP) ## Check the code's style
 	@$(BIN)/ruff check .
+
+docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
+	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
 bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.benchmark \

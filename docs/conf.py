@@ -1,0 +1,61 @@
+"""Sphinx: these pages, the tutorials (executed) and the reference of the API (`make docs`)."""
+
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "src"))
+
+from nucleation import __version__  # noqa: E402
+
+project = "nucleation"
+author = "The nucleation developers"
+copyright = "the nucleation developers"
+release = version = __version__
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.viewcode",
+    "numpydoc",
+]
+exclude_patterns = ["_build", "_templates"]
+templates_path = ["_templates"]
+
+# Pages are read on the forge as well: plain Markdown, mathematics between dollars.
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+# Notebooks are committed without outputs and executed at every build; an error stops the build.
+nb_execution_mode = "force"
+nb_execution_timeout = 300
+nb_execution_raise_on_error = True
+nb_merge_streams = True
+
+if not (ROOT / "docs" / "convergence.md").exists():  # pages that others link to already
+    suppress_warnings = ["myst.xref_missing"]
+
+autosummary_generate = True
+autodoc_member_order = "bysource"
+autodoc_default_options = {"members": True, "show-inheritance": True}
+autodoc_typehints = "none"  # the docstrings name types, with units and shapes
+autodoc_preserve_defaults = True
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+html_theme = "furo"
+html_title = "nucleation"
+html_show_sphinx = False
+
+
+def formulas(app, what, name, obj, options, lines):
+    """Indented lines in a module's text are formulas: shown as they stand."""
+    if what == "module":
+        for i in range(len(lines) - 1, 0, -1):
+            if lines[i].startswith("    ") and not lines[i - 1]:
+                lines[i:i] = ["::", ""]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", formulas)

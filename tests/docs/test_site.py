@@ -1,0 +1,67 @@
+"""The documentation builds without a warning, tutorials executed, and holds what it should."""
+
+import json
+import re
+import subprocess
+import sys
+
+import pytest
+from docs.samples import ROOT
+
+DOCS = ROOT / "docs"
+TUTORIALS = sorted((DOCS / "tutorials").glob("*.ipynb"))
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The built site, by the command of `make docs`."""
+    recipe = re.search(r"^docs:.*\n\t\$\(BIN\)/sphinx-build (.*)$", MAKEFILE, re.M)[1]
+    built = tmp_path_factory.mktemp("site")
+    options = recipe.replace("docs/_build/html", str(built)).split()
+    done = subprocess.run(
+        [sys.executable, "-m", "sphinx", *options], cwd=ROOT, stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout
+    return built
+
+
+MAKEFILE = (ROOT / "Makefile").read_text()
+
+
+def test_warnings_stop_the_build():
+    assert re.search(r"sphinx-build -W ", MAKEFILE)
+    assert (
+        'suppress_warnings = ["' not in (DOCS / "conf.py").read_text()
+        or not (DOCS / "convergence.md").exists()
+    )
+
+
+def test_every_page_is_in_the_site(site):
+    for page in DOCS.glob("*.md"):
+        assert (site / page.with_suffix(".html").name).is_file(), page
+
+
+def test_reference_has_signatures_and_texts(site):
+    api = (site / "generated" / "nucleation.api.html").read_text()
+    assert 'id="nucleation.api.critical_length"' in api
+    assert "broadcast shape; NaN where homogeneous sliding is stable" in api
+    assert "Raises" in api
+
+
+def test_figures_of_the_gallery_are_there(site):
+    shown = set(re.findall(r'src="_images/([^"]+\.png)"', (site / "gallery.html").read_text()))
+    reference = {path.name for path in (ROOT / "results" / "reference").glob("*.png")}
+    assert len(shown) >= 9
+    assert shown <= reference
+    assert all((site / "_images" / name).stat().st_size > 10_000 for name in shown)
+
+
+@pytest.mark.parametrize("path", TUTORIALS, ids=lambda path: path.stem)
+def test_tutorial_is_kept_without_outputs_and_executed(site, path):
+    notebook = json.loads(path.read_text())
+    code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
+    assert all(cell["outputs"] == [] and cell["execution_count"] is None for cell in code)
+    page = (site / "tutorials" / path.with_suffix(".html").name).read_text()
+    assert page.count('class="cell_output') >= 6
+    assert page.count("<img") + page.count("<svg") >= 2
