@@ -67,13 +67,13 @@ LENGTHS = (
     Length(
         "dieterich_shortest", "conventional, eta = 2/pi", "eta mu D/(zeta sigma0)",
         "Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
-        f"{_WEAKENING}; shortest of the crack models in use", HALF_SPACES,
+        f"{_WEAKENING}; shortest of the crack models", HALF_SPACES,
         lengths.dieterich_shortest_length, "zeta > 0",
     ),
     Length(
         "dieterich_longest", "conventional, eta = 4/3", "eta mu D/(zeta sigma0)",
         "Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
-        f"{_WEAKENING}; longest of the crack models in use", HALF_SPACES,
+        f"{_WEAKENING}; longest of the crack models", HALF_SPACES,
         lengths.dieterich_longest_length, "zeta > 0",
     ),
     Length(

@@ -64,7 +64,7 @@ SIMULATE = [
     (["file/run.nc"], ["can't be written", "no writable directory"]),
     (["new.nc", "--height", "5 s"], ["--height", "m is needed", "(0, 1e+06) m"]),
     (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
-    (["new.nc", "--n-x", "60.5"], ["n_x = '60.5'", "an integer in [8, 100000]"]),
+    (["new.nc", "--n-x", "60.5"], ["n_x = 60.5 is not", "an integer in [8, 100000]"]),
     (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
     (["new.nc", "--law", "ageing"], ["law = 'ageing'", "one of aging, slip"]),
     (["new.nc", "--length", "1cm"], ["length = 0.01 m", "critical"]),
@@ -93,7 +93,7 @@ SHOW = [
     (["foreign.nc"], ["foreign.nc was not written by this project"]),
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
-    (["plain.nc", "--plot", "new.png"], ["has no plot"]),
+    (["plain.nc", "--plot", "new.png"], ["no plot of this kind"]),
 ]
 
 LINES = [

@@ -46,6 +46,8 @@ def files(tmp_path_factory):
             "patch_length": ("instant", np.linspace(0.1, 0.2, 9)),
             "growth_rate": ("instant", np.linspace(-1.0, 1.0, 9)),
             "growth_frequency": ("instant", np.linspace(12.0, 13.0, 9)),
+            "oscillation_growth": ("instant", np.linspace(-1.0, 1.0, 9)),
+            "oscillation_frequency": ("instant", np.linspace(12.0, 13.0, 9)),
             "stability_length": 0.15,
         }
     )
@@ -62,7 +64,7 @@ def files(tmp_path_factory):
 
 KINDS = {
     "run": "simulation", "short": "simulation", "theory": "theory", "lengths": "table of lengths",
-    "patch": "patch's stability", "hops": "dataset",
+    "patch": "patch's stability", "hops": "hops of the front",
 }  # fmt: skip
 
 
@@ -98,7 +100,7 @@ def test_variables_of_other_datasets(nucleation, files):
     assert "hop_time" in said and "2 hop; 1 to 2 s" in said and "2 hop; 0.1 m" in said
 
 
-@pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if kind != "dataset"])
+@pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if name != "hops"])
 def test_plot(nucleation, files, tmp_path, name):
     plot = tmp_path / "plot.png"
     ended = nucleation("show", files[name], "--plot", plot)

@@ -77,6 +77,13 @@ def test_values_refused(key, text, words):
     assert str(refused.value).startswith(f"{key} = ")
 
 
+@pytest.mark.parametrize("number", ["5", "0.3", "1.7", "4.45", "1e-1"])
+def test_units_cost_no_rounding(number):
+    for key, unit, factor in (("height", "um", "e-6"), ("shear_modulus", "GPa", "e9")):
+        expected = float(f"{float(number)}{factor}")
+        assert parse(key, f"{number} {unit}", QUANTITIES[key]) == expected
+
+
 def test_integers():
     entry = Quantity("number", low=2, high=10, closed="both", kind="int")
     assert parse("n", " 7 ", entry) == 7

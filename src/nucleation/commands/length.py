@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import textwrap
 from typing import Any
 
 import click
@@ -13,11 +12,9 @@ import numpy as np
 from ..api import CriticalMode, critical_mode
 from ..elasticity import Material
 from ..fault import QUANTITIES, Fault
-from ..lengths_in_use import LENGTHS, WEAKENING_RATE, lengths_of
+from ..lengths_in_use import LENGTHS, WEAKENING_RATE, Length, lengths_of
 from ..quantities import ParameterError, declarations
 from . import DONE, EXIT_CODES, STABLE, units
-
-WIDTH = 98  # of the text printed
 
 DENSITY = declarations(Material)["density"]
 
@@ -176,23 +173,22 @@ def _speed_ratio(fault: Fault, mode: CriticalMode, density: float | None) -> flo
     return speed / Material(float(fault.shear_modulus), density=density).shear_wave_speed
 
 
-def _length_lines(length: Any, value: float, fault: Fault, critical: float) -> list[str]:
-    """One length: value, formula; source and validity."""
+def _length_lines(length: Length, value: float, fault: Fault, critical: float) -> list[str]:
+    """One length: value and formula, source, validity."""
     if np.isfinite(value):
         ratio = f"{value / critical:.3g} L_c" if np.isfinite(critical) else ""
-        said = f"{_metres(value):<11} {ratio:<10} {length.formula}"
-        rest = f"{length.source}. Valid: {length.validity}."
+        said, valid = _metres(value), f"valid: {length.validity}"
     else:
-        said = f"{'-':<11} {'':<10} {length.formula}"
-        rest = f"{length.source}. OUTSIDE ITS VALIDITY, {length.needs}: {_why(length, fault)}."
-    return [f"  {length.title:<28} {said}", *_wrapped(rest)]
+        said, ratio = "-", ""
+        valid = f"NOT VALID HERE, needs {length.needs}: {_why(length, fault)}"
+    return [
+        f"  {length.title:<28} {said:<11} {ratio:<10} {length.formula}",
+        f"      {length.source}",
+        f"      {valid}",
+    ]
 
 
-def _wrapped(text: str) -> list[str]:
-    return textwrap.wrap(text, WIDTH, initial_indent=" " * 6, subsequent_indent=" " * 6)
-
-
-def _why(length: Any, fault: Fault) -> str:
+def _why(length: Length, fault: Fault) -> str:
     """What of the fault decides on the validity of a length."""
     a, b, zeta, height = (float(x) for x in (fault.a, fault.b, fault.zeta, fault.height))
     facts = []

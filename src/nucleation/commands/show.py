@@ -64,7 +64,9 @@ def kind_of(dataset: xr.Dataset) -> Kind:
 def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
     if kind.figure is None:
         known = ", ".join(k.name for k in KINDS if k.figure)
-        raise ParameterError(f"a {kind.name} has no plot; those that have: {known}")
+        raise ParameterError(
+            f"there is no plot of this kind of dataset, {kind.name}; of these there is: {known}"
+        )
     if plot.suffix not in (".png", ".pdf"):
         raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
     if plot.exists() and not force:
@@ -199,7 +201,9 @@ KINDS = (
     Kind("sensitivity table", ("varied", "length"), _length_rows, _draw_sensitivity),
     Kind("table of refinement", ("length_change", "length"), _length_rows, None),
     Kind("table of lengths", ("id", "onset_time", "theory_length"), _length_rows, _draw_lengths),
-    Kind("patch's stability", ("instant_time", "growth_rate"), _variable_lines, _draw_patch),
+    Kind("hops of the front", ("hop_time",), _variable_lines, None),
+    Kind("twin runs", ("twin_growth",), _variable_lines, None),
+    Kind("patch's stability", ("instant_time", "oscillation_growth"), _variable_lines, _draw_patch),
     Kind("dispersion relation", ("measured_growth",), _variable_lines, _draw_dispersion),
     Kind("orders of convergence", ("displacement_error",), _variable_lines, _draw_convergence),
     Kind("theory", ("critical_length", "thin_limit_length"), _variable_lines, _draw_theory),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from decimal import Decimal
 from functools import cache
 from typing import Any
 
@@ -18,10 +19,13 @@ UNIT = re.compile(r"[A-Za-zµμ%*/^0-9 ().\-]{1,40}")
 
 @cache
 def registry() -> Any:
-    """The units library's registry; made when a unit is first read, since that takes a while."""
+    """The units library's registry; made when a unit is first read, since that takes a while.
+
+    It reckons in decimal numbers: 5 um is exactly the number that 5e-6 m is.
+    """
     import pint
 
-    return pint.UnitRegistry()
+    return pint.UnitRegistry(non_int_type=Decimal)
 
 
 def parse(key: str, text: str, entry: Quantity) -> Any:
@@ -45,30 +49,39 @@ def parse(key: str, text: str, entry: Quantity) -> Any:
     if entry.choices or entry.kind == "str":
         value: Any = text
     elif entry.kind == "int":
-        value = int(text) if re.fullmatch(r"\s*[+-]?\d{1,18}\s*", text) else text
+        value = _integer(text)
     else:
         value = _number(key, text, entry)
     check(key, value, entry)
     return value
 
 
+def _integer(text: str) -> int | float | str:
+    """The integer that a text is, or what else it is, to be refused."""
+    if re.fullmatch(r"\s*[+-]?\d{1,18}\s*", text):
+        return int(text)
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def _number(key: str, text: str, entry: Quantity) -> float:
     parts = NUMBER.fullmatch(text)
     if not parts:
         raise ParameterError(_refusal(key, text, entry, "it is no number with a unit"))
-    number, unit = float(parts[1]), parts[2]
-    return number * _factor(key, text, unit, entry) if unit else number
+    return _converted(key, text, parts[1], parts[2], entry) if parts[2] else float(parts[1])
 
 
-def _factor(key: str, text: str, unit: str, entry: Quantity) -> float:
-    """What one of a unit is in the declared unit."""
+def _converted(key: str, text: str, number: str, unit: str, entry: Quantity) -> float:
+    """The number in the declared unit."""
     import pint
 
     units = registry()
     try:
         if not UNIT.fullmatch(unit):
             raise ValueError(unit)
-        given = units.Quantity(1.0, units.parse_units(unit))
+        given = units.Quantity(Decimal(number), units.parse_units(unit))
         return float(given.to(declared_unit(entry)).magnitude)
     except pint.DimensionalityError:
         wanted = "it has no dimension" if entry.unit == "1" else f"{entry.unit} is needed"

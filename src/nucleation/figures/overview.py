@@ -8,6 +8,11 @@ from matplotlib.figure import Figure
 
 from . import style
 
+COLOURS = (
+    style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY_BLUE,
+)  # fmt: skip
+MARKERS = "os^vDP"
+
 
 @style.styled
 def draw_theory(theory: xr.Dataset) -> Figure:
@@ -39,7 +44,7 @@ def draw_lengths(table: xr.Dataset) -> Figure:
         bars = [length - rows["length_low"].values, rows["length_high"].values - length]
         axes.errorbar(
             rows["theory_length"].values, length, yerr=np.clip(bars, 0.0, None), linestyle="none",
-            marker="os^vDP"[number % 6], color=f"C{number}", elinewidth=0.9, label=name,
+            marker=MARKERS[number % 6], color=COLOURS[number % 6], elinewidth=0.9, label=name,
         )  # fmt: skip
     top = 1.08 * float(max(table["theory_length"].max(), table["length_high"].max()))
     axes.plot([0.0, top], [0.0, top], color=style.GUIDE, linewidth=0.9, zorder=0)
@@ -52,19 +57,19 @@ def draw_lengths(table: xr.Dataset) -> Figure:
 
 @style.styled
 def draw_patch(patch: xr.Dataset) -> Figure:
-    """Draw ``growth_rate`` and ``growth_frequency`` (1/s) against ``patch_length`` (m)."""
+    """Draw ``oscillation_growth`` and ``_frequency`` (1/s) against ``patch_length`` (m)."""
     figure = style.new_figure(style.SINGLE_COLUMN, 8.4 * style.CENTIMETRE)
     growth, frequency = figure.subplots(2, 1, sharex=True)
     length = patch["patch_length"].values
-    growth.plot(length, patch["growth_rate"].values, color=style.THEORY)
+    growth.plot(length, patch["oscillation_growth"].values, color=style.THEORY)
     growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
-    frequency.plot(length, patch["growth_frequency"].values, color=style.THEORY)
+    frequency.plot(length, patch["oscillation_frequency"].values, color=style.THEORY)
     for axes in (growth, frequency):
         axes.axvline(float(patch["stability_length"]), color=style.GUIDE, linestyle=":")
     growth.annotate(
         "$L_s$", (float(patch["stability_length"]), 1.0), (3.0, -10.0),
         xycoords=growth.get_xaxis_transform(), textcoords="offset points", color=style.GUIDE,
     )  # fmt: skip
-    growth.set_ylabel(r"Growth $\Re\Lambda$ (1/s)")
-    frequency.set(xlabel="Patch length $L$ (m)", ylabel=r"Frequency $|\Im\Lambda|$ (1/s)")
+    growth.set_ylabel(r"Growth $\mathrm{Re}\,\Lambda$ (1/s)")
+    frequency.set(xlabel="Patch length $L$ (m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
     return figure
