@@ -12,6 +12,7 @@ import pytest
 
 from nucleation import datasets, provenance
 from nucleation.extraction import extract
+from nucleation.friction import Friction
 from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.quantities import declarations
 from nucleation.simulation import simulate
@@ -77,7 +78,7 @@ def test_an_event_is_reported(nucleation, tmp_path):
 
 def test_a_failed_simulation_keeps_its_record(nucleation, tmp_path):
     output = tmp_path / "run.nc"
-    ended = nucleation("simulate", output, *SMALL, "--shortest-step", "0.5s")
+    ended = nucleation("simulate", output, *SMALL, "--shortest-step", "4ms")
     assert ended.code == 1 and not output.exists()
     assert "failed: the step size fell below" in ended.err and "run.failed.nc" in ended.err
     record = datasets.read(tmp_path / "run.failed.nc")
@@ -136,6 +137,26 @@ def test_a_run_of_the_configuration(nucleation, tmp_path):
     found = planned(nucleation(*words, "--run", "converged-slip-H0.05-phi1"))
     assert (found["evolution"], found["n_x"], found["grading"]) == ("slip", "1600", "20")
     assert found["time_after_event"] == "0"
+
+
+def test_constants_of_friction_set_the_law(nucleation, tmp_path):
+    """By options beside the law of a file, a run or the defaults; the expansion has them."""
+    words = ["simulate", tmp_path / "run.nc", *SMALL, "--direct-effect", "0.008"]
+    nucleation(*words, "--zeta-over-a", "2", "--velocity", "2e-5")
+    friction = parameters_of(tmp_path / "run.nc").friction
+    f, a, zeta = friction.expansion(2e-5)
+    assert (a, zeta) == pytest.approx((0.008, 0.016))
+    assert f == pytest.approx(Friction().expansion(2e-5).f0)
+    again = ["simulate", tmp_path / "more.nc", "--parameters", tmp_path / "run.nc"]
+    nucleation(*again, "--friction-coefficient", "0.5")
+    friction = parameters_of(tmp_path / "more.nc").friction
+    assert friction.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
+
+
+def test_warnings_are_printed(nucleation, tmp_path):
+    ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--dry-run")
+    assert ended.code == 0 and ended.err.startswith("Warning: ")
+    assert "mesh too coarse" in ended.err and "command" not in ended.err
 
 
 def test_every_parameter_has_an_option(nucleation):

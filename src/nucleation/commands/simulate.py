@@ -15,11 +15,15 @@ from typing import Any
 import click
 
 from .. import datasets, provenance
-from ..configuration import configure, load, read_yaml
+from ..advice import advise
+from ..configuration import configure, load
 from ..extraction import extract
+from ..friction import Friction
+from ..full_law import CONSTANTS, with_constants
 from ..parameters import Parameters
 from ..quantities import ParameterError, check, declarations
 from ..settings import Limits
+from ..strict_yaml import read_yaml
 from ..studies import STUDY_PARAMETERS, Run, StudySettings, estimated_megabytes
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from .text import event_lines, parameter_lines, with_unit
@@ -34,7 +38,7 @@ def _flat(parameters: dict[str, dict[str, Any]]) -> dict[str, Any]:
     return {name: fields[field] for name, (field, _) in STUDY_PARAMETERS.items() if field in fields}
 
 
-DEFAULTS = _flat(Parameters().to_dict())
+DEFAULTS = {k: v for k, v in _flat(Parameters().to_dict()).items() if k != "length"}
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
 
@@ -84,10 +88,13 @@ def command(
     if file and run_id:
         raise ParameterError("--parameters and --run can't be combined")
     _check_output(output, force)
-    values = _of_file(file) if file else _of_run(config, run_id) if run_id else {}
-    values |= {name: value for name, value in options.items() if value is not None}
-    study = {"length_over_critical": length_over_critical}
-    run = planned(values, study, {"memory": memory})
+    base, given = _of_run(config, run_id) if run_id else _of_file(file) if file else (DEFAULTS, {})
+    values = _merged(base, given | _given(options))
+    study = _given({"length_over_critical": length_over_critical})
+    run = planned(values, study, _given({"memory": memory}), str(output.absolute().parent))
+    for warning in advise([run]):
+        text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
+        click.echo(f"Warning: {text}", err=True)
     if dry_run:
         click.echo("\n".join([*parameter_lines(run.parameters.to_dict()), *_plan_lines(run)]))
         return DONE
@@ -95,7 +102,18 @@ def command(
     return _simulate(run, output, _command(output, run))
 
 
-def planned(values: dict[str, Any], study: dict[str, Any], limits: dict[str, Any]) -> Run:
+def _merged(base: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
+    """A full set of values with others in their place; constants of friction set its law."""
+    values = base | {name: value for name, value in given.items() if name not in CONSTANTS}
+    fields = {n: f for n, (f, _) in STUDY_PARAMETERS.items() if f in declarations(Friction)}
+    law = Friction(**{field: values[name] for name, field in fields.items()})
+    law = with_constants(law, values["velocity"], given)
+    return values | {name: getattr(law, field) for name, field in fields.items()}
+
+
+def planned(
+    values: dict[str, Any], study: dict[str, Any], limits: dict[str, Any], results: str
+) -> Run:
     """The run that values by their names in studies stand for, checked as a configuration.
 
     Raises
@@ -103,14 +121,16 @@ def planned(values: dict[str, Any], study: dict[str, Any], limits: dict[str, Any
     ParameterError
         With all that is wrong with it.
     """
-    runs = {"runs": [{"height": DEFAULTS["height"], **values}]}
+    defaults = dict(values)
+    runs = [{"height": defaults.pop("height")}]
+    study = study | {"defaults": defaults, "runs": runs}
     try:
-        settings = configure({"studies": {STUDY: _given(study) | runs}, "limits": _given(limits)})
+        settings = configure({"studies": {STUDY: study}, "limits": limits, "results": results})
     except ParameterError as error:
-        place = f"studies.{STUDY}.runs[0]"
-        raise ParameterError(
-            str(error).replace(f"{place}: ", "").replace(f"{place}.", "")
-        ) from None
+        text = str(error)
+        for place in (f"studies.{STUDY}.runs[0]", f"studies.{STUDY}.defaults"):
+            text = text.replace(f"{place}: ", "").replace(f"{place}.", "")
+        raise ParameterError(text) from None
     return settings.runs[0]
 
 
@@ -129,34 +149,32 @@ def _check_output(output: Path, force: bool) -> None:
         raise ParameterError(f"{output} can't be written: {folder} is no writable directory")
 
 
-def _of_run(config: str, run_id: str) -> dict[str, Any]:
-    """The parameters of a configuration's run."""
+def _of_run(config: str, run_id: str) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The parameters of a configuration's run, and nothing given beside."""
     runs = {run.id: run for run in load(config).runs}
     if run_id not in runs:
         raise ParameterError(f"--run = {run_id!r} is not in {config}{_similar(run_id, runs)}")
-    return _flat(runs[run_id].parameters.to_dict())
+    return _flat(runs[run_id].parameters.to_dict()), {}
 
 
-def _of_file(path: Path) -> dict[str, Any]:
-    """Parameters from a YAML or JSON file, flat or in the configuration's groups."""
+def _of_file(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The parameters of a dataset; or the defaults, and what a YAML or JSON file gives."""
     if path.suffix == ".nc":
         attributes = datasets.read(path, requires=["slip_rate", "driving_force"]).attrs
-        return _flat(Parameters.from_json(attributes["parameters"]).to_dict())
+        return _flat(Parameters.from_json(attributes["parameters"]).to_dict()), {}
     content = read_yaml(path)
     if not isinstance(content, dict):
         raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
-    flat: dict[str, Any] = {}
-    for key, value in content.items():
-        group = value if isinstance(value, dict) else {key: value}
-        twice = sorted(flat.keys() & group.keys())
-        if twice:
-            raise ParameterError(f"{path}: {', '.join(twice)} is given twice")
-        flat |= group
     fields = {field: name for name, (field, _) in STUDY_PARAMETERS.items()}
-    return {
-        fields.get(key, key): _file_value(path, fields.get(key, key), value)
-        for key, value in flat.items()
-    }
+    given: dict[str, Any] = {}
+    for key, value in content.items():
+        group = value if isinstance(value, dict) else {key: value}  # as the configuration, or flat
+        for field, one in group.items():
+            name = fields.get(field, field)
+            if name in given:
+                raise ParameterError(f"{path}: {name} is given twice")
+            given[name] = _file_value(path, name, one)
+    return DEFAULTS, given
 
 
 def _file_value(path: Path, key: str, value: Any) -> Any:
@@ -193,7 +211,7 @@ def _plan_lines(run: Run) -> list[str]:
 def _command(output: Path, run: Run) -> str:
     """A command line that makes the dataset again: what differs from the defaults."""
     values = _flat(run.parameters.to_dict())
-    changed = {k: v for k, v in values.items() if v != DEFAULTS[k] or k == "length"}
+    changed = {k: v for k, v in values.items() if v != DEFAULTS.get(k)}
     words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
     return shlex.join(["nucleation", "simulate", str(output), *words])
 
