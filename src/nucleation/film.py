@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 MOST_FRAMES = (45, 70, 5)  # before, in and after the event
 MOST_COLUMNS, MOST_ROWS = 241, 31
+SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 
 def shear_stress(body: Body, grid: Grid, state: State, shear_modulus: float) -> Array:
@@ -30,31 +31,34 @@ def shear_stress(body: Body, grid: Grid, state: State, shear_modulus: float) -> 
     return shear_modulus * shear
 
 
-def film_dataset(simulation: xr.Dataset, onset: float) -> xr.Dataset:
+def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     """Run a simulation once more, and take the stress in its block along the way.
 
     Parameters
     ----------
     simulation : Dataset
         The record of :func:`nucleation.simulation.simulate`.
-    onset : float
-        Onset of its event (s), NaN if there is none.
+    row : Dataset
+        Its entry of the table of lengths: ``onset_time`` (s) and ``length`` (m), NaN without an
+        event.
 
     Returns
     -------
     Dataset
-        ``slip_rate`` (m/s) on (time, x), ``block_shear_stress`` (Pa) on (time, y, x), with some of
-        the recorded times and of the nodes; ``driving_force`` (N/m) on (step), every step; and the
-        attributes of the simulation that say what was run.
+        ``slip_rate`` (m/s) on (time, x), ``block_shear_stress`` (Pa) on (time, y, x), at some of
+        the recorded times and of the nodes, near the loaded edge; ``driving_force`` (N/m) and
+        ``maximal_slip_rate`` (m/s) on (step); the run's ``parameters`` as an attribute.
     """
     parameters = Parameters.from_json(simulation.attrs["parameters"])
     geometry, mesh = parameters.geometry, parameters.mesh
     grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
     body = Body(grid, parameters.material)
-    columns = thinned(np.arange(grid.x.size), MOST_COLUMNS)
+    farthest = np.fmin(SHOWN_LENGTHS * float(row["length"]), geometry.length)
+    columns = thinned(np.flatnonzero(grid.x <= farthest), MOST_COLUMNS)
     rows = thinned(np.arange(grid.y.size), MOST_ROWS)
     recorded = simulation["time"].values
-    frames = chosen_frames(recorded, event_interval(simulation, onset), MOST_FRAMES)
+    event = event_interval(simulation, float(row["onset_time"]))
+    frames = chosen_frames(recorded, event, MOST_FRAMES)
     stresses = []
     for instant in run(parameters):
         if instant.state.time >= recorded[frames[len(stresses)]]:
@@ -62,9 +66,8 @@ def film_dataset(simulation: xr.Dataset, onset: float) -> xr.Dataset:
             stresses.append(stress[np.ix_(rows, columns)].astype(np.float32))
         if len(stresses) == frames.size:
             break
-    kept = simulation[["slip_rate", "driving_force", "step_time"]].isel(time=frames, x=columns)
-    return (
-        kept.assign_coords(y=grid.y[rows])
-        .assign(block_shear_stress=(("time", "y", "x"), np.array(stresses)))
-        .assign_attrs({"parameters": parameters.to_json()})
-    )
+    names = ["slip_rate", "driving_force", "maximal_slip_rate", "step_time"]
+    film = simulation[names].isel(time=frames, x=columns).assign_coords(y=grid.y[rows])
+    film["block_shear_stress"] = ("time", "y", "x"), np.array(stresses)
+    film.attrs = {"parameters": parameters.to_json()}
+    return film

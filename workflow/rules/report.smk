@@ -91,7 +91,11 @@ rule write_report:
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
         config=config,
-        digest=digest("nucleation.report.page", "nucleation.report.player", libraries=DRAWING)
+        digest=digest(
+            "nucleation.report.page",
+            "nucleation.report.player",
+            libraries=("numpy", "plotly", "jinja2", "docutils"),
+        )
         + sha256(b"".join(path.read_bytes() for path in REPORT_FILES)).hexdigest(),
     message:
         "Report"

@@ -1,0 +1,98 @@
+"""The report and Snakemake's own, made by the workflow on coarse grids."""
+
+import json
+import shutil
+
+import made_up_checks
+import numpy as np
+import pytest
+from PIL import Image
+
+from nucleation import datasets
+from nucleation.configuration import load, read_yaml
+from nucleation.report import catalogue
+
+STUDIES = ("paper", "converged")
+
+
+@pytest.fixture(scope="module")
+def reported(quick, tmp_path_factory, workflow_type):
+    """The report on the quick configuration's runs for Figure 3.
+
+    What takes long and is tested elsewhere, the checks of the solver and the patches' stability,
+    is made up and lies there already.
+    """
+    directory = tmp_path_factory.mktemp("reported")
+    results = directory / "results" / "quick"
+    results.mkdir(parents=True)
+    shutil.copytree(quick.directory / "results" / "quick" / "simulations", results / "simulations")
+    for name in ("theory.nc", "lengths.nc", "lengths.csv"):
+        shutil.copy2(quick.directory / "results" / "quick" / name, results)
+    shutil.copytree(quick.directory / "results" / "quick" / "lengths", results / "lengths")
+    lengths = datasets.read(results / "lengths.nc")
+    renamed = {f"length{end}": f"stability_length{end}" for end in ("", "_low", "_high")}
+    datasets.write(lengths.rename(renamed), results / "patch_stability.nc")
+    datasets.write(made_up_checks.dispersion(), results / "dispersion.nc")
+    datasets.write(made_up_checks.convergence(), results / "convergence.nc")
+    config = read_yaml(quick.config)
+    config["studies"] = {name: config["studies"][name] for name in STUDIES}
+    made = workflow_type(directory).configured(config)
+    done = made("report")
+    assert done.returncode == 0, done.stdout
+    return made
+
+
+@pytest.fixture(scope="module")
+def results(reported):
+    return reported.directory / "results" / "quick"
+
+
+def test_report_has_every_figure_of_the_configuration(reported, results):
+    html = (results / "report.html").read_text(encoding="utf-8")
+    expected = catalogue.drawable(list(STUDIES))
+    assert "figure_sensitivity" not in expected
+    for name in catalogue.FIGURES:
+        assert (f'<figure id="{name}">' in html) == (name in expected)
+    for run in load(reported.config).runs:
+        assert run.id in html
+    assert "http://" not in html.split("<script", 1)[0].replace("http://www.w3.org", "")
+    assert reported.planned("report") == {}
+
+
+def test_report_is_made_again_if_a_simulation_is_lost(reported, results):
+    path = next((results / "simulations").glob("paper-*.nc"))
+    away = path.rename(path.with_suffix(".away"))
+    try:
+        assert reported.planned("report")["simulate"] == 1
+    finally:
+        away.rename(path)
+
+
+def test_animation_goes_through_creep_and_event(results):
+    film = datasets.read(results / "film.nc")
+    lengths = datasets.read(results / "lengths.nc")
+    run = lengths.isel(run=int(np.flatnonzero(lengths["id"] == "paper-aging-H0.1-phi1")[0]))
+    onset = float(run["onset_time"])
+    assert film["time"][0] == 0.0
+    assert 20 < int((film["time"] > onset - 0.05).sum()) < film.sizes["time"]
+    with Image.open(results / "figures" / "animation.gif") as animation:
+        assert animation.n_frames == film.sizes["time"]
+    assert (results / "figures" / "animation.gif").stat().st_size < 4e6
+
+
+def test_snakemakes_own_report_has_the_captions(reported, results):
+    """It is one HTML file, whose texts are in JSON."""
+    page = reported.directory / "snakemake.html"
+    done = reported("report", "--report", str(page))
+    assert done.returncode == 0, done.stdout
+    html = page.read_text(encoding="utf-8")
+    for text in (
+        "The two systems.",
+        "Creep, nucleation and rupture in the run",
+        "paper-aging-H0.1-phi1",
+        "Every figure and table of",
+        json.dumps(catalogue.FIGURES["figure_3"].title)[1:-1],
+        catalogue.CHECKS,
+    ):
+        assert text in html, text
+    assert "{{ snakemake" not in html
