@@ -115,6 +115,7 @@ class Opened:
 
     def __init__(self, browser, path: Path, **options) -> None:
         self.page = browser.new_context(**options).new_page()
+        self.page.set_default_timeout(120_000)  # ms: the machine may be busy
         self.requests: list[str] = []
         self.complaints: list[str] = []
         self.page.on("request", lambda request: self.requests.append(request.url))
