@@ -53,9 +53,12 @@ def printed(blocks: list[Sample]) -> Iterator[tuple[Sample, str | None]]:
 
 
 def commands(blocks: list[Sample]) -> Iterator[tuple[int, str]]:
-    """The commands of the shell samples, continued lines joined and remarks left out."""
+    """The commands of the shell samples, continued lines joined and remarks left out.
+
+    A ``console`` block is a transcript, with what the command prints: tests/commands/test_page.py.
+    """
     for block in blocks:
-        if block.language in ("sh", "bash", "shell", "console"):
+        if block.language in ("sh", "bash", "shell"):
             joined = block.code.replace("\\\n", " ")
             for number, line in enumerate(joined.splitlines()):
                 command = re.sub(r"(^|\s+)#.*", "", line).strip()

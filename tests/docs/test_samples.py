@@ -138,7 +138,8 @@ def test_python(page, tmp_path, monkeypatch):
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_every_sample_has_a_language(page):
     """A block without a known language is no code, but a drawing; it is marked as text."""
-    known = {"python", "sh", "yaml", "text", "diff", "snakemake", "{toctree}", "{eval-rst}"}
+    known = {"python", "sh", "console", "yaml", "text", "diff", "snakemake"}
+    known |= {"{toctree}", "{eval-rst}"}
     assert {sample.language for sample in samples(page)} <= known
 
 
