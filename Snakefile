@@ -119,6 +119,7 @@ include: "workflow/rules/patches.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/studies.smk"
 include: "workflow/rules/crosscheck.smk"
+include: "workflow/rules/claims.smk"
 include: "workflow/rules/report.smk"
 
 
@@ -134,5 +135,6 @@ rule paper:
         rules.figure_s2.input,
         rules.table_s1.input,
         rules.lengths.input,
+        rules.article.input,
     message:
-        f"Every figure and table is in {RESULTS}"
+        f"Every figure, table and verdict is in {RESULTS}"

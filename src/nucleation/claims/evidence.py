@@ -1,0 +1,102 @@
+"""What the claims stand on: the workflow's datasets, each asked for by what it is about."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..elasticity import Material
+from ..friction import Friction
+from ..parameters import Loading
+from ..stability import InterfaceState
+from .claim import Cause, Result
+from .measure import Measures
+from .said import Missing, Ours
+
+JUDGED, PAPERS = "converged", "paper"
+"""Studies: the one that verdicts stand on, and the one on the paper's own mesh."""
+
+MESH = "A coarse mesh lets the force drop early"
+"""Section of docs/findings.md on the difference of the two."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Evidence:
+    """Datasets and settings of one configuration.
+
+    Attributes
+    ----------
+    material, friction, loading : of the configuration.
+    interface : the main text's rounded friction.
+    theory : dataset of the theory's curves.
+    dispersion : dataset of single modes integrated in time.
+    lengths : tables of lengths, one for each study judged.
+    measures : what is read from each of their simulations, by id.
+    patches : stability of the patches of the study :data:`JUDGED`, by id.
+    """
+
+    material: Material
+    friction: Friction
+    loading: Loading
+    interface: InterfaceState
+    theory: xr.Dataset
+    dispersion: xr.Dataset
+    lengths: tuple[xr.Dataset, ...]
+    measures: dict[str, Measures]
+    patches: dict[str, xr.Dataset]
+
+    def rows(self, study: str, **labels: Any) -> list[dict[str, Any]]:
+        """Rows of the table of lengths, sorted by height (m); raises Missing if there is none."""
+        records = [row for table in self.lengths for row in table.to_dataframe().to_dict("records")]
+        wanted = {"study": study, **labels}
+        found = [row for row in records if all(_same(row[k], v) for k, v in wanted.items())]
+        if not found:
+            which = "".join(f", {name} {value}" for name, value in labels.items())
+            raise Missing(f"The configuration has no such run: study {study}{which}")
+        return sorted(found, key=lambda row: row["height"])
+
+    def row(self, study: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
+        """The one row with these labels; raises Missing if there is none."""
+        return self.rows(study, law=law, height=height, phi0=phi0)[0]
+
+    def series(self, study: str) -> list[dict[str, Any]]:
+        """The aging law's rows of a study over all heights, age 1 s."""
+        return self.rows(study, law="aging", phi0=1.0)
+
+    def measured(self, row: dict[str, Any]) -> Measures:
+        """What was read from the simulation of a row; raises Missing without it."""
+        try:
+            return self.measures[row["id"]]
+        except KeyError:
+            raise Missing(f"The simulation {row['id']} is not among the results") from None
+
+    def patch(self, row: dict[str, Any]) -> xr.Dataset:
+        """The patch's stability along the simulation of a row; raises Missing without it."""
+        try:
+            return self.patches[row["id"]]
+        except KeyError:
+            raise Missing(f"The stability of the patch of {row['id']} was not computed") from None
+
+
+def on_both(evidence: Evidence, ours: Callable[[str], Ours], note: str = "") -> Result:
+    """A number of either study: the verdict stands on the converged one.
+
+    If the number is the paper's on the paper's own mesh only, the mesh is the cause.
+    """
+    judged = ours(JUDGED)
+    try:
+        papers = ours(PAPERS)
+    except Missing:
+        return Result(judged, note=note)
+    cause = Cause(MESH, "On the paper's own mesh ours is", papers)
+    return Result(judged, on_papers_mesh=papers, cause=cause, note=note)
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(other, str):
+        return bool(one == other)
+    return bool(np.isclose(one, other, rtol=1e-9))

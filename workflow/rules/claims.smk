@@ -1,0 +1,70 @@
+# Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
+# article that tells of them. Both stand on the paper's runs and the converged ones; claims about
+# runs that the configuration does not have can't be checked, and say so.
+from nucleation.claims.evidence import JUDGED, PAPERS
+
+CLAIMS = f"{RESULTS}/claims.json"
+ARTICLE = f"{RESULTS}/article.md"
+CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
+"""Studies that claims are about."""
+
+
+localrules:
+    claims, article,
+
+
+rule evaluate_claims:
+    input:
+        theory=THEORY,
+        dispersion=DISPERSION,
+        lengths=[study_lengths(study) for study in CLAIMED],
+        simulations=[simulation(run.id) for run in runs_in(*CLAIMED)],
+        patches=patches(JUDGED),
+    output:
+        json=CLAIMS,
+        csv=f"{RESULTS}/tables/claims.csv",
+        markdown=f"{RESULTS}/tables/claims.md",
+    params:
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        loading=asdict(settings.base.loading),
+        main_text_interface=asdict(settings.main_text_interface),
+        extraction=asdict(settings.extraction),
+        digest=digest("nucleation.claims.table"),
+    threads: 1
+    message:
+        "Claims of the paper, our numbers and the verdicts"
+    script:
+        "../scripts/claims.py"
+
+
+rule write_article:
+    input:
+        claims=CLAIMS,
+        lengths=[study_lengths(study) for study in CLAIMED],
+        template=str(Path(workflow.basedir, "docs", "article.md.in")),
+    output:
+        ARTICLE,
+    params:
+        digest=digest("nucleation.article"),
+    message:
+        "Article on the replication, its numbers from the results"
+    script:
+        "../scripts/article.py"
+
+
+rule claims:
+    input:
+        rules.evaluate_claims.output,
+        simulations(*CLAIMED) if CLAIMED else [],
+    message:
+        "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"
+
+
+rule article:
+    input:
+        ARTICLE,
+        rules.claims.input,
+        [figure(name) for name in ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")],
+    message:
+        "The article is in {input[0]}"
