@@ -12,6 +12,7 @@ from nucleation.configuration import load, read_yaml
 ROOT = Path(__file__).parents[2]
 
 DRAWN = ("draw_figure_1", "draw_figure_2", "draw_figure_3", "draw_figure_s1", "draw_figure_s2")
+CLAIMING = ("dispersion", "evaluate_claims", "write_article")
 
 
 @pytest.fixture
@@ -22,8 +23,11 @@ def paper(workflow):
 def test_default_target_is_the_whole_paper(paper):
     config = load(paper.config)
     runs = len(config.runs_of("paper")) + len(config.runs_of("converged"))
-    once = ("theory", "gather_lengths", "write_table_s1", "paper", *DRAWN)
-    assert paper.planned() == {"simulate": runs, "extract": 2, **dict.fromkeys(once, 1)}
+    once = ("theory", "gather_lengths", "write_table_s1", "paper", *DRAWN, *CLAIMING)
+    patches = len(config.runs_of("converged"))
+    assert paper.planned() == {
+        "simulate": runs, "extract": 2, "patch": patches, **dict.fromkeys(once, 1)
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -39,6 +43,11 @@ def test_default_target_is_the_whole_paper(paper):
             {"theory": 1, "simulate": 6, "extract": 2, "gather_lengths": 1, "draw_figure_3": 1},
         ),
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
+        (
+            "claims",
+            {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "patch": 1,
+             "evaluate_claims": 1},
+        ),
     ],
 )
 def test_targets(workflow, target, expected):

@@ -42,10 +42,10 @@ rule write_article:
     input:
         claims=CLAIMS,
         lengths=[study_lengths(study) for study in CLAIMED],
-        template=str(Path(workflow.basedir, "docs", "article.md.in")),
     output:
         ARTICLE,
     params:
+        template=Path(workflow.basedir, "docs", "article.md.in").read_text("utf-8"),
         digest=digest("nucleation.article"),
     message:
         "Article on the replication, its numbers from the results"

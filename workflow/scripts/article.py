@@ -7,7 +7,7 @@ from nucleation import article, datasets
 
 given = snakemake.input
 text = article.render(
-    Path(given.template).read_text(encoding="utf-8"),
+    snakemake.params.template,
     json.loads(Path(given.claims).read_text(encoding="utf-8")),
     [datasets.read(path) for path in given.lengths],
 )

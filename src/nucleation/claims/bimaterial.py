@@ -40,7 +40,7 @@ def pair_ratios(points: int = 64) -> np.ndarray:
     said=formula(1.0, "Eq. (7)"),
 )  # fmt: skip
 def bimaterial_g1(evidence: Evidence) -> Ours:
-    return Ours.worst(pair_ratios()[:, 0], target=1.0)
+    return Ours.furthest(pair_ratios()[:, 0], target=1.0)
 
 
 @claim(
@@ -51,7 +51,7 @@ def bimaterial_g1(evidence: Evidence) -> Ours:
     said=formula(1.0, "Eq. (7)"),
 )  # fmt: skip
 def bimaterial_g2(evidence: Evidence) -> Ours:
-    return Ours.worst(pair_ratios()[:, 1], target=1.0)
+    return Ours.furthest(pair_ratios()[:, 1], target=1.0)
 
 
 @claim(
@@ -92,7 +92,7 @@ def bimaterial_contrast_limit(evidence: Evidence) -> Ours:
     said=formula(1.0, "Eq. (9)"),
 )  # fmt: skip
 def bimaterial_length(evidence: Evidence) -> Ours:
-    return Ours.worst(
+    return Ours.furthest(
         [
             z / marginal.half_space_load(f_beta, 1.0, z) / printed.bimaterial_ratio(f_beta, z)
             for f_beta, z in itertools.product(
@@ -112,7 +112,7 @@ def bimaterial_length(evidence: Evidence) -> Ours:
     said=formula(1.0, "1"),
 )  # fmt: skip
 def bimaterial_length_limit(evidence: Evidence) -> Ours:
-    return Ours.worst(
+    return Ours.furthest(
         [z / marginal.half_space_load(0.0, 1.0, z) for z in evidence.theory["zeta_over_a"].values],
         target=1.0,
     )
@@ -152,7 +152,7 @@ def bimaterial_decreasing(evidence: Evidence) -> Ours:
     "of a and zeta; the worst", said=formula(1.0, "the threshold"),
 )  # fmt: skip
 def strengthening_threshold(evidence: Evidence) -> Ours:
-    return Ours.worst(
+    return Ours.furthest(
         [
             marginal.strengthening_threshold(a, zeta) / printed.strengthening_threshold(a, zeta)
             for a, zeta in STRENGTHENING
@@ -174,4 +174,4 @@ def strengthening_length(evidence: Evidence) -> Ours:
         f_beta = factor * printed.strengthening_threshold(a, zeta)
         ours = zeta / marginal.half_space_load(f_beta, a, zeta)
         ratios.append(ours / printed.bimaterial_ratio(f_beta, zeta / a))
-    return Ours.worst(ratios, target=1.0)
+    return Ours.furthest(ratios, target=1.0)

@@ -6,6 +6,7 @@ In units of V/ell the growth rate solves ``a x^2 + (g - zeta) x + g = 0`` with
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Callable
 
 import numpy as np
@@ -18,7 +19,9 @@ Transfer = Callable[[float], tuple[float, float]]
 
 def growth(load: complex, a: float, zeta: float) -> complex:
     """The root of the larger real part, over V/ell."""
-    return max(np.roots([a, load - zeta, load]), key=lambda root: root.real)
+    half = 0.5 * (load - zeta) / a
+    root = cmath.sqrt(half**2 - load / a)
+    return max(root - half, -root - half, key=lambda rate: rate.real)
 
 
 def load_of(

@@ -64,6 +64,11 @@ class Ours:
         return cls.between(value, value - abs(error), value + abs(error))
 
     @classmethod
+    def furthest(cls, values: Iterable[float], target: float) -> Ours:
+        """Of several cases the one furthest from a target, as a number without uncertainty."""
+        return cls.exactly(cls.worst(values, target).value)
+
+    @classmethod
     def worst(cls, values: Iterable[float], target: float = 0.0) -> Ours:
         """Of some numbers the one furthest from a target; the range holds them all.
 

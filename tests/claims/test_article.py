@@ -1,0 +1,72 @@
+"""The article: its numbers are those of the claims and tables, and nothing is left unfilled."""
+
+import json
+import re
+
+import jinja2
+import pytest
+from reference_evidence import ROOT, evidence
+
+from nucleation.article import digits, paired, percent, render
+from nucleation.claims import table
+
+TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def given():
+    on = evidence()
+    return table.evaluate(on), on.lengths
+
+
+def test_article_follows_the_numbers(given):
+    rows, lengths = given
+    text = render(TEMPLATE, rows, lengths)
+    assert "{{" not in text and "{%" not in text and "nan" not in text
+    assert f"judged {len(rows)} of its statements" in text
+    changed = json.loads(json.dumps(rows))
+    for row in changed:
+        if row["id"] == "onset-time":
+            row["ours"] = 77.77
+    assert "77.77 converged" in render(TEMPLATE, changed, lengths)
+
+
+def test_every_run_is_in_its_table(given):
+    rows, lengths = given
+    body = re.findall(r"^\| (?:aging|slip) \|.*$", render(TEMPLATE, rows, lengths), re.M)
+    assert len(body) == lengths[0].sizes["run"]
+    assert all(len(line.split("|")) == 11 for line in body)
+
+
+def test_template_states_no_result_of_its_own():
+    """Decimal numbers stand in the template as parameters of the paper or of the figure alone."""
+    text = re.sub(r"\{[{%#].*?[}%#]\}", "", TEMPLATE, flags=re.S)
+    text = re.sub(r"\(https?://\S+\)|\[doi:\S+\]", "", text)
+    assert set(re.findall(r"\d+\.\d+", text)) == {"0.005", "0.01", "0.05", "0.1"}
+
+
+def test_article_without_runs():
+    bare = table.evaluate(evidence(lengths=(), patches={}))
+    text = render(TEMPLATE, bare, [])
+    assert "not computed" in text and "no such run" in text
+    assert len(text) > 3000
+
+
+def test_unknown_name_is_an_error(given):
+    with pytest.raises(jinja2.UndefinedError):
+        render("{{ nonsense }}", *given)
+    with pytest.raises(KeyError):
+        render("{{ claim('nonsense').ours }}", *given)
+
+
+def test_numbers_in_words():
+    assert digits(0.123456, 3) == "0.123" and digits(None, 3) == "–"
+    assert percent(0.1234) == "12 %" and percent(-0.0266, 1) == "-2.7 %" and percent(None) == "–"
+
+
+def test_runs_are_paired_by_block():
+    def row(height, law="aging"):
+        return {"law": law, "height": height, "phi0": 1.0}
+
+    one, two, other = row(0.1), row(0.2), {**row(0.1), "length": 3.0}
+    assert paired([one, two], [other]) == [(one, other), (two, None)]

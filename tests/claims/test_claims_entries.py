@@ -1,0 +1,184 @@
+"""The entries: complete, quoted, documented, and their numbers computed again in other ways."""
+
+import csv
+import json
+import math
+import re
+
+import jsonschema
+import numpy as np
+import pandas as pd
+import pytest
+from reference_evidence import REFERENCE, ROOT, evidence
+
+from nucleation.claims import table
+from nucleation.claims.claim import Verdict
+from nucleation.claims.measure import Measures
+from nucleation.claims.said import WORDS
+
+CLAIMS = [claim for claims in table.SUBJECTS.values() for claim in claims]
+FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
+LENGTHS = pd.read_csv(REFERENCE / "lengths.csv").set_index("id")
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """All claims on the reference set, without simulations."""
+    return {row["id"]: row for row in table.evaluate(evidence())}
+
+
+@pytest.fixture(scope="module")
+def reference():
+    with open(REFERENCE / "claims.csv", encoding="utf-8") as stream:
+        return {row["id"]: row for row in csv.DictReader(stream)}
+
+
+def test_claims_are_many_and_told_apart():
+    assert len(CLAIMS) >= 30
+    assert len({claim.id for claim in CLAIMS}) == len(CLAIMS)
+    assert len({claim.statement for claim in CLAIMS}) == len(CLAIMS)
+    assert all(table.SUBJECTS.values())
+
+
+@pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
+def test_claim_is_complete(claim):
+    assert re.fullmatch(r"[a-z0-9-]+", claim.id)
+    assert claim.statement.endswith(".")
+    for text in (claim.where, claim.quotation, claim.method, claim.unit):
+        assert text.strip() == text != ""
+    assert "~" not in claim.where and r"\!" not in claim.quotation
+    if claim.said is not None and claim.said.kind == "number":
+        assert claim.said.text in claim.quotation, "a stated number stands in the quotation"
+
+
+def test_rows_are_valid_by_the_schema(rows):
+    schema = json.loads((ROOT / "docs" / "claims.schema.json").read_text(encoding="utf-8"))
+    validator = jsonschema.Draft202012Validator(schema)
+    validator.validate(json.loads(table.to_json(list(rows.values()))))
+    broken = {**rows["eta"], "verdict": "splendid"}
+    assert not validator.is_valid([broken])
+    assert not validator.is_valid([{**rows["eta"], "ours": None}])
+    subjects = schema["items"]["properties"]["subject"]["enum"]
+    assert subjects == list(table.SUBJECTS)
+    assert schema["items"]["properties"]["verdict"]["enum"] == [str(v) for v in Verdict]
+
+
+def test_findings_named_by_reasons_are_there(rows, reference):
+    named = set()
+    for row in (*rows.values(), *reference.values()):
+        named |= set(re.findall(r"\(findings: (.+?)\)", row["reason"]))
+    assert named
+    for finding in named:
+        assert f"## {finding}\n" in FINDINGS or f"**{finding}.**" in FINDINGS, finding
+
+
+def test_page_has_every_reading():
+    for expression, (_, _, reading) in WORDS.items():
+        first = reading.split(",")[0].replace("at least ", "")
+        assert first.split()[-1] in PAGE, expression
+
+
+def test_every_explained_deviation_has_its_number(reference):
+    explained = [row for row in reference.values() if row["verdict"] == Verdict.EXPLAINED]
+    assert explained
+    for row in explained:
+        assert re.search(r"-?\d[\d.e+-]* \(findings: ", row["reason"]), row["id"]
+
+
+def test_reference_is_what_the_code_gives(rows, reference):
+    """Rows that need no simulation, only the tables of the reference set."""
+    assert list(reference) == list(rows)
+    evaluated = [row for row in rows.values() if "is not among the results" not in row["reason"]]
+    assert len(evaluated) > 45
+    for row in evaluated:
+        stored = reference[row["id"]]
+        assert stored["verdict"] == row["verdict"], row["id"]
+        assert stored["paper"] == (row["paper"] or "")
+        if row["ours"] is not None and row["kind"] != "formula":
+            assert row["ours"] == pytest.approx(float(stored["ours"]), rel=1e-3), row["id"]
+        elif row["ours"] is not None:
+            assert row["ours"] == pytest.approx(float(stored["ours"]), rel=1e-5, abs=1e-6)
+
+
+def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
+    failed = {id for id, row in reference.items() if row["verdict"] == Verdict.NOT_REPLICATED}
+    assert failed == {"stability-lost-at-length"}
+    unchecked = {id for id, row in reference.items() if row["verdict"] == Verdict.UNCHECKED}
+    assert unchecked == {"literature-eta", "literature-underestimate"}
+
+
+def test_onset_and_length_of_figure_s2(rows):
+    converged, papers = (LENGTHS.loc[f"{s}-aging-H0.005-phi1"] for s in ("converged", "paper"))
+    for name, column in (("onset-time", "onset_time"), ("length-shown", "length")):
+        row = rows[name]
+        assert row["ours"] == converged[column]
+        assert row["uncertainty"] == [converged[f"{column}_low"], converged[f"{column}_high"]]
+        assert row["on_papers_mesh"] == papers[column]
+        assert row["verdict"] == Verdict.EXPLAINED
+        assert "A coarse mesh lets the force drop early" in row["reason"]
+
+
+def test_agreement_with_the_theory(rows):
+    mine = LENGTHS[(LENGTHS.study == "converged") & (LENGTHS.law == "aging") & (LENGTHS.phi0 == 1)]
+    ratio = mine.length / mine.theory_length
+    assert rows["theory-agreement"]["ours"] == pytest.approx(ratio.min())
+    assert rows["theory-agreement"]["uncertainty"] == pytest.approx([ratio.min(), ratio.max()])
+    spread = ratio.iloc[np.argmax(mine.height)] / ratio.iloc[np.argmin(mine.height)]
+    assert rows["height-dependence"]["ours"] == pytest.approx(spread)
+
+
+def test_theory_by_hand(rows):
+    """The main text's numbers put into the formulas by hand."""
+    assert rows["half-spaces-wavenumber"]["ours"] == pytest.approx(
+        2 * (2 / 3) * 0.016 * 1e6 / 3.1e9 / 0.5e-6, rel=1e-6
+    )
+    assert rows["eta"]["ours"] == pytest.approx(1.5 * math.pi, rel=1e-6)
+    assert rows["uncoupled-frequency"]["ours"] == pytest.approx(
+        math.sqrt(0.016 / 0.0068) * 20.0, rel=1e-6
+    )
+    assert rows["half-spaces-g1"]["ours"] == pytest.approx(0.75, rel=1e-6)
+    assert rows["block-high-limit"]["ours"] == pytest.approx(0.25, rel=1e-6)
+
+
+def test_changes_of_law_and_age_take_the_same_definition_for_both_runs():
+    """A common factor of all lengths of a run changes the number and not only its range."""
+
+    def measures(factor, spread):
+        values = {field: 1.0 for field in Measures.__dataclass_fields__}
+        lengths = tuple(factor * (1.0 + spread * i) for i in range(9))
+        return Measures(**{**values, "lengths": lengths, "patch_rates": (1.0, 1.0, 1.0)})
+
+    base = evidence()
+    ids = {"converged-slip-H0.01-phi1": 1.05, "converged-aging-H0.01-phi1": 1.0}
+    ids |= {key.replace("converged", "paper"): value for key, value in ids.items()}
+    made_up = evidence(measures={id: measures(factor, 0.1) for id, factor in ids.items()})
+    (claim,) = [claim for claim in CLAIMS if claim.id == "slip-law-low"]
+    row = claim.evaluate(made_up)
+    assert row["uncertainty"] == pytest.approx([min(0.05, row["ours"]), max(0.05, row["ours"])])
+    lengths = [base.row("converged", law, 0.01)["length"] for law in ("slip", "aging")]
+    assert row["ours"] == pytest.approx(lengths[0] / lengths[1] - 1.0)
+
+
+def test_configuration_without_the_runs_can_not_be_checked():
+    nothing = evidence(lengths=(), patches={})
+    by_id = {claim.id: claim for claim in CLAIMS}
+    for name in ("onset-time", "theory-agreement", "stability-lost-at-length", "mesh-along"):
+        row = by_id[name].evaluate(nothing)
+        assert row["verdict"] == Verdict.UNCHECKED
+        assert "no such run: study" in row["reason"]
+    assert by_id["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
+
+
+def test_tables_hold_every_row(rows):
+    listed = list(rows.values())
+    text = table.to_csv(listed)
+    parsed = list(csv.DictReader(text.splitlines()))
+    assert [row["id"] for row in parsed] == list(rows)
+    assert float(parsed[5]["ours"] or 0.0) == pytest.approx(listed[5]["ours"] or 0.0, rel=1e-5)
+    lines = table.to_markdown(listed).splitlines()
+    assert lines[0].startswith(f"{len(rows)} claims: ")
+    body = [line for line in lines if line.startswith("| ")]
+    assert len(body) == len(rows) + 1
+    assert {len(re.findall(r"(?<!\\)\|", line)) for line in body} == {7}
+    assert sum(table.counts(listed).values()) == len(rows)

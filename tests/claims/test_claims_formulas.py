@@ -1,0 +1,90 @@
+"""The independent evaluations against exact cases, and that a wrong formula is found out."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from reference_evidence import evidence
+from stability import layer_problem
+
+from nucleation.claims import bimaterial, finite_height, marginal, printed, sliding
+from nucleation.claims.elastic_layers import Layer, block_field, chebyshev, compliance
+from nucleation.claims.said import holds
+from nucleation.elasticity import Material
+from nucleation.stability import RIGID, Body, critical_wavenumber
+
+
+@pytest.fixture(scope="module")
+def evidence_of_theory():
+    return evidence()
+
+
+def test_chebyshev_matrix_differentiates_polynomials():
+    y, d = chebyshev(12, -2.5)
+    assert y[0] == 0.0 and y[-1] == pytest.approx(-2.5)
+    np.testing.assert_allclose(d @ y**5, 5.0 * y**4, atol=1e-10)
+
+
+@pytest.mark.parametrize("far_side", ["velocity", "traction"])
+@pytest.mark.parametrize("q", [0.3, 4.0, -1.0])
+def test_compliance_is_that_of_the_general_solution_with_150_digits(q, far_side):
+    (xx, xy), (yx, yy) = layer_problem.compliance(1.0, q, 1.0, 0.3, far_side)
+    expected = np.array([[float(xx), -1j * float(xy)], [1j * float(yx), float(yy)]])
+    ours = compliance(Layer(q, 0.3, far_side=far_side), 32)
+    np.testing.assert_allclose(ours, expected, rtol=1e-8, atol=1e-8)
+
+
+def test_block_field_keeps_its_boundary_conditions():
+    y, u, w = block_field(Layer(1.5, 0.3, far_side="traction"))
+    assert u[0] == pytest.approx(1.0) and w[0] == pytest.approx(0.0, abs=1e-12)
+    assert y[-1] == pytest.approx(1.5)
+    assert np.isfinite(u).all() and np.isfinite(w).all()
+
+
+@pytest.mark.parametrize("height", [0.005, 0.1])
+def test_search_finds_the_librarys_critical_wavenumber(evidence_of_theory, height):
+    material, interface = evidence_of_theory.material, evidence_of_theory.interface
+    point = critical_wavenumber(Body(material, height, "traction"), RIGID, interface)
+    k, frequency = marginal.critical_wavenumber(
+        lambda k: finite_height.block_transfer(k * height, evidence_of_theory),
+        material.shear_modulus, interface, 2.0 * point.wavenumber,
+    )  # fmt: skip
+    assert k == pytest.approx(point.wavenumber, rel=1e-8)
+    rate = interface.velocity / interface.slip_length
+    assert frequency * rate == pytest.approx(abs(point.angular_frequency), rel=1e-7)
+
+
+WRONG = [
+    ("block_transfer", lambda f: lambda q, nu: (f(q, nu)[0] * 1.001, f(q, nu)[1]),
+     finite_height.block_g1, "1"),
+    ("block_transfer", lambda f: lambda q, nu: (f(q, nu)[0], f(q, nu)[1] * 0.999),
+     finite_height.block_g2, "1"),
+    ("bimaterial_ratio", lambda f: lambda rho, z: f(rho, 1.001 * z), bimaterial.bimaterial_length,
+     "1"),
+    ("strengthening_threshold", lambda f: lambda a, zeta: 0.999 * f(a, zeta),
+     bimaterial.strengthening_threshold, "1"),
+    ("bimaterial_contrast", lambda f: lambda psi, nu1, nu2: 1.001 * f(psi, nu1, nu2),
+     bimaterial.bimaterial_g2, "1"),
+    ("response_matrix", lambda f: lambda q, nu: f(q, 1.001 * nu), finite_height.response_matrix,
+     "0"),
+    ("block_field", lambda f: lambda q, y, nu: f(q, y, 1.001 * nu),
+     finite_height.block_displacement, "0"),
+    ("thin_length", lambda f: lambda *a: 1.02 * f(*a), finite_height.thin_length, "computed"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "change", "compute", "said"), WRONG)
+def test_wrong_formula_is_not_replicated(
+    monkeypatch, evidence_of_theory, name, change, compute, said
+):
+    claims = {c.compute: c for c in (*finite_height.CLAIMS, *bimaterial.CLAIMS)}
+    what = claims[compute].said
+    assert holds(what, compute(evidence_of_theory))
+    monkeypatch.setattr(printed, name, change(getattr(printed, name)))
+    assert holds(what, compute(evidence_of_theory)) is False
+
+
+def test_eta_follows_poissons_ratio(evidence_of_theory):
+    for nu in (0.1, 0.25, 0.4):
+        case = dataclasses.replace(evidence_of_theory, material=Material(poisson_ratio=nu))
+        assert sliding.eta(case) == pytest.approx(np.pi / (1.0 - nu), rel=1e-9)

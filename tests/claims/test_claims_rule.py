@@ -1,0 +1,152 @@
+"""The rule of verdicts on made-up numbers: each verdict, each boundary."""
+
+import math
+
+import pytest
+
+from nucleation.claims.claim import Cause, Claim, Result, Verdict, judge
+from nucleation.claims.said import (
+    FORMULA_TOLERANCE,
+    WIDEST_ALLOWANCE,
+    WORDS,
+    Missing,
+    Ours,
+    above,
+    below,
+    formula,
+    holds,
+    number,
+    words,
+)
+
+
+@pytest.mark.parametrize(
+    ("printed", "low", "high"),
+    [("13", 12.5, 13.5), ("0.15", 0.145, 0.155), ("0.0156", 0.01555, 0.01565), ("-1", -1.5, -0.5),
+     ("0.40", 0.395, 0.405), ("4e3", 3500.0, 4500.0)],
+)  # fmt: skip
+def test_printed_number_allows_half_a_unit_of_its_last_digit(printed, low, high):
+    said = number(printed)
+    assert (said.low, said.high) == pytest.approx((low, high), rel=1e-12)
+    assert holds(said, Ours.exactly(low)) and holds(said, Ours.exactly(high))
+    beyond = 1e-9 * abs(high)
+    assert not holds(said, Ours.exactly(low - beyond))
+    assert not holds(said, Ours.exactly(high + beyond))
+
+
+def test_uncertainty_widens_a_number_on_its_own_side_alone():
+    said = number("0.15")
+    assert holds(said, Ours.between(0.160, 0.155, 0.160))
+    assert not holds(said, Ours.between(0.160, 0.156, 0.200))  # its upper side is the wrong one
+    assert holds(said, Ours.between(0.140, 0.140, 0.146))
+    assert not holds(said, Ours.between(0.140, 0.100, 0.144))
+
+
+def test_wide_uncertainty_does_not_confirm():
+    said = number("0.15")
+    furthest = said.high + WIDEST_ALLOWANCE * 0.15
+    assert holds(said, Ours.between(furthest - 1e-9, 0.01, 1.0))
+    assert not holds(said, Ours.between(furthest + 1e-9, 0.01, 1.0))
+
+
+@pytest.mark.parametrize("value", [math.pi, -2.0, 0.0, 1e-9])
+def test_formula_holds_to_its_tolerance(value):
+    margin = FORMULA_TOLERANCE * (abs(value) or 1.0)
+    said = formula(value)
+    assert holds(said, Ours.exactly(value + 0.99 * margin))
+    assert not holds(said, Ours.exactly(value + 1.01 * margin))
+    assert not holds(said, Ours.exactly(value - 1.01 * margin))
+    assert holds(said, Ours.within(value, 1.01 * margin)) is None  # too uncertain to decide
+
+
+def test_bounds_are_strict_and_judge_the_number_alone():
+    assert holds(below(1.0), Ours.between(0.999, 0.5, 2.0))
+    assert not holds(below(1.0), Ours.exactly(1.0))
+    assert holds(above(1.0), Ours.exactly(1.001))
+    assert not holds(above(1.0), Ours.between(1.0, 1.0, 9.0))
+
+
+def test_words_are_intervals_with_a_reading():
+    for expression, (low, high, reading) in WORDS.items():
+        said = words(expression)
+        assert low < high and reading in said.text
+        inside = (low + min(high, 2.0 * abs(low))) / 2.0
+        assert holds(said, Ours.exactly(inside))
+        assert not holds(said, Ours.exactly(low))
+        if math.isfinite(high):
+            assert not holds(said, Ours.exactly(high))
+    with pytest.raises(KeyError):
+        words("quite nice")
+
+
+def test_undefined_number_decides_nothing():
+    for said in (number("1"), formula(1.0), below(1.0), words("most")):
+        assert holds(said, Ours.exactly(math.nan)) is None
+
+
+def test_worst_is_furthest_from_the_target():
+    ours = Ours.worst([0.9, 1.05, 1.0], target=1.0)
+    assert (ours.value, ours.low, ours.high) == (0.9, 0.9, 1.05)
+    assert math.isnan(Ours.worst([1.0, math.nan]).value)
+    with pytest.raises(ValueError):
+        Ours.worst([])
+
+
+SAID = number("13")
+GOOD, BAD = Ours.exactly(12.8), Ours.exactly(18.9)
+
+
+@pytest.mark.parametrize(
+    ("result", "verdict", "words_of_reason"),
+    [
+        (Result(GOOD), Verdict.REPLICATED, "12.8 is within 12.5 to 13.5."),
+        (Result(Ours.between(13.6, 13.4, 13.6)), Verdict.REPLICATED, "not outside it by more than"),
+        (Result(GOOD, on_papers_mesh=BAD), Verdict.REPLICATED, "it does not hold, with 18.9"),
+        (Result(BAD), Verdict.NOT_REPLICATED, "18.9 is outside 12.5 to 13.5."),
+        (Result(BAD, on_papers_mesh=GOOD), Verdict.NOT_REPLICATED, "holds as well, with 12.8"),
+        (Result(BAD, cause=Cause("Why", "Without it", GOOD)), Verdict.EXPLAINED, "(findings: Why)"),
+        (Result(BAD, cause=Cause("Why", "Without it", BAD)), Verdict.NOT_REPLICATED, "outside"),
+        (Result(GOOD, cause=Cause("Why", "Without it", BAD)), Verdict.REPLICATED, "within"),
+        (Result(Ours.exactly(math.nan)), Verdict.UNCHECKED, "no such event"),
+        (Result(BAD, cause=Cause("Why", "Without it", Ours.exactly(math.nan))),
+         Verdict.NOT_REPLICATED, "outside"),
+    ],
+)  # fmt: skip
+def test_verdicts(result, verdict, words_of_reason):
+    found, reason = judge(SAID, result)
+    assert found == verdict
+    assert words_of_reason in reason
+
+
+def test_uncertain_formula_and_far_reaching_bound_say_so():
+    verdict, reason = judge(formula(1.0), Result(Ours.within(1.0, 0.01)))
+    assert (verdict, reason) == (Verdict.UNCHECKED, "Our number is known to 0.01 only.")
+    verdict, reason = judge(below(1.0), Result(Ours.between(0.9, 0.8, 1.1)))
+    assert verdict == Verdict.REPLICATED and "Its range reaches further." in reason
+    verdict, reason = judge(below(1.0), Result(Ours.between(0.9, 0.8, 0.95)))
+    assert "reaches" not in reason
+
+
+def made_up(compute, said=SAID):
+    return Claim("made-up", "Sect. 1", "It is 13.", "$13$", "by hand", "s", said, compute)
+
+
+def test_missing_result_gives_no_number():
+    def compute(evidence):
+        raise Missing("There is no such run")
+
+    row = made_up(compute).evaluate(None)
+    assert row["verdict"] == Verdict.UNCHECKED and row["reason"] == "There is no such run."
+    assert row["ours"] is None and row["uncertainty"] is None and row["paper"] == "13"
+
+
+def test_row_holds_number_range_and_what_the_function_says():
+    row = made_up(lambda evidence: Ours.between(12.8, 12.7, 12.9)).evaluate(None)
+    assert (row["ours"], row["uncertainty"], row["unit"]) == (12.8, [12.7, 12.9], "s")
+    assert row["paper_range"] == [12.5, 13.5] and row["verdict"] == "replicated"
+    other = Result(Ours.exactly(2.0), said=below(1.0), on_papers_mesh=Ours.exactly(0.5))
+    row = made_up(lambda evidence: other).evaluate(None)
+    assert row["paper_range"] == [None, 1.0] and row["on_papers_mesh"] == 0.5
+    assert row["verdict"] == "not replicated"
+    with pytest.raises(ValueError, match="made-up says nothing"):
+        made_up(lambda evidence: GOOD, said=None).evaluate(None)

@@ -1,0 +1,63 @@
+"""The evidence of claims as the committed reference set has it: tables, but no simulations."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from nucleation.claims.evidence import Evidence
+from nucleation.configuration import load
+from nucleation.settings import Curves
+from nucleation.theory import theory_dataset
+
+ROOT = Path(__file__).parents[1]
+REFERENCE = ROOT / "results" / "reference"
+STUDIES = ("paper", "converged")
+
+
+def table(name):
+    """A table of the reference set on the dimension run."""
+    frame = pd.read_csv(REFERENCE / name)
+    return xr.Dataset({column: ("run", frame[column].to_numpy()) for column in frame})
+
+
+def of_study(tables, study):
+    return tables.isel(run=np.flatnonzero(tables["study"].values == study))
+
+
+def dispersion():
+    """results/dispersion.nc from its table, what the claims read of it."""
+    frame = pd.read_csv(REFERENCE / "dispersion.csv")
+    index = ["height", "wavenumber_over_critical", "branch"]
+    modes = frame.set_index(index).to_xarray().rename(wavenumber_over_critical="mode")
+    wavenumber = modes["mode_wavenumber"].isel(branch=0)
+    return modes.assign(
+        mode_wavenumber=wavenumber,
+        critical_wavenumber=(wavenumber / modes["mode"]).isel(mode=0, drop=True),
+    )
+
+
+def evidence(**changes):
+    """Evidence of the full configuration; theory's curves at a few points."""
+    config = load(ROOT / "config" / "config.yaml")
+    lengths = table("lengths.csv")
+    patches = table("patch_stability.csv")
+    curves = Curves(
+        heights=config.curves.heights, f_beta=config.curves.f_beta, slip_rates=(1e-6, 1e-5)
+    )
+    theory = theory_dataset(
+        config.base.material, config.base.friction, config.main_text_interface, curves
+    )
+    parts = {
+        "material": config.base.material,
+        "friction": config.base.friction,
+        "loading": config.base.loading,
+        "interface": config.main_text_interface,
+        "theory": theory,
+        "dispersion": dispersion(),
+        "lengths": tuple(of_study(lengths, study) for study in STUDIES),
+        "measures": {},
+        "patches": {str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
+    }
+    return Evidence(**{**parts, **changes})
