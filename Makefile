@@ -16,7 +16,7 @@ help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 	@echo "Variables: PYTHON (3.11) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty)"
 
-paper: $(STAMP) ## Make every figure and table of the paper, in results/
+paper: $(STAMP) ## Make every figure, table and verdict, in results/
 	$(SNAKEMAKE)
 
 report: $(STAMP) ## Make results/report.html: verdicts, figures, theory with sliders, in half an hour
@@ -45,7 +45,8 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/convergence.csv \
 		results/dispersion.csv results/figures/*.png results/figures/animation.gif \
-		results/reference/
+		results/tables/claims.csv results/tables/claims.md results/reference/
+	sed 's|](figures/|](|' results/article.md > results/reference/article.md
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml

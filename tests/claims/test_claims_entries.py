@@ -14,7 +14,7 @@ from reference_evidence import REFERENCE, ROOT, evidence
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
 from nucleation.claims.measure import Measures
-from nucleation.claims.said import WORDS
+from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 
 CLAIMS = [claim for claims in table.SUBJECTS.values() for claim in claims]
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
@@ -75,8 +75,12 @@ def test_findings_named_by_reasons_are_there(rows, reference):
 
 def test_page_has_every_reading():
     for expression, (_, _, reading) in WORDS.items():
-        first = reading.split(",")[0].replace("at least ", "")
-        assert first.split()[-1] in PAGE, expression
+        assert re.search(rf"^\| [^|]*\b{expression}\b[^|]* \| {reading} \|", PAGE, re.M), expression
+
+
+def test_page_states_the_rules_constants():
+    assert f"1e{round(math.log10(FORMULA_TOLERANCE))} of its value" in " ".join(PAGE.split())
+    assert f"at most {100 * WIDEST_ALLOWANCE:.0f} % of the number" in " ".join(PAGE.split())
 
 
 def test_every_explained_deviation_has_its_number(reference):
@@ -182,3 +186,8 @@ def test_tables_hold_every_row(rows):
     assert len(body) == len(rows) + 1
     assert {len(re.findall(r"(?<!\\)\|", line)) for line in body} == {7}
     assert sum(table.counts(listed).values()) == len(rows)
+
+
+def test_page_on_the_papers_own_point():
+    ratio = 0.15 / LENGTHS.loc["paper-aging-H0.005-phi1"].theory_length
+    assert f"which is {ratio:.2f} of the theory" in " ".join(PAGE.split())

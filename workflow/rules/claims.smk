@@ -5,6 +5,7 @@ from nucleation.claims.evidence import JUDGED, PAPERS
 
 CLAIMS = f"{RESULTS}/claims.json"
 ARTICLE = f"{RESULTS}/article.md"
+TEMPLATE = Path(workflow.basedir, "docs", "article.md.in")
 CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
 """Studies that claims are about."""
 
@@ -45,7 +46,7 @@ rule write_article:
     output:
         ARTICLE,
     params:
-        template=Path(workflow.basedir, "docs", "article.md.in").read_text("utf-8"),
+        template=lambda wildcards: TEMPLATE.read_text("utf-8"),
         digest=digest("nucleation.article"),
     message:
         "Article on the replication, its numbers from the results"

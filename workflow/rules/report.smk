@@ -35,11 +35,6 @@ def player_input(wildcards):
     return simulation(space_time_id(wildcards))
 
 
-def claims_input(wildcards):
-    """The verdicts, if the workflow has the rules that compute them (claims.smk)."""
-    return CLAIMS if "CLAIMS" in globals() else []
-
-
 rule film:
     input:
         lengths=LENGTHS,
@@ -85,7 +80,7 @@ rule write_report:
         captions=[caption_file(name) for name in REPORTED],
         datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(REPORTED)],
         player=player_input,
-        claims=claims_input,
+        claims=CLAIMS,
     output:
         f"{RESULTS}/report.html",
     params:

@@ -18,12 +18,12 @@ WIDEST_ALLOWANCE = 0.10
 """Our uncertainty widens a stated number by no more than this part of it."""
 
 WORDS: dict[str, tuple[float, float, str]] = {
-    "perfect": (0.98, 1.02, "within 2 %"),
-    "extremely well": (0.98, 1.02, "within 2 %"),
-    "computed": (0.99, 1.01, "within 1 %"),
-    "reasonably good": (0.75, 1.25, "within 25 %"),
+    "perfect": (0.98, 1.02, "within 2 % of one"),
+    "extremely well": (0.98, 1.02, "within 2 % of one"),
+    "computed": (0.99, 1.01, "within 1 % of one"),
+    "reasonably good": (0.75, 1.25, "within 25 % of one"),
     "small variation": (-0.10, 0.10, "less than 10 %"),
-    "significant": (0.10, math.inf, "more than 10 %, what the paper calls small"),
+    "significant": (0.10, math.inf, "more than 10 %"),
     "negligible": (-0.01, 0.01, "less than 1 %"),
     "typical": (1.0 / math.sqrt(10.0), math.sqrt(10.0), "within half an order of magnitude"),
     "about": (0.1, 10.0, "within an order of magnitude"),
