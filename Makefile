@@ -10,7 +10,8 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 	--workflow-profile workflow/profiles/default
 
 .DEFAULT_GOAL := help
-.PHONY: help paper report quick test lint docs bench reference schema lock clean-venv
+.PHONY: help paper report quick test lint docs bench reference schema lock clean-venv \
+	check bundle restore
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -47,6 +48,15 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 		results/dispersion.csv results/figures/*.png results/figures/animation.gif \
 		results/tables/claims.csv results/tables/claims.md results/reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
+
+check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
+	$(BIN)/snakemake check --cores 1 --workflow-profile workflow/profiles/default
+
+bundle: $(STAMP) ## Write all results with a manifest to FILE (results.tar)
+	@$(BIN)/python -m nucleation.bundle write $(or $(FILE),results.tar) config/config.yaml
+
+restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
+	@$(BIN)/python -m nucleation.bundle restore "$(FILE)"
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml

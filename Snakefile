@@ -9,6 +9,7 @@ import sys
 from dataclasses import asdict
 from pathlib import Path
 
+import snakemake.workflow
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
@@ -26,6 +27,7 @@ sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
 
 from nucleation.advice import advise
+from nucleation.cache import CheckedCache
 from nucleation.configuration import configure
 from nucleation.contradictions import directory_problem
 from nucleation.provenance import digest
@@ -33,6 +35,12 @@ from nucleation.quantities import ParameterError
 from nucleation.report.catalogue import FIGURES
 from nucleation.strict_yaml import read_yaml
 from nucleation.studies import estimated_megabytes
+
+# The profiles share simulations between checkouts and users (--cache simulate), where this variable
+# says, if it does. Snakemake looks the class up under this name.
+snakemake.workflow.LocalOutputFileCache = CheckedCache
+if "SNAKEMAKE_OUTPUT_CACHE" not in os.environ:
+    workflow.workflow_settings.cache = None
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
 if not workflow.overwrite_configfiles:
@@ -121,6 +129,7 @@ include: "workflow/rules/studies.smk"
 include: "workflow/rules/crosscheck.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/report.smk"
+include: "workflow/rules/check.smk"
 
 
 # Targets. Each names the simulations it stands on, not only its own files: after a simulation

@@ -56,6 +56,21 @@ class Configuration:
         """The runs of one study, none if there is no such study."""
         return [run for run in self.runs if run.study == study]
 
+    def theory_parameters(self) -> dict[str, Any]:
+        """What the dataset of the linear theory depends on, as plain dictionaries."""
+        parts = {
+            "material": self.base.material,
+            "friction": self.base.friction,
+            "main_text_interface": self.main_text_interface,
+            "curves": self.curves,
+        }
+        return {name: dataclasses.asdict(part) for name, part in parts.items()}
+
+    def lengths_parameters(self, study: str) -> dict[str, Any]:
+        """What the table of a study's lengths depends on, as plain dictionaries."""
+        runs = [run.to_dict() for run in self.runs_of(study)]
+        return {"runs": runs, "extraction": dataclasses.asdict(self.extraction)}
+
     @property
     def friction(self) -> Friction:
         """The friction law of the section ``friction``."""

@@ -13,11 +13,12 @@ import importlib.metadata
 import json
 import os
 import platform
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-from . import __version__
+from . import __version__, datasets
 
 PACKAGE = "nucleation"
 ROOT = Path(__file__).resolve().parent
@@ -36,13 +37,33 @@ def digest(*modules: str, libraries: tuple[str, ...] = NUMERICAL_LIBRARIES) -> s
         Dotted names, such as ``nucleation.simulation``.
     libraries : tuple of str
         Distributions whose installed version is part of the digest.
+
+    Returns
+    -------
+    str
+        ``modules @ libraries @ digest``, so that a dataset which carries it can be judged alone
+        (:func:`digest_now`).
     """
     summary = hashlib.sha256()
     for name in sorted(closure(*modules)):
         summary.update(f"{name}\n{normalised(_source(name).read_text('utf-8'))}\n".encode())
     for library in libraries:
         summary.update(f"{library} {importlib.metadata.version(library)}\n".encode())
-    return summary.hexdigest()
+    return " @ ".join([" ".join(modules), " ".join(libraries), summary.hexdigest()])
+
+
+def digest_now(text: str) -> str:
+    """What :func:`digest` says today of the modules and libraries in an earlier result of it.
+
+    Raises
+    ------
+    ValueError
+        If the text is not of that form, or names modules that are no longer there.
+    """
+    modules, libraries, _ = text.split(" @ ")
+    if not all(name.split(".")[0] == PACKAGE and _exists(name) for name in modules.split()):
+        raise ValueError(f"modules that are not here: {modules}")
+    return digest(*modules.split(), libraries=tuple(libraries.split()))
 
 
 def closure(*modules: str) -> set[str]:
@@ -126,7 +147,9 @@ def fingerprint(parameters: Any, code_digest: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def attributes(parameters: Any, code_digest: str, command: str) -> dict[str, str]:
+def attributes(
+    parameters: Any, code_digest: str, command: str, sources: Iterable[str] = ()
+) -> dict[str, str]:
     """The attributes of a dataset that say how it was made (all of them text).
 
     Parameters
@@ -137,6 +160,8 @@ def attributes(parameters: Any, code_digest: str, command: str) -> dict[str, str
         From :func:`digest`.
     command : str
         A command that makes the dataset again.
+    sources : iterable of path
+        Datasets it is made from; their contents' digests are noted by path.
     """
     seconds = os.environ.get("SOURCE_DATE_EPOCH")
     moment = (
@@ -147,7 +172,13 @@ def attributes(parameters: Any, code_digest: str, command: str) -> dict[str, str
     return {
         "parameters": json.dumps(parameters, sort_keys=True),
         "code_digest": code_digest,
+        "sources": json.dumps(contents(sources), sort_keys=True),
         "versions": json.dumps(versions(), sort_keys=True),
         "command": command,
         "created": moment.isoformat(timespec="seconds"),
     }
+
+
+def contents(paths: Iterable[str]) -> dict[str, str]:
+    """The digest of each dataset's content, by path."""
+    return {str(path): str(datasets.attributes(path)["content"]) for path in paths}

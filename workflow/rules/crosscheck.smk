@@ -45,7 +45,8 @@ rule crosscheck_freefem:
         parameters=lambda wildcards: CROSSCHECKS[wildcards.crosscheck].to_dict(),
         settings=asdict(settings.crosscheck),
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.freefem") + sha256(FREEFEM_SCRIPT.read_bytes()).hexdigest(),
+        script=sha256(FREEFEM_SCRIPT.read_bytes()).hexdigest(),
+        digest=digest("nucleation.freefem"),
     threads: 1
     message:
         "Crosscheck {wildcards.crosscheck} with FreeFem++"

@@ -13,8 +13,7 @@ rule extract:
     wildcard_constraints:
         study="|".join(settings.studies),
     params:
-        runs=lambda wildcards: [run.to_dict() for run in settings.runs_of(wildcards.study)],
-        extraction=asdict(settings.extraction),
+        parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
         digest=digest("nucleation.lengths"),
     message:
         "Critical lengths of the study {wildcards.study}"

@@ -3,10 +3,7 @@ rule theory:
     output:
         THEORY,
     params:
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
-        main_text_interface=asdict(settings.main_text_interface),
-        curves=asdict(settings.curves),
+        parameters=settings.theory_parameters(),
         digest=digest("nucleation.theory"),
     message:
         "Theory: critical lengths and friction curves"

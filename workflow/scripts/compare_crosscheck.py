@@ -10,6 +10,8 @@ rows = {
     for name, first, second in zip(params.ids, own, freefem, strict=True)
 }
 table = crosscheck.gather(rows)
-attributes = provenance.attributes(params.extraction, params.digest, "snakemake crosscheck")
+attributes = provenance.attributes(
+    params.extraction, params.digest, "snakemake crosscheck", [*own, *freefem]
+)
 datasets.write(table, snakemake.output.dataset, **attributes)
 datasets.write_text(lengths.to_csv(table, crosscheck.COLUMNS), snakemake.output.table)

@@ -4,10 +4,11 @@ from nucleation import datasets, lengths, provenance
 from nucleation.settings import ExtractionSettings
 
 params = snakemake.params
-table = lengths.gather(
-    params.runs, map(datasets.read, snakemake.input), ExtractionSettings(**params.extraction)
+runs, extraction = params.parameters["runs"], params.parameters["extraction"]
+simulations = map(datasets.read, snakemake.input)
+table = lengths.gather(runs, simulations, ExtractionSettings(**extraction))
+attributes = provenance.attributes(
+    params.parameters, params.digest, "snakemake lengths", snakemake.input
 )
-settings = {"runs": params.runs, "extraction": params.extraction}
-attributes = provenance.attributes(settings, params.digest, "snakemake lengths")
 datasets.write(table, snakemake.output.dataset, **attributes)
 datasets.write_text(lengths.to_csv(table), snakemake.output.table)

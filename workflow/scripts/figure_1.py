@@ -4,4 +4,5 @@ from pathlib import Path
 
 from nucleation.figures import figure_1, style
 
-style.save(figure_1.draw(), Path(snakemake.output[0]).with_suffix(""))
+drawn = figure_1.draw()
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

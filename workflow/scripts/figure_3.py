@@ -13,4 +13,4 @@ drawn = figure_3.draw(
     datasets.read(snakemake.input.simulation),
     row(table, snakemake.params.id),
 )
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

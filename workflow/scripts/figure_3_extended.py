@@ -8,4 +8,4 @@ from nucleation.figures import figure_3_extended, style
 drawn = figure_3_extended.draw(
     *(datasets.read(snakemake.input[name]) for name in ("theory", "lengths", "table"))
 )
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

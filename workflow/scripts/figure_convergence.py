@@ -10,4 +10,4 @@ drawn = figure_convergence.draw(
     [datasets.read(path) for path in snakemake.input.hops],
     datasets.read(snakemake.input.patch),
 )
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

@@ -15,4 +15,4 @@ drawn = figure_crosscheck.draw(
     table.isel(run=np.array(shown)),
     ExtractionSettings(**params.extraction),
 )
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

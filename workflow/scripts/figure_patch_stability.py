@@ -10,4 +10,4 @@ drawn = figure_patch_stability.draw(
     [datasets.read(path) for path in snakemake.input.patches],
     datasets.read(snakemake.input.twins),
 )
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

@@ -6,4 +6,4 @@ from nucleation import datasets
 from nucleation.figures import figure_sensitivity, style
 
 drawn = figure_sensitivity.draw(datasets.read(snakemake.input.table))
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

@@ -4,7 +4,6 @@ from nucleation import datasets, lengths, provenance
 
 params = snakemake.params
 table = lengths.join(map(datasets.read, snakemake.input))
-settings = {"tables": list(snakemake.input)}
-attributes = provenance.attributes(settings, params.digest, "snakemake lengths")
+attributes = provenance.attributes({}, params.digest, "snakemake lengths", snakemake.input)
 datasets.write(table, snakemake.output.dataset, **attributes)
 datasets.write_text(lengths.to_csv(table), snakemake.output.table)

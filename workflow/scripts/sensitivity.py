@@ -8,6 +8,8 @@ table = sensitivity.sensitivity_table(
     params.runs, map(datasets.read, snakemake.input), ExtractionSettings(**params.extraction)
 )
 settings = {"runs": params.runs, "extraction": params.extraction}
-attributes = provenance.attributes(settings, params.digest, "snakemake figure_sensitivity")
+attributes = provenance.attributes(
+    settings, params.digest, "snakemake figure_sensitivity", snakemake.input
+)
 datasets.write(table, snakemake.output.dataset, **attributes)
 datasets.write_text(lengths.to_csv(table, sensitivity.COLUMNS), snakemake.output.table)

@@ -8,12 +8,12 @@ from nucleation.stability import InterfaceState
 from nucleation.theory import theory_dataset
 
 params = snakemake.params
+parameters = params.parameters
 dataset = theory_dataset(
-    Material(**params.material),
-    Friction(**params.friction),
-    InterfaceState(**params.main_text_interface),
-    Curves(**params.curves),
+    Material(**parameters["material"]),
+    Friction(**parameters["friction"]),
+    InterfaceState(**parameters["main_text_interface"]),
+    Curves(**parameters["curves"]),
 )
-settings = {name: value for name, value in params.items() if name != "digest"}
-attributes = provenance.attributes(settings, params.digest, "snakemake theory")
+attributes = provenance.attributes(parameters, params.digest, "snakemake theory")
 datasets.write(dataset, snakemake.output[0], **attributes)

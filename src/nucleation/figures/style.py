@@ -84,6 +84,10 @@ STYLE: dict[str, object] = {
 }
 
 
+CODE = "Code"
+"""Key under which a PNG holds the digest of the code that drew it."""
+
+
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     """Decorator: call `draw` under :data:`STYLE`, leaving matplotlib's own settings alone."""
 
@@ -102,7 +106,7 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def save(figure: Figure, stem: str | os.PathLike[str]) -> tuple[Path, Path]:
+def save(figure: Figure, stem: str | os.PathLike[str], code: str = "") -> tuple[Path, Path]:
     """Write a figure as ``stem.pdf`` and ``stem.png``, then drop its contents.
 
     The same figure gives the same bytes: the files carry no date and no program version.
@@ -114,6 +118,8 @@ def save(figure: Figure, stem: str | os.PathLike[str]) -> tuple[Path, Path]:
         The figure; it is empty afterwards, and its memory free.
     stem : path
         Path of the files without their suffix; missing directories are made.
+    code : str
+        Digest of the code that drew it (:func:`nucleation.provenance.digest`), kept in the files.
 
     Returns
     -------
@@ -122,9 +128,12 @@ def save(figure: Figure, stem: str | os.PathLike[str]) -> tuple[Path, Path]:
     """
     stem = Path(stem)
     metadata = {
-        "pdf": {"CreationDate": None, "ModDate": None, "Producer": None, "Creator": None},
-        "png": {"Software": None},
-    }
+        "pdf": {
+            "CreationDate": None, "ModDate": None, "Producer": None, "Creator": None,
+            "Keywords": code or None,
+        },
+        "png": {"Software": None} | ({CODE: code} if code else {}),
+    }  # fmt: skip
     paths = []
     with mpl.rc_context(STYLE):
         for suffix in ("pdf", "png"):
