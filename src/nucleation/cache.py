@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 from snakemake.caching.local import OutputFileCache
@@ -10,6 +11,9 @@ from snakemake.logging import logger
 
 from . import datasets
 from .datasets import DatasetError
+
+READING = threading.Lock()
+"""Snakemake fetches in several threads, which HDF5 does not bear."""
 
 
 class CheckedCache(OutputFileCache):
@@ -36,7 +40,8 @@ def _remove_if_damaged(entry: Path) -> None:
     if not entry.exists():
         return
     try:
-        datasets.read(entry)
+        with READING:
+            datasets.read(entry)
     except DatasetError as error:
         logger.warning(f"The cache's entry is removed and computed again: {error}")
         entry.unlink(missing_ok=True)

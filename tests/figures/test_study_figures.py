@@ -113,8 +113,8 @@ def test_files_embed_their_fonts(drawn, tmp_path):
 @pytest.mark.parametrize(("row", "name"), [(0, "length_over_theory"), (1, "onset_time_high")])
 def test_every_run_is_a_point(table, hops, patch, row, name):
     figure = figure_convergence.draw(table, hops, patch)
-    for axes, refined in zip(figure.axes[3 * row : 3 * row + 3], ("n_x", "n_y", "longest_step"),
-                             strict=True):  # fmt: skip
+    refinements = ("n_x", "n_y", "longest_step", "tolerance")
+    for axes, refined in zip(figure.axes[4 * row : 4 * row + 4], refinements, strict=True):
         of_it = table["refinement"].values == refined
         expected = set(zip(table[refined].values[of_it], table[name].values[of_it], strict=True))
         drawn = {tuple(point) for line in axes.get_lines() for point in line.get_xydata()}

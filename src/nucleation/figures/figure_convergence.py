@@ -19,6 +19,16 @@ SHOWN_TIME = (-5.0, 0.12)  # s about the onset
 SHOWN_RATE = 1.25  # largest slip rate shown over V, above which curves would cross
 SHIFT = 1.1  # between the curves of slip rate, over V
 ORDER = 3  # of the scheme while the body is quasi-static
+QUANTITIES = {
+    "length_over_theory": "$L_c$ over the theory's",
+    "onset_time_high": "Time of the drop $t$ (s)",
+}
+REFINED = {
+    "n_x": "Elements along $x$",
+    "n_y": "Elements along $y$",
+    "longest_step": r"Longest step $\times V/D$",
+    "tolerance": "Tolerance per step",
+}
 
 
 @style.styled
@@ -41,31 +51,22 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
         Two columns wide: lengths, times, and two rows on what makes the difference.
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 22.0 * style.CENTIMETRE)
-    grid = figure.add_gridspec(4, 3)
-    panels = [[figure.add_subplot(grid[row, i]) for i in range(3)] for row in range(2)]
-    wide = figure.add_subplot(grid[2, :])
-    lowest = [figure.add_subplot(grid[3, i]) for i in range(3)]
-    for row, (name, label) in enumerate(
-        (
-            ("length_over_theory", "$L_c$ over the theory's"),
-            ("onset_time_high", "Time of the drop $t$ (s)"),
-        )
-    ):
-        _draw_refinement(panels[row], table, name)
-        panels[row][0].set_ylabel(label)
-        for axes in panels[row][1:]:
-            axes.sharey(panels[row][0])
-            axes.tick_params(labelleft=False)
-    for axes, label in zip(panels[1], ("Elements along $x$, $N_x$", "Elements along $y$, $N_y$",
-                                       r"Longest time step over $D/V$"), strict=True):  # fmt: skip
-        axes.set_xlabel(label)
-    for axes in panels[0]:
-        axes.tick_params(labelbottom=False)
-    _draw_slip_rates(wide, hops)
-    _draw_amplitudes(lowest[0], hops)
-    _draw_frequencies(lowest[1], hops, patch)
-    _draw_orders(lowest[2], table)
-    for axes, letter in zip(figure.axes, "abcdefghij", strict=True):
+    grid = figure.add_gridspec(4, 4)
+    for row, (name, label) in enumerate(QUANTITIES.items()):
+        panels: list[Axes] = []
+        for i, (refined, meaning) in enumerate(REFINED.items()):
+            shared = panels[0] if panels else None
+            axes = figure.add_subplot(grid[row, i], sharey=shared)
+            _draw_refinement(axes, table, refined, name)
+            axes.tick_params(labelleft=not i, labelbottom=row == 1)
+            axes.set_xlabel(meaning if row == 1 else "")
+            panels.append(axes)
+        panels[0].set_ylabel(label)
+    _draw_slip_rates(figure.add_subplot(grid[2, :3]), hops)
+    _draw_orders(figure.add_subplot(grid[2, 3]), table)
+    _draw_amplitudes(figure.add_subplot(grid[3, :2]), hops)
+    _draw_frequencies(figure.add_subplot(grid[3, 2:]), hops, patch)
+    for axes, letter in zip(figure.axes, "abcdefghijkl", strict=True):
         axes.set_title(f"({letter})", loc="left")
     _add_legend(figure, table)
     return figure
@@ -97,21 +98,25 @@ def _line(table: xr.Dataset, height: float, coarse: bool) -> dict[str, object]:
     }  # fmt: skip
 
 
-def _draw_refinement(panels: Sequence[Axes], table: xr.Dataset, name: str) -> None:
-    """One measured quantity against n_x, n_y and the longest step."""
+def _draw_refinement(axes: Axes, table: xr.Dataset, refined: str, name: str) -> None:
+    """One measured quantity against what is refined."""
     coarsest = int(table["n_x"].values.min())
-    for axes, refined in zip(panels, ("n_x", "n_y", "longest_step"), strict=True):
-        axes.set_xscale("log")
-        sizes: set[float] = set()
-        for sequence, height, n_x in _sequences(table, refined):
-            size = sequence[refined].values
-            sizes.update(size.tolist())
-            look = _line(table, height, refined != "n_x" and n_x == coarsest)
-            axes.plot(size, sequence[name].values, **look)
-        axes.set_xticks(sorted(sizes), [f"{size:g}" for size in sorted(sizes)])
-        axes.xaxis.set_minor_locator(NullLocator())
-        if refined == "longest_step":
-            axes.invert_xaxis()  # finer to the right, as in the other panels
+    axes.set_xscale("log")
+    sizes: set[float] = set()
+    for sequence, height, n_x in _sequences(table, refined):
+        size = sequence[refined].values
+        sizes.update(size.tolist())
+        look = _line(table, height, refined != "n_x" and n_x == coarsest)
+        axes.plot(size, sequence[name].values, **look)
+    axes.set_xticks(sorted(sizes), [_brief(size) for size in sorted(sizes)])
+    axes.xaxis.set_minor_locator(NullLocator())
+    if refined in ("longest_step", "tolerance"):
+        axes.invert_xaxis()  # finer to the right, as in the other panels
+
+
+def _brief(size: float) -> str:
+    """A number for narrow axes, ``.04``."""
+    return f"{size:g}".removeprefix("0")
 
 
 def _draw_slip_rates(axes: Axes, hops: Sequence[xr.Dataset]) -> None:
@@ -191,10 +196,10 @@ def _draw_orders(axes: Axes, table: xr.Dataset) -> None:
             ends[0], guide[0], f"slope {ORDER} ", color=style.GUIDE, fontsize=style.SMALL,
             ha="left", va="bottom",
         )  # fmt: skip
-        axes.set_xticks(sorted(steps), [f"{step:g}" for step in sorted(steps)])
+        axes.set_xticks(sorted(steps), [_brief(step) for step in sorted(steps)])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.invert_xaxis()
-    axes.set_xlabel("Longest time step over $D/V$")
+    axes.set_xlabel(REFINED["longest_step"])
     axes.set_ylabel("Change of the drop's time (s)")
 
 
