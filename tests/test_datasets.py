@@ -160,3 +160,23 @@ def test_joined_tables_keep_their_longest_text(tmp_path):
     datasets.write(lengths.join(tables), tmp_path / "all.nc")
     joined = datasets.read(tmp_path / "all.nc")
     assert list(joined["id"].values) == ["short", "a longer one"]
+
+
+def test_no_flipped_bit_goes_unnoticed(tmp_path):
+    """Anywhere in the file, attributes and scalars included: refused, or without effect."""
+    small = xr.Dataset({"slip_rate": ("x", np.arange(40.0)), "velocity": 1e-5}, {"x": np.ones(40)})
+    path = tmp_path / "record.nc"
+    datasets.write(small, path, parameters="{}")
+    whole, original = path.read_bytes(), datasets.read(path)
+    refused = 0
+    for place in range(0, len(whole), 37):
+        flipped = bytearray(whole)
+        flipped[place] ^= 1 << (place % 8)
+        path.write_bytes(flipped)
+        try:
+            again = datasets.read(path)
+        except DatasetError:
+            refused += 1
+        else:
+            xr.testing.assert_identical(again, original)
+    assert refused > 10

@@ -75,7 +75,7 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
 def _sequences(table: xr.Dataset, refined: str) -> Iterator[tuple[xr.Dataset, float, int]]:
     """The sequences of one refined parameter, each with its height (m) and n_x."""
     rows = table.isel(run=np.flatnonzero(table["refinement"].values == refined))
-    keys = ["height"] + [] * (refined == "n_x") + ["n_x"] * (refined != "n_x")
+    keys = ["height", *(name for name in REFINED if name != refined)]
     seen = dict.fromkeys(zip(*(rows[key].values.tolist() for key in keys), strict=True))
     for key in seen:
         of_it = np.all([rows[k].values == v for k, v in zip(keys, key, strict=True)], axis=0)
