@@ -34,7 +34,7 @@ from nucleation.provenance import digest
 from nucleation.quantities import ParameterError
 from nucleation.report.catalogue import FIGURES
 from nucleation.strict_yaml import read_yaml
-from nucleation.studies import estimated_megabytes
+from nucleation.studies import estimated_megabytes, varied
 
 # The profiles share simulations between checkouts and users (--cache simulate), where this variable
 # says, if it does. Snakemake looks the class up under this name.

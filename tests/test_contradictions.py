@@ -82,7 +82,7 @@ BAD = {
     ),
     "shortest step above the longest": (
         study(TALL, defaults={"shortest_step": 0.5}),
-        [f"{RUN}: shortest_step = 0.5 s", "less than longest_step D/V = 0.005 s"],
+        [f"{RUN}: shortest_step = 0.5 s", "than the first step, 1e-07 s", "D/V = 0.005 s"],
     ),
     "stress without the start that has it": (
         study({**TALL, "initial_shear_stress": 5e4}),

@@ -10,6 +10,7 @@ from .crosscheck import runs as crosscheck_runs
 from .parameters import Mesh, Parameters
 from .quantities import ParameterError
 from .settings import CrosscheckSettings, Curves, ExtractionSettings, Limits
+from .simulation import FIRST_STEP
 from .stability import InterfaceState, NoInstability
 from .studies import Run, estimated_megabytes, theory_length
 
@@ -56,10 +57,10 @@ def run_problems(key: str, run: Run, limits: Limits) -> Iterator[str]:
     """Contradictions among the parameters of one run, which stands at a key."""
     stepping, loading = run.parameters.stepping, run.parameters.loading
     longest = stepping.longest_step * run.parameters.memory_time
-    if stepping.shortest_step >= longest:
+    if stepping.shortest_step >= min(longest, FIRST_STEP):
         yield (
-            f"{key}: shortest_step = {stepping.shortest_step:g} s is not allowed: it must be "
-            f"less than longest_step D/V = {longest:.3g} s"
+            f"{key}: shortest_step = {stepping.shortest_step:g} s is not allowed: it must be less "
+            f"than the first step, {FIRST_STEP:g} s, and longest_step D/V = {longest:.3g} s"
         )
     if loading.initial_shear_stress and loading.initial_stress == "no_slip":
         yield (

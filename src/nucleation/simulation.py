@@ -73,9 +73,7 @@ class Instant:
     control: Control
 
 
-def run(
-    parameters: Parameters, start: tuple[State, Control] | None = None
-) -> Iterator[Instant]:
+def run(parameters: Parameters, start: tuple[State, Control] | None = None) -> Iterator[Instant]:
     """Integrate in time, yielding the initial state and then every accepted step, without end.
 
     Parameters

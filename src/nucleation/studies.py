@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import Any
 
@@ -115,6 +115,18 @@ class Run:
             "height": self.parameters.geometry.height,
             "phi0": self.parameters.loading.initial_state,
         }
+
+
+def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
+    """The parameters that differ among runs of a study, each with its values in their order.
+
+    Only what the study gives is looked at: a block's length that follows from the theory is not.
+    """
+    runs = list(runs)
+    names = [name for name in STUDY_PARAMETERS if any(name in run.given for run in runs)]
+    names.sort(key=lambda name: name != "height")  # first
+    values = {name: [run.value(name) for run in runs] for name in names}
+    return {name: found for name, found in values.items() if len(set(found)) > 1}
 
 
 def expand(value: Any) -> tuple[Any, ...]:

@@ -181,10 +181,25 @@ def test_own_study_needs_no_study_of_the_paper(workflow):
 
 def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
     """A run whose steps may not get short has to fail, at once and by name."""
-    run = {"height": 0.01, "n_x": 16, "n_y": 4, "shortest_step": 0.0049}
+    run = {"height": 0.01, "n_x": 16, "n_y": 4, "shortest_step": 9.0e-8}
     done = workflow.configured({"studies": {"fails": {"runs": [run]}}})("lengths")
     assert done.returncode != 0
     (record,) = (workflow.directory / "results" / "simulations").iterdir()
-    assert record.name == "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step0.0049.failed.nc"
+    assert record.name == "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step9e-8.failed.nc"
     assert "failed: the step size fell below the shortest step allowed" in done.stdout
     assert not (workflow.directory / "results" / "lengths.nc").exists()
+
+
+EXAMPLES = {"crustal_fault": 2, "granite_laboratory": 4, "length_map": 100}
+
+
+@pytest.mark.parametrize(("name", "runs"), EXAMPLES.items())
+def test_examples_plan(workflow, name, runs):
+    example = dataclasses.replace(workflow, config=ROOT / "config" / "examples" / f"{name}.yaml")
+    expected = dict.fromkeys(("extract", "draw_figure_study", "figure_studies"), 1)
+    assert example.planned("figure_studies") == expected | {"simulate": runs}
+
+
+def test_figure_of_one_study_is_a_target(workflow):
+    expected = {"simulate": 1, "extract": 1, "draw_figure_study": 1, "figure_study_twin_runs": 1}
+    assert workflow.planned("figure_study_twin_runs") == expected

@@ -8,7 +8,7 @@ CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("
 
 
 localrules:
-    figure_convergence, figure_sensitivity,
+    figure_convergence, figure_sensitivity, figure_studies,
 
 
 def hopping(wildcards):
@@ -20,6 +20,45 @@ def hopping(wildcards):
     if not runs:
         raise WorkflowError(f"no study convergence... has a run with height {height:g}")
     return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
+
+
+# Any study against the theory, by what it varies: results/figures/study_NAME.pdf and .png.
+rule draw_figure_study:
+    input:
+        table=study_lengths("{study}"),
+    output:
+        figure("study_{study}"),
+    wildcard_constraints:
+        study="|".join(settings.studies),
+    params:
+        varied=lambda wildcards: varied(settings.runs_of(wildcards.study)),
+        digest=drawing_digest("figure_studies"),
+    message:
+        "Figure of the study {wildcards.study}: simulations and theory"
+    script:
+        "../scripts/figure_studies.py"
+
+
+for _study in settings.studies:
+
+    rule:
+        name:
+            f"figure_study_{_study}"
+        input:
+            figure(f"study_{_study}"),
+            simulations(_study),
+        localrule: True
+        message:
+            "The study's figure is in {input[0]}"
+
+
+rule figure_studies:
+    input:
+        needed([path for study in SHARED for path in figure(f"study_{study}")],
+               "study with table: lengths"),
+        simulations(),
+    message:
+        f"The studies' figures are in {RESULTS}/figures"
 
 
 rule refinement:

@@ -1,0 +1,95 @@
+"""The figure of any study: its form by what is varied, its numbers, its labels."""
+
+import drawn_layout
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.figures import figure_studies, style
+from nucleation.studies import STUDY_PARAMETERS
+
+
+def table(theory, length):
+    theory, length = np.asarray(theory, dtype=float), np.asarray(length, dtype=float)
+    columns = {
+        "length": length, "length_low": 0.9 * length, "length_high": 1.2 * length,
+        "theory_length": theory,
+    }  # fmt: skip
+    return xr.Dataset({name: ("run", values) for name, values in columns.items()})
+
+
+def draw(theory, length, **varied):
+    entries = {name: STUDY_PARAMETERS[name][1] for name in varied}
+    return figure_studies.draw(table(theory, length), varied, entries)
+
+
+def points(figure):
+    return {tuple(p) for axes in figure.axes for line in axes.lines for p in line.get_xydata()}
+
+
+def test_one_number_is_a_curve():
+    heights, theory, length = [0.1, 0.01, 0.03], [0.9, 0.3, 0.5], [0.8, 0.2, 0.4]
+    figure = draw(theory, length, height=heights)
+    (axes,) = figure.axes
+    assert axes.get_xlabel() == "Height $H$ (m)"
+    curve = next(line for line in axes.lines if line.get_label() == "theory")
+    np.testing.assert_array_equal(curve.get_xdata(), sorted(heights))
+    np.testing.assert_array_equal(curve.get_ydata(), sorted(theory))
+    assert set(zip(heights, length, strict=True)) < points(figure)
+    bars = sorted(bar[:, 1].tolist() for bar in axes.collections[0].get_segments())
+    np.testing.assert_allclose(bars, sorted([0.9 * x, 1.2 * x] for x in length))
+
+
+def test_words_tell_curves_apart():
+    figure = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], law=list("aabb"))
+    labels = figure.axes[0].get_legend_handles_labels()[1]
+    assert set(labels) == {"theory, a", "theory, b", "simulation, a", "simulation, b"}
+
+
+def test_two_numbers_on_a_grid_are_maps():
+    x, y = np.meshgrid([0.01, 0.1, 1.0], [1.0, 2.0])
+    theory, length = np.arange(1.0, 7.0), np.array([0.5, 1, 2, 3, 4, np.nan])
+    figure = draw(theory, length, height=x.ravel().tolist(), zeta_over_a=y.ravel().tolist())
+    left, right, *_ = figure.axes
+    assert left.get_ylabel() == r"Weakening over direct effect $\zeta/a$"
+    for axes, values in ((left, length), (right, length / theory)):
+        image = axes.collections[0].get_array()
+        np.testing.assert_allclose(image.filled(np.nan).ravel(), values)
+    assert (1.0, 2.0) in points(figure)  # marked: no event
+    figure.canvas.draw()
+
+
+def test_three_numbers_are_points_about_equality():
+    figure = draw([1, 2, 3], [0.9, 1.6, np.nan], height=[1, 2, 3], n_x=[8, 9, 9], phi0=[1, 1, 2])
+    assert {(1.0, 0.9), (2.0, 1.6), (3.0, 3.0)} < points(figure)
+    assert figure.axes[0].get_xlabel() == "Theory's critical length (m)"
+    line = next(li for li in figure.axes[0].lines if li.get_label() == "equality")
+    np.testing.assert_array_equal(line.get_xdata(), line.get_ydata())
+
+
+def test_numbers_off_a_grid_and_single_runs_are_points():
+    for figure in (draw([1, 2], [0.9, 1.6], height=[1, 2], phi0=[1, 2]), draw([1.0], [0.9])):
+        assert figure.axes[0].get_xlabel() == "Theory's critical length (m)"
+
+
+def test_study_in_which_nothing_happens():
+    figure = draw([1, 2], [np.nan, np.nan], height=[1, 2])
+    assert figure.axes[0].get_legend_handles_labels()[1] == ["theory", "no event"]
+
+
+@pytest.mark.parametrize("kind", ["curve", "map", "points"])
+def test_nothing_is_cut_or_overlaps(kind, tmp_path):
+    heights = np.geomspace(0.005, 0.1, 5)
+    varied = {"height": heights.tolist()}
+    if kind == "map":
+        x, y = np.meshgrid(heights, [1.0, 2.0, 4.0])
+        varied = {"height": x.ravel().tolist(), "normal_stress": (1e6 * y).ravel().tolist()}
+    if kind == "points":
+        varied |= {"n_x": [100, 200, 300, 400, 500], "phi0": [1.0, 2.0, 3.0, 4.0, 5.0]}
+    size = len(varied["height"])
+    figure = draw(np.linspace(1, 2, size), np.linspace(0.9, 1.5, size), **varied)
+    figure.canvas.draw()
+    assert drawn_layout.overlaps(figure) == []
+    assert drawn_layout.cut_off(figure) == []
+    paths = style.save(figure, tmp_path / "study")
+    assert all(path.stat().st_size > 1000 for path in paths)
