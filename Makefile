@@ -29,8 +29,9 @@ quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 test: $(STAMP) ## Run the tests
 	@$(BIN)/python -m pytest
 
-lint: $(STAMP) ## Check the code's style
+lint: $(STAMP) ## Check the code's style and types
 	@$(BIN)/ruff check .
+	@$(BIN)/mypy
 
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html

@@ -93,7 +93,7 @@ class Checkpoint:
         stored = arrays()
         labels = {"fingerprint": self._fingerprint, "content": _digest(stored)}
         with replacing(self.path) as temporary, temporary.open("wb") as file:
-            np.savez(file, **{name: np.array(text) for name, text in labels.items()}, **stored)
+            np.savez(file, **{name: np.array(text) for name, text in labels.items()}, **stored)  # type: ignore[arg-type]
         self._last = time.monotonic()
         if self._asked is not None:
             raise Stopped(f"stopped by {self._asked}; a further run goes on from {self.path}")
@@ -119,5 +119,5 @@ def _digest(arrays: Arrays) -> str:
     summary = hashlib.sha256()
     for name, values in sorted(arrays.items()):
         summary.update(f"{name} {values.dtype} {values.shape}\n".encode())
-        summary.update(np.ascontiguousarray(values))
+        summary.update(np.ascontiguousarray(values))  # type: ignore[arg-type]
     return summary.hexdigest()

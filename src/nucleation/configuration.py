@@ -143,7 +143,7 @@ def _group(name: str, values: dict[str, Any]) -> Any:
         if entries[key].many:
             typed[key] = tuple(float(x) for x in expand(value))
         else:
-            typed[key] = float(value) if entries[key].kind == "float" else value
+            typed[key] = float(value) if entries[key].kind == "float" else value  # type: ignore[assignment]
     return schema.GROUPS[name](**typed)
 
 
@@ -154,7 +154,7 @@ def _is_integer(_: Any, value: Any) -> bool:
 def _is_finite(_: Any, value: Any) -> bool:
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         return False
-    return abs(value) <= sys.float_info.max  # also of integers beyond the largest float; not NaN
+    return abs(value) <= sys.float_info.max  # type: ignore[operator]  # also of integers beyond the largest float; not NaN
 
 
 _Validator = jsonschema.validators.extend(
@@ -177,7 +177,7 @@ def _causes(error: ValidationError) -> list[ValidationError]:
     if error.validator != "anyOf":
         return [error]
     forms = {list: "array", dict: "object"}
-    wanted = forms.get(type(error.instance))
+    wanted = forms.get(type(error.instance))  # type: ignore[call-overload]
     kinds = [branch.get("type") for branch in error.validator_value]
     chosen = kinds.index(wanted) if wanted in kinds else 0
     return [cause for cause in error.context if cause.relative_schema_path[0] == chosen]
@@ -237,11 +237,11 @@ def _range_problems(values: dict[str, Any]) -> Iterator[str]:
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
             path = ("studies", name, "runs", number)
-            places += [((*path, k), v) for k, v in entry.items()]
+            places += [((*path, k), v) for k, v in entry.items()]  # type: ignore[misc]
             size = grid_size(entry)
             if size > LARGEST_GRID:
                 yield f"{key_text(path)} stands for {size} simulations, more than {LARGEST_GRID}"
-    for path, value in places:
+    for path, value in places:  # type: ignore[assignment]
         problem = range_problem(value)
         if problem:
             yield f"{key_text(path)}: {problem}"

@@ -132,7 +132,7 @@ def errors(dynamics: ManufacturedDynamics, rungs: ArrayLike) -> tuple[float, flo
     Root mean squares of the nodal values' errors: of the displacement over :data:`SCALE`, of the
     slip rate over V, of log(phi). Without friction only the first has a meaning.
     """
-    state, _ = dynamics.run(*rungs)
+    state, _ = dynamics.run(*rungs)  # type: ignore[misc]
     return (
         dynamics.displacement_error(state) / SCALE,
         dynamics.slip_rate_error(state) / dynamics.velocity,

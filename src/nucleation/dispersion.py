@@ -182,7 +182,7 @@ def disagreement(dataset: xr.Dataset) -> xr.DataArray:
     """``|Lambda - Lambda_theory| / |Lambda_theory|`` on (height, mode, branch)."""
     growth = dataset["measured_growth"] - dataset["theory_growth"]
     frequency = dataset["measured_frequency"] - dataset["theory_frequency"]
-    return np.hypot(growth, frequency) / np.hypot(
+    return np.hypot(growth, frequency) / np.hypot(  # type: ignore[return-value]
         dataset["theory_growth"], dataset["theory_frequency"]
     )
 

@@ -107,7 +107,7 @@ def extract(
         settings.drop,
     )
     names = ("onset_time", "onset_time_low", "onset_time_high")
-    names += ("length", "length_low", "length_high")
+    names += ("length", "length_low", "length_high")  # type: ignore[assignment]
     if onset is None:
         return dict.fromkeys(names, float("nan"))
     instants = time[[onset.start, onset.steep, onset.end]]

@@ -189,7 +189,7 @@ class Fault:
             flat = [np.broadcast_to(x, shape).ravel() for x in inputs]
             parameters = np.stack(flat[: len(names)], axis=1)
             points, group = np.unique(parameters, axis=0, return_inverse=True)
-            found = np.empty((parameters.shape[0], rows), dtype=dtype)
+            found = np.empty((parameters.shape[0], rows), dtype=dtype)  # type: ignore[var-annotated]
             order = np.argsort(group.ravel(), kind="stable")
             ends = np.cumsum(np.bincount(group.ravel(), minlength=len(points)))
             for point, chosen in zip(points, np.split(order, ends[:-1]), strict=True):

@@ -59,7 +59,7 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     recorded = simulation["time"].values
     event = event_interval(simulation, float(row["onset_time"]))
     frames = chosen_frames(recorded, event, MOST_FRAMES)
-    stresses = []
+    stresses = []  # type: ignore[var-annotated]
     for instant in run(parameters):
         if instant.state.time >= recorded[frames[len(stresses)]]:
             stress = shear_stress(body, grid, instant.state, parameters.material.shear_modulus)

@@ -130,7 +130,7 @@ def read(directory: Path, parameters: Parameters) -> xr.Dataset:
         raise FreeFemError(f"the records in {directory} can't be read: {error}") from error
     fields = frames[:, 1:].reshape(-1, len(FIELDS), nodes)
     data = {name: (("time", "x"), fields[:, i]) for i, name in enumerate(FIELDS)}
-    data |= {name: (("step",), row) for name, row in rows.items()}
+    data |= {name: (("step",), row) for name, row in rows.items()}  # type: ignore[misc]
     coords = {"time": frames[:, 0], "x": np.linspace(0.0, geometry.length, nodes)}
     attributes = {
         "parameters": parameters.to_json(),

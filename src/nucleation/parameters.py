@@ -109,7 +109,7 @@ class Parameters:
     def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value."""
         groups = {f.name: f.default for f in dataclasses.fields(cls)}
-        return cls(**{name: type(default)(**values[name]) for name, default in groups.items()})
+        return cls(**{name: type(default)(**values[name]) for name, default in groups.items()})  # type: ignore[misc]
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
         """A copy with other values of the fields of its groups, given by field name alone."""

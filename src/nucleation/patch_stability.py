@@ -60,7 +60,7 @@ class FrozenPatch:
     def eigenvalues(self) -> ComplexArray:
         """All eigenvalues Lambda (1/s), fastest growing first."""
         values = np.linalg.eigvals(self.matrix)
-        return values[np.argsort(-values.real)]
+        return values[np.argsort(-values.real)]  # type: ignore[return-value]
 
     def oscillating(self, frequency: float) -> complex:
         """The fastest growing eigenvalue of at least an angular frequency (1/s), or NaN."""
@@ -138,6 +138,6 @@ def frozen_patch(
     v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
     f = law.coefficient(v, phi)
     f_v, f_phi = law.derivatives(v, phi)
-    stiffness, coupling = operator.tangent(nodes)
+    stiffness, coupling = operator.tangent(nodes)  # type: ignore[arg-type]
     by_w = -(stiffness + f[:, None] * coupling) / (f_v * force)[:, None]
     return FrozenPatch(nodes, by_w, -f_phi * phi / f_v, *log_state_derivatives(law, v, phi))

@@ -49,7 +49,7 @@ class Quantity:
         number = numbers.Integral if self.kind == "int" else numbers.Real
         if isinstance(value, bool) or not isinstance(value, number):
             return False
-        above = value > self.low or (self.closed in ("low", "both") and value == self.low)
+        above = value > self.low or (self.closed in ("low", "both") and value == self.low)  # type: ignore[operator]
         below = value < self.high or (self.closed in ("high", "both") and value == self.high)
         return above and below
 

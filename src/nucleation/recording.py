@@ -140,8 +140,8 @@ class Recorder:
         bulk = np.array([fields for _, fields in self._snapshots])
         rows = [np.array(column) for column in zip(*self._rows, strict=True)]
         data = {name: (("time", "x"), frames[:, i]) for i, name in enumerate(frame_names)}
-        data |= {name: (("step",), row) for name, row in zip(row_names, rows, strict=True)}
-        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(bulk_names)}
-        data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))
+        data |= {name: (("step",), row) for name, row in zip(row_names, rows, strict=True)}  # type: ignore[misc]
+        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(bulk_names)}  # type: ignore[misc]
+        data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))  # type: ignore[assignment]
         coords = {"time": [t for t, _ in self._frames], "x": self.grid.x, "y": self.grid.y}
         return xr.Dataset(data, coords=coords, attrs={"parameters": self.parameters.to_json()})

@@ -96,7 +96,7 @@ def _study() -> Node:
         "minItems": 1,
         "items": _mapping("a value, a list of values or a range for any parameter", varied),
     }
-    runs["items"]["minProperties"] = 1
+    runs["items"]["minProperties"] = 1  # type: ignore[index]
     defaults = _mapping("values for all runs of the study that do not give their own", single)
     return _mapping("a study", {**settings, "defaults": defaults, "runs": runs}, ["runs"])
 

@@ -73,7 +73,7 @@ def command(
     )
     lengths = lengths_of(fault, weakening_rate)
     print_as = _as_json if as_json else _as_text
-    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))
+    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))  # type: ignore[misc]
     return DONE if np.isfinite(mode.length) else STABLE
 
 

@@ -55,7 +55,7 @@ def assemble(grid: Grid, material: Material) -> tuple[sparse.csr_matrix, sparse.
         local = _element_matrices(grid.dx, dy, material)
         corners = ((0, 0), (1, 0), (0, 1), (1, 1))
         numbers = np.stack(
-            [unknown(grid, columns + a, j + b, c) for a, b in corners for c in (0, 1)], axis=1
+            [unknown(grid, columns + a, j + b, c) for a, b in corners for c in (0, 1)], axis=1  # type: ignore[arg-type]
         )
         rows = np.repeat(numbers, 8, axis=1).ravel()
         cols = np.tile(numbers, (1, 8)).ravel()
@@ -64,4 +64,4 @@ def assemble(grid: Grid, material: Material) -> tuple[sparse.csr_matrix, sparse.
     return tuple(
         sparse.csr_matrix((values, (rows, cols)), shape=(size, size))
         for values in (stiffness, mass)
-    )  # type: ignore[return-value]
+    )

@@ -146,7 +146,7 @@ class Body:
         kernels.add_inertia(
             self.stacked.mass, rho_s * self.x_mass, coefficients,
             tuple(field.modes for _, field in terms),
-            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],
+            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],  # type: ignore[operator]
             load.modes, near, modes,
         )  # fmt: skip
         return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))

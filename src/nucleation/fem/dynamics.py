@@ -74,7 +74,7 @@ class State:
 
     def to_arrays(self) -> dict[str, Array]:
         """The state as plain arrays by name, to be stored; exact."""
-        arrays = {}
+        arrays = {}  # type: ignore[var-annotated]
         for entry in dataclasses.fields(self):
             value = getattr(self, entry.name)
             if isinstance(value, Field):
@@ -139,9 +139,9 @@ class Dynamics:
         response = operator.respond(self._load, np.zeros(n))
         if self._initial_shear is not None:
             forces = -self._initial_shear * self.grid.nodal_lengths[1:]
-            stiffness, _ = operator.tangent(np.arange(1, n + 1))
+            stiffness, _ = operator.tangent(np.arange(1, n + 1))  # type: ignore[arg-type]
             slipped = np.linalg.solve(stiffness, forces - response.tangential)
-            response = operator.respond(self._load, slipped)
+            response = operator.respond(self._load, slipped)  # type: ignore[arg-type]
         w = response.w
         modes, _ = operator.solve(self._load, self.body.sine_amplitudes(w), response.edge)
         displacement = Field(modes, response.edge)

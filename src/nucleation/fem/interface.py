@@ -68,7 +68,7 @@ class Factors:
         active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
         if not active.size:
             return cls(active, damping[active], np.empty((0, 0)), np.empty(0, dtype=np.int32))
-        stiffness, coupling = operator.tangent(active + 1)
+        stiffness, coupling = operator.tangent(active + 1)  # type: ignore[arg-type]
         coupling *= coefficient[active, None]
         stiffness += coupling
         stiffness *= beta

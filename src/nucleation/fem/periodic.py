@@ -145,7 +145,7 @@ class PeriodicDynamics(Dynamics):
         self.body = PeriodicBody(self.grid, parameters.material)
         law, sigma0 = parameters.friction, parameters.loading.normal_stress
         self._steady_log_state = float(np.log(law.steady_state(self.velocity)))
-        self._load = self.body.top_load(sigma0, sigma0 * law.steady_coefficient(self.velocity))
+        self._load = self.body.top_load(sigma0, sigma0 * law.steady_coefficient(self.velocity))  # type: ignore[arg-type]
 
     def sliding_state(self, perturbation: Array) -> State:
         """Homogeneous steady sliding, with a perturbation of log(phi) at the period's nodes."""
@@ -163,4 +163,4 @@ class PeriodicDynamics(Dynamics):
     def _operator(self, rung: int) -> PeriodicOperator:
         if rung not in self._operators:
             self._operators[rung] = PeriodicOperator(self.body, 1.0 / rung_value(rung) ** 2)
-        return self._operators[rung]
+        return self._operators[rung]  # type: ignore[return-value]

@@ -80,7 +80,7 @@ class ManufacturedDynamics(Dynamics):
     def prescribe(self, time: float) -> None:
         """Set the load and the interface of the step that ends at `time` (s)."""
         self._load = self.loads.field(self.loads.nodal(time))
-        self.interface = GivenDisplacement(self.interface.friction, self.exact_w(time))
+        self.interface = GivenDisplacement(self.interface.friction, self.exact_w(time))  # type: ignore[assignment]
 
     def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
         """One step of the solver, its loads being those at the new time."""
@@ -131,7 +131,7 @@ class ManufacturedDynamics(Dynamics):
         states = [self.exact_log_state(self.grid.x, t) for t in times]
         w = [self.exact_w(t) for t in times]
         momenta = [self.body.momentum_x(fields[i]) for i in (1, 3)]
-        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta)
+        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta)  # type: ignore[arg-type, call-arg]
 
     # -- errors ---------------------------------------------------------------------------------
 
@@ -185,7 +185,7 @@ class ManufacturedFriction(ManufacturedDynamics):
 
     def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
         """Exact psi = log(phi) at x (m), or its derivative in time (1/s)."""
-        return sum(term(x, np.zeros_like(x), time, by_t=by_t) for term in self.log_state)
+        return sum(term(x, np.zeros_like(x), time, by_t=by_t) for term in self.log_state)  # type: ignore[return-value]
 
     def friction_coefficient(self, x: Array, time: float) -> Array:
         """f(v, phi) of the exact slip rate and state at x (m)."""

@@ -69,7 +69,7 @@ class Displacement:
 
     def value(self, component: int, x: Array, y: Array, t: float, **orders: int) -> Array:
         """w_x (component 0) or u_y (1), or a derivative, at x, y (m) and t (s)."""
-        return sum(term(x, y, t, **orders) for term in self.terms[component])
+        return sum(term(x, y, t, **orders) for term in self.terms[component])  # type: ignore[return-value]
 
     def stress(
         self, x: Array, y: Array, t: float, by_x: int = 0, by_y: int = 0

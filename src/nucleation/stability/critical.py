@@ -137,7 +137,7 @@ def _bracket(
         g, rho = _load_and_coupling(low, upper, lower, interface)
         growing = low[_stability_margin(g, rho, interface) < 0.0]
         unstable = max(unstable, growing.max(initial=0.0))
-        undecided = (low > unstable) & ~_certainly_stable(low, high, upper, lower, interface)
+        undecided = (low > unstable) & ~_certainly_stable(low, high, upper, lower, interface)  # type: ignore[misc]
         undecided |= low == unstable
         low, high = low[undecided], high[undecided]
         if low.size and np.log(high[0] / low[0]) < RESOLUTION:

@@ -175,7 +175,7 @@ def series_stiffness(upper: Stiffness | None, lower: Stiffness | None, ratio: fl
     only entry with a subtraction, which vanishes exactly for mirror-symmetric pairs.
     """
     if upper is None:
-        return Stiffness(lower.xx, -lower.xy, lower.yy, lower.det)
+        return Stiffness(lower.xx, -lower.xy, lower.yy, lower.det)  # type: ignore[union-attr]
     if lower is None:
         return upper
     a, b, r = upper, lower, ratio
@@ -194,7 +194,7 @@ def _pair_stiffness(k: Array, upper: Body | RigidBody, lower: Body | RigidBody) 
     ratio = 1.0
     if isinstance(upper, Body) and isinstance(lower, Body):
         ratio = lower.material.shear_modulus / upper.material.shear_modulus
-    return series_stiffness(*stiffness, ratio)
+    return series_stiffness(*stiffness, ratio)  # type: ignore[call-arg]
 
 
 def transfer_functions(
