@@ -29,11 +29,11 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 # Notebooks are committed without outputs and executed at every build; an error stops the build.
 nb_execution_mode = "force"
-nb_execution_timeout = 300
+nb_execution_timeout = 900  # per cell; the longest takes some 20 s
 nb_execution_raise_on_error = True
 nb_merge_streams = True
 
-if not (ROOT / "docs" / "convergence.md").exists():  # pages that others link to already
+if not (ROOT / "docs" / "convergence.md").exists():  # a page that others link to already
     suppress_warnings = ["myst.xref_missing"]
 
 autosummary_generate = True

@@ -173,7 +173,7 @@ def _of_file(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
             name = fields.get(field, field)
             if name in given:
                 raise ParameterError(f"{path}: {name} is given twice")
-            given[name] = _file_value(path, name, one)
+            given[name] = _file_value(path, name, one)  # type: ignore[index]
     return DEFAULTS, given
 
 

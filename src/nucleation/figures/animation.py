@@ -50,7 +50,7 @@ def frames(film: xr.Dataset, row: xr.Dataset) -> Iterator[Image.Image]:
             figure.canvas.draw()
             if i == 0:
                 figure.set_layout_engine("none")  # nothing may move from frame to frame
-            yield Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+            yield Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")  # type: ignore[attr-defined]
 
 
 def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
