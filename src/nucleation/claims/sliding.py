@@ -294,7 +294,7 @@ def short_waves_stable(evidence: Evidence) -> Result:
             q = min(float(k * height), HALF_SPACE)
             transfer = printed.block_transfer(q, material.poisson_ratio)
             load = marginal.load_of(
-                float(k), lambda _, pair=transfer: pair, material.shear_modulus, interface
+                float(k), lambda _, pair=transfer: pair, material.shear_modulus, interface  # type: ignore[misc]
             )
             worst.append(marginal.growth(load, interface.a, interface.zeta).real)
     largest = max(worst)
