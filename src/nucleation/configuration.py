@@ -64,7 +64,7 @@ class Configuration:
             "main_text_interface": self.main_text_interface,
             "curves": self.curves,
         }
-        return {name: dataclasses.asdict(part) for name, part in parts.items()}
+        return {name: dataclasses.asdict(part) for name, part in parts.items()}  # type: ignore[call-overload]
 
     def lengths_parameters(self, study: str) -> dict[str, Any]:
         """What the table of a study's lengths depends on, as plain dictionaries."""

@@ -65,7 +65,7 @@ def draw(table: xr.Dataset, varied: Values, entries: dict[str, Quantity]) -> Fig
         if axes[0].size * axes[1].size == table.sizes["run"]:
             return _maps(table, varied, entries, numbers, axes)
     figure = style.new_figure(style.SINGLE_COLUMN, 0.85 * style.SINGLE_COLUMN)
-    axes = figure.subplots()
+    axes = figure.subplots()  # type: ignore[assignment]
     for i, (kind, chosen) in enumerate(_kinds(varied, words, table.sizes["run"])):
         look = LOOKS[i % len(LOOKS)]
         part = table.isel(run=chosen)
@@ -75,13 +75,13 @@ def draw(table: xr.Dataset, varied: Values, entries: dict[str, Quantity]) -> Fig
         else:
             _points(axes, part, part["theory_length"].values, kind, look)
     if len(numbers) == 1:
-        axes.set_xlabel(label(numbers[0], entries[numbers[0]]))
+        axes.set_xlabel(label(numbers[0], entries[numbers[0]]))  # type: ignore[attr-defined]
         _scale(axes, "x", np.asarray(varied[numbers[0]], dtype=float))
     else:
         _equality(axes, table)
-    axes.set_ylabel("Critical length $L_c$ (m)")
+    axes.set_ylabel("Critical length $L_c$ (m)")  # type: ignore[attr-defined]
     _scale(axes, "y", _lengths(table))
-    axes.legend()
+    axes.legend()  # type: ignore[attr-defined]
     return figure
 
 
