@@ -33,9 +33,6 @@ nb_execution_timeout = 900  # per cell; the longest takes some 20 s
 nb_execution_raise_on_error = True
 nb_merge_streams = True
 
-if not (ROOT / "docs" / "convergence.md").exists():  # a page that others link to already
-    suppress_warnings = ["myst.xref_missing"]
-
 autosummary_generate = True
 autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "show-inheritance": True}
