@@ -42,6 +42,7 @@ def convergence_rows():
             f"`{refined}`",
             f"{float(last['height']):g}",
             "" if refined == "n_x" else last["n_x"],
+            "" if refined == "longest_step" else last["longest_step"],
             ", ".join(f"{float(row[refined]):g}" for row in rows),
             ", ".join(f"{float(row['length_over_theory']):.3f}" for row in rows),
             ", ".join(f"{float(row['onset_time_high']):.2f}" for row in rows),
@@ -78,13 +79,16 @@ def test_page_states_the_reference(name):
     assert list(stated) == list(PAGES[name]())
 
 
-def test_last_refinement_of_the_converged_study_moves_the_length_by_little():
-    """By less than 1 %, and by 2.5 % at H = 0.005 m, where it scatters (docs/convergence.md)."""
+def test_last_refinement_of_the_finest_runs_moves_the_length_by_less_than_one_percent():
+    """At the steps of the study `converged`, at half of them for H = 0.005 m."""
+    seen = set()
     for (refined, _), group in itertools.groupby(table("refinement"), key=same):
         last = list(group)[-1]
-        if refined == "n_x" or last["n_x"] == "1600":
-            limit = 0.025 if float(last["height"]) == 0.005 else 0.01
-            assert abs(float(last["length_change"])) < limit, last["id"]
+        step = "0.01" if float(last["height"]) == 0.005 else "0.02"
+        if refined == "n_x" and last["longest_step"] == step:
+            assert abs(float(last["length_change"])) < 0.01, last["id"]
+            seen.add(float(last["height"]))
+    assert seen == {0.005, 0.02, 0.1}
 
 
 if __name__ == "__main__":
