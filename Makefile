@@ -41,12 +41,14 @@ bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
 		config/config.yaml
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
-	$(BIN)/snakemake paper figure_patch_stability figure_3_extended \
-		figure_verification figure_dispersion animation --cores $(CORES) --workflow-profile workflow/profiles/default
+	$(BIN)/snakemake paper figure_patch_stability figure_3_extended figure_convergence \
+		figure_sensitivity figure_verification figure_dispersion animation \
+		--cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/convergence.csv \
-		results/dispersion.csv results/figures/*.png results/figures/animation.gif \
+		results/dispersion.csv results/refinement.csv results/sensitivity.csv \
+		results/figures/*.png results/figures/animation.gif \
 		results/tables/claims.csv results/tables/claims.md results/reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
 
