@@ -132,6 +132,11 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/check.smk"
 
 
+# These take seconds, and run where snakemake runs. Everything else is for a cluster's jobs.
+BRIEF = ("draw_", "extract", "gather_", "write_")
+workflow.localrules(*(rule.name for rule in workflow.rules if rule.name.startswith(BRIEF)))
+
+
 # Targets. Each names the simulations it stands on, not only its own files: after a simulation
 # failed or vanished, the files made from it would otherwise still count as up to date.
 rule paper:

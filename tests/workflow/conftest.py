@@ -19,22 +19,33 @@ class Workflow:
     directory: Path
     checkout: Path = ROOT
     config: Path = ROOT / "config" / "quick.yaml"
+    profile: str = "default"
 
-    def __call__(self, *arguments: str) -> subprocess.CompletedProcess:
-        """Run snakemake; its whole output is in ``stdout``."""
+    def start(self, *arguments: str) -> subprocess.Popen:
+        """Start snakemake; its whole output comes from ``stdout``."""
         command = [sys.executable, "-m", "snakemake", *arguments]  # targets before options
         command += ["--snakefile", str(self.checkout / "Snakefile")]
-        command += ["--workflow-profile", str(self.checkout / "workflow/profiles/default")]
+        command += ["--workflow-profile", str(self.checkout / "workflow/profiles" / self.profile)]
         command += ["--directory", str(self.directory), "--configfile", str(self.config)]
-        return subprocess.run(
+        return subprocess.Popen(
             command,
             cwd=self.checkout,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=600,
         )
+
+    def __call__(self, *arguments: str) -> subprocess.CompletedProcess:
+        """Run snakemake; its whole output is in ``stdout``."""
+        process = self.start(*arguments)
+        try:
+            output, _ = process.communicate(timeout=600)
+        except subprocess.TimeoutExpired:
+            process.terminate()  # it ends its jobs
+            output, _ = process.communicate()
+            raise AssertionError(f"still running after ten minutes:\n{output}") from None
+        return subprocess.CompletedProcess(process.args, process.returncode, output)
 
     def planned(self, *arguments: str) -> dict[str, int]:
         """The rules that would run and how often, from a dry run."""

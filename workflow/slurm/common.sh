@@ -1,5 +1,5 @@
 # Shared by start.sh and stop.sh. (Munge's daemon is left running: it belongs to the machine.)
-CONFIG=/etc/slurm/slurm.conf # the place where programs look for it, whatever the environment says
+CONFIG=${1:-/etc/slurm/slurm.conf} # the default is where Debian's Slurm looks for it
 STATE=/run/nucleation-slurm
 NODES="n1 n2"
 unset SLURM_CONF
@@ -12,7 +12,7 @@ die() {
 
 # Whether the configuration is start.sh's.
 ours() {
-    head -n 1 $CONFIG 2>/dev/null | grep -q '^# nucleation: '
+    head -n 1 "$CONFIG" 2>/dev/null | grep -q '^# nucleation: '
 }
 
 # Whether the daemon of this name runs.

@@ -12,25 +12,25 @@ set -eu
 for program in munged slurmctld slurmd scontrol; do
     command -v $program >/dev/null || die "no $program here: workflow/install-debian.sh cluster"
 done
-if [ -e $CONFIG ] && ! ours; then
+if [ -e "$CONFIG" ] && ! ours; then
     die "$CONFIG is not this script's: this machine belongs to a cluster already"
 fi
-if [ ! -e $CONFIG ] && sinfo >/dev/null 2>&1; then
+if [ ! -e "$CONFIG" ] && sinfo >/dev/null 2>&1; then
     die "a Slurm that this script did not set up answers here"
 fi
 
-if ! munge --no-input | unmunge >/dev/null 2>&1; then
+if ! munge --no-input 2>/dev/null | unmunge >/dev/null 2>&1; then
     install -d -m 0755 -o munge -g munge /run/munge
     [ -s /etc/munge/munge.key ] || mungekey --create
     setpriv --reuid munge --regid munge --init-groups munged
 fi
 
 if ! ours || ! daemon controller; then # never below a running controller
-    mkdir -p "$(dirname $CONFIG)" $STATE/controller
+    mkdir -p "$(dirname "$CONFIG")" $STATE/controller
     memory=$(awk '/MemTotal/ { print int($2 / 2048) }' /proc/meminfo) # half of it, in MiB
     sed -e "s|@HOST@|$(hostname -s)|; s|@STATE@|$STATE|; s|@MEMORY@|$memory|" \
-        "$(dirname "$0")/slurm.conf" >$CONFIG
-    chmod 0644 $CONFIG
+        "$(dirname "$0")/slurm.conf" >"$CONFIG"
+    chmod 0644 "$CONFIG"
 fi
 daemon controller || slurmctld
 for node in $NODES; do

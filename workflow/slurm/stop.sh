@@ -16,5 +16,5 @@ for name in $NODES controller; do
         sleep 0.5
     done
 done
-rm -f $CONFIG
+rm -f "$CONFIG"
 rm -rf $STATE

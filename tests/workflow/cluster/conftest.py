@@ -1,0 +1,84 @@
+"""A Slurm of two virtual nodes, started and stopped by the project's scripts."""
+
+import dataclasses
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).parents[3] / "workflow" / "slurm"
+STATE = Path("/run/nucleation-slurm")
+AS_ROOT = [] if os.geteuid() == 0 else ["sudo", "--non-interactive"]
+
+
+def output_of(*command: str) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+@dataclasses.dataclass(frozen=True)
+class Slurm:
+    """The batch system, as its own commands show it."""
+
+    def start(self, *arguments: str) -> subprocess.CompletedProcess:
+        """Start what does not run."""
+        command = [*AS_ROOT, str(SCRIPTS / "start.sh"), *arguments]
+        with tempfile.TemporaryFile("w+") as log:  # the daemons would keep a pipe open
+            status = subprocess.run(command, stdout=log, stderr=log).returncode
+            log.seek(0)
+            return subprocess.CompletedProcess(command, status, log.read())
+
+    def stop(self) -> None:
+        subprocess.run([*AS_ROOT, str(SCRIPTS / "stop.sh")], check=True)
+
+    def jobs(self, directory: Path) -> list[dict[str, str]]:
+        """All jobs ever submitted from a directory, with the keys of ``scontrol show job``."""
+        lines = output_of("scontrol", "show", "job", "--oneliner").splitlines()
+        jobs = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line in lines]
+        return [job for job in jobs if job.get("WorkDir") == str(directory)]
+
+    def end(self, process: subprocess.Popen, directory: Path) -> None:
+        """End a workflow that a test has given up, with its jobs."""
+        if process.poll() is None:
+            process.terminate()
+            subprocess.run(["scancel", *(job["JobId"] for job in self.jobs(directory))])
+        process.communicate()
+
+    def pid(self, daemon: str) -> int:
+        return int((STATE / f"{daemon}.pid").read_text())
+
+    def take_down(self, node: str) -> None:
+        """Kill a node's daemon, and tell the controller, which would notice in a while."""
+        pid = self.pid(node)
+        subprocess.run([*AS_ROOT, "kill", "-KILL", str(pid)], check=True)
+        wait_for(lambda: not Path(f"/proc/{pid}").exists())
+        update = ["scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=test"]
+        subprocess.run([*AS_ROOT, *update], check=True)
+
+
+def wait_for(condition: Callable[[], object], seconds: float = 600.0) -> None:
+    """Look twice a second until a condition holds."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, f"not within {seconds:g} s"
+        time.sleep(0.5)
+
+
+@pytest.fixture(scope="session")
+def slurm() -> Iterator[Slurm]:
+    """The running batch system. It may be missing on a developer's machine, but not in CI."""
+    in_ci = os.environ.get("CI") == "true"
+    if shutil.which("slurmctld", path=f"{os.environ['PATH']}:/usr/sbin") is None and not in_ci:
+        pytest.skip("no Slurm here: workflow/install-debian.sh cluster")
+    slurm = Slurm()
+    ran_before = (STATE / "controller.pid").exists()
+    started = slurm.start()
+    if started.returncode != 0:
+        (pytest.fail if in_ci else pytest.skip)(started.stdout)
+    yield slurm
+    if not ran_before:
+        slurm.stop()
