@@ -55,6 +55,8 @@ def test_report_has_every_figure_of_the_configuration(reported, results):
         assert (f'<figure id="{name}">' in html) == (name in expected)
     for run in load(reported.config).runs:
         assert run.id in html
+    claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))
+    assert html.count('<tr role="row" data-kind=') == len(claims) > 30
     assert "http://" not in html.split("<script", 1)[0].replace("http://www.w3.org", "")
     assert reported.planned("report") == {}
 

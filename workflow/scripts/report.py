@@ -40,7 +40,7 @@ content = page.Content(
     provenance=provenance.attributes(params.config, params.digest, "snakemake report"),
     results=results,
     pictures=pictures,
-    claims=json.loads(Path(given.claims).read_text(encoding="utf-8")) if given.claims else None,
+    claims=json.loads(Path(given.claims).read_text(encoding="utf-8")),
     player=player,
 )
 datasets.write_text(page.build(content), snakemake.output[0])
