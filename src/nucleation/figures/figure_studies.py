@@ -22,7 +22,7 @@ LOOKS = (
 )  # fmt: skip
 """Marker and colour of simulations, and dashes of their theory, by the words of a study."""
 
-WIDE = 5.0
+WIDE = 4.0
 """Ratio of the largest to the smallest value from which an axis is logarithmic."""
 
 SYMBOLS = figure_sensitivity.SYMBOLS | {
