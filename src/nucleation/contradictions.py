@@ -57,10 +57,11 @@ def run_problems(key: str, run: Run, limits: Limits) -> Iterator[str]:
     """Contradictions among the parameters of one run, which stands at a key."""
     stepping, loading = run.parameters.stepping, run.parameters.loading
     longest = stepping.longest_step * run.parameters.memory_time
-    if stepping.shortest_step >= min(longest, FIRST_STEP):
+    first = FIRST_STEP * run.parameters.memory_time
+    if stepping.shortest_step >= min(longest, first):
         yield (
             f"{key}: shortest_step = {stepping.shortest_step:g} s is not allowed: it must be less "
-            f"than the first step, {FIRST_STEP:g} s, and longest_step D/V = {longest:.3g} s"
+            f"than the first step, {first:.3g} s, and longest_step D/V = {longest:.3g} s"
         )
     if loading.initial_shear_stress and loading.initial_stress == "no_slip":
         yield (

@@ -27,7 +27,7 @@ from .recording import Recorder
 Array = NDArray[np.float64]
 Arrays = dict[str, NDArray]
 
-FIRST_STEP = 1.0e-7  # s
+FIRST_STEP = 2.0e-6  # over the memory time D/V
 SAFETY = 0.85  # of the step size against the estimated error
 SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
 
@@ -93,7 +93,7 @@ def run(parameters: Parameters, start: tuple[State, Control] | None = None) -> I
     longest = beta_of_step(longest_step, longest_step)
     if start is None:
         state, report = dynamics.initial_state()
-        start = state, Control(min(FIRST_STEP, longest))
+        start = state, Control(min(FIRST_STEP * parameters.memory_time, longest))
         yield Instant(state, report, start[1])
     state, control = start
     while True:
