@@ -15,9 +15,9 @@ ours() {
     head -n 1 "$CONFIG" 2>/dev/null | grep -q '^# nucleation: '
 }
 
-# Whether the daemon of this name runs.
+# Whether the daemon of this name runs. (A zombie has no command line any more.)
 daemon() {
-    [ -s "$STATE/$1.pid" ] && kill -0 "$(cat "$STATE/$1.pid")" 2>/dev/null
+    [ -s "$STATE/$1.pid" ] && grep -q . "/proc/$(cat "$STATE/$1.pid")/cmdline" 2>/dev/null
 }
 
 if [ "$(id -u)" -ne 0 ]; then

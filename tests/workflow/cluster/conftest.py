@@ -55,7 +55,8 @@ class Slurm:
         """Kill a node's daemon, and tell the controller, which would notice in a while."""
         pid = self.pid(node)
         subprocess.run([*AS_ROOT, "kill", "-KILL", str(pid)], check=True)
-        wait_for(lambda: not Path(f"/proc/{pid}").exists())
+        command = Path(f"/proc/{pid}/cmdline")  # empty while it is a zombie
+        wait_for(lambda: not command.exists() or not command.read_bytes())
         update = ["scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=test"]
         subprocess.run([*AS_ROOT, *update], check=True)
 
