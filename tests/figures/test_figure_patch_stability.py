@@ -4,7 +4,7 @@ import drawn_layout
 import numpy as np
 import pytest
 import xarray as xr
-from conftest import critical_length
+from made_up_theory import critical_length
 
 from nucleation.figures import figure_3_extended, figure_patch_stability, style
 

@@ -5,19 +5,15 @@ import os
 import shutil
 import subprocess
 import tempfile
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from commands_of_slurm import output_of, wait_for
 
 SCRIPTS = Path(__file__).parents[3] / "workflow" / "slurm"
 STATE = Path("/run/nucleation-slurm")
 AS_ROOT = [] if os.geteuid() == 0 else ["sudo", "--non-interactive"]
-
-
-def output_of(*command: str) -> str:
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,14 +55,6 @@ class Slurm:
         wait_for(lambda: not command.exists() or not command.read_bytes())
         update = ["scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=test"]
         subprocess.run([*AS_ROOT, *update], check=True)
-
-
-def wait_for(condition: Callable[[], object], seconds: float = 600.0) -> None:
-    """Look twice a second until a condition holds."""
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, f"not within {seconds:g} s"
-        time.sleep(0.5)
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from conftest import output_of, wait_for
+from commands_of_slurm import output_of, wait_for
 
 from nucleation import datasets
 from nucleation.configuration import configure
