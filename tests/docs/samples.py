@@ -55,7 +55,8 @@ def printed(blocks: list[Sample]) -> Iterator[tuple[Sample, str | None]]:
 def commands(blocks: list[Sample]) -> Iterator[tuple[int, str]]:
     """The commands of the shell samples, continued lines joined and remarks left out.
 
-    A ``console`` block is a transcript, with what the command prints: tests/commands/test_command_line_page.py.
+    A ``console`` block is a transcript, with what the command prints, run by
+    tests/commands/test_command_line_page.py.
     """
     for block in blocks:
         if block.language in ("sh", "bash", "shell"):
