@@ -2,6 +2,8 @@
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 CORES ?= 2
 TARGETS ?=
+FAULTS ?= 200
+SEED ?=
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -11,7 +13,7 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test lint docs bench reference schema lock clean-venv \
-	check bundle restore
+	check bundle restore torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -28,6 +30,9 @@ quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 
 test: $(STAMP) ## Run the tests
 	@$(BIN)/python -m pytest
+
+torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times: nothing may be lost (half an hour)
+	PYTHONPATH=src $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
 
 lint: $(STAMP) ## Check the code's style and types
 	@$(BIN)/ruff check .

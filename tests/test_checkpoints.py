@@ -8,9 +8,10 @@ import signal
 import numpy as np
 import pytest
 
-from nucleation.checkpoints import SIGNALS, Checkpoint, Stopped
+from nucleation.checkpoints import EVERY, SIGNALS, VARIABLE, Checkpoint, Stopped, interval
 from nucleation.friction import Friction
 from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.quantities import ParameterError
 from nucleation.simulation import simulate
 
 COARSE = Parameters(
@@ -118,6 +119,20 @@ def test_checkpoints_are_written_every_so_often(tmp_path):
     for value in (1.0, 2.0):
         two.keep(lambda value=value: {"value": np.array(value)})
         assert float(two.load()["value"]) == value
+
+
+def test_environment_tells_how_often(tmp_path, monkeypatch):
+    """Only how often: what a run is does not depend on it."""
+    monkeypatch.delenv(VARIABLE, raising=False)
+    assert interval() == EVERY == 60.0
+    Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: pytest.fail("it is not yet time"))
+    monkeypatch.setenv(VARIABLE, "0")
+    Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: {"value": np.array(1.0)})
+    assert (tmp_path / "a.npz").exists()
+    for text in ("-1", "nan", "a minute"):
+        monkeypatch.setenv(VARIABLE, text)
+        with pytest.raises(ParameterError, match=f"{VARIABLE} = '{text}' is not allowed: a time"):
+            Checkpoint(tmp_path / "a.npz", "this run")
 
 
 def test_checkpoint_of_another_run_is_refused(tmp_path):

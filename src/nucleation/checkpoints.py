@@ -8,6 +8,7 @@ executes nothing.
 from __future__ import annotations
 
 import hashlib
+import math
 import os
 import signal
 import sys
@@ -21,10 +22,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .files import replacing
+from .quantities import ParameterError
 
 Arrays = dict[str, NDArray]
 
-EVERY = 60.0  # s of wall time between checkpoints
+EVERY = 60.0
+"""Wall time (s) between checkpoints, unless the variable :data:`VARIABLE` says otherwise."""
+VARIABLE = "NUCLEATION_CHECKPOINT_EVERY"
 SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 """What asks a run to stop: a scheduler's time limit or pre-emption, Ctrl-C, a closed terminal."""
 
@@ -40,7 +44,7 @@ class Checkpoint:
     ----------
     path : file of the checkpoint.
     fingerprint : identifies the parameters and the code; a checkpoint of others is refused.
-    every : wall time (s) between checkpoints.
+    every : wall time (s) between checkpoints, by default that of :func:`interval`.
     log : where messages go.
     """
 
@@ -49,12 +53,12 @@ class Checkpoint:
         path: str | os.PathLike[str],
         fingerprint: str,
         *,
-        every: float = EVERY,
+        every: float | None = None,
         log: TextIO | None = None,
     ) -> None:
         self.path = Path(path)
         self._fingerprint = fingerprint
-        self._every = every
+        self._every = interval() if every is None else every
         self._log = log or sys.stderr
         self._last = time.monotonic()
         self._asked: str | None = None  # name of the signal that asks to stop
@@ -112,6 +116,26 @@ class Checkpoint:
 
     def _say(self, message: str) -> None:
         print(message, file=self._log, flush=True)
+
+
+def interval() -> float:
+    """Wall time (s) between checkpoints, by the environment: it is no part of what a run is.
+
+    Raises
+    ------
+    ParameterError
+        If the variable is not a number of seconds.
+    """
+    text = os.environ.get(VARIABLE, "")
+    if not text:
+        return EVERY
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = math.nan
+    if not seconds >= 0.0:
+        raise ParameterError(f"{VARIABLE} = {text!r} is not allowed: a time in s, 0 or longer")
+    return seconds
 
 
 def _digest(arrays: Arrays) -> str:
