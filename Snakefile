@@ -137,7 +137,7 @@ BRIEF = ("draw_", "extract", "gather_", "write_")
 workflow.localrules(*(rule.name for rule in workflow.rules if rule.name.startswith(BRIEF)))
 
 
-# Targets. Each names the simulations it stands on, not only its own files: after a simulation
+# Targets. Each names the simulations and tables it stands on, not only its own files: after one
 # failed or vanished, the files made from it would otherwise still count as up to date.
 rule paper:
     default_target: True

@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
-from harness import IDS, Done, Place, Reference, processor_time, require
+from harness import IDS, Done, Place, Reference, Running, processor_time, require
 
 RECOVERED = "recovered"
 CLEAR_ERROR = "clear error"
@@ -93,13 +93,10 @@ def _stop_workflow(
         place.simulation(id).unlink()
     with place.unharmed():
         running = place.start()
-        try:
-            if running.spend(random.uniform(0.1, 1.0) * reference.workflow):
-                running.signal(number, group=group)
-            running.end()
-            place.finish()
-        finally:
-            running.signal(signal.SIGKILL, group=True)
+        if running.spend(random.uniform(0.1, 1.0) * reference.workflow):
+            running.signal(number, group=group)
+        running.end()
+        place.finish()
     return RECOVERED
 
 
@@ -183,6 +180,10 @@ def _mounted(directory: Path, *options: str) -> Iterator[bool]:
             subprocess.run(["umount", "--lazy", str(directory)], check=True)
 
 
+def _size_of_result(reference: Reference, id: str) -> int:
+    return Place(reference.directory).simulation(id).stat().st_size
+
+
 def _failed_for_want_of_space(done: Done, place: Place, id: str) -> None:
     said = done.output + place.log(id)
     require(done.status != 0, "it ended well without space")
@@ -201,8 +202,7 @@ def full_disk(place, reference, random):
     directory, aside = place.results / "simulations", place.directory / "aside"
     shutil.copytree(directory, aside)
     used = sum(path.stat().st_size for path in aside.iterdir())
-    needed = Place(reference.directory).simulation(id).stat().st_size
-    space = used + random.randrange(10_000, needed)
+    space = used + random.randrange(10_000, _size_of_result(reference, id))
     with _mounted(directory, "-t", "tmpfs", "-o", f"size={space}", "tmpfs") as mounted:
         if not mounted:
             shutil.rmtree(aside)
@@ -224,7 +224,7 @@ def file_size_limit(place, reference, random):
     """Writes fail in the middle of a file: of a checkpoint, or only of the larger dataset."""
     id = random.choice(IDS)
     place.simulation(id).unlink(missing_ok=True)
-    limit = random.randrange(10_000, 250_000)
+    limit = random.randrange(30_000, _size_of_result(reference, id))
 
     def prepare():
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
@@ -239,7 +239,7 @@ def file_size_limit(place, reference, random):
 def full_disk_of_the_workflow(place, reference, random):
     """The disk of the results fills up under snakemake, which names the job that failed."""
     id = random.choice(IDS)
-    limit = random.randrange(10_000, 250_000)
+    limit = random.randrange(30_000, _size_of_result(reference, id))
     place.simulation(id).unlink()
 
     def prepare():
@@ -362,8 +362,9 @@ def _damaged_dataset(place: Place, reference: Reference, random: random.Random, 
     if not listed:  # a bit without meaning
         place.require_same(reference)
         return RECOVERED
-    done = place.run("--forcerun", "extract" if path in paths[:2] else "gather_lengths")
+    done = place.run("lengths", "--forcerun", "extract" if path in paths[:2] else "gather_lengths")
     if path.name == "lengths.nc":
+        require(done.status == 0, done.output)
         return RECOVERED  # made again
     require(done.status != 0, "a table was made from a damaged dataset")
     name = path.relative_to(place.directory)
@@ -539,7 +540,8 @@ def two_scripts_of_one_simulation(place, reference, random):
 def _move_clock(place: Place, random: random.Random, offsets: tuple[float, ...]) -> None:
     for path in sorted(place.results.rglob("*")):
         then = time.time() + random.choice(offsets)
-        os.utime(path, (then, then))
+        with contextlib.suppress(FileNotFoundError):  # a temporary one
+            os.utime(path, (then, then))
 
 
 DAY = datetime.timedelta(days=1).total_seconds()
@@ -550,8 +552,8 @@ def results_from_the_future(place, reference, random):
     place.simulation(random.choice(IDS)).unlink()
     _move_clock(place, random, (DAY * random.uniform(0.01, 4000),))
     with place.unharmed():
-        place.finish()
-    return RECOVERED
+        stopped = place.finish()
+    return CLEAR_ERROR if stopped else RECOVERED
 
 
 @fault("clock set back")
@@ -563,8 +565,8 @@ def clock_set_back_during_the_run(place, reference, random):
         running.spend(random.uniform(0.2, 0.9) * reference.workflow)
         _move_clock(place, random, (DAY * random.uniform(-1.0, 1.0), 0.0))
         running.end()
-        place.finish()
-    return RECOVERED
+        stopped = place.finish()
+    return CLEAR_ERROR if stopped else RECOVERED
 
 
 @fault("clock set back")
@@ -573,8 +575,8 @@ def times_at_random(place, reference, random):
     place.simulation(random.choice(IDS)).unlink()
     _move_clock(place, random, (-20000 * DAY, -DAY, 0.0, DAY))
     with place.unharmed():
-        place.finish()
-    return RECOVERED
+        stopped = place.finish()
+    return CLEAR_ERROR if stopped else RECOVERED
 
 
 def disturb(name: str, reference: Reference, directory: Path, seed: str) -> str:
@@ -588,6 +590,9 @@ def disturb(name: str, reference: Reference, directory: Path, seed: str) -> str:
     shutil.copytree(reference.directory, directory, symlinks=True)
     place = Place(directory)
     _, function = FAULTS[name]
-    outcome = function(place, reference, random.Random(seed))
-    place.require_same(reference)
+    try:
+        outcome = function(place, reference, random.Random(seed))
+        place.require_same(reference)
+    finally:
+        Running.kill_all()
     return outcome

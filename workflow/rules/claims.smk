@@ -57,6 +57,7 @@ rule write_article:
 rule claims:
     input:
         rules.evaluate_claims.output,
+        tables(*CLAIMED) if CLAIMED else [],
         simulations(*CLAIMED) if CLAIMED else [],
     message:
         "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"

@@ -4,6 +4,11 @@ def study_lengths(study):
     return f"{RESULTS}/lengths/{study}.nc"
 
 
+def tables(*studies):
+    """The tables of some studies' lengths, of all in lengths.csv if none is named."""
+    return [study_lengths(study) for study in (studies or SHARED) if study in settings.studies]
+
+
 rule extract:
     input:
         lambda wildcards: simulations(wildcards.study),
@@ -38,6 +43,7 @@ rule gather_lengths:
 rule lengths:
     input:
         rules.gather_lengths.output,
+        tables(),
         simulations(),
     message:
         "Critical lengths are in {input[0]} and {input[1]}"

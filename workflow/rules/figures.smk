@@ -123,6 +123,8 @@ rule figure_2:
 rule figure_3:
     input:
         figure("figure_3"),
+        LENGTHS,
+        tables(),
         simulations(),
     message:
         "Figure 3 is in {input[0]}"
@@ -138,6 +140,7 @@ rule figure_s1:
 rule figure_s2:
     input:
         figure("figure_s2"),
+        tables("paper"),
         simulations("paper"),
     message:
         "Figure S2 is in {input[0]}"

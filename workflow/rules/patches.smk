@@ -122,6 +122,8 @@ rule figure_patch_stability:
     input:
         rules.draw_figure_patch_stability.output,
         f"{RESULTS}/patch_convergence.csv" if runs_in("patch_convergence") else [],
+        PATCHES,
+        TWINS,
         patches(*PATCH_TABLES["patch_stability"]),
         simulations(*PATCH_TABLES["patch_stability"]),
     message:
@@ -131,6 +133,9 @@ rule figure_patch_stability:
 rule figure_3_extended:
     input:
         rules.draw_figure_3_extended.output,
+        LENGTHS,
+        tables(),
+        PATCHES,
         simulations(),
     message:
         "Figure 3 with the patches' lengths is in {input[0]}"

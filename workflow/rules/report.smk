@@ -69,6 +69,9 @@ rule draw_animation:
 rule animation:
     input:
         rules.draw_animation.output,
+        FILM,
+        LENGTHS,
+        tables(),
         simulations("paper"),
     message:
         "The animation is in {input[0]}"

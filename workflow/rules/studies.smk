@@ -46,6 +46,7 @@ for _study in settings.studies:
             f"figure_study_{_study}"
         input:
             figure(f"study_{_study}"),
+            tables(_study),
             simulations(_study),
         localrule: True
         message:
@@ -56,6 +57,7 @@ rule figure_studies:
     input:
         needed([path for study in SHARED for path in figure(f"study_{study}")],
                "study with table: lengths"),
+        tables(),
         simulations(),
     message:
         f"The studies' figures are in {RESULTS}/figures"
@@ -107,6 +109,8 @@ rule draw_figure_convergence:
 rule figure_convergence:
     input:
         rules.draw_figure_convergence.output,
+        REFINEMENT,
+        tables(*CONVERGENCE_STUDIES),
         simulations(*CONVERGENCE_STUDIES),
     message:
         "The convergence figure is in {input[0]}, its table in {REFINEMENT}"
@@ -144,6 +148,7 @@ rule draw_figure_sensitivity:
 rule figure_sensitivity:
     input:
         rules.draw_figure_sensitivity.output,
+        SENSITIVITY,
         simulations("sensitivity"),
     message:
         "The sensitivity figure is in {input[0]}, its table in {SENSITIVITY}"
