@@ -103,14 +103,18 @@ class Running:
         found = []
         for process in self.tree():
             with contextlib.suppress(psutil.Error):
-                if re.search(r"/tmp\w*\.simulate\.py$", process.cmdline()[-1]):
+                if re.search(r"/tmp\w*\.simulate\.py$", " ".join(process.cmdline())):
                     found.append(process)
         return found
+
+    def ended(self) -> bool:
+        """Whether it has ended; its status stays to be read, together with what it used."""
+        return os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
 
     def wait_for(self, condition: Callable[[], object]) -> bool:
         """Whether a condition came true before the process ended."""
         begin = time.monotonic()
-        while self.process.poll() is None:
+        while not self.ended():
             if condition():
                 return True
             require(time.monotonic() - begin < PATIENCE, "a process hangs")

@@ -513,7 +513,7 @@ def two_snakemakes(place, reference, random):
         locks = place.directory / ".snakemake" / "locks"
         require(first.wait_for(lambda: any(locks.glob("*"))), "it ended without a lock")
         second = place.run()
-        running = first.process.poll() is None
+        running = not first.ended()
         done = first.end()
         require(done.status == 0, done.output)
         if running:
