@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from nucleation import datasets
+
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
     "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
@@ -94,7 +96,7 @@ SHOW = [
     ([], ["Missing argument 'FILE'"]),
     (["none.nc"], ["none.nc", "does not exist"]),
     (["file"], ["file is damaged or not a netCDF file"]),
-    (["foreign.nc"], ["foreign.nc was not written by this project"]),
+    (["foreign.nc"], ["foreign.nc is damaged, or not of this project"]),
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
     (["plain.nc", "--plot", "new.png"], ["no plot of this kind"]),
@@ -118,14 +120,11 @@ def directory(tmp_path_factory):
     }  # fmt: skip
     for name, text in texts.items():
         (folder / name).write_text(text)
-    named = ("m", {"long_name": "length", "units": "m"})
-    theory = {
-        "critical_length": ("height", np.ones(2), named[1]),
-        "thin_limit_length": ("height", np.ones(2), named[1]),
-    }
-    height = {"height": ("height", np.arange(2.0), named[1])}
-    xr.Dataset(theory, height).to_netcdf(folder / "theory.nc")
-    xr.Dataset({"x": ("n", np.ones(2), named[1])}).to_netcdf(folder / "plain.nc")
+    curve = ("height", np.ones(2))
+    theory = {"critical_length": curve, "thin_limit_length": curve}
+    height = {"height": np.arange(2.0)}
+    datasets.write(xr.Dataset(theory, height), folder / "theory.nc")
+    datasets.write(xr.Dataset({"x": ("n", np.ones(2))}), folder / "plain.nc")
     xr.Dataset({"x": ("n", np.ones(2))}).to_netcdf(folder / "foreign.nc")
     return folder
 

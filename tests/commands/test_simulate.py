@@ -78,7 +78,7 @@ def test_an_event_is_reported(nucleation, tmp_path):
 
 def test_a_failed_simulation_keeps_its_record(nucleation, tmp_path):
     output = tmp_path / "run.nc"
-    ended = nucleation("simulate", output, *SMALL, "--shortest-step", "4ms")
+    ended = nucleation("simulate", output, *SMALL, "--shortest-step", "90ns")
     assert ended.code == 1 and not output.exists()
     assert "failed: the step size fell below" in ended.err and "run.failed.nc" in ended.err
     record = datasets.read(tmp_path / "run.failed.nc")
