@@ -29,7 +29,7 @@ quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(SNAKEMAKE) --configfile config/quick.yaml
 
 test: $(STAMP) ## Run the tests
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest -n $(CORES) --dist loadfile
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times: nothing may be lost (half an hour)
 	PYTHONPATH=src $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)

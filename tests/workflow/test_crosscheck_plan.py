@@ -19,8 +19,13 @@ def test_plan(workflow, monkeypatch, tmp_path):
 
 
 @pytest.mark.parametrize("target", ["crosscheck", "figure_crosscheck"])
-def test_without_the_program_one_sentence_says_how_to_get_it(workflow, monkeypatch, target):
-    monkeypatch.setenv("PATH", "/nonexistent")
+def test_without_the_program_one_sentence_says_how_to_get_it(
+    workflow, monkeypatch, tmp_path_factory, target
+):
+    programs = tmp_path_factory.mktemp("programs")
+    for name in ("bash", "sh", "which"):  # what Snakemake itself wants to find
+        (programs / name).symlink_to(shutil.which(name))
+    monkeypatch.setenv("PATH", str(programs))
     assert shutil.which(freefem.PROGRAM) is None
     done = workflow(target)
     assert done.returncode != 0
