@@ -31,7 +31,7 @@ quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 test: $(STAMP) ## Run the tests
 	@$(BIN)/python -m pytest -n $(CORES) --dist loadfile
 
-torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times: nothing may be lost (half an hour)
+torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	PYTHONPATH=src $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
 
 lint: $(STAMP) ## Check the code's style and types

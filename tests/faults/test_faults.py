@@ -7,6 +7,12 @@ from harness import make_reference
 from registry import CLEAR_ERROR, FAULTS, RECOVERED, disturb
 
 SEED = os.environ.get("FAULT_SEED", "1")
+LONG = {
+    "flipped_cache_entry", "truncated_cache_entry", "clock_set_back_during_the_run",
+    "closed_terminal",
+}  # fmt: skip
+"""Left to make torture; workflow/test_cache.py damages a cache as well."""
+TESTED = [name for name in FAULTS if name not in LONG]
 
 
 @pytest.fixture(scope="module")
@@ -14,11 +20,11 @@ def reference(tmp_path_factory):
     return make_reference(tmp_path_factory.mktemp("faults"))
 
 
-@pytest.mark.parametrize("name", FAULTS)
+@pytest.mark.parametrize("name", TESTED)
 def test_fault(name, reference, tmp_path):
     assert disturb(name, reference, tmp_path / name, f"{SEED} {name}") in (RECOVERED, CLEAR_ERROR)
 
 
 def test_there_are_many_faults_of_all_kinds():
-    assert len(FAULTS) >= 25
-    assert len({kind for kind, _ in FAULTS.values()}) >= 10
+    assert set(FAULTS) >= LONG and len(TESTED) >= 25
+    assert len({FAULTS[name][0] for name in TESTED}) >= 10
