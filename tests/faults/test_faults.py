@@ -3,8 +3,9 @@
 import os
 
 import pytest
+from every import FAULTS
 from harness import make_reference
-from registry import CLEAR_ERROR, FAULTS, RECOVERED, disturb
+from registry import CLEAR_ERROR, RECOVERED, disturb
 
 SEED = os.environ.get("FAULT_SEED", "1")
 LONG = {

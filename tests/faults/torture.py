@@ -12,8 +12,9 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from every import FAULTS
 from harness import make_reference
-from registry import CLEAR_ERROR, FAULTS, RECOVERED, disturb
+from registry import CLEAR_ERROR, RECOVERED, disturb
 
 LOST = "lost"
 OUTCOMES = (RECOVERED, CLEAR_ERROR, LOST)

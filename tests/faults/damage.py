@@ -1,0 +1,194 @@
+"""Files that are damaged or foreign: datasets, checkpoints, a cache's entries, notes."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from harness import IDS, Place, Reference, require
+from registry import CLEAR_ERROR, RECOVERED, fault
+
+
+def truncate(path: Path, random: random.Random) -> None:
+    """Cut off a random part of the end."""
+    content = path.read_bytes()
+    path.write_bytes(content[: random.randrange(len(content))])
+
+
+def flip(path: Path, random: random.Random) -> None:
+    """Change one bit."""
+    content = bytearray(path.read_bytes())
+    content[random.randrange(len(content))] ^= 1 << random.randrange(8)
+    path.write_bytes(content)
+
+
+def zero(path: Path, random: random.Random) -> None:
+    """Blocks that a computer without power never wrote are zeros."""
+    content = bytearray(path.read_bytes())
+    begin = random.randrange(len(content))
+    content[begin : begin + 4096] = bytes(len(content[begin : begin + 4096]))
+    path.write_bytes(content)
+
+
+def _without_a_trace(path: Path, damage: Callable, random: random.Random) -> None:
+    """Damage as by a failing disk, that leaves the time of the last change as it was."""
+    before = path.stat()
+    damage(path, random)
+    os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+
+def _damaged_dataset(place: Place, reference: Reference, random: random.Random, damage) -> str:
+    """Check lists it; and what is made from it is not made."""
+    paths = [place.simulation(id) for id in IDS]
+    paths += [place.results / "lengths.nc", place.results / "lengths" / "faults.nc"]
+    path = random.choice(paths)
+    traceless = random.choice((True, False))
+    if traceless:
+        _without_a_trace(path, damage, random)
+    else:
+        damage(path, random)
+    listed = any(f.path == path and f.state == "damaged" for f in place.findings())
+    if not listed:  # a bit without meaning
+        place.require_same(reference)
+        return RECOVERED
+    done = place.run("lengths", "--forcerun", "extract" if path in paths[:2] else "gather_lengths")
+    if path.name == "lengths.nc":
+        require(done.status == 0, done.output)
+        return RECOVERED  # made again
+    require(done.status != 0, "a table was made from a damaged dataset")
+    name = path.relative_to(place.directory)
+    require(f"{name} is damaged" in done.output, f"no clear error: {done.output[-2000:]}")
+    place.finish()
+    return CLEAR_ERROR
+
+
+@fault("damaged dataset")
+def truncated_dataset(place, reference, random):
+    return _damaged_dataset(place, reference, random, truncate)
+
+
+@fault("damaged dataset")
+def flipped_dataset(place, reference, random):
+    return _damaged_dataset(place, reference, random, flip)
+
+
+@fault("damaged dataset")
+def zeroed_dataset(place, reference, random):
+    return _damaged_dataset(place, reference, random, zero)
+
+
+def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> str:
+    """Run on from a checkpoint that must be refused, or used, or (None) may be either."""
+    place.simulation(id).unlink()
+    with place.unharmed():
+        require((done := place.run_alone(id)).status == 0, done.output + place.log(id))
+    said = place.log(id)
+    if refused is not None:
+        expected = "the run starts at the beginning" if refused else "the run goes on from"
+        require(expected in said, f"it does not say {expected!r}: {said}")
+    return RECOVERED
+
+
+def _stopped(place: Place, reference: Reference, id: str) -> Path:
+    """A checkpoint in the middle of the run."""
+    name = place.checkpoint(id).name
+    return Path(shutil.copy2(reference.checkpoints / name, place.checkpoint(id)))
+
+
+@fault("damaged checkpoint")
+def truncated_checkpoint(place, reference, random):
+    id = random.choice(IDS)
+    truncate(_stopped(place, reference, id), random)
+    return _bad_checkpoint(place, id, refused=True)
+
+
+@fault("damaged checkpoint")
+def flipped_checkpoint(place, reference, random):
+    id = random.choice(IDS)
+    flip(_stopped(place, reference, id), random)
+    return _bad_checkpoint(place, id, refused=None)  # some bits have no meaning
+
+
+@fault("damaged checkpoint")
+def zeroed_checkpoint(place, reference, random):
+    id = random.choice(IDS)
+    zero(_stopped(place, reference, id), random)
+    return _bad_checkpoint(place, id, refused=None)
+
+
+@fault("foreign checkpoint")
+def checkpoint_of_other_parameters(place, reference, random):
+    one, other = random.sample(IDS, 2)
+    shutil.copy2(reference.checkpoints / place.checkpoint(other).name, place.checkpoint(one))
+    return _bad_checkpoint(place, one, refused=True)
+
+
+@fault("foreign checkpoint")
+def checkpoint_of_other_code(place, reference, random):
+    """Its arrays are right, only the fingerprint is another."""
+    id = random.choice(IDS)
+    path = _stopped(place, reference, id)
+    with np.load(path) as stored:
+        arrays = dict(stored)
+    arrays["fingerprint"] = np.array(f"{random.getrandbits(256):x}")
+    np.savez(path, **arrays)
+    return _bad_checkpoint(place, id, refused=True)
+
+
+@fault("foreign checkpoint")
+def checkpoint_after_the_end(place, reference, random):
+    """A kill after the dataset and before the checkpoint's removal leaves one, which is used."""
+    id = random.choice(IDS)
+    _stopped(place, reference, id)
+    return _bad_checkpoint(place, id, refused=False)
+
+
+def _damaged_cache(place: Place, reference: Reference, random: random.Random, damage) -> str:
+    """Fill a cache, damage entries, and take results from it."""
+    cache = place.directory.parent / f"{place.directory.name}.cache"
+    cache.mkdir()
+    variables = {"SNAKEMAKE_OUTPUT_CACHE": str(cache)}
+    try:
+        place.simulation(IDS[0]).unlink()
+        require((done := place.run("simulations", **variables)).status == 0, done.output)
+        (entry,) = cache.glob("*.nc")
+        damage(entry, random)
+        place.simulation(IDS[0]).unlink()
+        place.finish(**variables)
+        place.require_same(reference)
+        target = place.simulation(IDS[0])
+        shutil.copy2(target.resolve(), place.directory / "copy.nc")
+        target.unlink()
+        shutil.move(place.directory / "copy.nc", target)
+    finally:
+        shutil.rmtree(cache)
+    return RECOVERED
+
+
+@fault("damaged cache entry")
+def truncated_cache_entry(place, reference, random):
+    return _damaged_cache(place, reference, random, truncate)
+
+
+@fault("damaged cache entry")
+def flipped_cache_entry(place, reference, random):
+    return _damaged_cache(place, reference, random, flip)
+
+
+@fault("damaged notes of snakemake")
+def lost_notes(place, reference, random):
+    """The directory .snakemake is removed, or a random note in it is cut or emptied."""
+    place.simulation(IDS[0]).unlink()
+    if random.random() < 0.5:
+        shutil.rmtree(place.directory / ".snakemake")
+    else:
+        notes = sorted((place.directory / ".snakemake" / "metadata").rglob("*"))
+        note = random.choice([path for path in notes if path.is_file()])
+        truncate(note, random)
+    with place.unharmed():
+        place.finish()
+    return RECOVERED

@@ -1,0 +1,10 @@
+"""Every fault: importing a module of them enters them into the registry."""
+
+import company
+import damage
+import disks
+import kills
+from registry import FAULTS
+
+__all__ = ["FAULTS"]
+MODULES = (kills, disks, damage, company)
