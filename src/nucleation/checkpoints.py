@@ -19,10 +19,14 @@ from types import FrameType
 from typing import TextIO
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
+from . import datasets, provenance
 from .files import replacing
+from .parameters import Parameters
 from .quantities import ParameterError
+from .simulation import Instant, simulate
 
 Arrays = dict[str, NDArray]
 
@@ -116,6 +120,53 @@ class Checkpoint:
 
     def _say(self, message: str) -> None:
         print(message, file=self._log, flush=True)
+
+
+def run_to_file(
+    parameters: Parameters,
+    output: Path,
+    code_digest: str,
+    command: str,
+    *,
+    checkpoint: Checkpoint,
+    progress: Callable[[Instant], None],
+) -> tuple[xr.Dataset, Path]:
+    """Simulate, from the checkpoint if there is one, and write the record.
+
+    Parameters
+    ----------
+    parameters : of the run.
+    output : place of the result; the record of a failed run goes beside it, as ``.failed.nc``.
+    code_digest, command : for :func:`nucleation.provenance.attributes`.
+    checkpoint : of :func:`checkpoint_of`; it is removed once the record is written.
+    progress : called with every accepted step.
+
+    Returns
+    -------
+    The record, and where it was written.
+
+    Raises
+    ------
+    Stopped
+        If a signal has stopped the run, which has left a checkpoint.
+    """
+    dataset = simulate(
+        parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep
+    )
+    failed = output.with_suffix(".failed.nc")
+    path = output if dataset.attrs["completed"] else failed
+    attributes = provenance.attributes(parameters.to_dict(), code_digest, command)
+    datasets.write(dataset, path, **attributes)
+    checkpoint.remove()
+    if path == output:
+        failed.unlink(missing_ok=True)
+    return dataset, path
+
+
+def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Checkpoint:
+    """The checkpoint of a run, beside the place of its result."""
+    fingerprint = provenance.fingerprint(parameters.to_dict(), code_digest)
+    return Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
 
 
 def interval() -> float:

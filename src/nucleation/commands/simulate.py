@@ -218,34 +218,26 @@ def _command(output: Path, run: Run) -> str:
 
 def _simulate(run: Run, output: Path, command_line: str) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
-    from ..checkpoints import Checkpoint, Stopped
+    from ..checkpoints import Stopped, checkpoint_of, run_to_file
     from ..progress import Progress
-    from ..simulation import simulate
 
-    parameters, digest = run.parameters.to_dict(), provenance.digest("nucleation.simulation")
-    checkpoint = Checkpoint(
-        output.with_suffix(".checkpoint.npz"), provenance.fingerprint(parameters, digest)
-    )
+    digest = provenance.digest("nucleation.simulation")
+    checkpoint = checkpoint_of(run.parameters, output, digest)
     progress = Progress(run.parameters, sys.stderr)
     try:
         with _listening(checkpoint):
-            dataset = simulate(
-                run.parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep
-            )
+            dataset, path = run_to_file(
+                run.parameters, output, digest, command_line,
+                checkpoint=checkpoint, progress=progress,
+            )  # fmt: skip
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED
     finally:
         progress.close()
-    attributes = provenance.attributes(parameters, digest, command_line)
-    failed = output.with_suffix(".failed.nc")
-    completed = bool(dataset.attrs["completed"])
-    datasets.write(dataset, output if completed else failed, **attributes)
-    checkpoint.remove()
-    if not completed:
-        click.echo(f"Error: {dataset.attrs['status']}; its record is in {failed}", err=True)
+    if path != output:
+        click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED
-    failed.unlink(missing_ok=True)
     click.echo(_result(dataset, run, output))
     return DONE
 
