@@ -2,14 +2,16 @@
 
 import dataclasses
 import shutil
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
+from PIL import Image
 
 from nucleation import check, datasets
-from nucleation.check import check_results
+from nucleation.check import check_results, unverified
 from nucleation.configuration import configure, load
 from nucleation.strict_yaml import read_yaml
 
@@ -39,6 +41,7 @@ def test_fresh_results_are_current(quick):
     done = quick("check")
     assert done.returncode == 0, done.stdout
     assert "All is current" in done.stdout
+    assert "Not checked, they do not say where they are from: article.md claims.json" in done.stdout
     assert check_results(load(quick.config), quick.directory) == []
     assert quick.planned() == {}, "nothing was run or touched"
 
@@ -69,6 +72,69 @@ def test_other_code_is_stale_and_unknown_code_foreign(copied, monkeypatch):
     rewritten(path, lambda _, a: a.update(code_digest="elsewhere.simulation @ numpy @ 123"))
     found = [f for f in check_results(settings, directory) if f.path == path]
     assert [f.state for f in found] == ["foreign"]
+
+
+@pytest.mark.parametrize("attribute", ["parameters", "sources", "code_digest"])
+def test_dataset_that_hides_its_origin_is_foreign(copied, attribute):
+    directory, settings = copied
+    path = directory / settings.results / "lengths.nc"
+    dataset = datasets.read(path)
+    del dataset.attrs[attribute]
+    datasets.write(dataset, path)
+    (found,) = check_results(settings, directory)
+    assert (found.path, found.state) == (path, "foreign")
+    assert found.reason.endswith(f"no attribute {attribute}")
+
+
+def test_each_dataset_is_opened_once(copied, monkeypatch):
+    directory, settings = copied
+    damaged = directory / settings.results / RUN
+    damaged.write_bytes(b"CDF")
+    opened = Counter()
+    for name in ("read", "attributes"):
+        function = getattr(datasets, name)
+        monkeypatch.setattr(
+            datasets, name, lambda path, f=function: (opened.update([path]), f(path))[1]
+        )
+    assert states(check_results(settings, directory)) == {
+        (damaged.name, "damaged"), ("paper.nc", "stale")
+    }  # fmt: skip
+    assert len(opened) > 10 and set(opened.values()) == {1}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text[: len(text) // 2],
+        lambda text: text.replace("1", "2"),
+        lambda text: text.replace("height", "depth", 1),
+        lambda text: text + text.splitlines()[-1] + "\n",
+        lambda text: "",
+        lambda text: "\N{PLUS-MINUS SIGN}" + text,
+    ],
+)
+@pytest.mark.parametrize("name", ["lengths", "dispersion", "lengths/paper"])
+def test_table_that_differs_from_its_dataset_is_damaged(copied, name, change):
+    directory, settings = copied
+    path = directory / settings.results / f"{name}.csv"
+    path.write_text(change(path.read_text()), encoding="latin-1")
+    (found,) = check_results(settings, directory)
+    assert (found.path, found.state) == (path, "damaged")
+    assert found.reason == f"it does not hold what {path.stem}.nc does"
+
+
+def test_what_can_not_be_checked_is_named(copied):
+    directory, settings = copied
+    results = directory / settings.results
+    Image.new("L", (2, 2)).save(results / "figures" / "mine.png")
+    (results / "figures" / "figure_3.png").write_bytes(b"")
+    shutil.copy(results / "lengths.csv", results / "mine.csv")
+    (results / "theory.checkpoint.npz").write_bytes(b"PK")
+    names = [str(path.relative_to(results)) for path in unverified(settings, directory)]
+    pdfs = [f"figures/figure_{name}.pdf" for name in ("1", "2", "3", "s1", "s2")]
+    tables = [f"tables/{name}" for name in ("claims.csv", "claims.md", "table_s1.csv",
+                                            "table_s1.md")]  # fmt: skip
+    assert names == ["article.md", "claims.json", "mine.csv", *pdfs, "figures/mine.png", *tables]
 
 
 def test_source_replaced_by_another_makes_stale(copied):

@@ -1,9 +1,12 @@
 """List the results that are not what the present code and configuration would make."""
 
-from nucleation.check import check_results
+from nucleation.check import check_results, unverified
 from nucleation.configuration import configure
 
-findings = check_results(configure(snakemake.config))
+settings = configure(snakemake.config)
+findings = check_results(settings)
 for finding in findings:
     print(finding)
 print(f"{len(findings)} findings: these results are not current" if findings else "All is current")
+if names := [path.name for path in unverified(settings)]:
+    print("Not checked, they do not say where they are from:", *names)
