@@ -46,7 +46,7 @@ def digest(*modules: str, libraries: tuple[str, ...] = NUMERICAL_LIBRARIES) -> s
     """
     summary = hashlib.sha256()
     for name in sorted(closure(*modules)):
-        summary.update(f"{name}\n{normalised(_source(name).read_text('utf-8'))}\n".encode())
+        summary.update(f"{name}\n{_code(name)}\n".encode())
     for library in libraries:
         summary.update(f"{library} {importlib.metadata.version(library)}\n".encode())
     return " @ ".join([" ".join(modules), " ".join(libraries), summary.hexdigest()])
@@ -101,6 +101,13 @@ def _is_text(statement: ast.stmt) -> bool:
     )
 
 
+@cache  # a workflow asks for many digests, most of them over the same modules
+def _code(module: str) -> str:
+    """One module's source, normalised."""
+    return normalised(_source(module).read_text("utf-8"))
+
+
+@cache
 def _imports(module: str) -> set[str]:
     """The package's modules that one module names in its import statements."""
     source = _source(module)
