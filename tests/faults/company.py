@@ -8,7 +8,8 @@ import os
 import random
 import time
 
-from harness import IDS, Place, require
+from harness import IDS, Place
+from processes import require
 from registry import CLEAR_ERROR, RECOVERED, fault, says
 
 

@@ -9,7 +9,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from harness import IDS, Place, Reference, require
+from harness import IDS, Place, Reference
+from processes import require
 from registry import CLEAR_ERROR, RECOVERED, fault
 
 
@@ -85,7 +86,7 @@ def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> str:
     """Run on from a checkpoint that must be refused, or used, or (None) may be either."""
     place.simulation(id).unlink()
     with place.unharmed():
-        require((done := place.run_alone(id)).status == 0, done.output + place.log(id))
+        place.run_alone(id)
     said = place.log(id)
     if refused is not None:
         expected = "the run starts at the beginning" if refused else "the run goes on from"

@@ -1,4 +1,4 @@
-"""Workflows to disturb: a directory with one, its processes, and what an undisturbed one makes."""
+"""Workflows to disturb: a directory with one, and what an undisturbed one makes."""
 
 from __future__ import annotations
 
@@ -8,23 +8,20 @@ import os
 import re
 import shutil
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import ClassVar
 
 import numpy as np
-import psutil
 import xarray as xr
 import yaml
+from processes import ROOT, Done, Lost, Running, require
 
 from nucleation import datasets
 from nucleation.check import Finding, check_results
 from nucleation.configuration import load
 
-ROOT = Path(__file__).parents[2]
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {
     "studies": {
@@ -36,129 +33,8 @@ CONFIG = {
         }
     }
 }  # fmt: skip
-ENVIRONMENT = {
-    "NUCLEATION_CHECKPOINT_EVERY": "0.05",
-    "OMP_NUM_THREADS": "1",
-    "PYTHONPATH": str(ROOT / "src"),
-}
-PATIENCE = 600.0
-"""Seconds after which a process that should have ended is taken to hang."""
 COSTS = {"wall_seconds", "peak_megabytes"}
 """Variables that tell of the machine: they differ between any two runs."""
-
-
-class Lost(AssertionError):
-    """A fault has damaged or lost something, or ended without a clear error."""
-
-
-def require(condition: object, message: str) -> None:
-    """Raise :class:`Lost` with the message unless the condition holds."""
-    if not condition:
-        raise Lost(message)
-
-
-@dataclasses.dataclass(frozen=True)
-class Done:
-    """A process that has ended: exit status, all it wrote, processor time (s) with its children."""
-
-    status: int
-    output: str
-    cpu: float
-
-
-class Running:
-    """A process with its children, in a process group of its own as in a terminal of its own."""
-
-    started: ClassVar[list[Running]] = []
-
-    def __init__(
-        self, command: list[str], directory: Path, prepare: Callable[[], object] | None = None,
-        **environment: str,
-    ) -> None:  # fmt: skip
-        def before() -> None:
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-                signal.signal(number, signal.SIG_DFL)  # a shell's background job ignores Ctrl-C
-            if prepare is not None:
-                prepare()
-
-        self._output = directory.parent / f"{directory.name}.{time.monotonic_ns()}.output"
-        with self._output.open("wb") as output:
-            self.process = subprocess.Popen(
-                command, cwd=directory, env={**os.environ, **ENVIRONMENT, **environment},
-                stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-                start_new_session=True, preexec_fn=before,
-            )  # fmt: skip
-        self.pid = self.process.pid
-        self.started.append(self)
-
-    def tree(self) -> list[psutil.Process]:
-        """The process and all below it, as far as they are alive."""
-        with contextlib.suppress(psutil.NoSuchProcess):
-            top = psutil.Process(self.pid)
-            return [top, *top.children(recursive=True)]
-        return []
-
-    def scripts(self) -> list[psutil.Process]:
-        """The Python processes that run simulations."""
-        found = []
-        for process in self.tree():
-            with contextlib.suppress(psutil.Error):
-                if re.search(r"/tmp\w*\.simulate\.py$", " ".join(process.cmdline())):
-                    found.append(process)
-        return found
-
-    def ended(self) -> bool:
-        """Whether it has ended; its status stays to be read, together with what it used."""
-        return os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
-
-    def wait_for(self, condition: Callable[[], object]) -> bool:
-        """Whether a condition came true before the process ended."""
-        begin = time.monotonic()
-        while not self.ended():
-            if condition():
-                return True
-            require(time.monotonic() - begin < PATIENCE, "a process hangs")
-            time.sleep(0.01)
-        return False
-
-    def spend(self, seconds: float) -> bool:
-        """Let it use so much processor time, a measure of its progress on a busy machine too."""
-        return self.wait_for(lambda: processor_time(self.tree()) >= seconds)
-
-    def signal(self, number: signal.Signals, *, group: bool = False) -> None:
-        """Send it a signal, alone or to all it has started, unless it has ended."""
-        with contextlib.suppress(ProcessLookupError):
-            (os.killpg if group else os.kill)(self.pid, number)
-
-    @classmethod
-    def kill_all(cls) -> None:
-        """End what is left of all that were started."""
-        while cls.started:
-            cls.started.pop().signal(signal.SIGKILL, group=True)
-
-    def end(self) -> Done:
-        """Wait for its end."""
-        begin = time.monotonic()
-        while True:
-            pid, status, usage = os.wait4(self.pid, os.WNOHANG)
-            if pid:
-                break
-            if time.monotonic() - begin > PATIENCE:
-                self.signal(signal.SIGKILL, group=True)
-                raise Lost(f"a process hangs: {self._output.read_text(errors='replace')[-2000:]}")
-            time.sleep(0.01)
-        self.process.returncode = os.waitstatus_to_exitcode(status)
-        cpu = usage.ru_utime + usage.ru_stime
-        return Done(self.process.returncode, self._output.read_text(errors="replace"), cpu)
-
-
-def processor_time(processes: list[psutil.Process]) -> float:
-    """Processor time (s) that processes have used, and their children that have ended."""
-    total = 0.0
-    for process in processes:
-        with contextlib.suppress(psutil.Error):
-            total += sum(process.cpu_times()[:4])
-    return total
 
 
 @dataclasses.dataclass(frozen=True)
@@ -189,6 +65,10 @@ class Place:
     """A directory in which the workflow runs."""
 
     directory: Path
+
+    def copy(self, directory: Path) -> Place:
+        """The same in another directory."""
+        return Place(shutil.copytree(self.directory, directory, symlinks=True))
 
     @property
     def results(self) -> Path:
@@ -226,8 +106,10 @@ class Place:
         return self.start(*arguments, **environment).end()
 
     def run_alone(self, id: str) -> Done:
-        """Run the script of one simulation to its end."""
-        return self.start_alone(id).end()
+        """Run the script of one simulation to its end, a good one."""
+        done = self.start_alone(id).end()
+        require(done.status == 0, done.output + self.log(id))
+        return done
 
     def finish(self, **environment: str) -> bool:
         """What a user does next: run it again and do what messages ask for, if it stops with any.
@@ -304,27 +186,17 @@ def make_reference(directory: Path) -> Reference:
     (whole.directory / "config.yaml").write_text(yaml.safe_dump(CONFIG))
     workflow = whole.run()
     require(workflow.status == 0, workflow.output)
-    reference = Reference(whole.directory, directory / "stopped", whole.contents(), 0.0, 0.0)
 
-    place = copy_of(reference, directory / "halfway", missing=IDS)
-    reference.checkpoints.mkdir()
+    place, checkpoints = whole.copy(directory / "halfway"), directory / "stopped"
+    checkpoints.mkdir()
     for id in IDS:
+        place.simulation(id).unlink()
         running = place.start_alone(id)
         require(running.wait_for(place.checkpoint(id).exists), "it has left no checkpoint")
         running.signal(signal.SIGTERM)
         require(running.end().status != 0, "it did not stop")
         require("stopped by SIGTERM" in place.log(id), "its log does not say why it stopped")
-        shutil.copy2(place.checkpoint(id), reference.checkpoints)
+        shutil.copy2(place.checkpoint(id), checkpoints)
     place.checkpoint(id).unlink()
     alone = place.run_alone(id)
-    require(alone.status == 0, alone.output)
-    return dataclasses.replace(reference, alone=alone.cpu, workflow=workflow.cpu)
-
-
-def copy_of(reference: Reference, directory: Path, missing: tuple[str, ...] = ()) -> Place:
-    """A copy of the finished workflow in which some simulations are still to be made."""
-    shutil.copytree(reference.directory, directory, symlinks=True)
-    place = Place(directory)
-    for id in missing:
-        place.simulation(id).unlink()
-    return place
+    return Reference(whole.directory, checkpoints, whole.contents(), alone.cpu, workflow.cpu)

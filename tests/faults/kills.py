@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import functools
 import random
 import signal
 
-from harness import IDS, Place, Reference, processor_time, require
+from harness import IDS, Place, Reference
+from processes import processor_time, require
 from registry import CLEAR_ERROR, RECOVERED, fault
 
 
-def _stop_alone(
+def _stop_simulation(
     place: Place, reference: Reference, random: random.Random, number: signal.Signals
 ) -> str:
     """Signals, up to three times, to a simulation's script, which is then run to its end."""
@@ -17,52 +19,49 @@ def _stop_alone(
     place.simulation(id).unlink()
     with place.unharmed():
         for _ in range(random.choice((1, 1, 1, 3))):
-            running = place.start_alone(id)
-            if running.spend(random.uniform(0.3, 1.0) * reference.alone):
-                running.signal(number)
-            done = running.end()
+            moment = random.uniform(0.3, 1.0) * reference.alone
+            done = place.start_alone(id).interrupt(number, moment)
             require(done.status != 0 or place.simulation(id).exists(), "it left no result")
             begun = "starts at the beginning" in place.log(id)
             require(not begun, f"a checkpoint was refused: {place.log(id)}")
         if not place.simulation(id).exists():
-            require((done := place.run_alone(id)).status == 0, done.output + place.log(id))
+            place.run_alone(id)
     return RECOVERED
 
 
-@fault("SIGKILL of a simulation")
-def sigkill_simulation(place, reference, random):
-    return _stop_alone(place, reference, random, signal.SIGKILL)
-
-
-@fault("SIGTERM")
-def sigterm_simulation(place, reference, random):
-    return _stop_alone(place, reference, random, signal.SIGTERM)
-
-
-@fault("Ctrl-C")
-def sigint_simulation(place, reference, random):
-    return _stop_alone(place, reference, random, signal.SIGINT)
-
-
-@fault("SIGHUP")
-def sighup_simulation(place, reference, random):
-    return _stop_alone(place, reference, random, signal.SIGHUP)
-
-
-def _stop_workflow(
-    place: Place, reference: Reference, random: random.Random, number: signal.Signals, group: bool
+def _stop_snakemake(
+    place: Place,
+    reference: Reference,
+    random: random.Random,
+    number: signal.Signals,
+    group: bool = False,
 ) -> str:
     """A signal to snakemake, or to all its processes as from a terminal; then the next steps."""
-    gone = random.sample(IDS, random.choice((1, 2)))
-    for id in gone:
+    for id in random.sample(IDS, random.choice((1, 2))):
         place.simulation(id).unlink()
     with place.unharmed():
-        running = place.start()
-        if running.spend(random.uniform(0.1, 1.0) * reference.workflow):
-            running.signal(number, group=group)
-        running.end()
+        moment = random.uniform(0.1, 1.0) * reference.workflow
+        place.start().interrupt(number, moment, group=group)
         place.finish()
     return RECOVERED
+
+
+_stop_all = functools.partial(_stop_snakemake, group=True)
+
+for _name, _kind, _stop, _number in (
+    ("sigkill_simulation", "SIGKILL of a simulation", _stop_simulation, signal.SIGKILL),
+    ("sigterm_simulation", "SIGTERM", _stop_simulation, signal.SIGTERM),
+    ("sigint_simulation", "Ctrl-C", _stop_simulation, signal.SIGINT),
+    ("sighup_simulation", "SIGHUP", _stop_simulation, signal.SIGHUP),
+    # snakemake alone: its simulation goes on while the next workflow begins
+    ("sigkill_snakemake", "SIGKILL of snakemake", _stop_snakemake, signal.SIGKILL),
+    ("sigkill_snakemake_and_all", "SIGKILL of snakemake", _stop_all, signal.SIGKILL),
+    ("sigterm_snakemake", "SIGTERM", _stop_snakemake, signal.SIGTERM),
+    ("sigterm_snakemake_and_all", "SIGTERM", _stop_all, signal.SIGTERM),
+    ("ctrl_c", "Ctrl-C", _stop_all, signal.SIGINT),
+    ("closed_terminal", "SIGHUP", _stop_all, signal.SIGHUP),
+):
+    fault(_kind, _name)(functools.partial(_stop, number=_number))
 
 
 @fault("SIGKILL of a simulation")
@@ -84,37 +83,6 @@ def sigkill_simulation_in_workflow(place, reference, random):
     return CLEAR_ERROR
 
 
-@fault("SIGKILL of snakemake")
-def sigkill_snakemake(place, reference, random):
-    """Snakemake alone: its simulation goes on while the next workflow begins."""
-    return _stop_workflow(place, reference, random, signal.SIGKILL, group=False)
-
-
-@fault("SIGKILL of snakemake")
-def sigkill_snakemake_and_all_its_processes(place, reference, random):
-    return _stop_workflow(place, reference, random, signal.SIGKILL, group=True)
-
-
-@fault("SIGTERM")
-def sigterm_snakemake(place, reference, random):
-    return _stop_workflow(place, reference, random, signal.SIGTERM, group=False)
-
-
-@fault("SIGTERM")
-def sigterm_snakemake_and_all_its_processes(place, reference, random):
-    return _stop_workflow(place, reference, random, signal.SIGTERM, group=True)
-
-
-@fault("Ctrl-C")
-def ctrl_c(place, reference, random):
-    return _stop_workflow(place, reference, random, signal.SIGINT, group=True)
-
-
-@fault("SIGHUP")
-def closed_terminal(place, reference, random):
-    return _stop_workflow(place, reference, random, signal.SIGHUP, group=True)
-
-
 @fault("SIGKILL between writing and renaming")
 def killed_before_renaming(place, reference, random):
     """Halves of a checkpoint and of a dataset lie there under temporary names."""
@@ -127,5 +95,5 @@ def killed_before_renaming(place, reference, random):
     dataset.unlink()
     found = [finding for finding in place.findings() if "half a file" in finding.reason]
     require(len(found) == 2, "check does not list the halves")
-    require((done := place.run_alone(id)).status == 0, done.output + place.log(id))
+    place.run_alone(id)
     return RECOVERED

@@ -2,17 +2,17 @@
 
 A fault gets a copy of the undisturbed workflow and a source of random numbers. It returns how the
 disturbance ended, and leaves a workflow that is finished again: the caller compares the datasets.
-It raises :class:`harness.Lost` if something was damaged, or if it ended without a clear error.
+It raises :class:`processes.Lost` if something was damaged, or if it ended without a clear error.
 """
 
 from __future__ import annotations
 
 import random
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-from harness import Done, Place, Reference, Running, require
+from harness import Place, Reference
+from processes import Done, Running, require
 
 RECOVERED = "recovered"
 CLEAR_ERROR = "clear error"
@@ -23,11 +23,11 @@ FAULTS: dict[str, tuple[str, Fault]] = {}
 """Kind and function of each fault, by name."""
 
 
-def fault(kind: str) -> Callable[[Fault], Fault]:
-    """Enter a function into the registry."""
+def fault(kind: str, name: str = "") -> Callable[[Fault], Fault]:
+    """Enter a function into the registry, under its own name if no other is given."""
 
     def enter(function: Fault) -> Fault:
-        FAULTS[function.__name__] = (kind, function)
+        FAULTS[name or function.__name__] = (kind, function)
         return function
 
     return enter
@@ -44,11 +44,10 @@ def disturb(name: str, reference: Reference, directory: Path, seed: str) -> str:
 
     Raises
     ------
-    harness.Lost
+    processes.Lost
         If the datasets are not those of the undisturbed workflow in the end.
     """
-    shutil.copytree(reference.directory, directory, symlinks=True)
-    place = Place(directory)
+    place = Place(reference.directory).copy(directory)
     _, function = FAULTS[name]
     try:
         outcome = function(place, reference, random.Random(seed))
