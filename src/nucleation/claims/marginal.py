@@ -24,13 +24,14 @@ def growth(load: complex, a: float, zeta: float) -> complex:
     return max(root - half, -root - half, key=lambda rate: rate.real)
 
 
-def load_of(
+def growth_at(
     wavenumber: float, transfer: Transfer, modulus: float, interface: InterfaceState
 ) -> complex:
-    """``mu k ell (G1 - i f G2) / sigma0`` (dimensionless)."""
+    """The same at a wavenumber (1/m), for transfer functions of it."""
     g1, g2 = transfer(wavenumber)
     scale = modulus * wavenumber * interface.slip_length / interface.normal_stress
-    return scale * (g1 - 1j * interface.friction * g2)
+    load = scale * (g1 - 1j * interface.friction * g2)
+    return growth(load, interface.a, interface.zeta)
 
 
 def critical_wavenumber(
@@ -42,16 +43,13 @@ def critical_wavenumber(
     """
 
     def rate(log_k: float) -> float:
-        load = load_of(float(np.exp(log_k)), transfer, modulus, interface)
-        return growth(load, interface.a, interface.zeta).real
+        return growth_at(float(np.exp(log_k)), transfer, modulus, interface).real
 
     grid = np.log(guess * np.geomspace(30.0, 1e-3, 400))
     below = next(i for i, log_k in enumerate(grid) if rate(log_k) > 0.0)
     log_k = brentq(rate, grid[below], grid[below - 1], xtol=1e-13)
     k = float(np.exp(log_k))
-    return k, abs(
-        growth(load_of(k, transfer, modulus, interface), interface.a, interface.zeta).imag
-    )
+    return k, abs(growth_at(k, transfer, modulus, interface).imag)
 
 
 def half_space_load(f_beta: float, a: float, zeta: float) -> float:
