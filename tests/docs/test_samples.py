@@ -28,7 +28,7 @@ NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 def run(arguments, **options):
     done = subprocess.run(
         arguments, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT, text=True, timeout=300, **options,
+        stderr=subprocess.STDOUT, text=True, timeout=600, **options,
     )  # fmt: skip
     assert done.returncode == 0, f"{shlex.join(map(str, arguments))}\n{done.stdout}"
     return done.stdout

@@ -1,11 +1,16 @@
-"""Run the script of one simulation as the workflow does, but without Snakemake: alone.py ID."""
+"""Run the script of one simulation as the workflow does, but without Snakemake.
 
+alone.py ID [STEPS]: with SIGTERM from within after so many steps, if they are given.
+"""
+
+import os
 import runpy
+import signal
 import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from nucleation import provenance
+from nucleation import progress, provenance
 from nucleation.configuration import load
 
 SCRIPT = Path(__file__).parents[2] / "workflow" / "scripts" / "simulate.py"
@@ -20,4 +25,17 @@ job = SimpleNamespace(
     output=[f"results/simulations/{run.id}.nc"],
     log=[str(log)],
 )
+
+
+class Stopping(progress.Progress):
+    """Progress that asks the run to stop."""
+
+    def __call__(self, instant):
+        super().__call__(instant)
+        if instant.control.steps == int(sys.argv[2]):
+            os.kill(os.getpid(), signal.SIGTERM)
+
+
+if len(sys.argv) > 2:
+    progress.Progress = Stopping
 runpy.run_path(str(SCRIPT), init_globals={"snakemake": job})

@@ -7,7 +7,6 @@ import dataclasses
 import os
 import re
 import shutil
-import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -96,9 +95,12 @@ class Place:
         command += ["--workflow-profile", str(ROOT / "workflow/profiles/default")]
         return Running(command, self.directory, prepare, **environment)
 
-    def start_alone(self, id: str, prepare: Callable[[], object] | None = None) -> Running:
-        """Start the script of one simulation without Snakemake."""
+    def start_alone(
+        self, id: str, prepare: Callable[[], object] | None = None, *, stop_after: int | None = None
+    ) -> Running:
+        """Start the script of one simulation without Snakemake, to be stopped after some steps."""
         command = [sys.executable, str(Path(__file__).with_name("alone.py")), id]
+        command += [] if stop_after is None else [str(stop_after)]
         return Running(command, self.directory, prepare)
 
     def run(self, *arguments: str, **environment: str) -> Done:
@@ -191,10 +193,9 @@ def make_reference(directory: Path) -> Reference:
     checkpoints.mkdir()
     for id in IDS:
         place.simulation(id).unlink()
-        running = place.start_alone(id)
-        require(running.wait_for(place.checkpoint(id).exists), "it has left no checkpoint")
-        running.signal(signal.SIGTERM)
-        require(running.end().status != 0, "it did not stop")
+        steps = int(datasets.read(whole.simulation(id)).attrs["steps"])
+        stopped = place.start_alone(id, stop_after=steps // 2).end()
+        require(stopped.status != 0, "it did not stop")
         require("stopped by SIGTERM" in place.log(id), "its log does not say why it stopped")
         shutil.copy2(place.checkpoint(id), checkpoints)
     place.checkpoint(id).unlink()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import random
 import signal
 
+import psutil
 from harness import IDS, Place, Reference
 from processes import processor_time, require
 from registry import CLEAR_ERROR, RECOVERED, fault
@@ -74,7 +76,8 @@ def sigkill_simulation_in_workflow(place, reference, random):
         moment = random.uniform(0.1, 1.0) * reference.alone
         if running.wait_for(lambda: processor_time(running.scripts()) >= moment):
             for process in running.scripts():
-                process.kill()
+                with contextlib.suppress(psutil.NoSuchProcess):  # it has just ended
+                    process.kill()
         done = running.end()
         if done.status == 0:
             return RECOVERED  # the kill came too late

@@ -10,8 +10,8 @@ def output_of(*command: str) -> str:
 
 
 def wait_for(condition: Callable[[], object], seconds: float = 600.0) -> None:
-    """Look twice a second until a condition holds."""
+    """Look some times a second until a condition holds."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, f"not within {seconds:g} s"
-        time.sleep(0.5)
+        time.sleep(0.2)

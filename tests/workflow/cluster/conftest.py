@@ -1,13 +1,16 @@
 """A Slurm of two virtual nodes, started and stopped by the project's scripts."""
 
+import contextlib
 import dataclasses
 import os
+import re
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+import psutil
 import pytest
 from commands_of_slurm import output_of, wait_for
 
@@ -31,11 +34,11 @@ class Slurm:
     def stop(self) -> None:
         subprocess.run([*AS_ROOT, str(SCRIPTS / "stop.sh")], check=True)
 
-    def jobs(self, directory: Path) -> list[dict[str, str]]:
-        """All jobs ever submitted from a directory, with the keys of ``scontrol show job``."""
+    def jobs(self, directory: Path | None = None) -> list[dict[str, str]]:
+        """All jobs ever submitted, from a directory, with the keys of ``scontrol show job``."""
         lines = output_of("scontrol", "show", "job", "--oneliner").splitlines()
         jobs = [dict(word.split("=", 1) for word in line.split() if "=" in word) for line in lines]
-        return [job for job in jobs if job.get("WorkDir") == str(directory)]
+        return [job for job in jobs if directory is None or job.get("WorkDir") == str(directory)]
 
     def end(self, process: subprocess.Popen, directory: Path) -> None:
         """End a workflow that a test has given up, with its jobs."""
@@ -48,9 +51,16 @@ class Slurm:
         return int((STATE / f"{daemon}.pid").read_text())
 
     def take_down(self, node: str) -> None:
-        """Kill a node's daemon, and tell the controller, which would notice in a while."""
+        """Kill all that runs on a node, and tell the controller, which would notice in a while."""
         pid = self.pid(node)
         subprocess.run([*AS_ROOT, "kill", "-KILL", str(pid)], check=True)
+        lost = [job["JobId"] for job in self.jobs() if job.get("NodeList") == node]
+        for process in psutil.process_iter():
+            with contextlib.suppress(psutil.Error):
+                title = re.match(r"slurmstepd: \[(\d+)\.", " ".join(process.cmdline()))
+                job = title[1] if title else process.environ().get("SLURM_JOB_ID")
+                if job in lost:
+                    subprocess.run([*AS_ROOT, "kill", "-KILL", str(process.pid)])
         command = Path(f"/proc/{pid}/cmdline")  # empty while it is a zombie
         wait_for(lambda: not command.exists() or not command.read_bytes())
         update = ["scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=test"]
