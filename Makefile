@@ -29,7 +29,7 @@ quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(SNAKEMAKE) --configfile config/quick.yaml
 
 test: $(STAMP) ## Run the tests
-	@$(BIN)/python -m pytest -n $(CORES) --dist loadfile
+	@$(BIN)/python -m pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	PYTHONPATH=src $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)

@@ -1,7 +1,10 @@
 """Running the workflow of this checkout, with results below a directory of the test's own."""
 
 import dataclasses
+import fcntl
+import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -78,8 +81,21 @@ def workflow(tmp_path: Path) -> Workflow:
 
 @pytest.fixture(scope="session")
 def quick(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
-    """The workflow after the quick configuration was run from nothing to all figures."""
-    ran = Workflow(tmp_path_factory.mktemp("quick"))
-    done = ran()
-    assert done.returncode == 0, done.stdout
+    """The workflow after the quick configuration was run from nothing to all figures.
+
+    It is run once; a second worker gets a copy.
+    """
+    workers = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        workers = workers.parent
+    ran, made = Workflow(tmp_path_factory.mktemp("quick")), workers / "quick.made"
+    with (workers / "quick.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if made.exists():
+            shutil.copytree(made, ran.directory, symlinks=True, dirs_exist_ok=True)
+            return ran
+        done = ran()
+        assert done.returncode == 0, done.stdout
+        shutil.copytree(ran.directory, workers / "quick.half", symlinks=True)
+        (workers / "quick.half").rename(made)
     return ran
