@@ -76,9 +76,14 @@ def simulation(id):
     return f"{RESULTS}/simulations/{id}.nc"
 
 
+def runs_in(*studies):
+    """The runs of those of some studies that the configuration has."""
+    return [run for run in settings.runs if run.study in studies]
+
+
 def simulations(*studies):
-    """The datasets of some studies' simulations, of all in lengths.csv if none is named."""
-    return [simulation(id) for id, run in RUNS.items() if run.study in (studies or SHARED)]
+    """The datasets of their simulations."""
+    return [simulation(run.id) for run in runs_in(*studies)]
 
 
 def needed(files, what):
@@ -137,8 +142,9 @@ BRIEF = ("draw_", "extract", "gather_", "write_")
 workflow.localrules(*(rule.name for rule in workflow.rules if rule.name.startswith(BRIEF)))
 
 
-# Targets. Each names the simulations and tables it stands on, not only its own files: after one
-# failed or vanished, the files made from it would otherwise still count as up to date.
+# Targets. Each names every file that it leads to, by the targets below it and by helpers such as
+# measured(): after one failed or vanished, what was made from it would otherwise still count as up
+# to date. A test goes through all targets.
 rule paper:
     default_target: True
     input:

@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from nucleation import freefem
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -99,3 +101,12 @@ def quick(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
         shutil.copytree(ran.directory, workers / "quick.half", symlinks=True)
         (workers / "quick.half").rename(made)
     return ran
+
+
+@pytest.fixture
+def freefem_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A program of FreeFem++'s name: planning needs one, and does not run it."""
+    program = tmp_path / freefem.PROGRAM
+    program.write_text("#!/bin/sh\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")

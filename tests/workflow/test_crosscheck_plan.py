@@ -7,12 +7,8 @@ import pytest
 from nucleation import freefem
 
 
-def test_plan(workflow, monkeypatch, tmp_path):
-    """Three runs by both solvers; planning needs a program of the name, which is not run."""
-    program = tmp_path / freefem.PROGRAM
-    program.write_text("#!/bin/sh\nexit 1\n")
-    program.chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+def test_plan(workflow, freefem_program):
+    """Three runs by both solvers."""
     once = ("compare_crosscheck", "draw_figure_crosscheck", "crosscheck")
     expected = {"crosscheck_own": 3, "crosscheck_freefem": 3, **dict.fromkeys(once, 1)}
     assert workflow.planned("crosscheck") == expected

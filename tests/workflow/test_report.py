@@ -29,11 +29,16 @@ def reported(quick, tmp_path_factory, workflow_type):
     for name in ("theory.nc", "lengths.nc", "lengths.csv"):
         shutil.copy2(quick.directory / "results" / "quick" / name, results)
     shutil.copytree(quick.directory / "results" / "quick" / "lengths", results / "lengths")
+    shutil.copytree(quick.directory / "results" / "quick" / "patches", results / "patches")
+    for run in load(quick.config).runs_of("paper"):
+        (results / "patches" / f"{run.id}.nc").touch()  # nobody reads them: the table is there
     lengths = datasets.read(results / "lengths.nc")
     renamed = {f"length{end}": f"stability_length{end}" for end in ("", "_low", "_high")}
     datasets.write(lengths.rename(renamed), results / "patch_stability.nc")
     datasets.write(made_up_checks.dispersion(), results / "dispersion.nc")
     datasets.write(made_up_checks.convergence(), results / "convergence.nc")
+    for name in ("patch_stability", "dispersion", "convergence"):
+        (results / f"{name}.csv").touch()
     config = read_yaml(quick.config)
     config["studies"] = {name: config["studies"][name] for name in STUDIES}
     made = workflow_type(directory).configured(config)
@@ -61,11 +66,20 @@ def test_report_has_every_figure_of_the_configuration(reported, results):
     assert reported.planned("report") == {}
 
 
-def test_report_is_made_again_if_a_simulation_is_lost(reported, results):
-    path = next((results / "simulations").glob("paper-*.nc"))
+@pytest.mark.parametrize(
+    ("name", "rule"),
+    [
+        ("simulations/paper-slip-H0.02-phi1.nc", "simulate"),
+        ("lengths/paper.nc", "extract"),
+        ("film.nc", "film"),
+        ("convergence.nc", "convergence"),
+    ],
+)
+def test_lost_file_is_missed_by_the_report(reported, results, name, rule):
+    path = results / name
     away = path.rename(path.with_suffix(".away"))
     try:
-        assert reported.planned("report")["simulate"] == 1
+        assert reported.planned("report")[rule] == 1
     finally:
         away.rename(path)
 

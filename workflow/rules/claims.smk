@@ -19,7 +19,7 @@ rule evaluate_claims:
         theory=THEORY,
         dispersion=DISPERSION,
         lengths=[study_lengths(study) for study in CLAIMED],
-        simulations=[simulation(run.id) for run in runs_in(*CLAIMED)],
+        simulations=simulations(*CLAIMED),
         patches=patches(JUDGED),
     output:
         json=CLAIMS,
@@ -57,8 +57,10 @@ rule write_article:
 rule claims:
     input:
         rules.evaluate_claims.output,
-        tables(*CLAIMED) if CLAIMED else [],
-        simulations(*CLAIMED) if CLAIMED else [],
+        THEORY,
+        with_csv(DISPERSION),
+        measured(*CLAIMED),
+        patches(JUDGED),
     message:
         "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"
 
@@ -67,6 +69,10 @@ rule article:
     input:
         ARTICLE,
         rules.claims.input,
-        [figure(name) for name in ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")],
+        rules.figure_1.input,
+        rules.figure_2.input,
+        rules.figure_3.input,
+        rules.figure_s1.input,
+        rules.figure_s2.input,
     message:
         "The article is in {input[0]}"

@@ -96,6 +96,7 @@ localrules:
 rule figure_crosscheck:
     input:
         rules.draw_figure_crosscheck.output,
+        rules.compare_crosscheck.output,
         crosscheck_records("own"),
         crosscheck_records("freefem"),
     message:

@@ -4,9 +4,15 @@ def study_lengths(study):
     return f"{RESULTS}/lengths/{study}.nc"
 
 
-def tables(*studies):
-    """The tables of some studies' lengths, of all in lengths.csv if none is named."""
-    return [study_lengths(study) for study in (studies or SHARED) if study in settings.studies]
+def with_csv(dataset):
+    """A dataset that is a table, and its CSV."""
+    return [dataset, str(Path(dataset).with_suffix(".csv"))]
+
+
+def measured(*studies):
+    """Simulations and lengths of those of some studies that the configuration has."""
+    present = [study for study in studies if study in settings.studies]
+    return [*simulations(*present), *(with_csv(study_lengths(study)) for study in present)]
 
 
 rule extract:
@@ -43,7 +49,6 @@ rule gather_lengths:
 rule lengths:
     input:
         rules.gather_lengths.output,
-        tables(),
-        simulations(),
+        measured(*SHARED),
     message:
         "Critical lengths are in {input[0]} and {input[1]}"

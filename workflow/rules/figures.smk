@@ -116,6 +116,7 @@ rule figure_1:
 rule figure_2:
     input:
         figure("figure_2"),
+        THEORY,
     message:
         "Figure 2 is in {input[0]}"
 
@@ -123,9 +124,8 @@ rule figure_2:
 rule figure_3:
     input:
         figure("figure_3"),
-        LENGTHS,
-        tables(),
-        simulations(),
+        THEORY,
+        rules.lengths.input,
     message:
         "Figure 3 is in {input[0]}"
 
@@ -133,6 +133,7 @@ rule figure_3:
 rule figure_s1:
     input:
         figure("figure_s1"),
+        THEORY,
     message:
         "Figure S1 is in {input[0]}"
 
@@ -140,8 +141,7 @@ rule figure_s1:
 rule figure_s2:
     input:
         figure("figure_s2"),
-        tables("paper"),
-        simulations("paper"),
+        measured("paper"),
     message:
         "Figure S2 is in {input[0]}"
 

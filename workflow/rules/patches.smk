@@ -9,13 +9,14 @@ PATCH_TABLES = {
 """Tables of patches by the studies in them."""
 
 
-def runs_in(*studies):
-    """The runs of those of some studies that the configuration has."""
-    return [run for run in settings.runs if run.study in studies]
-
-
 def patches(*studies):
     return [f"{RESULTS}/patches/{run.id}.nc" for run in runs_in(*studies)]
+
+
+def frozen(table):
+    """A table of patches, with the patches and simulations in it."""
+    studies = PATCH_TABLES[table]
+    return [*with_csv(f"{RESULTS}/{table}.nc"), *patches(*studies), *simulations(*studies)]
 
 
 def twins():
@@ -121,11 +122,10 @@ rule draw_figure_3_extended:
 rule figure_patch_stability:
     input:
         rules.draw_figure_patch_stability.output,
-        f"{RESULTS}/patch_convergence.csv" if runs_in("patch_convergence") else [],
-        PATCHES,
-        TWINS,
-        patches(*PATCH_TABLES["patch_stability"]),
-        simulations(*PATCH_TABLES["patch_stability"]),
+        frozen("patch_stability"),
+        frozen("patch_convergence") if runs_in("patch_convergence") else [],
+        with_csv(TWINS),
+        twins(),
     message:
         "Stability of the patches is in {input[0]} and {PATCHES}"
 
@@ -133,9 +133,8 @@ rule figure_patch_stability:
 rule figure_3_extended:
     input:
         rules.draw_figure_3_extended.output,
-        LENGTHS,
-        tables(),
-        PATCHES,
-        simulations(),
+        THEORY,
+        rules.lengths.input,
+        frozen("patch_stability"),
     message:
         "Figure 3 with the patches' lengths is in {input[0]}"

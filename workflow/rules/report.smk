@@ -70,9 +70,7 @@ rule animation:
     input:
         rules.draw_animation.output,
         FILM,
-        LENGTHS,
-        tables(),
-        simulations("paper"),
+        rules.lengths.input,
     message:
         "The animation is in {input[0]}"
 
@@ -109,6 +107,7 @@ rule write_report:
 rule report:
     input:
         rules.write_report.output,
-        simulations(*{study for name in REPORTED for study in FIGURES[name].studies}),
+        rules.claims.input,
+        [getattr(rules, name).input for name in REPORTED],
     message:
         "The report is in {input[0]}"

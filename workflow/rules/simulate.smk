@@ -35,6 +35,6 @@ rule simulate:
 
 rule simulations:
     input:
-        needed(simulations(), "study with table: lengths"),
+        needed(simulations(*SHARED), "study with table: lengths"),
     message:
         f"All simulations are in {RESULTS}/simulations"

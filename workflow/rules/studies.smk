@@ -46,8 +46,7 @@ for _study in settings.studies:
             f"figure_study_{_study}"
         input:
             figure(f"study_{_study}"),
-            tables(_study),
-            simulations(_study),
+            measured(_study),
         localrule: True
         message:
             "The study's figure is in {input[0]}"
@@ -57,8 +56,7 @@ rule figure_studies:
     input:
         needed([path for study in SHARED for path in figure(f"study_{study}")],
                "study with table: lengths"),
-        tables(),
-        simulations(),
+        measured(*SHARED),
     message:
         f"The studies' figures are in {RESULTS}/figures"
 
@@ -109,9 +107,9 @@ rule draw_figure_convergence:
 rule figure_convergence:
     input:
         rules.draw_figure_convergence.output,
-        REFINEMENT,
-        tables(*CONVERGENCE_STUDIES),
-        simulations(*CONVERGENCE_STUDIES),
+        rules.draw_figure_convergence.input,
+        rules.refinement.output,
+        measured(*CONVERGENCE_STUDIES),
     message:
         "The convergence figure is in {input[0]}, its table in {REFINEMENT}"
 
@@ -148,7 +146,7 @@ rule draw_figure_sensitivity:
 rule figure_sensitivity:
     input:
         rules.draw_figure_sensitivity.output,
-        SENSITIVITY,
+        rules.sensitivity.output,
         simulations("sensitivity"),
     message:
         "The sensitivity figure is in {input[0]}, its table in {SENSITIVITY}"

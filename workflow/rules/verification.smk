@@ -43,6 +43,7 @@ rule draw_figure_dispersion:
 rule figure_dispersion:
     input:
         figure("figure_dispersion"),
+        rules.dispersion.output,
     message:
         "The dispersion figure is in {input[0]}"
 
@@ -76,5 +77,6 @@ rule draw_figure_verification:
 rule figure_verification:
     input:
         figure("figure_verification"),
+        rules.convergence.output,
     message:
         "The verification figure is in {input[0]}"

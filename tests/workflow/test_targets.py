@@ -1,0 +1,53 @@
+"""Every target names all files that it leads to.
+
+Snakemake takes a file newer than its inputs for up to date even if an input is gone: it makes the
+input again only if that itself is among the files of the target.
+"""
+
+import dataclasses
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+JOB = re.compile(r"^(?:local)?rule (\w+):\n((?: {4}.+\n)+)", re.M)
+
+
+@pytest.fixture
+def plain(workflow, tmp_path, freefem_program):
+    """The workflow without its messages: in their place a dry run lists the files of each job."""
+    checkout = tmp_path / "checkout"
+    shutil.copytree(ROOT / "workflow", checkout / "workflow")
+    shutil.copy2(ROOT / "Snakefile", checkout)
+    for name in ("src", "config", "docs"):
+        (checkout / name).symlink_to(ROOT / name)
+    for path in (checkout / "Snakefile", *checkout.glob("workflow/rules/*.smk")):
+        path.write_text(re.sub(r"\n +message:\n.+", "", path.read_text()))
+    return dataclasses.replace(workflow, checkout=checkout)
+
+
+def jobs_of(listing):
+    """Rule, inputs and outputs of all jobs that a dry run lists."""
+    for rule, text in JOB.findall(listing):
+        files = dict(re.findall(r"^ {4}(input|output): (.+)$", text, re.M))
+        yield rule, *(set(files.get(kind, "").split(", ")) - {""} for kind in ("input", "output"))
+
+
+def test_every_target_names_all_files_that_it_leads_to(plain):
+    names = re.findall(r"^\w+$", plain("--list-target-rules").stdout, re.M)
+    jobs = list(jobs_of(plain(*names, "--dry-run").stdout))
+    inputs = {file: given for _, given, made in jobs for file in made}
+    targets = {rule: given for rule, given, made in jobs if not made}
+    assert len(targets) > 25 and {"paper", "report", "crosscheck"} <= targets.keys()
+    assert len(inputs) > 100
+    for target, named in targets.items():
+        led_to, waiting = set(), list(named)
+        while waiting:
+            file = waiting.pop()
+            if file in inputs and file not in led_to:
+                led_to.add(file)
+                waiting += inputs[file]
+        beside = {file for _, _, made in jobs if made & led_to for file in made}
+        assert led_to | beside <= named, target
