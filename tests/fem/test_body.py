@@ -29,8 +29,8 @@ def random_load(body, rng):
 def assembled_load(block, body, load):
     """The nodal forces whose generalised forces per mode are those of `load`."""
     forces = np.zeros(block.stiffness.shape[0])
-    forces[block.x[:, 1:]] = body.sine_forces(load.modes[:, 0])
-    forces[block.y[:, :-1]] = body.cosine_forces(load.modes[:, 1])
+    tangential, normal = body.interface_forces(load.modes.transpose(1, 0, 2))
+    forces[block.x[:, 1:]], forces[block.y[:, :-1]] = tangential, normal
     forces[block.y[:, -1]] = load.edge
     return forces
 
@@ -115,8 +115,11 @@ def test_transforms_are_inverse_and_dual(grid):
     values, amplitudes = rng.normal(size=(2, grid.n_x))
     np.testing.assert_allclose(body.sine_values(body.sine_amplitudes(values)), values, rtol=1e-12)
     # nodal forces do the same work as modal ones
-    work = body.sine_forces(amplitudes) @ values
-    assert work == pytest.approx(0.5 * grid.n_x * amplitudes @ body.sine_amplitudes(values))
+    tangential, normal = body.interface_forces(np.array([amplitudes, amplitudes]))
+    modal = 0.5 * grid.n_x * amplitudes
+    assert tangential @ values == pytest.approx(modal @ body.sine_amplitudes(values))
+    cosines = np.linalg.inv(body.cosine_values(np.eye(grid.n_x)))  # nodal unit values in modes
+    np.testing.assert_allclose(normal, cosines @ modal, atol=1e-12 * abs(modal).max())
 
 
 def test_uniform_extension_is_exact(grid):

@@ -72,9 +72,9 @@ class Body:
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
         self.x_mass = grid.dx * (4.0 + 2.0 * cosine) / 6.0
         self.sine = sine
-        sign = (-1.0) ** np.arange(grid.n_x)
+        self._alternating = (-1.0) ** np.arange(grid.n_x)
         # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
-        self.edge_weights = sign * np.array(
+        self.edge_weights = self._alternating * np.array(
             [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, sine]
         )
         # integral along x of each sine mode, for the momentum
@@ -90,9 +90,8 @@ class Body:
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
         n = self.grid.n_x
-        weighted = np.array(nodal, dtype=float)
         # the inverse transform weighs the last node by one half, and type 3 counts it once
-        return fft.dst(weighted, type=3) / n
+        return fft.dst(nodal, type=3) / n
 
     def sine_values(self, amplitudes: Array) -> Array:
         """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""
@@ -102,17 +101,20 @@ class Body:
         """Nodal values at i = 0..n_x - 1 (last axis) of cosine amplitudes."""
         return 0.5 * fft.dct(amplitudes, type=2)
 
-    def sine_forces(self, modal: Array) -> Array:
-        """Nodal forces at i = 1..n_x whose generalised forces per mode are ``modal * n_x/2``."""
-        forces = self.sine_values(modal)
-        forces[..., -1] *= 0.5
-        return forces
+    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+        """Nodal forces whose generalised forces per mode are ``modal * n_x/2``, (2, ..., n_x).
 
-    def cosine_forces(self, modal: Array) -> Array:
-        """Nodal forces at i = 0..n_x - 1 whose generalised forces are ``modal * n_x/2``."""
-        forces = self.cosine_values(modal)
-        forces[..., 0] *= 0.5
-        return forces
+        Along x at i = 1..n_x and along y at i = 0..n_x - 1. Both transforms are done in one: with
+        alternating signs, the cosines in reversed order are the sines.
+        """
+        modal = np.array(modal)
+        modal[0] *= self._alternating
+        forces = fft.dct(modal, type=2, overwrite_x=True)
+        forces *= 0.5
+        tangential, normal = forces[0, ..., ::-1], forces[1]
+        tangential[..., -1] *= 0.5  # half of an element belongs to the last node
+        normal[..., 0] *= 0.5  # and to the first one
+        return tangential, normal
 
     # -- loads and integrals --------------------------------------------------------------------
 
@@ -138,6 +140,7 @@ class Body:
         load : a load (N/m) to add to; none by default.
         """
         load = self.zero_field() if load is None else load
+        terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
         coefficients = np.array([c for c, _ in terms])
         edge = sum(c * field.edge for c, field in terms)
         rho_s = s * self.material.density

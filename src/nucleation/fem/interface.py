@@ -52,11 +52,14 @@ class InterfaceSolution:
 
 @dataclasses.dataclass(frozen=True)
 class Factors:
-    """Newton's matrix among the nodes that elasticity couples, factorised; others are alone."""
+    """Newton's matrix among the nodes that elasticity couples, factorised; others are alone.
+
+    In single precision, twice as fast: that costs Newton's method less than its second order.
+    """
 
     active: NDArray[np.intp]
     damping: Array  # R df/dv at the active nodes when it was factorised
-    lu: Array
+    lu: NDArray[np.float32]
     pivots: NDArray[np.int32]
 
     @classmethod
@@ -67,13 +70,13 @@ class Factors:
         """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
         active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
         if not active.size:
-            return cls(active, damping[active], np.empty((0, 0)), np.empty(0, dtype=np.int32))
-        stiffness, coupling = operator.tangent(active + 1)  # type: ignore[arg-type]
-        coupling *= coefficient[active, None]
+            return cls(active, damping[active], np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.int32))
+        stiffness, coupling = operator.tangent(active + 1, np.float32)
+        coupling *= coefficient[active, None].astype(np.float32)
         stiffness += coupling
         stiffness *= beta
         stiffness[np.diag_indices_from(stiffness)] += damping[active]
-        lu, pivots, info = lapack.dgetrf(stiffness.T, overwrite_a=True)  # of the transpose
+        lu, pivots, info = lapack.sgetrf(stiffness.T, overwrite_a=True)  # of the transpose
         if info:
             raise NewtonFailure("the interface's tangent is singular")
         return cls(active, damping[active], lu, pivots)
@@ -88,9 +91,9 @@ class Factors:
 
     def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
         """Newton's direction for a residual, to first order in the change since factorising."""
-        change = -residual / (elastic + damping)
+        change = residual / -(elastic + damping)
         if self.active.size:
-            change[self.active], _ = lapack.dgetrs(
+            change[self.active], _ = lapack.sgetrs(
                 self.lu, self.pivots, -residual[self.active], trans=1
             )
         return change
@@ -183,9 +186,9 @@ class Interface:
         forms agree to first order in the change, so that convergence stays quadratic.
         """
         v0 = self.friction.regularisation_slip_rate
-        ratio = change / np.hypot(v, v0)
+        ratio = change / self.friction.slip_speed(v)
         updated = v + change
-        shrinking = (v * change < 0.0) & (np.abs(ratio) > 0.5)
+        shrinking = (np.abs(ratio) > 0.5) & (v * change < 0.0)
         if shrinking.any():
             shift = np.clip(ratio[shrinking], -LARGEST_SHIFT, LARGEST_SHIFT)
             updated[shrinking] = v0 * np.sinh(np.arcsinh(v[shrinking] / v0) + shift)

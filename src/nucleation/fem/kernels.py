@@ -1,7 +1,8 @@
 """Compiled loops of the separable solver: block-tridiagonal elimination for all modes at once.
 
 Every array is laid out ``[level, component, mode]`` with the mode fastest, so that each inner
-loop runs over the independent modes and the compiler turns it into vector instructions. Levels
+loop runs over the independent modes, along rows that the compiler knows to be contiguous, and
+becomes vector instructions. Levels
 count from the interface (0) to the top (n_y). Elimination runs from the top down, so that the
 last pivot is the body's dynamic stiffness condensed on its interface.
 
@@ -65,45 +66,57 @@ def factorise(kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, pivot, i
 
 
 @compiled
+def edge_sums(weights, field, first, out):
+    """Sums over the modes that the right edge sees, at the levels >= `first`.
+
+    ``out[0] = sum_m weights[0] u_x``, ``out[1] = sum_m weights[1] u_x`` and
+    ``out[2] = sum_m weights[2] u_y``, each of shape (n_y + 1,).
+    """
+    wa, wb, wc = weights[0], weights[1], weights[2]
+    for j in range(first, field.shape[0]):
+        x, y, a, b, c = field[j, 0], field[j, 1], 0.0, 0.0, 0.0
+        for m in range(x.size):
+            a += wa[m] * x[m]
+            b += wb[m] * x[m]
+            c += wc[m] * y[m]
+        out[0, j], out[1, j], out[2, j] = a, b, c
+
+
+@compiled
 def eliminate(lower, load, profiles, weights, scale, out):
     """Forward sweep from the top to the interface, ``out[j] = r[j] - T[j] out[j+1]``.
 
     The right-hand side is the load with the edge's values moved to it, ``r = load - scale G^T e``,
     from the profiles (3, n_y + 1) of ``G^T e`` along y.
     """
-    top, n = lower.shape[0], load.shape[2]
+    top = lower.shape[0]
+    wa, wb, wc = weights[0], weights[1], weights[2]
     for j in range(top, -1, -1):
         a, b, c = scale * profiles[0, j], scale * profiles[1, j], scale * profiles[2, j]
+        rx, ry, x, y = load[j, 0], load[j, 1], out[j, 0], out[j, 1]
         if j == top:
-            for m in range(n):
-                out[j, 0, m] = load[j, 0, m] - (a * weights[0, m] + b * weights[1, m])
-                out[j, 1, m] = load[j, 1, m] - c * weights[2, m]
+            for m in range(x.size):
+                x[m] = rx[m] - (a * wa[m] + b * wb[m])
+                y[m] = ry[m] - c * wc[m]
         else:
-            for m in range(n):
-                x, y = out[j + 1, 0, m], out[j + 1, 1, m]
-                out[j, 0, m] = (load[j, 0, m] - (a * weights[0, m] + b * weights[1, m])) - (
-                    lower[j, 0, m] * x + lower[j, 1, m] * y
-                )
-                out[j, 1, m] = (load[j, 1, m] - c * weights[2, m]) - (
-                    lower[j, 2, m] * x + lower[j, 3, m] * y
-                )
+            ux, uy = out[j + 1, 0], out[j + 1, 1]
+            txx, txy, tyx, tyy = lower[j, 0], lower[j, 1], lower[j, 2], lower[j, 3]
+            for m in range(x.size):
+                x[m] = (rx[m] - (a * wa[m] + b * wb[m])) - (txx[m] * ux[m] + txy[m] * uy[m])
+                y[m] = (ry[m] - c * wc[m]) - (tyx[m] * ux[m] + tyy[m] * uy[m])
 
 
 @compiled
 def substitute(inverse, lower, rhs):
     """Backward sweep in place, from the interface (known, in ``rhs[0]``) to the top."""
-    n = rhs.shape[2]
     for j in range(1, rhs.shape[0]):
-        for m in range(n):
-            x, y = rhs[j, 0, m], rhs[j, 1, m]
-            px, py = rhs[j - 1, 0, m], rhs[j - 1, 1, m]
-            qxy = inverse[j, 1, m]
-            rhs[j, 0, m] = (
-                inverse[j, 0, m] * x + qxy * y - (lower[j - 1, 0, m] * px + lower[j - 1, 2, m] * py)
-            )
-            rhs[j, 1, m] = (
-                qxy * x + inverse[j, 2, m] * y - (lower[j - 1, 1, m] * px + lower[j - 1, 3, m] * py)
-            )
+        x, y, px, py = rhs[j, 0], rhs[j, 1], rhs[j - 1, 0], rhs[j - 1, 1]
+        txx, txy, tyx, tyy = lower[j - 1, 0], lower[j - 1, 1], lower[j - 1, 2], lower[j - 1, 3]
+        qxx, qxy, qyy = inverse[j, 0], inverse[j, 1], inverse[j, 2]
+        for m in range(x.size):
+            rx, ry = x[m], y[m]
+            x[m] = qxx[m] * rx + qxy[m] * ry - (txx[m] * px[m] + tyx[m] * py[m])
+            y[m] = qxy[m] * rx + qyy[m] * ry - (txy[m] * px[m] + tyy[m] * py[m])
 
 
 @compiled
@@ -111,34 +124,33 @@ def add_inertia(mass, weight, coefficients, fields, edge_load, edge_weight, load
     """``out = load + weight[m] M f + edge_load[j] edge_weight[m]`` with ``f = sum_i c_i f_i``.
 
     M is the mass matrix in y, the last term acts along y only; ``near[j] = sum_m edge_weight f_y``.
+    `fields` are four.
     """
     top, n = mass.shape[1] - 1, load.shape[2]
+    c0, c1, c2, c3 = coefficients[0], coefficients[1], coefficients[2], coefficients[3]
     rows = np.zeros((3, 2, n))  # f at the levels j - 1, j, j + 1, each at its level modulo 3
     for level in range(top + 2):
         if level <= top:
-            row = rows[level % 3]
             for c in range(2):
+                row = rows[level % 3, c]
+                f0, f1 = fields[0][level, c], fields[1][level, c]
+                f2, f3 = fields[2][level, c], fields[3][level, c]
                 for m in range(n):
-                    row[c, m] = coefficients[0] * fields[0][level, c, m]
-                for i in range(1, len(fields)):
-                    for m in range(n):
-                        row[c, m] += coefficients[i] * fields[i][level, c, m]
+                    row[m] = (c0 * f0[m] + c1 * f1[m]) + (c2 * f2[m] + c3 * f3[m])
             total = 0.0
             for m in range(n):
-                total += edge_weight[m] * row[1, m]
+                total += edge_weight[m] * row[m]
             near[level] = total
         if level == 0:
             continue
         j = level - 1
         lo, di, up = mass[0, j], mass[1, j], mass[2, j]  # zero where there is no neighbour
-        below, here, above = rows[(j + 2) % 3], rows[j % 3], rows[(j + 1) % 3]
         for c in range(2):
-            edge = edge_load[j] if c == 1 else 0.0
+            below, here, above = rows[(j + 2) % 3, c], rows[j % 3, c], rows[(j + 1) % 3, c]
+            r, to, edge = load[j, c], out[j, c], edge_load[j] * c
             for m in range(n):
-                out[j, c, m] = load[j, c, m] + (
-                    weight[m] * (lo * below[c, m] + di * here[c, m] + up * above[c, m])
-                    + edge * edge_weight[m]
-                )
+                inertia = weight[m] * (lo * below[m] + di * here[m] + up * above[m])
+                to[m] = r[m] + (inertia + edge * edge_weight[m])
 
 
 @compiled
@@ -199,30 +211,14 @@ def respond(inverse, lower, diagonal, profiles, weights, scale, first, solution)
 
 
 @compiled
-def edge_sums(weights, field, first, out):
-    """Sums over the modes that the right edge sees, at the levels >= `first`.
-
-    ``out[0] = sum_m weights[0] u_x``, ``out[1] = sum_m weights[1] u_x`` and
-    ``out[2] = sum_m weights[2] u_y``, each of shape (n_y + 1,).
-    """
-    n = field.shape[2]
-    for j in range(first, field.shape[0]):
-        a = b = c = 0.0
-        for m in range(n):
-            a += weights[0, m] * field[j, 0, m]
-            b += weights[1, m] * field[j, 0, m]
-            c += weights[2, m] * field[j, 1, m]
-        out[0, j], out[1, j], out[2, j] = a, b, c
-
-
-@compiled
 def rate_of_change(c1, c2, beta, new, u, u_past, out):
     """``out = (new - c1 u - c2 u_past) / beta``: the time derivative by the step's formula."""
     scale = 1.0 / beta
     for j in range(u.shape[0]):
         for c in range(2):
-            for m in range(u.shape[2]):
-                out[j, c, m] = scale * (new[j, c, m] - c1 * u[j, c, m] - c2 * u_past[j, c, m])
+            x, u1, u2, rate = new[j, c], u[j, c], u_past[j, c], out[j, c]
+            for m in range(x.size):
+                rate[m] = scale * (x[m] - c1 * u1[m] - c2 * u2[m])
 
 
 @compiled
@@ -246,10 +242,10 @@ def interface_blocks(d, h, n, nodes, stiffness, coupling):
     is not the modes' but the edge's.
     """
     for a in range(nodes.size):
-        for b in range(nodes.size):
-            i, j = nodes[a], nodes[b]
-            away = abs(i - j)
+        i = nodes[a]
+        for b in range(a + 1):
+            j = nodes[b]  # not above i: N_ji has the opposite sign of h(i-j)
             half = (0.5 if i == n else 1.0) * (0.5 if j == n else 1.0)
-            stiffness[a, b] = half * (d[away] - d[i + j])
-            signed = h[away] if i > j else -h[away]
-            coupling[a, b] = 0.0 if i == n else half * (h[i + j] - signed)
+            stiffness[a, b] = stiffness[b, a] = half * (d[i - j] - d[i + j])
+            coupling[a, b] = 0.0 if i == n else half * (h[i + j] - h[i - j])
+            coupling[b, a] = half * (h[i + j] + h[i - j]) if j < n else 0.0

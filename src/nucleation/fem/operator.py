@@ -24,7 +24,7 @@ from .body import Body, Field
 
 Array = NDArray[np.float64]
 
-NEGLIGIBLE = 1e-17  # of the edge's largest force on a node
+NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
 
 
@@ -94,11 +94,11 @@ class BodyOperator:
         kernels.edge_sums(self.body.edge_weights, modes, 0, sums)
         return load.edge - self._edge_rows(sums) - self._edge_edge @ edge
 
-    def interface_forces(self, w_amplitudes: Array, reduced: Array) -> tuple[Array, Array]:
+    def interface_forces(
+        self, w_amplitudes: Array, reduced: Array | float = 0.0
+    ) -> tuple[Array, Array]:
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
-        p = self.body.sine_forces(self._pivot[0] * w_amplitudes - reduced[0])
-        normal = self.body.cosine_forces(self._pivot[1] * w_amplitudes - reduced[1])
-        return p, normal
+        return self.body.interface_forces(self._pivot[:2] * w_amplitudes - reduced)
 
     def respond(self, load: Field, w: Array) -> LinearResponse:
         """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance."""
@@ -180,16 +180,15 @@ class BodyOperator:
         """
         body = self.body
         weights, scale = body.edge_weights, 2.0 / body.grid.n_x
-        result = []
-        for component, to_nodes in ((0, body.sine_forces), (1, body.cosine_forces)):
+        rows = np.empty((2, body.grid.n_y + 1, body.grid.n_x))
+        for component in (0, 1):
             modes = np.zeros((body.grid.n_y + 1, 2, body.grid.n_x))
             modes[0, component] = 1.0
             kernels.substitute(self._inverse, self._lower, modes)
-            rows = weights[0] * (self._edge_x[0] @ modes[:, 0])
-            rows += weights[1] * (self._edge_x[1] @ modes[:, 0])
-            rows += weights[2] * (self._edge_y @ modes[:, 1])
-            result.append(to_nodes(scale * rows))
-        return result[0], result[1]
+            rows[component] = weights[0] * (self._edge_x[0] @ modes[:, 0])
+            rows[component] += weights[1] * (self._edge_x[1] @ modes[:, 0])
+            rows[component] += weights[2] * (self._edge_y @ modes[:, 1])
+        return body.interface_forces(scale * rows)
 
     # -- the condensed operator on the interface ------------------------------------------------
 
@@ -200,7 +199,7 @@ class BodyOperator:
         """
         near, tangential, normal = self._felt
         amplitudes = self.body.sine_amplitudes(w)
-        p, reaction = self.interface_forces(amplitudes, np.zeros((2, w.size)))
+        p, reaction = self.interface_forces(amplitudes)
         edge = self._edge_response[:, near:] @ w[near:]
         corner = tangential[0] @ w[near:] + self.edge_schur[0] @ edge
         p[near:] += edge @ tangential
@@ -263,13 +262,13 @@ class BodyOperator:
         felt = np.abs(self._edge_diagonal) > EDGE_FELT * self._diagonal_of_modes
         return int(np.argmax(felt)) + 1 if felt.any() else self.body.grid.n_x + 1
 
-    def tangent(self, nodes: Array) -> tuple[Array, Array]:
+    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some interface nodes (sorted, in 1..n_x), (n, n).
 
         N is returned for the normal forces of those same nodes.
         """
         n = self.body.grid.n_x
-        stiffness, coupling = np.empty((2, nodes.size, nodes.size))
+        stiffness, coupling = np.empty((2, nodes.size, nodes.size), dtype=dtype)
         kernels.interface_blocks(*self._toeplitz, n, nodes, stiffness, coupling)
         near = int(np.searchsorted(nodes, self._edge_reach))
         if near < nodes.size:

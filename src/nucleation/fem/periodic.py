@@ -75,13 +75,9 @@ class PeriodicBody(Body):
         mean, a, b = self._split(amplitudes)
         return self._values(mean, a + 1j * b)
 
-    def sine_forces(self, modal: Array) -> Array:
-        """Nodal forces along x of modal ones: all nodes are alike."""
-        return self.sine_values(modal)
-
-    def cosine_forces(self, modal: Array) -> Array:
-        """Nodal forces along y of modal ones."""
-        return self.cosine_values(modal)
+    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+        """Nodal forces along x and y of modal ones, (2, n_x): all nodes are alike."""
+        return self.sine_values(modal[0]), self.cosine_values(modal[1])
 
     def top_load(self, normal_stress: float, shear_stress: float = 0.0) -> Field:
         """Nodal forces of a compressive and a shear stress (Pa) on the top (N/m)."""
@@ -99,7 +95,7 @@ class PeriodicOperator(BodyOperator):
 
     def apply(self, w: Array) -> tuple[Array, Array, Array]:
         """``D w``, ``N w`` (with entry 0) and the edge values, which do not exist: zeros."""
-        p, reaction = self.interface_forces(self.body.sine_amplitudes(w), np.zeros((2, w.size)))
+        p, reaction = self.interface_forces(self.body.sine_amplitudes(w))
         return p, with_entry_zero(reaction), np.zeros(self.body.grid.n_y + 1)
 
     def respond(self, load: Field, w: Array) -> LinearResponse:
@@ -122,10 +118,10 @@ class PeriodicOperator(BodyOperator):
         """Diagonal of D (N/m per m), shape (n_x,)."""
         return np.full(self.body.grid.n_x, self._columns[0][0])
 
-    def tangent(self, nodes: Array) -> tuple[Array, Array]:
+    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
         block = np.ix_(nodes - 1, nodes - 1)
-        stiffness, coupling = (circulant(column)[block] for column in self._columns)
+        stiffness, coupling = (circulant(c)[block].astype(dtype) for c in self._columns)
         return stiffness, coupling
 
 
