@@ -41,6 +41,9 @@ SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
 SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the step
 
 
+EDGE_AT_REST = 1e-11  # error of the edge's prediction over its largest value: in the end, round-off
+
+
 @dataclasses.dataclass(frozen=True)
 class State:
     """The block at one instant; interface arrays are over the nodes 0..n_x, newest first.
@@ -60,6 +63,7 @@ class State:
     past_w: Array
     momentum: float  # kg/s, along x, of the velocity w_t
     previous_momentum: float
+    edge_error: float  # of the edge's prediction in the step that led here, relative
 
     @classmethod
     def beginning(
@@ -69,7 +73,7 @@ class State:
         """The state at time zero, without a past."""
         return cls(
             displacement, velocity, displacement, velocity, np.zeros(1), slip_rate[None],
-            log_state[None], w[None], momentum, momentum,
+            log_state[None], w[None], momentum, momentum, np.inf,
         )  # fmt: skip
 
     def to_arrays(self) -> dict[str, Array]:
@@ -178,21 +182,28 @@ class Dynamics:
         on_interface = self._formula_on_interface(state, formula)
         w_history = on_interface.from_past(state.past_w)
         w_guess = w_history + on_interface.beta * (guess[1:] - self.velocity)
-        response = operator.respond(load, w_guess)
         interface = self.interface
         if first:
             interface = dataclasses.replace(interface, most_iterations=MOST_ITERATIONS_AT_START)
-        solution = interface.solve(
-            operator, response, w_history, on_interface.from_past(state.past_log_states),
-            on_interface.beta, guess[1:],
-        )  # fmt: skip
+        edge = self._predicted_edge(state, formula.step)
+        # away from the slip and its waves the right edge moves as predicted, to round-off
+        for given in (edge, None) if state.edge_error < EDGE_AT_REST else (None,):
+            response = operator.respond(load, w_guess, given)
+            solution = interface.solve(
+                operator, response, w_history, on_interface.from_past(state.past_log_states),
+                on_interface.beta, guess[1:],
+            )  # fmt: skip
+            displacement = operator.displacement(load, response, solution.w, solution.edge)
+            edge_error = _relative_change(edge, displacement.edge)
+            if given is None or edge_error < EDGE_AT_REST:
+                break
         error = np.inf if first else 0.0
         if state.past_times.size == 3:
             error = error_factor(formula, state.past_times) * max(
                 np.abs(np.arcsinh(solution.slip_rate / scale) - np.arcsinh(guess / scale)).max(),
                 np.abs(solution.log_state - log_state_guess).max(),
             )
-        return self._completed(state, formula, operator, load, solution, error)
+        return self._completed(state, formula, displacement, edge_error, solution, error)
 
     # -- parts of a step ------------------------------------------------------------------------
 
@@ -250,27 +261,45 @@ class Dynamics:
         guess = np.clip(scale * np.sinh(scaled), -largest, largest)
         return guess, weights @ state.past_log_states
 
+    def _predicted_edge(self, state: State, step: float) -> Array:
+        """The edge values (m) after a step, if they go on with the acceleration of the last one."""
+        edge = state.displacement.edge + step * state.velocity.edge
+        if state.last_step == 0.0:
+            return edge
+        change = state.velocity.edge - state.previous_velocity.edge
+        return edge + (0.5 * step**2 / state.last_step) * change
+
     def _completed(
-        self, state: State, formula: Formula, operator: BodyOperator, load: Field,
+        self, state: State, formula: Formula, displacement: Field, edge_error: float,
         solution: InterfaceSolution, error: float,
     ) -> tuple[State, StepReport]:  # fmt: skip
         (c1, c2), beta = formula.past, formula.beta
-        modes, _ = operator.solve(load, self.body.sine_amplitudes(solution.w), solution.edge)
         u, u_past = state.displacement, state.previous_displacement
-        rates = np.empty_like(modes)
-        kernels.rate_of_change(c1, c2, beta, modes, u.modes, u_past.modes, rates)
-        edge_rate = (solution.edge - c1 * u.edge - c2 * u_past.edge) / beta
-        velocity = Field(rates, edge_rate)
+        rates = np.empty_like(displacement.modes)
+        kernels.rate_of_change(c1, c2, beta, displacement.modes, u.modes, u_past.modes, rates)
+        velocity = Field(rates, (displacement.edge - c1 * u.edge - c2 * u_past.edge) / beta)
         momentum = self.body.momentum_x(velocity)
         force = (momentum - c1 * state.momentum - c2 * state.previous_momentum) / beta
-        keep = slice(0, 2)
         new = State(
-            Field(modes, solution.edge), velocity, state.displacement, state.velocity,
-            np.append(state.time + formula.step, state.past_times[keep]),
-            np.vstack((solution.slip_rate, state.past_slip_rates[keep])),
-            np.vstack((solution.log_state, state.past_log_states[keep])),
-            np.vstack((solution.w, state.past_w[keep])),
-            momentum, state.momentum,
+            displacement, velocity, state.displacement, state.velocity,
+            _pushed(state.time + formula.step, state.past_times),
+            _pushed(solution.slip_rate, state.past_slip_rates),
+            _pushed(solution.log_state, state.past_log_states),
+            _pushed(solution.w, state.past_w),
+            momentum, state.momentum, edge_error,
         )  # fmt: skip
         # discrete balance along x: the driven edge carries what friction and inertia leave
         return new, StepReport(solution, float(solution.tangential.sum() - force), error)
+
+
+def _relative_change(predicted: Array, found: Array) -> float:
+    """Largest difference over the largest value; infinite where all values are zero."""
+    largest = np.abs(found).max()
+    return float(np.abs(found - predicted).max() / largest) if largest > 0.0 else np.inf
+
+
+def _pushed(newest: Array | float, past: Array) -> Array:
+    """The newest value before the past ones, of which two are kept."""
+    result = np.empty((min(past.shape[0], 2) + 1, *past.shape[1:]))
+    result[0], result[1:] = newest, past[:2]
+    return result

@@ -105,7 +105,7 @@ class Interface:
 
     friction: Friction
     velocity: float  # m/s, of the left edge
-    tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
+    tolerance: float = 1e-7  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 8
 
     def solve(

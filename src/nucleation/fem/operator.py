@@ -33,12 +33,15 @@ class LinearResponse:
     """Nodal forces (N/m) on the body at given w (m), and the edge values (m) in balance there.
 
     `w` and `tangential` at the nodes 1..n_x, `normal` at 0..n_x, `edge` at the levels 0..n_y.
+    Where the edge values were given and not found, `swept` holds the sweep down to the interface
+    with them, (n_y + 1, 2, n_x): :meth:`BodyOperator.displacement` goes on from there.
     """
 
     w: Array
     tangential: Array
     normal: Array
     edge: Array
+    swept: Array | None = None
 
 
 class BodyOperator:
@@ -78,15 +81,20 @@ class BodyOperator:
         Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
         (2, n_x); all loads in the scaling of :meth:`Body.top_load` (N/m).
         """
+        modes = self._swept(load, edge)
+        reduced = modes[0].copy()
+        modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
+        kernels.substitute(self._inverse, self._lower, modes)
+        return modes, reduced
+
+    def _swept(self, load: Field, edge: Array) -> Array:
+        """The forward sweep from the top down to the interface."""
         modes = np.empty_like(load.modes)
         kernels.eliminate(
             self._lower, load.modes, self._edge_profiles(edge), self.body.edge_weights,
             2.0 / self.body.grid.n_x, modes,
         )  # fmt: skip
-        reduced = modes[0].copy()
-        modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
-        kernels.substitute(self._inverse, self._lower, modes)
-        return modes, reduced
+        return modes
 
     def edge_residual(self, load: Field, modes: Array, edge: Array) -> Array:
         """Unbalanced force on the edge values (N/m), shape (n_y + 1,)."""
@@ -100,11 +108,20 @@ class BodyOperator:
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
         return self.body.interface_forces(self._pivot[:2] * w_amplitudes - reduced)
 
-    def respond(self, load: Field, w: Array) -> LinearResponse:
-        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance."""
-        amplitudes, edge = self.body.sine_amplitudes(w), np.zeros_like(load.edge)
-        modes, reduced = self.solve(load, amplitudes, edge)
-        residual = self.edge_residual(load, modes, edge)
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> LinearResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
+
+        Given edge values (m) are taken to be in balance, which saves half of the work.
+        """
+        amplitudes = self.body.sine_amplitudes(w)
+        if edge is not None:
+            swept = self._swept(load, edge)
+            tangential, normal = self.interface_forces(amplitudes, swept[0])
+            corner = self._corner_reaction(load, amplitudes, swept[:2].copy(), edge)
+            return LinearResponse(w, tangential, np.append(normal, corner), edge, swept)
+        held = np.zeros_like(load.edge)
+        modes, reduced = self.solve(load, amplitudes, held)
+        residual = self.edge_residual(load, modes, held)
         edge = self.edge_correction(residual)
         tangential, normal = self.interface_forces(amplitudes, reduced)
         near, edge_tangential, edge_normal = self._felt
@@ -113,11 +130,35 @@ class BodyOperator:
         corner = self.edge_schur[0] @ edge - residual[0]
         return LinearResponse(w, tangential, np.append(normal, corner), edge)
 
+    def displacement(self, load: Field, response: LinearResponse, w: Array, edge: Array) -> Field:
+        """The body's displacement (m) at nodal `w` under the load of a response.
+
+        `edge` are the values in balance at `w`, as :meth:`apply` gives their change. Where they
+        had been given to the response, they are corrected to the balance they are found in.
+        """
+        amplitudes = self.body.sine_amplitudes(w)
+        if response.swept is None:
+            return Field(self.solve(load, amplitudes, edge)[0], edge)
+        modes = response.swept
+        modes[0, 0], modes[0, 1] = amplitudes, 0.0
+        kernels.substitute(self._inverse, self._lower, modes)
+        residual = self.edge_residual(load, modes, response.edge)
+        return Field(modes, response.edge + self.edge_correction(residual))
+
     # -- the right edge -------------------------------------------------------------------------
 
     def _edge_rows(self, sums: Array) -> Array:
         """``G u``: forces on the edge values from the sums of :func:`kernels.edge_sums`."""
         return self._edge_x[0] @ sums[0] + self._edge_x[1] @ sums[1] + self._edge_y @ sums[2]
+
+    def _corner_reaction(self, load: Field, amplitudes: Array, lowest: Array, edge: Array) -> float:
+        """Normal force (N/m) on the corner's node, from a sweep's two lowest levels `lowest`."""
+        lowest[0, 0], lowest[0, 1] = amplitudes, 0.0
+        kernels.substitute(self._inverse[:2], self._lower[:1], lowest)
+        sums = np.empty((3, 2))
+        kernels.edge_sums(self.body.edge_weights, lowest, 0, sums)
+        terms = zip((*self._edge_x, self._edge_y, self._edge_edge), (*sums, edge), strict=True)
+        return sum(t.diagonal[0] * v[0] + t.upper[0] * v[1] for t, v in terms) - load.edge[0]
 
     def _edge_profiles(self, edge: Array) -> Array:
         """Profiles along y of ``G^T e``, one per edge weight, shape (3, n_y + 1)."""

@@ -98,8 +98,8 @@ class PeriodicOperator(BodyOperator):
         p, reaction = self.interface_forces(self.body.sine_amplitudes(w))
         return p, with_entry_zero(reaction), np.zeros(self.body.grid.n_y + 1)
 
-    def respond(self, load: Field, w: Array) -> LinearResponse:
-        """The forces that hold the interface at nodal `w` (m) under a load."""
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> LinearResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load; there is no edge."""
         amplitudes, edge = self.body.sine_amplitudes(w), np.zeros_like(load.edge)
         _, reduced = self.solve(load, amplitudes, edge)
         tangential, normal = self.interface_forces(amplitudes, reduced)

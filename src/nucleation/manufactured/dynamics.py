@@ -131,7 +131,7 @@ class ManufacturedDynamics(Dynamics):
         states = [self.exact_log_state(self.grid.x, t) for t in times]
         w = [self.exact_w(t) for t in times]
         momenta = [self.body.momentum_x(fields[i]) for i in (1, 3)]
-        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta)  # type: ignore[arg-type, call-arg]
+        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta, np.inf)  # type: ignore[arg-type, call-arg]
 
     # -- errors ---------------------------------------------------------------------------------
 
