@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from scipy.special import wrightomega
 
-from nucleation.friction import EVOLUTION_LAWS, Friction
+from nucleation.friction import EVOLUTION_LAWS, Friction, wright_omega
 from nucleation.quantities import ParameterError
 
 LAW = Friction()
@@ -81,6 +82,18 @@ def test_implicit_log_state(law, step):
             ]
             numeric = (near[0] - near[1]) / (2e-3 * rate)
             assert slope == pytest.approx(numeric, rel=1e-4, abs=2e-12 / rate)
+
+
+@pytest.mark.parametrize("ends", [(-690, -30), (-30, -1), (-1, 2), (2, 100), (1e2, 1e6)])
+def test_wright_omega_is_scipys(ends):
+    z = np.linspace(*ends, 1001)
+    np.testing.assert_allclose(wright_omega(z), wrightomega(z), rtol=1e-14)
+
+
+def test_wright_omega_of_what_has_none():
+    """Far below, w = exp(z) vanishes; what is not finite ends the iteration and stays so."""
+    assert 0.0 < wright_omega(-1e6) < 1e-300
+    assert np.isnan(wright_omega(np.array([np.nan, 1.0]))[0])
 
 
 def test_expansion_gives_the_papers_numbers():

@@ -140,8 +140,9 @@ class Friction(Checked):
         "state scale of aging", unit="s", low=0.0, high=1e6, symbol="phi*", default=3.3e-4
     )
     regularisation_slip_rate: float = quantity(
-        "regularisation slip rate", unit="m/s", low=0.0, high=1.0, symbol="v0", default=1.0e-9
-    )
+        "regularisation slip rate",
+        unit="m/s", low=1e-30, high=1.0, closed="low", symbol="v0", default=1.0e-9,
+    )  # fmt: skip
     rate_coefficient: float = quantity(
         "rate-strengthening coefficient", low=0.0, high=10.0, symbol="xi", default=0.005
     )

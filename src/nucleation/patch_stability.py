@@ -138,6 +138,6 @@ def frozen_patch(
     v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
     f = law.coefficient(v, phi)
     f_v, f_phi = law.derivatives(v, phi)
-    stiffness, coupling = operator.tangent(nodes)  # type: ignore[arg-type]
+    stiffness, coupling = operator.tangent(nodes)
     by_w = -(stiffness + f[:, None] * coupling) / (f_v * force)[:, None]
     return FrozenPatch(nodes, by_w, -f_phi * phi / f_v, *log_state_derivatives(law, v, phi))

@@ -196,6 +196,41 @@ def test_a_step_changes_nothing_and_repeats_exactly():
     np.testing.assert_array_equal(first.displacement.modes, again.displacement.modes)
 
 
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
+    """One sweep with the predicted edge gives what two sweeps give, and says when it does not."""
+    parameters = dataclasses.replace(
+        small(law, n_x=48, n_y=24), geometry=Geometry(height=0.02, length=0.8)
+    )
+
+    def swept(round_off):
+        monkeypatch.setattr("nucleation.fem.dynamics.EDGE_ROUND_OFF", round_off)
+        sweeps = []
+        monkeypatch.setattr(
+            "nucleation.fem.operator.BodyOperator._swept",
+            lambda self, load, edge: sweeps.append(0) or sweep(self, load, edge),
+        )
+        dynamics = Dynamics(parameters)
+        state, report = dynamics.initial_state()
+        reports = []
+        for rung in LADDER:
+            state, report = dynamics.advance(state, rung)
+            reports.append(report)
+        return state, reports, len(sweeps) / len(LADDER)
+
+    sweep = BodyOperator._swept
+    (state, found, sweeps), (expected_state, expected, all_sweeps) = swept(4.0), swept(0.0)
+    assert all_sweeps > 2.0 > 1.5 > sweeps
+    for one, two in zip(found, expected, strict=True):
+        for name in ("tangential", "normal"):
+            p, q = getattr(one.interface, name), getattr(two.interface, name)
+            assert np.abs(p - q).max() < 1e-10 * np.abs(q).max()
+        assert one.driving_force == pytest.approx(two.driving_force, rel=1e-9)
+    u, v = state.displacement, expected_state.displacement
+    assert np.abs(u.modes - v.modes).max() < 1e-11 * np.abs(v.modes).max()
+    assert np.abs(u.edge - v.edge).max() < 1e-11 * np.abs(v.edge).max()
+
+
 def test_newton_converges_quadratically():
     """Residuals of successive iterations: the exponent of their decay is two."""
     parameters = small()

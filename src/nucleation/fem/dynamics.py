@@ -41,7 +41,7 @@ SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
 SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the step
 
 
-EDGE_AT_REST = 1e-11  # error of the edge's prediction over its largest value: in the end, round-off
+EDGE_ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 
 
 @dataclasses.dataclass(frozen=True)
@@ -134,6 +134,8 @@ class Dynamics:
         self._initial_shear = (
             loading.initial_shear_stress if loading.initial_stress == "uniform_shear" else None
         )
+        condition = (geometry.height / np.diff(self.grid.y).min()) ** 2
+        self._edge_round_off = EDGE_ROUND_OFF * np.finfo(float).eps * condition
         self._operators: OrderedDict[int, BodyOperator] = OrderedDict()
 
     def initial_state(self) -> tuple[State, StepReport]:
@@ -143,9 +145,9 @@ class Dynamics:
         response = operator.respond(self._load, np.zeros(n))
         if self._initial_shear is not None:
             forces = -self._initial_shear * self.grid.nodal_lengths[1:]
-            stiffness, _ = operator.tangent(np.arange(1, n + 1))  # type: ignore[arg-type]
+            stiffness, _ = operator.tangent(np.arange(1, n + 1))
             slipped = np.linalg.solve(stiffness, forces - response.tangential)
-            response = operator.respond(self._load, slipped)  # type: ignore[arg-type]
+            response = operator.respond(self._load, slipped)
         w = response.w
         modes, _ = operator.solve(self._load, self.body.sine_amplitudes(w), response.edge)
         displacement = Field(modes, response.edge)
@@ -186,16 +188,16 @@ class Dynamics:
         if first:
             interface = dataclasses.replace(interface, most_iterations=MOST_ITERATIONS_AT_START)
         edge = self._predicted_edge(state, formula.step)
-        # away from the slip and its waves the right edge moves as predicted, to round-off
-        for given in (edge, None) if state.edge_error < EDGE_AT_REST else (None,):
+        # far from slip and waves the right edge moves as predicted, to round-off
+        for given in (edge, None) if state.edge_error < self._edge_round_off else (None,):
             response = operator.respond(load, w_guess, given)
             solution = interface.solve(
                 operator, response, w_history, on_interface.from_past(state.past_log_states),
                 on_interface.beta, guess[1:],
             )  # fmt: skip
             displacement = operator.displacement(load, response, solution.w, solution.edge)
-            edge_error = _relative_change(edge, displacement.edge)
-            if given is None or edge_error < EDGE_AT_REST:
+            edge_error = _relative_error(displacement.edge, edge, solution.edge)
+            if given is None or edge_error < self._edge_round_off:
                 break
         error = np.inf if first else 0.0
         if state.past_times.size == 3:
@@ -292,10 +294,10 @@ class Dynamics:
         return new, StepReport(solution, float(solution.tangential.sum() - force), error)
 
 
-def _relative_change(predicted: Array, found: Array) -> float:
-    """Largest difference over the largest value; infinite where all values are zero."""
+def _relative_error(found: Array, *assumed: Array) -> float:
+    """Largest error of what was assumed over the largest value; infinite if all are zero."""
     largest = np.abs(found).max()
-    return float(np.abs(found - predicted).max() / largest) if largest > 0.0 else np.inf
+    return max(np.abs(a - found).max() for a in assumed) / largest if largest > 0.0 else np.inf
 
 
 def _pushed(newest: Array | float, past: Array) -> Array:

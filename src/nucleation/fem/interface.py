@@ -70,7 +70,8 @@ class Factors:
         """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
         active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
         if not active.size:
-            return cls(active, damping[active], np.empty((0, 0), dtype=np.float32), np.empty(0, dtype=np.int32))
+            nothing = np.empty((0, 0), dtype=np.float32)
+            return cls(active, damping[active], nothing, np.empty(0, dtype=np.int32))
         stiffness, coupling = operator.tangent(active + 1, np.float32)
         coupling *= coefficient[active, None].astype(np.float32)
         stiffness += coupling
@@ -105,7 +106,7 @@ class Interface:
 
     friction: Friction
     velocity: float  # m/s, of the left edge
-    tolerance: float = 1e-7  # of the residual, in units of the slip rate's relative change
+    tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 8
 
     def solve(

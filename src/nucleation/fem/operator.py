@@ -309,7 +309,8 @@ class BodyOperator:
         N is returned for the normal forces of those same nodes.
         """
         n = self.body.grid.n_x
-        stiffness, coupling = np.empty((2, nodes.size, nodes.size), dtype=dtype)
+        blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
+        stiffness, coupling = blocks
         kernels.interface_blocks(*self._toeplitz, n, nodes, stiffness, coupling)
         near = int(np.searchsorted(nodes, self._edge_reach))
         if near < nodes.size:
