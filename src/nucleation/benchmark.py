@@ -24,9 +24,10 @@ from .configuration import load
 from .extraction import extract
 from .fem.assembled import assemble
 from .fem.body import Body
-from .fem.dynamics import Dynamics, State
+from .fem.dynamics import Dynamics
 from .fem.grid import Grid
 from .fem.operator import BodyOperator
+from .fem.state import State
 from .fem.stepping import beta_of_step, rung_below, rung_value
 from .figures import style, work_precision
 from .files import replacing

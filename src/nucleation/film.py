@@ -11,8 +11,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from .fem.body import Body
-from .fem.dynamics import State
 from .fem.grid import Grid
+from .fem.state import State
 from .moments import chosen_frames, event_interval, thinned
 from .parameters import Parameters
 from .simulation import run

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from .drop import WINDOW, DropWatch
 from .fem.body import Body, Field
-from .fem.dynamics import State, StepReport
+from .fem.dynamics import StepReport
 from .fem.grid import Grid
+from .fem.state import State
 from .parameters import Parameters
 
 Array = NDArray[np.float64]

@@ -18,8 +18,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from .fem.dynamics import Dynamics, State, StepReport
+from .fem.dynamics import Dynamics, StepReport
 from .fem.interface import NewtonFailure, Tension
+from .fem.state import State
 from .fem.stepping import LARGEST_GROWTH, beta_of_step, rung_below, rung_value
 from .parameters import Parameters, Stepping
 from .recording import Recorder

@@ -25,9 +25,10 @@ from numpy.typing import NDArray
 
 from .extraction import patch_edge
 from .fem.body import Body
-from .fem.dynamics import Dynamics, State, StepReport
+from .fem.dynamics import Dynamics, StepReport
 from .fem.grid import Grid
 from .fem.operator import BodyOperator
+from .fem.state import State
 from .fem.stepping import RUNGS_PER_OCTAVE, beta_of_step
 from .lengths import description
 from .parameters import Parameters

@@ -1,17 +1,13 @@
 """One implicit step of the block on its frictional interface: state in, state out.
 
-The state holds the present and the previous displacement and velocity (two levels for BDF2) and
-the last interface values, from which the next ones are extrapolated. A step is pure: it returns a
-new state and changes nothing, so a rejected step leaves no trace and a stored state restarts the
-run exactly.
+A step is pure: it returns a new state and changes nothing, so a rejected step leaves no trace and
+a stored state restarts the run exactly.
 """
 
 from __future__ import annotations
 
 import dataclasses
 from collections import OrderedDict
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +18,7 @@ from .body import Body, Field
 from .grid import Grid
 from .interface import Interface, InterfaceSolution
 from .operator import BodyOperator
+from .state import State, pushed
 from .stepping import (
     LARGEST_GROWTH_OF_BDF3,
     Formula,
@@ -39,75 +36,7 @@ LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
 SLOW = 1e-2  # slip rates below this part of V need no relative accuracy,
 SLOW_IN_EVENT = 1e-3  # nor do those below this part of the fastest one,
 SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the step
-
-
 EDGE_ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
-
-
-@dataclasses.dataclass(frozen=True)
-class State:
-    """The block at one instant; interface arrays are over the nodes 0..n_x, newest first.
-
-    ``past_times`` (s), ``past_slip_rates`` (m/s), ``past_log_states`` and ``past_w`` (m, w_x at
-    the nodes 1..n_x) hold up to three instants, the first of them the present one.
-    ``displacement`` is (w_x, u_y) of the body, with u_x = V t + w_x.
-    """
-
-    displacement: Field
-    velocity: Field
-    previous_displacement: Field
-    previous_velocity: Field
-    past_times: Array
-    past_slip_rates: Array
-    past_log_states: Array
-    past_w: Array
-    momentum: float  # kg/s, along x, of the velocity w_t
-    previous_momentum: float
-    edge_error: float  # of the edge's prediction in the step that led here, relative
-
-    @classmethod
-    def beginning(
-        cls, displacement: Field, velocity: Field, slip_rate: Array, log_state: Array, w: Array,
-        momentum: float,
-    ) -> State:  # fmt: skip
-        """The state at time zero, without a past."""
-        return cls(
-            displacement, velocity, displacement, velocity, np.zeros(1), slip_rate[None],
-            log_state[None], w[None], momentum, momentum, np.inf,
-        )  # fmt: skip
-
-    def to_arrays(self) -> dict[str, Array]:
-        """The state as plain arrays by name, to be stored; exact."""
-        arrays = {}  # type: ignore[var-annotated]
-        for entry in dataclasses.fields(self):
-            value = getattr(self, entry.name)
-            if isinstance(value, Field):
-                arrays |= {f"{entry.name}_modes": value.modes, f"{entry.name}_edge": value.edge}
-            else:
-                arrays[entry.name] = np.asarray(value)
-        return arrays
-
-    @classmethod
-    def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
-        """The inverse of :meth:`to_arrays`."""
-        values: dict[str, Any] = {}
-        for entry in dataclasses.fields(cls):
-            name = entry.name
-            if entry.type == "Field":
-                values[name] = Field(arrays[f"{name}_modes"], arrays[f"{name}_edge"])
-            else:
-                values[name] = float(arrays[name]) if entry.type == "float" else arrays[name]
-        return cls(**values)
-
-    @property
-    def time(self) -> float:
-        """Present time (s)."""
-        return float(self.past_times[0])
-
-    @property
-    def last_step(self) -> float:
-        """Length of the step that led here (s), zero at the start."""
-        return float(self.past_times[0] - self.past_times[min(1, self.past_times.size - 1)])
 
 
 @dataclasses.dataclass(frozen=True)
@@ -284,10 +213,10 @@ class Dynamics:
         force = (momentum - c1 * state.momentum - c2 * state.previous_momentum) / beta
         new = State(
             displacement, velocity, state.displacement, state.velocity,
-            _pushed(state.time + formula.step, state.past_times),
-            _pushed(solution.slip_rate, state.past_slip_rates),
-            _pushed(solution.log_state, state.past_log_states),
-            _pushed(solution.w, state.past_w),
+            pushed(state.time + formula.step, state.past_times),
+            pushed(solution.slip_rate, state.past_slip_rates),
+            pushed(solution.log_state, state.past_log_states),
+            pushed(solution.w, state.past_w),
             momentum, state.momentum, edge_error,
         )  # fmt: skip
         # discrete balance along x: the driven edge carries what friction and inertia leave
@@ -298,10 +227,3 @@ def _relative_error(found: Array, *assumed: Array) -> float:
     """Largest error of what was assumed over the largest value; infinite if all are zero."""
     largest = np.abs(found).max()
     return max(np.abs(a - found).max() for a in assumed) / largest if largest > 0.0 else np.inf
-
-
-def _pushed(newest: Array | float, past: Array) -> Array:
-    """The newest value before the past ones, of which two are kept."""
-    result = np.empty((min(past.shape[0], 2) + 1, *past.shape[1:]))
-    result[0], result[1:] = newest, past[:2]
-    return result

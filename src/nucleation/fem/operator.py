@@ -17,14 +17,13 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 
 from . import kernels
 from .body import Body, Field
+from .right_edge import RightEdge
 
 Array = NDArray[np.float64]
 
-NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
 
 
@@ -63,15 +62,7 @@ class BodyOperator:
             body.sine, body.stacked.mass, body.stacked.stiffness, body.stacked.derivative,
             lame, shear, self._pivot, self._inverse, self._lower,
         )  # fmt: skip
-        dx = grid.dx
-        # rows of the edge unknowns: against w_x (two weights), against u_y, and among themselves
-        self._edge_x = (body.derivative.transposed.scaled(lame), body.derivative.scaled(shear))
-        self._edge_y = body.stiffness.scaled(p_modulus * dx / 6.0) + body.mass.scaled(
-            rho_s * dx / 6.0 - shear / dx
-        )
-        self._edge_edge = body.stiffness.scaled(p_modulus * dx / 3.0) + body.mass.scaled(
-            rho_s * dx / 3.0 + shear / dx
-        )
+        self.edge = RightEdge(body, s, self._inverse, self._lower)
 
     # -- solving --------------------------------------------------------------------------------
 
@@ -91,16 +82,10 @@ class BodyOperator:
         """The forward sweep from the top down to the interface."""
         modes = np.empty_like(load.modes)
         kernels.eliminate(
-            self._lower, load.modes, self._edge_profiles(edge), self.body.edge_weights,
+            self._lower, load.modes, self.edge.profiles(edge), self.body.edge_weights,
             2.0 / self.body.grid.n_x, modes,
         )  # fmt: skip
         return modes
-
-    def edge_residual(self, load: Field, modes: Array, edge: Array) -> Array:
-        """Unbalanced force on the edge values (N/m), shape (n_y + 1,)."""
-        sums = np.empty((3, edge.size))
-        kernels.edge_sums(self.body.edge_weights, modes, 0, sums)
-        return load.edge - self._edge_rows(sums) - self._edge_edge @ edge
 
     def interface_forces(
         self, w_amplitudes: Array, reduced: Array | float = 0.0
@@ -117,17 +102,20 @@ class BodyOperator:
         if edge is not None:
             swept = self._swept(load, edge)
             tangential, normal = self.interface_forces(amplitudes, swept[0])
-            corner = self._corner_reaction(load, amplitudes, swept[:2].copy(), edge)
+            lowest = swept[:2].copy()
+            lowest[0, 0], lowest[0, 1] = amplitudes, 0.0
+            kernels.substitute(self._inverse[:2], self._lower[:1], lowest)
+            corner = self.edge.corner_reaction(load, lowest, edge)
             return LinearResponse(w, tangential, np.append(normal, corner), edge, swept)
         held = np.zeros_like(load.edge)
         modes, reduced = self.solve(load, amplitudes, held)
-        residual = self.edge_residual(load, modes, held)
-        edge = self.edge_correction(residual)
+        residual = self.edge.residual(load, modes, held)
+        edge = self.edge.correction(residual)
         tangential, normal = self.interface_forces(amplitudes, reduced)
-        near, edge_tangential, edge_normal = self._felt
+        near, edge_tangential, edge_normal = self.edge.felt
         tangential[near:] += edge @ edge_tangential
         normal[near:] += edge @ edge_normal
-        corner = self.edge_schur[0] @ edge - residual[0]
+        corner = self.edge.schur[0] @ edge - residual[0]
         return LinearResponse(w, tangential, np.append(normal, corner), edge)
 
     def displacement(self, load: Field, response: LinearResponse, w: Array, edge: Array) -> Field:
@@ -142,94 +130,8 @@ class BodyOperator:
         modes = response.swept
         modes[0, 0], modes[0, 1] = amplitudes, 0.0
         kernels.substitute(self._inverse, self._lower, modes)
-        residual = self.edge_residual(load, modes, response.edge)
-        return Field(modes, response.edge + self.edge_correction(residual))
-
-    # -- the right edge -------------------------------------------------------------------------
-
-    def _edge_rows(self, sums: Array) -> Array:
-        """``G u``: forces on the edge values from the sums of :func:`kernels.edge_sums`."""
-        return self._edge_x[0] @ sums[0] + self._edge_x[1] @ sums[1] + self._edge_y @ sums[2]
-
-    def _corner_reaction(self, load: Field, amplitudes: Array, lowest: Array, edge: Array) -> float:
-        """Normal force (N/m) on the corner's node, from a sweep's two lowest levels `lowest`."""
-        lowest[0, 0], lowest[0, 1] = amplitudes, 0.0
-        kernels.substitute(self._inverse[:2], self._lower[:1], lowest)
-        sums = np.empty((3, 2))
-        kernels.edge_sums(self.body.edge_weights, lowest, 0, sums)
-        terms = zip((*self._edge_x, self._edge_y, self._edge_edge), (*sums, edge), strict=True)
-        return sum(t.diagonal[0] * v[0] + t.upper[0] * v[1] for t, v in terms) - load.edge[0]
-
-    def _edge_profiles(self, edge: Array) -> Array:
-        """Profiles along y of ``G^T e``, one per edge weight, shape (3, n_y + 1)."""
-        return np.array(
-            [
-                self._edge_x[0].transposed @ edge,
-                self._edge_x[1].transposed @ edge,
-                self._edge_y @ edge,
-            ]
-        )
-
-    @cached_property
-    def edge_schur(self) -> Array:
-        """Stiffness of the edge values, bulk eliminated and interface held (n_y + 1, n_y + 1).
-
-        Its first row and column belong to the corner, where ``u_y = 0``: they give its reaction.
-        """
-        body = self.body
-        n_levels, n_x = body.grid.n_y + 1, body.grid.n_x
-        diagonal = np.empty_like(self._inverse)
-        kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
-        solution, sums = np.zeros((n_levels, 2, n_x)), np.zeros((3, n_levels))
-        schur = self._edge_edge.dense()
-        for i in range(n_levels):
-            first = max(i, 1)
-            unit = np.zeros(n_levels)
-            unit[i] = 1.0
-            profiles = self._edge_profiles(unit)[:, first - 1 : first + 2]
-            if first == 1:
-                profiles[:, 0] = 0.0  # the interface is held
-            kernels.respond(
-                self._inverse, self._lower, diagonal, profiles, body.edge_weights, 2.0 / n_x,
-                first, solution,
-            )  # fmt: skip
-            sums[:, : first - 1] = 0.0
-            kernels.edge_sums(body.edge_weights, solution, first - 1, sums)
-            # the rows from i on see only these levels; the others follow by symmetry
-            schur[i:, i] -= self._edge_rows(sums)[i:]
-            schur[i, i + 1 :] = schur[i + 1 :, i]
-        return schur
-
-    @cached_property
-    def _edge_compliance(self) -> Array:
-        """Inverse of :attr:`edge_schur` on its free values, zero at the corner."""
-        compliance = np.zeros_like(self.edge_schur)
-        identity = np.eye(compliance.shape[0] - 1)
-        compliance[1:, 1:] = cho_solve(cho_factor(self.edge_schur[1:, 1:]), identity)
-        return compliance
-
-    def edge_correction(self, residual: Array) -> Array:
-        """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
-        return self._edge_compliance @ residual
-
-    @cached_property
-    def edge_to_interface(self) -> tuple[Array, Array]:
-        """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
-
-        Tangential (n_y + 1, n_x) at nodes 1..n_x, which is also the force on each edge value per
-        unit of w, and normal (n_y + 1, n_x) at nodes 0..n_x - 1 (N/m per m).
-        """
-        body = self.body
-        weights, scale = body.edge_weights, 2.0 / body.grid.n_x
-        rows = np.empty((2, body.grid.n_y + 1, body.grid.n_x))
-        for component in (0, 1):
-            modes = np.zeros((body.grid.n_y + 1, 2, body.grid.n_x))
-            modes[0, component] = 1.0
-            kernels.substitute(self._inverse, self._lower, modes)
-            rows[component] = weights[0] * (self._edge_x[0] @ modes[:, 0])
-            rows[component] += weights[1] * (self._edge_x[1] @ modes[:, 0])
-            rows[component] += weights[2] * (self._edge_y @ modes[:, 1])
-        return body.interface_forces(scale * rows)
+        residual = self.edge.residual(load, modes, response.edge)
+        return Field(modes, response.edge + self.edge.correction(residual))
 
     # -- the condensed operator on the interface ------------------------------------------------
 
@@ -238,29 +140,14 @@ class BodyOperator:
 
         Shapes (n_x,), (n_x + 1,) and (n_y + 1,).
         """
-        near, tangential, normal = self._felt
+        near, tangential, normal = self.edge.felt
         amplitudes = self.body.sine_amplitudes(w)
         p, reaction = self.interface_forces(amplitudes)
-        edge = self._edge_response[:, near:] @ w[near:]
-        corner = tangential[0] @ w[near:] + self.edge_schur[0] @ edge
+        edge = self.edge.response[:, near:] @ w[near:]
+        corner = tangential[0] @ w[near:] + self.edge.schur[0] @ edge
         p[near:] += edge @ tangential
         reaction[near:] += edge @ normal
         return p, np.append(reaction, corner), edge
-
-    @cached_property
-    def _felt(self) -> tuple[int, Array, Array]:
-        """The parts of :attr:`edge_to_interface` beyond round-off, and the column they begin at.
-
-        The edge's influence falls exponentially over some heights of the block.
-        """
-        tangential, normal = self.edge_to_interface
-        largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
-        near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
-        return (
-            near,
-            np.ascontiguousarray(tangential[:, near:]),
-            np.ascontiguousarray(normal[:, near:]),
-        )
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:
@@ -277,14 +164,9 @@ class BodyOperator:
         return d, h
 
     @cached_property
-    def _edge_response(self) -> Array:
-        """Edge values per unit of w at each node, bulk and edge in balance, (n_y + 1, n_x)."""
-        return -self._edge_compliance @ self.edge_to_interface[0]
-
-    @cached_property
     def diagonal(self) -> Array:
         """Diagonal of D at the nodes 1..n_x (N/m per m), the edge's share included."""
-        return self._diagonal_of_modes + self._edge_diagonal
+        return self._diagonal_of_modes + self.edge.diagonal
 
     @cached_property
     def _diagonal_of_modes(self) -> Array:
@@ -294,13 +176,9 @@ class BodyOperator:
         return diagonal
 
     @cached_property
-    def _edge_diagonal(self) -> Array:
-        return np.einsum("ji,ji->i", self.edge_to_interface[0], self._edge_response)
-
-    @cached_property
     def _edge_reach(self) -> int:
         """The first node (1..n_x) that feels the right edge beyond round-off."""
-        felt = np.abs(self._edge_diagonal) > EDGE_FELT * self._diagonal_of_modes
+        felt = np.abs(self.edge.diagonal) > EDGE_FELT * self._diagonal_of_modes
         return int(np.argmax(felt)) + 1 if felt.any() else self.body.grid.n_x + 1
 
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
@@ -315,10 +193,10 @@ class BodyOperator:
         near = int(np.searchsorted(nodes, self._edge_reach))
         if near < nodes.size:
             own = nodes[near:]
-            tangential, normal = self.edge_to_interface
-            edge = self._edge_response[:, own - 1]
+            tangential, normal = self.edge.to_interface
+            edge = self.edge.response[:, own - 1]
             stiffness[near:, near:] += tangential[:, own - 1].T @ edge
-            normal = np.append(normal, self.edge_schur[:, :1], axis=1)[:, own]
+            normal = np.append(normal, self.edge.schur[:, :1], axis=1)[:, own]
             coupling[near:, near:] += normal.T @ edge
             if own[-1] == n:
                 coupling[-1, near:] += tangential[0, own - 1]

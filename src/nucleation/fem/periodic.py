@@ -26,9 +26,10 @@ from scipy.linalg import circulant
 from ..elasticity import Material
 from ..parameters import Parameters
 from .body import Body, Field
-from .dynamics import Dynamics, State
+from .dynamics import Dynamics
 from .grid import Grid
 from .operator import BodyOperator, LinearResponse
+from .state import State
 from .stepping import rung_value
 
 Array = NDArray[np.float64]

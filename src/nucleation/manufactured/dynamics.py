@@ -21,9 +21,10 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from ..fem.body import Field
-from ..fem.dynamics import Dynamics, State, StepReport
+from ..fem.dynamics import Dynamics, StepReport
 from ..fem.interface import Interface, InterfaceSolution
 from ..fem.operator import BodyOperator, LinearResponse
+from ..fem.state import State
 from ..fem.stepping import Formula, rung_value
 from ..friction import Friction
 from ..parameters import Parameters

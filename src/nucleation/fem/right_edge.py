@@ -1,0 +1,145 @@
+"""The free right edge: its n_y values of u_y couple to all modes, and are eliminated last.
+
+The edge values ``e`` and the bulk fulfil ``K_e e + G u = load``; with the bulk eliminated and the
+interface held, that leaves a small dense system, their Schur complement. Its influence on the
+interface falls exponentially over some heights of the block.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from . import kernels
+from .body import Body, Field
+
+Array = NDArray[np.float64]
+
+NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
+
+
+class RightEdge:
+    """The rows of the edge values in ``K + s M``, given the factors of the bulk's elimination."""
+
+    def __init__(self, body: Body, s: float, inverse: Array, lower: Array) -> None:
+        self.body, self._inverse, self._lower = body, inverse, lower
+        dx, material = body.grid.dx, body.material
+        lame, shear = material.lame_modulus, material.shear_modulus
+        p_modulus, rho_s = material.p_wave_modulus, s * material.density
+        # rows of the edge values: against w_x (two weights), against u_y, and among themselves
+        self._x = (body.derivative.transposed.scaled(lame), body.derivative.scaled(shear))
+        self._y = body.stiffness.scaled(p_modulus * dx / 6.0) + body.mass.scaled(
+            rho_s * dx / 6.0 - shear / dx
+        )
+        self._edge = body.stiffness.scaled(p_modulus * dx / 3.0) + body.mass.scaled(
+            rho_s * dx / 3.0 + shear / dx
+        )
+
+    def profiles(self, edge: Array) -> Array:
+        """Profiles along y of ``G^T e``, one per edge weight, shape (3, n_y + 1)."""
+        return np.array(
+            [self._x[0].transposed @ edge, self._x[1].transposed @ edge, self._y @ edge]
+        )
+
+    def _rows(self, sums: Array) -> Array:
+        """``G u``: forces on the edge values from the sums of :func:`kernels.edge_sums`."""
+        return self._x[0] @ sums[0] + self._x[1] @ sums[1] + self._y @ sums[2]
+
+    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+        """Unbalanced force on the edge values (N/m), shape (n_y + 1,)."""
+        sums = np.empty((3, edge.size))
+        kernels.edge_sums(self.body.edge_weights, modes, 0, sums)
+        return load.edge - self._rows(sums) - self._edge @ edge
+
+    def corner_reaction(self, load: Field, lowest: Array, edge: Array) -> float:
+        """Normal force (N/m) on the corner's node, from the modes' two lowest levels."""
+        sums = np.empty((3, 2))
+        kernels.edge_sums(self.body.edge_weights, lowest, 0, sums)
+        terms = zip((*self._x, self._y, self._edge), (*sums, edge), strict=True)
+        return sum(t.diagonal[0] * v[0] + t.upper[0] * v[1] for t, v in terms) - load.edge[0]
+
+    def correction(self, residual: Array) -> Array:
+        """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
+        return self._compliance @ residual
+
+    @cached_property
+    def schur(self) -> Array:
+        """Stiffness of the edge values, bulk eliminated and interface held (n_y + 1, n_y + 1).
+
+        Its first row and column belong to the corner, where ``u_y = 0``: they give its reaction.
+        """
+        body = self.body
+        n_levels, n_x = body.grid.n_y + 1, body.grid.n_x
+        diagonal = np.empty_like(self._inverse)
+        kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
+        solution, sums = np.zeros((n_levels, 2, n_x)), np.zeros((3, n_levels))
+        schur = self._edge.dense()
+        for i in range(n_levels):
+            first = max(i, 1)
+            unit = np.zeros(n_levels)
+            unit[i] = 1.0
+            profiles = self.profiles(unit)[:, first - 1 : first + 2]
+            if first == 1:
+                profiles[:, 0] = 0.0  # the interface is held
+            kernels.respond(
+                self._inverse, self._lower, diagonal, profiles, body.edge_weights, 2.0 / n_x,
+                first, solution,
+            )  # fmt: skip
+            sums[:, : first - 1] = 0.0
+            kernels.edge_sums(body.edge_weights, solution, first - 1, sums)
+            # the rows from i on see only these levels; the others follow by symmetry
+            schur[i:, i] -= self._rows(sums)[i:]
+            schur[i, i + 1 :] = schur[i + 1 :, i]
+        return schur
+
+    @cached_property
+    def _compliance(self) -> Array:
+        """Inverse of :attr:`schur` on its free values, zero at the corner."""
+        compliance = np.zeros_like(self.schur)
+        identity = np.eye(compliance.shape[0] - 1)
+        compliance[1:, 1:] = cho_solve(cho_factor(self.schur[1:, 1:]), identity)
+        return compliance
+
+    @cached_property
+    def to_interface(self) -> tuple[Array, Array]:
+        """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
+
+        Tangential (n_y + 1, n_x) at nodes 1..n_x, which is also the force on each edge value per
+        unit of w, and normal (n_y + 1, n_x) at nodes 0..n_x - 1 (N/m per m).
+        """
+        body = self.body
+        weights, scale = body.edge_weights, 2.0 / body.grid.n_x
+        rows = np.empty((2, body.grid.n_y + 1, body.grid.n_x))
+        for component in (0, 1):
+            modes = np.zeros((body.grid.n_y + 1, 2, body.grid.n_x))
+            modes[0, component] = 1.0
+            kernels.substitute(self._inverse, self._lower, modes)
+            rows[component] = weights[0] * (self._x[0] @ modes[:, 0])
+            rows[component] += weights[1] * (self._x[1] @ modes[:, 0])
+            rows[component] += weights[2] * (self._y @ modes[:, 1])
+        return body.interface_forces(scale * rows)
+
+    @cached_property
+    def response(self) -> Array:
+        """Edge values per unit of w at each node, bulk and edge in balance, (n_y + 1, n_x)."""
+        return -self._compliance @ self.to_interface[0]
+
+    @cached_property
+    def diagonal(self) -> Array:
+        """The edge's share of the diagonal of D at the nodes 1..n_x (N/m per m)."""
+        return np.einsum("ji,ji->i", self.to_interface[0], self.response)
+
+    @cached_property
+    def felt(self) -> tuple[int, Array, Array]:
+        """Where :attr:`to_interface` rises above round-off: first column, and the rest."""
+        tangential, normal = self.to_interface
+        largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
+        near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
+        return (
+            near,
+            np.ascontiguousarray(tangential[:, near:]),
+            np.ascontiguousarray(normal[:, near:]),
+        )
