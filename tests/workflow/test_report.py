@@ -41,6 +41,12 @@ def reported(quick, tmp_path_factory, workflow_type):
         (results / f"{name}.csv").touch()
     config = read_yaml(quick.config)
     config["studies"] = {name: config["studies"][name] for name in STUDIES}
+    config["studies"]["mine"] = {
+        "description": "a study of one's own",
+        "length_over_critical": 4.0,
+        "defaults": {"n_x": 60, "n_y": 6, "time_after_event": 0.0},
+        "runs": [{"height": 0.02}],
+    }
     made = workflow_type(directory).configured(config)
     done = made("report")
     assert done.returncode == 0, done.stdout
@@ -58,6 +64,7 @@ def test_report_has_every_figure_of_the_configuration(reported, results):
     assert "figure_sensitivity" not in expected
     for name in catalogue.FIGURES:
         assert (f'<figure id="{name}">' in html) == (name in expected)
+    assert '<figure id="study_mine">' in html and "Study mine: a study of one" in html
     for run in load(reported.config).runs:
         assert run.id in html
     claims = json.loads((results / "claims.json").read_text(encoding="utf-8"))

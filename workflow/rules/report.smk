@@ -10,6 +10,13 @@ REPORT_FILES = [
     for name in ("template.html", "page.css", "page.js", "theory.js")
 ]
 REPORTED = catalogue.drawable(list(settings.studies))
+OWN_STUDIES = {
+    study: settings.studies[study].description
+    for study in SHARED
+    if study not in (PAPERS, JUDGED)
+}
+"""What the studies are for that the paper does not have and that share lengths.csv."""
+ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
 SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": inset_id}
 """The simulation that a figure's caption names."""
 
@@ -24,8 +31,9 @@ def shown_files(name):
 
 
 def caption_params(wildcards):
-    return {name: {"id": chosen(wildcards)} for name, chosen in SHOWN_RUNS.items()
-            if name in REPORTED}  # fmt: skip
+    shown = {name: {"id": chosen(wildcards)} for name, chosen in SHOWN_RUNS.items()
+             if name in REPORTED}  # fmt: skip
+    return shown | {f"study_{study}": {"study": study} for study in OWN_STUDIES}
 
 
 def player_input(wildcards):
@@ -77,15 +85,16 @@ rule animation:
 
 rule write_report:
     input:
-        figures=[path for name in REPORTED for path in shown_files(name)],
-        captions=[caption_file(name) for name in REPORTED],
-        datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(REPORTED)],
+        figures=[path for name in ENTRIES for path in shown_files(name)],
+        captions=[caption_file(name if name in FIGURES else "figure_studies") for name in ENTRIES],
+        datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
         player=player_input,
         claims=CLAIMS,
     output:
         f"{RESULTS}/report.html",
     params:
-        figures=REPORTED,
+        figures=list(ENTRIES),
+        studies=OWN_STUDIES,
         captions=caption_params,
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
@@ -109,5 +118,7 @@ rule report:
         rules.write_report.output,
         rules.claims.input,
         [getattr(rules, name).input for name in REPORTED],
+        [getattr(rules, f"figure_study_{study}").input for study in OWN_STUDIES],
+        rules.lengths.input if OWN_STUDIES else [],
     message:
         "The report is in {input[0]}"

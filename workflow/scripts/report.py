@@ -21,9 +21,10 @@ if given.player:
     player = page.Player(
         player_dataset(simulation, entry, ExtractionSettings(**params.extraction)), entry
     )
+entries = catalogue.FIGURES | catalogue.of_studies(params.studies)
 pictures = []
 for name, caption in zip(params.figures, given.captions, strict=True):
-    entry = catalogue.FIGURES[name]
+    entry = entries[name]
     files = [Path(path) for path in given.figures if Path(path).stem == name]
     text = Path(caption).read_text(encoding="utf-8")
     pictures.append(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 PAPER = "The paper's figures"
 BEYOND = "Beyond the paper"
 CHECKS = "Why to believe it"
+OWN = "Studies of your own"
 
 
 class Data(NamedTuple):
@@ -77,11 +79,19 @@ FIGURES: dict[str, Entry] = {
 }  # fmt: skip
 
 
+def of_studies(descriptions: dict[str, str]) -> dict[str, Entry]:
+    """The generic figures of studies, by name, from what the studies are for."""
+    return {
+        f"study_{study}": Entry(f"Study {study}: {text}", OWN, (study,), (LENGTHS,))
+        for study, text in descriptions.items()
+    }
+
+
 def drawable(studies: list[str]) -> list[str]:
     """The figures that a configuration with these studies can make, in the report's order."""
     return [name for name, entry in FIGURES.items() if set(entry.studies) <= set(studies)]
 
 
-def datasets_of(figures: list[str]) -> list[str]:
+def datasets_of(entries: Iterable[Entry]) -> list[str]:
     """Names of the datasets whose tables come with some figures."""
-    return list(dict.fromkeys(d.dataset for name in figures for d in FIGURES[name].data))
+    return list(dict.fromkeys(data.dataset for entry in entries for data in entry.data))
