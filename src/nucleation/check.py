@@ -69,10 +69,10 @@ def check_results(settings: Configuration, directory: Path = Path()) -> list[Fin
     findings = [
         Finding(path, "incomplete", reason)
         for pattern, reason in LEFTOVERS.items()
-        for path in results.rglob(pattern)
+        for path in _files(results, pattern)
     ]
     origins: Origins = {}
-    for path in sorted(results.rglob("*.nc")):
+    for path in _files(results, "*.nc"):
         if not path.name.startswith(".") and not path.name.endswith(".failed.nc"):
             try:
                 dataset = datasets.read(path)
@@ -88,6 +88,12 @@ def check_results(settings: Configuration, directory: Path = Path()) -> list[Fin
     for path in sorted(results.glob("figures/*.png")):
         findings += _figure_findings(path)
     return findings
+
+
+def _files(results: Path, pattern: str) -> list[Path]:
+    """Files below the results but not below another configuration's, such as results/quick."""
+    others = {path.parent for path in results.glob("*/simulations")}
+    return [path for path in sorted(results.rglob(pattern)) if others.isdisjoint(path.parents)]
 
 
 def unverified(settings: Configuration, directory: Path = Path()) -> list[Path]:

@@ -46,6 +46,12 @@ def test_fresh_results_are_current(quick):
     assert quick.planned() == {}, "nothing was run or touched"
 
 
+def test_results_of_another_configuration_are_left_to_it(quick):
+    """results/quick lies below the results of config.yaml, of which there are none here."""
+    assert (quick.directory / "results/quick/simulations").is_dir()
+    assert check_results(load(QUICK.with_name("config.yaml")), quick.directory) == []
+
+
 def test_other_parameters_are_stale(copied):
     directory, settings = copied
     values = read_yaml(QUICK)
