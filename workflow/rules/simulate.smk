@@ -24,6 +24,7 @@ rule simulate:
     log:
         f"{RESULTS}/logs/simulate/{{id}}.log",
     threads: 1
+    priority: 1  # before the short jobs, which then fill all cores at the end
     resources:
         mem_mb=memory,
         runtime=ceil(settings.limits.runtime),
