@@ -119,7 +119,7 @@ class BodyOperator:
         return LinearResponse(w, tangential, np.append(normal, corner), edge)
 
     def displacement(self, load: Field, response: LinearResponse, w: Array, edge: Array) -> Field:
-        """The body's displacement (m) at nodal `w` under the load of a response.
+        """The body's displacement (m) at nodal `w` under the load of a response, used up by it.
 
         `edge` are the values in balance at `w`, as :meth:`apply` gives their change. Where they
         had been given to the response, they are corrected to the balance they are found in.
