@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import random
 import shutil
@@ -67,21 +68,6 @@ def _damaged_dataset(place: Place, reference: Reference, random: random.Random, 
     return CLEAR_ERROR
 
 
-@fault("damaged dataset")
-def truncated_dataset(place, reference, random):
-    return _damaged_dataset(place, reference, random, truncate)
-
-
-@fault("damaged dataset")
-def flipped_dataset(place, reference, random):
-    return _damaged_dataset(place, reference, random, flip)
-
-
-@fault("damaged dataset")
-def zeroed_dataset(place, reference, random):
-    return _damaged_dataset(place, reference, random, zero)
-
-
 def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> str:
     """Run on from a checkpoint that must be refused, or used, or (None) may be either."""
     place.simulation(id).unlink()
@@ -100,25 +86,12 @@ def _stopped(place: Place, reference: Reference, id: str) -> Path:
     return Path(shutil.copy2(reference.checkpoints / name, place.checkpoint(id)))
 
 
-@fault("damaged checkpoint")
-def truncated_checkpoint(place, reference, random):
+def _damaged_checkpoint(
+    place: Place, reference: Reference, random: random.Random, damage, refused: bool | None
+) -> str:
     id = random.choice(IDS)
-    truncate(_stopped(place, reference, id), random)
-    return _bad_checkpoint(place, id, refused=True)
-
-
-@fault("damaged checkpoint")
-def flipped_checkpoint(place, reference, random):
-    id = random.choice(IDS)
-    flip(_stopped(place, reference, id), random)
-    return _bad_checkpoint(place, id, refused=None)  # some bits have no meaning
-
-
-@fault("damaged checkpoint")
-def zeroed_checkpoint(place, reference, random):
-    id = random.choice(IDS)
-    zero(_stopped(place, reference, id), random)
-    return _bad_checkpoint(place, id, refused=None)
+    damage(_stopped(place, reference, id), random)
+    return _bad_checkpoint(place, id, refused=refused)
 
 
 @fault("foreign checkpoint")
@@ -170,14 +143,20 @@ def _damaged_cache(place: Place, reference: Reference, random: random.Random, da
     return RECOVERED
 
 
-@fault("damaged cache entry")
-def truncated_cache_entry(place, reference, random):
-    return _damaged_cache(place, reference, random, truncate)
+_cut_checkpoint = functools.partial(_damaged_checkpoint, refused=True)
+_changed_checkpoint = functools.partial(_damaged_checkpoint, refused=None)  # not all bits matter
 
-
-@fault("damaged cache entry")
-def flipped_cache_entry(place, reference, random):
-    return _damaged_cache(place, reference, random, flip)
+for _name, _kind, _harm, _damage in (
+    ("truncated_dataset", "damaged dataset", _damaged_dataset, truncate),
+    ("flipped_dataset", "damaged dataset", _damaged_dataset, flip),
+    ("zeroed_dataset", "damaged dataset", _damaged_dataset, zero),
+    ("truncated_checkpoint", "damaged checkpoint", _cut_checkpoint, truncate),
+    ("flipped_checkpoint", "damaged checkpoint", _changed_checkpoint, flip),
+    ("zeroed_checkpoint", "damaged checkpoint", _changed_checkpoint, zero),
+    ("truncated_cache_entry", "damaged cache entry", _damaged_cache, truncate),
+    ("flipped_cache_entry", "damaged cache entry", _damaged_cache, flip),
+):
+    fault(_kind, _name)(functools.partial(_harm, damage=_damage))
 
 
 @fault("damaged notes of snakemake")
