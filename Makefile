@@ -42,7 +42,7 @@ docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_buil
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
 bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.benchmark \
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.pipeline.benchmark \
 		config/config.yaml
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
@@ -51,8 +51,8 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 		--cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
-		results/twin_runs.csv results/convergence.csv \
-		results/dispersion.csv results/refinement.csv results/sensitivity.csv \
+		results/twin_runs.csv results/verification.csv \
+		results/dispersion.csv results/convergence.csv results/sensitivity.csv \
 		results/figures/*.png results/figures/animation.gif \
 		results/tables/claims.csv results/tables/claims.md results/reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
@@ -61,13 +61,13 @@ check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(BIN)/snakemake check --cores 1 --workflow-profile workflow/profiles/default
 
 bundle: $(STAMP) ## Write all results with a manifest to FILE (results.tar)
-	@$(BIN)/python -m nucleation.bundle write $(or $(FILE),results.tar) config/config.yaml
+	@$(BIN)/python -m nucleation.pipeline.bundle write $(or $(FILE),results.tar) config/config.yaml
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
-	@$(BIN)/python -m nucleation.bundle restore "$(FILE)"
+	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)"
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
-	PYTHONPATH=src $(BIN)/python -m nucleation.configuration > config/schema.yaml
+	PYTHONPATH=src $(BIN)/python -m nucleation.configuration.load > config/schema.yaml
 
 lock: ## Pin the newest versions of requirements.in in environment.txt (needs uv)
 	uv pip compile --upgrade --generate-hashes --python-version 3.11 --no-emit-index-url \

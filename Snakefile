@@ -26,15 +26,16 @@ SOURCE = str(Path(workflow.basedir, "src"))
 sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
 
-from nucleation.advice import advise
-from nucleation.cache import CheckedCache
-from nucleation.configuration import configure
-from nucleation.contradictions import directory_problem
-from nucleation.provenance import digest
-from nucleation.quantities import ParameterError
-from nucleation.report.catalogue import FIGURES
-from nucleation.strict_yaml import read_yaml
-from nucleation.studies import estimated_megabytes, varied
+from nucleation.configuration.advice import advise
+from nucleation.pipeline.cache import CheckedCache
+from nucleation.configuration.load import configure
+from nucleation.configuration.contradictions import directory_problem
+from nucleation.datasets.provenance import digest
+from nucleation.model.quantities import ParameterError
+from nucleation.figures.catalogue import FIGURES
+from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.configuration.settings import estimated_megabytes
+from nucleation.configuration.studies import varied
 
 # The profiles share simulations between checkouts and users (--cache simulate), where this variable
 # says, if it does. Snakemake looks the class up under this name.

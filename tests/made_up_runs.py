@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import xarray as xr
 
-from nucleation.parameters import Geometry, Mesh, Parameters
+from nucleation.model.parameters import Geometry, Mesh, Parameters
 
 ONSET = 10.0  # s
 PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.0), mesh=Mesh(n_x=200, n_y=4))

@@ -7,9 +7,8 @@ import pandas as pd
 import xarray as xr
 
 from nucleation.claims.evidence import Evidence
-from nucleation.configuration import load
-from nucleation.settings import Curves
-from nucleation.theory import theory_dataset
+from nucleation.configuration.load import load
+from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"

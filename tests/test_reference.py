@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nucleation.configuration import configure, read_yaml
-from nucleation.extraction import extract
-from nucleation.simulation import simulate
+from nucleation.analysis.extraction import extract
+from nucleation.configuration.load import configure, read_yaml
+from nucleation.simulation.run import simulate
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"

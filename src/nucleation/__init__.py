@@ -1,8 +1,8 @@
 """How long must a slipping patch of a frictional fault grow before it runs away?
 
-Linear stability theory (:mod:`nucleation.stability`), an inertial finite-element simulation
-(:mod:`nucleation.simulation`) and the extraction of the critical nucleation length
-(:mod:`nucleation.extraction`) after Aldam et al. (2017).
+Linear stability theory (:mod:`nucleation.theory`), an inertial finite-element simulation
+(:mod:`nucleation.simulation.run`) and the extraction of the critical nucleation length
+(:mod:`nucleation.analysis.extraction`) after Aldam et al. (2017).
 """
 
 __version__ = "0.1.0"

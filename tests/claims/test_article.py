@@ -7,8 +7,8 @@ import jinja2
 import pytest
 from reference_evidence import ROOT, evidence
 
-from nucleation.article import digits, paired, percent, render
 from nucleation.claims import table
+from nucleation.claims.article import digits, paired, percent, render
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 

@@ -7,11 +7,13 @@ import pytest
 from reference_evidence import evidence
 from stability import layer_problem
 
-from nucleation.claims import bimaterial, finite_height, marginal, printed, sliding
-from nucleation.claims.elastic_layers import Layer, block_field, chebyshev, compliance
+from nucleation.claims.independent import marginal, printed
+from nucleation.claims.independent.elastic_layers import Layer, block_field, chebyshev, compliance
 from nucleation.claims.said import holds
-from nucleation.elasticity import Material
-from nucleation.stability import RIGID, Body, critical_wavenumber
+from nucleation.claims.statements import bimaterial, finite_height, sliding
+from nucleation.model.material import Material
+from nucleation.theory.critical import critical_wavenumber
+from nucleation.theory.transfer import RIGID, Body
 
 
 @pytest.fixture(scope="module")

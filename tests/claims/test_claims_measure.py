@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from made_up_runs import PARAMETERS, record
 
+from nucleation.analysis.extraction import ExtractionSettings, extract
 from nucleation.claims.measure import measure
-from nucleation.extraction import extract
-from nucleation.settings import ExtractionSettings
 
 SETTINGS = ExtractionSettings()
 ONSET = 8.0  # s: the front has not come half-way along the block

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation import datasets
+from nucleation.datasets import netcdf
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
@@ -123,8 +123,8 @@ def directory(tmp_path_factory):
     curve = ("height", np.ones(2))
     theory = {"critical_length": curve, "thin_limit_length": curve}
     height = {"height": np.arange(2.0)}
-    datasets.write(xr.Dataset(theory, height), folder / "theory.nc")
-    datasets.write(xr.Dataset({"x": ("n", np.ones(2))}), folder / "plain.nc")
+    netcdf.write(xr.Dataset(theory, height), folder / "theory.nc")
+    netcdf.write(xr.Dataset({"x": ("n", np.ones(2))}), folder / "plain.nc")
     xr.Dataset({"x": ("n", np.ones(2))}).to_netcdf(folder / "foreign.nc")
     return folder
 

@@ -8,7 +8,7 @@ import pytest
 from click.shell_completion import ShellComplete
 
 from nucleation import __version__, commands
-from nucleation.fault import QUANTITIES
+from nucleation.theory.fault import QUANTITIES
 
 
 @pytest.mark.parametrize("words", [[], ["length"], ["simulate"], ["show"]])
@@ -57,7 +57,7 @@ def test_interruption(nucleation, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("nucleation.datasets.read", interrupted)
+    monkeypatch.setattr("nucleation.datasets.netcdf.read", interrupted)
     ended = nucleation("show", __file__)
     assert ended.code == commands.INTERRUPTED and "Traceback" not in ended.err
 
@@ -74,7 +74,7 @@ def test_what_the_system_refuses(nucleation, monkeypatch, error, words):
     def failing(*_, **__):
         raise error
 
-    monkeypatch.setattr("nucleation.datasets.read", failing)
+    monkeypatch.setattr("nucleation.datasets.netcdf.read", failing)
     ended = nucleation("show", __file__)
     assert ended.code == 2 and ended.err == f"Error: {words}\n"
 

@@ -7,16 +7,16 @@ import pytest
 import xarray as xr
 from matplotlib.image import imread
 
-from nucleation import datasets, provenance
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.lengths import gather
 from nucleation.commands import show
-from nucleation.elasticity import Material
-from nucleation.friction import Friction
-from nucleation.lengths import gather
-from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.settings import Curves, ExtractionSettings
-from nucleation.simulation import simulate
-from nucleation.stability import InterfaceState
-from nucleation.theory import theory_dataset
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation.run import simulate
+from nucleation.theory.curves import Curves, theory_dataset
 
 PARAMETERS = Parameters(
     geometry=Geometry(0.005, 0.9), mesh=Mesh(60, 6),
@@ -26,7 +26,7 @@ PARAMETERS = Parameters(
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):
     path = folder / f"{name}.nc"
-    datasets.write(dataset, path, **provenance.attributes(parameters, digest, f"make {name}"))
+    netcdf.write(dataset, path, **provenance.attributes(parameters, digest, f"make {name}"))
     return path
 
 
@@ -35,7 +35,7 @@ def files(tmp_path_factory):
     """A real dataset of each kind that is quickly made, by name."""
     folder = tmp_path_factory.mktemp("datasets")
     whole = simulate(PARAMETERS)
-    values, digest = PARAMETERS.to_dict(), provenance.digest("nucleation.simulation")
+    values, digest = PARAMETERS.to_dict(), provenance.digest("nucleation.simulation.run")
     short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
     row = {"id": "a-run", "study": "mine", "parameters": values, "theory_length": 0.238}
     curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))
@@ -80,7 +80,7 @@ def test_summary(nucleation, files, name):
 
 def test_summary_of_a_simulation(nucleation, files):
     said = nucleation("show", files["run"]).out
-    found = show.extract(datasets.read(files["run"]))
+    found = show.extract(netcdf.read(files["run"]))
     assert f"L_c: {found['length']:.4g} (" in said and f"onset: {found['onset_time']:.4g} (" in said
     assert "status: completed: the event" in said
     assert "normal_stress                1e+06 Pa" in said
@@ -91,7 +91,7 @@ def test_summary_of_a_simulation(nucleation, files):
 
 def test_summary_of_lengths(nucleation, files):
     said = nucleation("show", files["lengths"]).out
-    length = float(datasets.read(files["lengths"])["length"][0])
+    length = float(netcdf.read(files["lengths"])["length"][0])
     assert f"{length:.4g}" in said and f"{length / 0.238:.3f}" in said and "a-run" in said
 
 

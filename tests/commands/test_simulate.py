@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nucleation import datasets, provenance
-from nucleation.extraction import extract
-from nucleation.friction import Friction
-from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.quantities import declarations
-from nucleation.simulation import simulate
-from nucleation.studies import STUDY_PARAMETERS
+from nucleation.analysis.extraction import extract
+from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.quantities import declarations
+from nucleation.simulation.run import simulate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = ["--height", "5mm", "--length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms"]
@@ -24,7 +24,7 @@ PARAMETERS = Parameters(
 
 
 def parameters_of(path):
-    return Parameters.from_json(datasets.read(path).attrs["parameters"])
+    return Parameters.from_json(netcdf.read(path).attrs["parameters"])
 
 
 def test_record_is_that_of_the_library(nucleation, tmp_path):
@@ -32,22 +32,22 @@ def test_record_is_that_of_the_library(nucleation, tmp_path):
     ended = nucleation("simulate", output, *SMALL)
     assert ended.code == 0 and "no event: the force has not dropped" in ended.out
     assert "t = 0 s" in ended.err  # the progress, as a line
-    dataset, expected = datasets.read(output), simulate(PARAMETERS)
+    dataset, expected = netcdf.read(output), simulate(PARAMETERS)
     for name in expected.variables:
         np.testing.assert_array_equal(dataset[name], expected[name])
     assert parameters_of(output) == PARAMETERS
-    assert dataset.attrs["code_digest"] == provenance.digest("nucleation.simulation")
+    assert dataset.attrs["code_digest"] == provenance.digest("nucleation.simulation.run")
     assert [path.name for path in output.parent.iterdir()] == ["run.nc"]  # no checkpoint is left
 
 
 def test_the_command_in_the_dataset_makes_it_again(nucleation, tmp_path):
     output = tmp_path / "a run.nc"
     nucleation("simulate", output, *SMALL, "--law", "slip", "--phi0", "20 min", "--density", "0")
-    first = datasets.read(output)
+    first = netcdf.read(output)
     command = shlex.split(first.attrs["command"])
     assert command[:3] == ["nucleation", "simulate", str(output)]
     assert nucleation(*command[1:], "--force").code == 0
-    again = datasets.read(output)
+    again = netcdf.read(output)
     assert again.attrs["parameters"] == first.attrs["parameters"]
     assert json.loads(first.attrs["parameters"])["loading"]["initial_state"] == 1200.0
     np.testing.assert_array_equal(again["slip_rate"], first["slip_rate"])
@@ -68,7 +68,7 @@ def test_an_event_is_reported(nucleation, tmp_path):
         "simulate", output, "--height=5mm", "--n-x=60", "--n-y=6", "--length=0.9",
         "--end-time=30s", "--time-after-event=0", "--tolerance=0.05", "--longest-step=0.2",
     )  # fmt: skip
-    found = extract(datasets.read(output))
+    found = extract(netcdf.read(output))
     assert ended.code == 0
     assert f"onset: {found['onset_time']:.4g} (" in ended.out
     assert f"L_c: {found['length']:.4g} (" in ended.out and "of the theory's" in ended.out
@@ -79,7 +79,7 @@ def test_a_failed_simulation_keeps_its_record(nucleation, tmp_path):
     ended = nucleation("simulate", output, *SMALL, "--shortest-step", "90ns")
     assert ended.code == 1 and not output.exists()
     assert "failed: the step size fell below" in ended.err and "run.failed.nc" in ended.err
-    record = datasets.read(tmp_path / "run.failed.nc")
+    record = netcdf.read(tmp_path / "run.failed.nc")
     assert record.attrs["completed"] == 0 and "created" in record.attrs
     assert nucleation("simulate", output, *SMALL).code == 0
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
@@ -193,5 +193,5 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     assert ended.code == 0 and "the run goes on from" in ended.err
     whole = simulate(PARAMETERS)
     assert whole.attrs["steps"] > 2 * STEPS
-    np.testing.assert_array_equal(datasets.read(output)["slip_rate"], whole["slip_rate"])
+    np.testing.assert_array_equal(netcdf.read(output)["slip_rate"], whole["slip_rate"])
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]

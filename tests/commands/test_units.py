@@ -5,11 +5,11 @@ import math
 import pytest
 
 from nucleation.commands.units import parse, registry
-from nucleation.configuration import schema
-from nucleation.fault import QUANTITIES
-from nucleation.quantities import ParameterError, Quantity, declarations
-from nucleation.settings import Limits
-from nucleation.studies import STUDY_PARAMETERS
+from nucleation.configuration.load import schema
+from nucleation.configuration.settings import Limits
+from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.model.quantities import ParameterError, Quantity, declarations
+from nucleation.theory.fault import QUANTITIES
 
 
 @pytest.mark.parametrize(

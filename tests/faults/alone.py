@@ -10,8 +10,9 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from nucleation import progress, provenance
-from nucleation.configuration import load
+from nucleation.configuration.load import load
+from nucleation.datasets import provenance
+from nucleation.pipeline import progress
 
 SCRIPT = Path(__file__).parents[2] / "workflow" / "scripts" / "simulate.py"
 
@@ -20,7 +21,7 @@ log = Path("results/logs/simulate", f"{run.id}.log")
 log.parent.mkdir(parents=True, exist_ok=True)
 job = SimpleNamespace(
     params=SimpleNamespace(
-        parameters=run.parameters.to_dict(), digest=provenance.digest("nucleation.simulation")
+        parameters=run.parameters.to_dict(), digest=provenance.digest("nucleation.simulation.run")
     ),
     output=[f"results/simulations/{run.id}.nc"],
     log=[str(log)],

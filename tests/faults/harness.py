@@ -17,9 +17,9 @@ import xarray as xr
 import yaml
 from processes import ROOT, Done, Lost, Running, require
 
-from nucleation import datasets
-from nucleation.check import Finding, check_results
-from nucleation.configuration import load
+from nucleation.configuration.load import load
+from nucleation.datasets import netcdf, variables
+from nucleation.pipeline.check import Finding, check_results
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {
@@ -139,7 +139,7 @@ class Place:
     def contents(self) -> dict[Path, xr.Dataset]:
         """All datasets below the results, by path."""
         paths = [path for path in self.results.rglob("*.nc") if not path.name.startswith(".")]
-        return {path.relative_to(self.directory): datasets.read(path) for path in paths}
+        return {path.relative_to(self.directory): netcdf.read(path) for path in paths}
 
     def findings(self) -> list[Finding]:
         """What target `check` would list."""
@@ -150,7 +150,7 @@ class Place:
         """Every dataset has the undisturbed one's values, bit for bit."""
         try:
             contents = self.contents()
-        except datasets.DatasetError as error:
+        except variables.DatasetError as error:
             raise Lost(str(error)) from error
         require(contents.keys() == reference.contents.keys(), f"datasets are {sorted(contents)}")
         for path, dataset in contents.items():
@@ -193,7 +193,7 @@ def make_reference(directory: Path) -> Reference:
     checkpoints.mkdir()
     for id in IDS:
         place.simulation(id).unlink()
-        steps = int(datasets.read(whole.simulation(id)).attrs["steps"])
+        steps = int(netcdf.read(whole.simulation(id)).attrs["steps"])
         stopped = place.start_alone(id, stop_after=steps // 2).end()
         require(stopped.status != 0, "it did not stop")
         require("stopped by SIGTERM" in place.log(id), "its log does not say why it stopped")

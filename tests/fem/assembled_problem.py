@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import splu
 
-from nucleation.elasticity import Material
 from nucleation.fem.assembled import assemble, unknown
 from nucleation.fem.grid import Grid
+from nucleation.model.material import Material
 
 
 class AssembledBlock:

@@ -10,8 +10,8 @@ import xarray as xr
 from made_up_theory import critical_length
 from scipy.special import expit
 
-from nucleation.friction import Friction
-from nucleation.parameters import Geometry, Parameters
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Parameters
 
 ONSET = 13.0  # s
 PEAK = 2e-3  # s after the onset

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import figure_3, slip_rate_snapshots, style
+from nucleation.figures import slip_rate_snapshots, style
+from nucleation.figures.paper import figure_3
 
 
 @pytest.fixture

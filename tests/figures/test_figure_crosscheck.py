@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import figure_crosscheck
-from nucleation.parameters import Parameters
+from nucleation.figures.checks import figure_crosscheck
+from nucleation.model.parameters import Parameters
 
 ONSETS = (10.0, 9.5)  # s
 

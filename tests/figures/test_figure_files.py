@@ -13,7 +13,8 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from nucleation.figures import figure_1, figure_2, figure_3, figure_s1, figure_s2, style
+from nucleation.figures import style
+from nucleation.figures.paper import figure_1, figure_2, figure_3, figure_s1, figure_s2
 
 FIGURES = ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")
 SOURCE = Path(style.__file__).parents[2]

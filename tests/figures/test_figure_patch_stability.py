@@ -6,7 +6,8 @@ import pytest
 import xarray as xr
 from made_up_theory import critical_length
 
-from nucleation.figures import figure_3_extended, figure_patch_stability, style
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_3_extended, figure_patch_stability
 
 HEIGHTS = np.array([0.005, 0.02, 0.1, 0.02, 0.1] * 2)
 THEORY = critical_length(HEIGHTS)

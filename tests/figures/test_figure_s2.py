@@ -7,7 +7,8 @@ import pytest
 import xarray as xr
 from matplotlib.collections import QuadMesh
 
-from nucleation.figures import figure_s2, space_time
+from nucleation.figures import space_time
+from nucleation.figures.paper import figure_s2
 
 
 @pytest.fixture

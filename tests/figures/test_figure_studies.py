@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import figure_studies, style
-from nucleation.studies import STUDY_PARAMETERS
+from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_studies
 
 
 def table(theory, length):

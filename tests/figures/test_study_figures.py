@@ -5,8 +5,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import figure_convergence, figure_sensitivity, style
-from nucleation.figures.figure_sensitivity import label
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_sensitivity
+from nucleation.figures.beyond.figure_sensitivity import label
+from nucleation.figures.checks import figure_convergence
 
 HEIGHTS = (0.005, 0.02, 0.1)
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from nucleation.figures import figure_1, figure_2, figure_s1, style, table_s1
-from nucleation.friction import Friction
+from nucleation.figures import style
+from nucleation.figures.paper import figure_1, figure_2, figure_s1, table_s1
+from nucleation.model.friction.law import Friction
 
 
 def test_figure_1_names_every_quantity_of_the_caption():

@@ -5,8 +5,9 @@ import made_up_checks
 import numpy as np
 import pytest
 
-from nucleation.convergence import ERRORS, REFINEMENTS
-from nucleation.figures import figure_dispersion, figure_verification, style
+from nucleation.figures import style
+from nucleation.figures.checks import figure_dispersion, figure_verification
+from nucleation.verification.orders import ERRORS, REFINEMENTS
 
 
 @pytest.fixture

@@ -10,14 +10,16 @@ import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
 
-from nucleation import lengths, provenance
-from nucleation.configuration import configure
-from nucleation.figures import figure_2, style
-from nucleation.report import catalogue, page
+from nucleation.analysis import lengths
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.configuration.load import configure
+from nucleation.datasets import provenance
+from nucleation.figures import catalogue, style
+from nucleation.figures.paper import figure_2
+from nucleation.report import page
 from nucleation.report.player import player_dataset
-from nucleation.settings import Curves, ExtractionSettings
-from nucleation.simulation import simulate
-from nucleation.theory import theory_dataset
+from nucleation.simulation.run import simulate
+from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
 MISSING = "chromium is missing: workflow/install-debian.sh browser"

@@ -13,12 +13,13 @@ import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
-from nucleation import moments
-from nucleation.figures import figure_3
-from nucleation.quantities import declarations
-from nucleation.report import catalogue, encode, explorer, page, player, tables
+from nucleation.analysis import moments
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.figures import catalogue
+from nucleation.figures.paper import figure_3
+from nucleation.model.quantities import declarations
+from nucleation.report import encode, explorer, page, player, tables
 from nucleation.report.captions import caption_html
-from nucleation.settings import ExtractionSettings
 
 ROOT = page.HERE.parents[2]
 

@@ -6,9 +6,11 @@ import time
 import numpy as np
 import pytest
 
-from nucleation.elasticity import Material
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
 from nucleation.report import explorer, page
-from nucleation.stability import RIGID, Body, InterfaceState, critical_length, critical_wavenumber
+from nucleation.theory.critical import critical_length, critical_wavenumber
+from nucleation.theory.transfer import RIGID, Body
 
 THEORY_TRACE = 2
 PARAMETER_OF = {slider.key: slider for slider in explorer.SLIDERS}

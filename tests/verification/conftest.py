@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.convergence import convergence_dataset
+from nucleation.verification.orders import convergence_dataset
 
 
 @pytest.fixture(scope="session")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from nucleation.convergence import REFINEMENTS, SPACINGS, orders
+from nucleation.verification.orders import REFINEMENTS, SPACINGS, orders
 
 
 def print_orders(title, labels, errors):

@@ -7,18 +7,22 @@ import numpy as np
 import pytest
 from verification.order_tables import print_orders
 
-from nucleation import dispersion
-from nucleation.convergence import orders
-from nucleation.elasticity import Material
 from nucleation.fem.assembled import assemble, unknown
-from nucleation.fem.body import Body
+from nucleation.fem.block import Block
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BodyOperator
-from nucleation.fem.periodic import PeriodicBody, PeriodicDynamics, PeriodicOperator
-from nucleation.friction import Friction
-from nucleation.parameters import Parameters
-from nucleation.stability import RIGID, critical_wavenumber, growth_rates, transfer_functions
-from nucleation.stability import Body as Layer
+from nucleation.fem.operator import BlockOperator
+from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
+from nucleation.model import linearised
+from nucleation.model.friction.law import Friction
+from nucleation.model.material import Material
+from nucleation.model.parameters import Parameters
+from nucleation.simulation.periodic import PeriodicDynamics
+from nucleation.theory.critical import critical_wavenumber
+from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.transfer import RIGID, transfer_functions
+from nucleation.theory.transfer import Body as Layer
+from nucleation.verification import dispersion
+from nucleation.verification.orders import orders
 
 MATERIAL = Material(poisson_ratio=0.29)
 PARAMETERS = Parameters()
@@ -40,7 +44,7 @@ def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, b
     errors = []
     for n in (16, 32, 64, 128):
         grid = Grid(length=1.0, height=layer_number / (1.5 * np.pi), n_x=n, n_y=n // 2)
-        operator = BodyOperator(Body(grid, MATERIAL), 0.0)
+        operator = BlockOperator(Block(grid, MATERIAL), 0.0)
         k = 1.5 * np.pi / grid.length  # the mode m = 1 of the block
         scale = MATERIAL.shear_modulus * k * grid.dx
         exact = transfer_functions(k, Layer(MATERIAL, grid.height, "traction"), RIGID)
@@ -88,7 +92,7 @@ class WrappedBlock:
 def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
     rng = np.random.default_rng(1)
     grid = Grid(0.7, 0.2, 9, 5, grading=3.0)
-    body, block = PeriodicBody(grid, MATERIAL), WrappedBlock(grid, MATERIAL)
+    body, block = PeriodicBlock(grid, MATERIAL), WrappedBlock(grid, MATERIAL)
     operator = PeriodicOperator(body, s)
     field = body.zero_field()
     field.modes[:] = 1e-6 * rng.normal(size=field.modes.shape)
@@ -113,7 +117,7 @@ def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
 
 def test_periodic_tangent_is_the_matrix_of_apply():
     grid = Grid(0.7, 0.2, 9, 4)
-    operator = PeriodicOperator(PeriodicBody(grid, MATERIAL), 1e8)
+    operator = PeriodicOperator(PeriodicBlock(grid, MATERIAL), 1e8)
     columns = [operator.apply(unit) for unit in np.eye(grid.n_x)]
     d, n = np.array([c[0] for c in columns]).T, np.array([c[1][1:] for c in columns]).T
     nodes = np.array([1, 2, 6, 9])
@@ -126,7 +130,7 @@ def test_periodic_tangent_is_the_matrix_of_apply():
 
 def test_a_periodic_body_needs_an_odd_number_of_nodes():
     with pytest.raises(ValueError, match="n_x = 8 is not allowed: it must be odd"):
-        PeriodicBody(Grid(1.0, 0.1, 8, 4), MATERIAL)
+        PeriodicBlock(Grid(1.0, 0.1, 8, 4), MATERIAL)
 
 
 def test_homogeneous_sliding_persists():
@@ -145,13 +149,13 @@ def test_homogeneous_sliding_persists():
 
 def theory(parameters, height, k):
     layer = Layer(parameters.material, height, "traction")
-    return growth_rates(k, layer, RIGID, dispersion.interface_state(parameters))
+    return growth_rates(k, layer, RIGID, linearised.interface_state(parameters))
 
 
 @functools.cache
 def critical(height):
     layer = Layer(PARAMETERS.material, height, "traction")
-    return critical_wavenumber(layer, RIGID, dispersion.interface_state(PARAMETERS)).wavenumber
+    return critical_wavenumber(layer, RIGID, linearised.interface_state(PARAMETERS)).wavenumber
 
 
 @functools.cache

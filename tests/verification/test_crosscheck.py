@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nucleation import crosscheck, freefem
-from nucleation.extraction import patch_lengths
-from nucleation.friction import Friction
-from nucleation.parameters import Geometry, Loading, Mesh, Parameters, Stepping
-from nucleation.settings import CrosscheckSettings, ExtractionSettings
-from nucleation.simulation import simulate
+from nucleation.analysis.extraction import ExtractionSettings, patch_lengths
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.simulation.run import simulate
+from nucleation.verification.crosscheck import compare, freefem
+from nucleation.verification.crosscheck.plan import CrosscheckSettings
 
 SCRIPT = Path(__file__).parents[2] / "workflow" / "crosscheck" / "block.edp"
 END = 2.0  # s
@@ -132,26 +132,26 @@ def test_other_laws_are_refused():
 
 def test_rows_of_the_table(pair):
     """A run without an event has costs but no differences."""
-    own = crosscheck.simulate_timed(PARAMETERS.replaced({"end_time": 0.05}))
-    row = crosscheck.compare(own, pair[1])
-    assert set(row) == set(crosscheck.COLUMNS) - {"id"}
+    own = compare.simulate_timed(PARAMETERS.replaced({"end_time": 0.05}))
+    row = compare.compare(own, pair[1])
+    assert set(row) == set(compare.COLUMNS) - {"id"}
     assert np.isnan(row["onset_time"]) and np.isnan(row["patch_length_rms"])
     for name, record in {"step_seconds": own, "step_seconds_freefem": pair[1]}.items():
         assert row[name] == np.median(np.diff(record["elapsed_time"].values)) > 0.0
-    table = crosscheck.gather({"one": row})
+    table = compare.gather({"one": row})
     assert table["id"].values.tolist() == ["one"]
 
 
 def test_comparison_of_a_record_with_itself_and_with_one_that_lags(pair):
     """A drop is added to a record, so that it has an event; then it is shifted in time."""
-    record = crosscheck.simulate_timed(PARAMETERS)
+    record = compare.simulate_timed(PARAMETERS)
     late = record["step_time"] > 0.95 * END
     record["driving_force"] = record["driving_force"].where(~late, 0.5 * record["driving_force"])
-    same = crosscheck.compare(record, record)
+    same = compare.compare(record, record)
     assert same["onset_time"] == same["onset_time_freefem"] < END
     assert same["patch_length_rms"] == same["driving_force_largest"] == 0.0
     scaled = record.assign(driving_force=1.02 * record["driving_force"])
-    assert crosscheck.compare(record, scaled)["driving_force_rms"] == pytest.approx(0.02)
+    assert compare.compare(record, scaled)["driving_force_rms"] == pytest.approx(0.02)
 
 
 def test_page_states_the_reference():

@@ -1,14 +1,14 @@
 """Manufactured elastodynamics: the solver is of second order in h and in dt.
 
 The interface's displacement is prescribed; what is tested is the body, its inertia, its loads and
-the time stepping (nucleation.convergence has the fields).
+the time stepping (nucleation.verification.orders has the fields).
 """
 
 import numpy as np
 import pytest
 from verification.order_tables import levels, print_orders
 
-from nucleation.convergence import ROWS, SCALE, manufactured, mesh_errors, orders
+from nucleation.verification.orders import ROWS, SCALE, manufactured, mesh_errors, orders
 
 
 @pytest.mark.parametrize("refinement", ["mesh", "step"])

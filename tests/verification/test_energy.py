@@ -19,12 +19,13 @@ import pytest
 from verification.verification_page import rows
 
 from nucleation.fem.assembled import assemble, unknown
-from nucleation.fem.body import Body
+from nucleation.fem.block import Block
 from nucleation.fem.grid import Grid
-from nucleation.fem.stepping import Formula, beta_of_step
-from nucleation.friction import Friction
-from nucleation.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.simulation import run
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation.run import run
+from nucleation.stepping.bdf import Formula
+from nucleation.stepping.ladder import beta_of_step
 
 
 def coarse(law, tolerance):
@@ -126,7 +127,7 @@ def event(law, tolerance):
     parameters = coarse(law, tolerance)
     geometry, mesh = parameters.geometry, parameters.mesh
     grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
-    accountant = Accountant(parameters, grid, Body(grid, parameters.material))
+    accountant = Accountant(parameters, grid, Block(grid, parameters.material))
     return accountant.books(run(parameters), event_is_over)
 
 

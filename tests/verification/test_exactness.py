@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 from fem.assembled_problem import AssembledBlock
 
-from nucleation.convergence import GEOMETRY, MATERIAL
-from nucleation.fem.body import Body
-from nucleation.fem.dynamics import Dynamics
+from nucleation.fem.block import Block
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BodyOperator
-from nucleation.fem.periodic import PeriodicBody, PeriodicOperator
-from nucleation.friction import Friction
-from nucleation.manufactured.dynamics import ManufacturedDynamics
-from nucleation.manufactured.fields import Displacement, Power, Term
-from nucleation.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.fem.operator import BlockOperator
+from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.simulation.step import Dynamics
+from nucleation.verification.manufactured.dynamics import ManufacturedDynamics
+from nucleation.verification.manufactured.fields import Displacement, Power, Term
+from nucleation.verification.orders import GEOMETRY, MATERIAL
 
 VELOCITY = 1e-3  # m/s; a patch forms within some steps
 # growing steps, then many of 3e-5 s, some of them shorter, while the first nodes break loose
@@ -99,7 +99,7 @@ def test_rigid_motion_needs_no_force(grading):
         u[block.x], u[block.y] = u_x, u_y
         assert np.abs(block.stiffness @ u).max() < 1e-14 * np.abs(block.stiffness).max()
     # the period of a long block, held at its interface alone
-    operator = PeriodicOperator(PeriodicBody(grid, MATERIAL), 0.0)
+    operator = PeriodicOperator(PeriodicBlock(grid, MATERIAL), 0.0)
     tangential, normal, _ = operator.apply(np.ones(grid.n_x))
     assert np.abs(tangential).max() < 1e-13 * operator.diagonal.max()
     assert np.abs(normal).max() < 1e-13 * operator.diagonal.max()
@@ -121,7 +121,7 @@ def test_a_block_that_translates_with_its_driven_edge_feels_nothing():
 @pytest.mark.parametrize("s", [0.0, 2.6e8, 1e13], ids=["statics", "both", "inertia"])
 def test_condensed_stiffness_is_symmetric(s):
     """On a larger mesh than in tests/fem; 2.6e8 1/s^2 weighs inertia and elasticity alike."""
-    operator = BodyOperator(Body(Grid(1.0, 0.3, 40, 20, grading=5.0), MATERIAL), s)
+    operator = BlockOperator(Block(Grid(1.0, 0.3, 40, 20, grading=5.0), MATERIAL), s)
     d = np.array([operator.apply(unit)[0] for unit in np.eye(40)]).T
     asymmetry = np.abs(d - d.T).max() / np.abs(d).max()
     print(f"\ns = {s:g}: {asymmetry:.1e}")

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from verification.verification_page import PAGE, rows
 
-from nucleation import convergence as orders_of_convergence
-from nucleation import dispersion
-from nucleation.parameters import Parameters
+from nucleation.model.parameters import Parameters
+from nucleation.verification import dispersion, orders
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 
@@ -21,7 +20,7 @@ def reference(name):
     return list(csv.DictReader(io.StringIO(text)))
 
 
-CONVERGENCE, DISPERSION = reference("convergence.csv"), reference("dispersion.csv")
+CONVERGENCE, DISPERSION = reference("verification.csv"), reference("dispersion.csv")
 QUANTITIES = {
     "displacement": "displacement_error",
     "slip rate": "slip_rate_error",
@@ -54,7 +53,7 @@ def test_orders_are_those_of_the_reference(heading, refinement, number):
 
 def test_reference_orders_are_measured_today(convergence):
     """To two digits of the errors: they are no round-off."""
-    text = orders_of_convergence.to_csv(convergence)
+    text = orders.to_csv(convergence)
     for now, stored in zip(csv.DictReader(io.StringIO(text)), CONVERGENCE, strict=True):
         for name in QUANTITIES.values():
             assert (now["problem"], now["refinement"]) == (stored["problem"], stored["refinement"])

@@ -2,14 +2,15 @@
 
 Friction with its state variable, the computed normal stress and the elastic body are solved
 together by the solver's own steps; source, traction and body force make chosen fields their
-solution (nucleation.manufactured.dynamics).
+solution (nucleation.verification.manufactured.dynamics).
 """
 
 import numpy as np
 import pytest
 from verification.order_tables import levels, print_orders
 
-from nucleation.convergence import (
+from nucleation.verification.manufactured import dynamics
+from nucleation.verification.orders import (
     ERRORS,
     errors,
     manufactured,
@@ -18,7 +19,6 @@ from nucleation.convergence import (
     step_errors,
     step_sizes,
 )
-from nucleation.manufactured import dynamics
 
 LAWS = ("aging", "slip")
 # errors of displacement, slip rate and log(phi) with the finest mesh and the shortest step

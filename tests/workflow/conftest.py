@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from nucleation import freefem
+from nucleation.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,8 +8,8 @@ import tarfile
 import pytest
 import yaml
 
-from nucleation import bundle
-from nucleation.bundle import BundleError
+from nucleation.pipeline import bundle
+from nucleation.pipeline.bundle import BundleError
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation import datasets
+from nucleation.datasets import netcdf
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,7 @@ def cached(workflow, cache, monkeypatch):
 
 def simulations(ran):
     paths = sorted((ran.directory / "results" / "simulations").glob("*.nc"))
-    return {path.name: datasets.read(path) for path in paths}
+    return {path.name: netcdf.read(path) for path in paths}
 
 
 def assert_same(one, other):
@@ -56,7 +56,7 @@ def test_cold_and_warm_runs_and_damaged_entries(cached, cache, tmp_path_factory)
     assert done.stdout.count("The cache's entry is removed and computed again") == 2, done.stdout
     assert_same(first, simulations(third))
     for entry in cache.glob("*.nc"):
-        datasets.read(entry)
+        netcdf.read(entry)
 
 
 def test_no_cache_is_used_unless_it_is_named(cached, cache, monkeypatch):

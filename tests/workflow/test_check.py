@@ -10,10 +10,11 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from nucleation import check, datasets
-from nucleation.check import check_results, unverified
-from nucleation.configuration import configure, load
-from nucleation.strict_yaml import read_yaml
+from nucleation.configuration.load import configure, load
+from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.datasets import netcdf
+from nucleation.pipeline import check
+from nucleation.pipeline.check import check_results, unverified
 
 QUICK = Path(__file__).parents[2] / "config" / "quick.yaml"
 RUN = "simulations/paper-slip-H0.02-phi1.nc"
@@ -31,10 +32,10 @@ def states(findings):
 
 
 def rewritten(path, change):
-    dataset = datasets.read(path)
+    dataset = netcdf.read(path)
     attributes = dict(dataset.attrs)
     changed = change(dataset, attributes)
-    datasets.write(changed if changed is not None else dataset, path, **attributes)
+    netcdf.write(changed if changed is not None else dataset, path, **attributes)
 
 
 def test_fresh_results_are_current(quick):
@@ -68,11 +69,11 @@ def test_other_code_is_stale_and_unknown_code_foreign(copied, monkeypatch):
     directory, settings = copied
     now = check.digest_now
     monkeypatch.setattr(
-        check, "digest_now", lambda c: "other" if "nucleation.simulation" in c else now(c)
+        check, "digest_now", lambda c: "other" if "nucleation.simulation.run" in c else now(c)
     )
     findings = check_results(settings, directory)
     assert {found.path.parent.name for found in findings} == {"simulations"}
-    assert all("code of nucleation.simulation has changed" in f.reason for f in findings)
+    assert all("code of nucleation.simulation.run has changed" in f.reason for f in findings)
     monkeypatch.undo()
     path = directory / settings.results / RUN
     rewritten(path, lambda _, a: a.update(code_digest="elsewhere.simulation @ numpy @ 123"))
@@ -84,9 +85,9 @@ def test_other_code_is_stale_and_unknown_code_foreign(copied, monkeypatch):
 def test_dataset_that_hides_its_origin_is_foreign(copied, attribute):
     directory, settings = copied
     path = directory / settings.results / "lengths.nc"
-    dataset = datasets.read(path)
+    dataset = netcdf.read(path)
     del dataset.attrs[attribute]
-    datasets.write(dataset, path)
+    netcdf.write(dataset, path)
     (found,) = check_results(settings, directory)
     assert (found.path, found.state) == (path, "foreign")
     assert found.reason.endswith(f"no attribute {attribute}")
@@ -98,9 +99,9 @@ def test_each_dataset_is_opened_once(copied, monkeypatch):
     damaged.write_bytes(b"CDF")
     opened = Counter()
     for name in ("read", "attributes"):
-        function = getattr(datasets, name)
+        function = getattr(netcdf, name)
         monkeypatch.setattr(
-            datasets, name, lambda path, f=function: (opened.update([path]), f(path))[1]
+            netcdf, name, lambda path, f=function: (opened.update([path]), f(path))[1]
         )
     assert states(check_results(settings, directory)) == {
         (damaged.name, "damaged"), ("paper.nc", "stale")

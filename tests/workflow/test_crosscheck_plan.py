@@ -4,7 +4,7 @@ import shutil
 
 import pytest
 
-from nucleation import freefem
+from nucleation.verification.crosscheck import freefem
 
 
 def test_plan(workflow, freefem_program):

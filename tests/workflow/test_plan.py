@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.configuration import load, read_yaml
+from nucleation.configuration.load import load, read_yaml
 
 ROOT = Path(__file__).parents[2]
 
@@ -45,8 +45,14 @@ def test_default_target_is_the_whole_paper(paper):
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
         (
             "claims",
-            {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "patch": 1,
-             "evaluate_claims": 1},
+            {
+                "theory": 1,
+                "dispersion": 1,
+                "simulate": 6,
+                "extract": 2,
+                "patch": 1,
+                "evaluate_claims": 1,
+            },
         ),
     ],
 )

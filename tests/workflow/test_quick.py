@@ -11,12 +11,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nucleation import datasets, lengths
-from nucleation.configuration import load, read_yaml
-from nucleation.extraction import extract
-from nucleation.figures import figure_3
-from nucleation.parameters import Parameters
-from nucleation.provenance import digest_now
+from nucleation.analysis import lengths
+from nucleation.analysis.extraction import extract
+from nucleation.configuration.load import load, read_yaml
+from nucleation.datasets import netcdf
+from nucleation.datasets.provenance import digest_now
+from nucleation.figures.paper import figure_3
+from nucleation.model.parameters import Parameters
 
 ROOT = Path(__file__).parents[2]
 CLAIMING = {"evaluate_claims", "write_article"}
@@ -61,7 +62,7 @@ def test_running_again_does_nothing(quick):
 
 def test_simulations_carry_their_origin_and_units(quick, results):
     for run in shared_runs(load(quick.config)):
-        dataset = datasets.read(results / "simulations" / f"{run.id}.nc")
+        dataset = netcdf.read(results / "simulations" / f"{run.id}.nc")
         assert Parameters.from_dict(json.loads(dataset.attrs["parameters"])) == run.parameters
         assert set(json.loads(dataset.attrs["versions"])) >= {"numpy", "scipy", "nucleation"}
         assert digest_now(dataset.attrs["code_digest"]) == dataset.attrs["code_digest"]
@@ -73,7 +74,7 @@ def test_simulations_carry_their_origin_and_units(quick, results):
 
 def test_table_of_lengths(quick, results):
     config = load(quick.config)
-    table = datasets.read(results / "lengths.nc", requires=lengths.COLUMNS)
+    table = netcdf.read(results / "lengths.nc", requires=lengths.COLUMNS)
     text = pd.read_csv(results / "lengths.csv")
     assert list(text.columns) == list(lengths.COLUMNS)
     assert list(text["id"]) == [run.id for run in shared_runs(config)] == list(table["id"].values)
@@ -84,7 +85,7 @@ def test_table_of_lengths(quick, results):
     assert (text["length"] / text["theory_length"]).between(0.3, 1.2).all()
     assert text["onset_time"].between(5.0, 20.0).all()
     for index, run in enumerate(shared_runs(config)):
-        simulation = datasets.read(results / "simulations" / f"{run.id}.nc")
+        simulation = netcdf.read(results / "simulations" / f"{run.id}.nc")
         again = extract(simulation, config.extraction)
         assert again["length"] == float(table["length"][index])
         assert float(table["height"][index]) == run.parameters.geometry.height
@@ -93,10 +94,10 @@ def test_table_of_lengths(quick, results):
 
 
 def test_figure_3_shows_the_datasets(results):
-    theory = datasets.read(results / "theory.nc")
-    table = datasets.read(results / "lengths.nc")
+    theory = netcdf.read(results / "theory.nc")
+    table = netcdf.read(results / "lengths.nc")
     identifier = "paper-aging-H0.1-phi1"
-    simulation = datasets.read(results / "simulations" / f"{identifier}.nc")
+    simulation = netcdf.read(results / "simulations" / f"{identifier}.nc")
     drawn = figure_3.draw(theory, table, simulation, lengths.row(table, identifier))
     axes = drawn.axes[0]
     curves = [line.get_xydata() for line in axes.lines]
@@ -172,13 +173,28 @@ EDITS = {
     ),
     "solver": (
         {"src/nucleation/fem/kernels.py": SPARE},
-        {"simulate", "extract", "gather_lengths", "draw_figure_3", "draw_figure_s2", "patch",
-         "dispersion", *CLAIMING},
+        {
+            "simulate",
+            "extract",
+            "gather_lengths",
+            "draw_figure_3",
+            "draw_figure_s2",
+            "patch",
+            "dispersion",
+            *CLAIMING,
+        },
     ),
     "extraction and a figure": (
         {"src/nucleation/extraction.py": SPARE, "src/nucleation/figures/figure_2.py": SPARE},
-        {"extract", "gather_lengths", "draw_figure_2", "draw_figure_3", "draw_figure_s2", "patch",
-         *CLAIMING},
+        {
+            "extract",
+            "gather_lengths",
+            "draw_figure_2",
+            "draw_figure_3",
+            "draw_figure_s2",
+            "patch",
+            *CLAIMING,
+        },
     ),
 }
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from nucleation import datasets
-from nucleation.configuration import load, read_yaml
-from nucleation.report import catalogue
+from nucleation.configuration.load import load, read_yaml
+from nucleation.datasets import netcdf
+from nucleation.figures import catalogue
 
 STUDIES = ("paper", "converged")
 
@@ -32,12 +32,12 @@ def reported(quick, tmp_path_factory, workflow_type):
     shutil.copytree(quick.directory / "results" / "quick" / "patches", results / "patches")
     for run in load(quick.config).runs_of("paper"):
         (results / "patches" / f"{run.id}.nc").touch()  # nobody reads them: the table is there
-    lengths = datasets.read(results / "lengths.nc")
+    lengths = netcdf.read(results / "lengths.nc")
     renamed = {f"length{end}": f"stability_length{end}" for end in ("", "_low", "_high")}
-    datasets.write(lengths.rename(renamed), results / "patch_stability.nc")
-    datasets.write(made_up_checks.dispersion(), results / "dispersion.nc")
-    datasets.write(made_up_checks.convergence(), results / "convergence.nc")
-    for name in ("patch_stability", "dispersion", "convergence"):
+    netcdf.write(lengths.rename(renamed), results / "patch_stability.nc")
+    netcdf.write(made_up_checks.dispersion(), results / "dispersion.nc")
+    netcdf.write(made_up_checks.convergence(), results / "verification.nc")
+    for name in ("patch_stability", "dispersion", "verification"):
         (results / f"{name}.csv").touch()
     config = read_yaml(quick.config)
     config["studies"] = {name: config["studies"][name] for name in STUDIES}
@@ -79,7 +79,7 @@ def test_report_has_every_figure_of_the_configuration(reported, results):
         ("simulations/paper-slip-H0.02-phi1.nc", "simulate"),
         ("lengths/paper.nc", "extract"),
         ("film.nc", "film"),
-        ("convergence.nc", "convergence"),
+        ("verification.nc", "verification"),
     ],
 )
 def test_lost_file_is_missed_by_the_report(reported, results, name, rule):
@@ -92,8 +92,8 @@ def test_lost_file_is_missed_by_the_report(reported, results, name, rule):
 
 
 def test_animation_goes_through_creep_and_event(results):
-    film = datasets.read(results / "film.nc")
-    lengths = datasets.read(results / "lengths.nc")
+    film = netcdf.read(results / "film.nc")
+    lengths = netcdf.read(results / "lengths.nc")
     run = lengths.isel(run=int(np.flatnonzero(lengths["id"] == "paper-aging-H0.1-phi1")[0]))
     onset = float(run["onset_time"])
     assert film["time"][0] == 0.0

@@ -47,7 +47,7 @@ rule write_article:
         ARTICLE,
     params:
         template=lambda wildcards: TEMPLATE.read_text("utf-8"),
-        digest=digest("nucleation.article"),
+        digest=digest("nucleation.claims.article"),
     message:
         "Article on the replication, its numbers from the results"
     script:

@@ -2,9 +2,9 @@
 # `paper`: it needs a program that make doesn't install, and takes ten minutes.
 from hashlib import sha256
 
-from nucleation import crosscheck, freefem
+from nucleation.verification.crosscheck import freefem, plan
 
-CROSSCHECKS = crosscheck.runs(settings.base, settings.crosscheck, settings.main_text_interface)
+CROSSCHECKS = plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
 FREEFEM_SCRIPT = Path(workflow.basedir, "workflow", "crosscheck", "block.edp")
 
 
@@ -28,7 +28,7 @@ rule crosscheck_own:
         f"{RESULTS}/crosscheck/{{crosscheck}}-own.nc",
     params:
         parameters=lambda wildcards: CROSSCHECKS[wildcards.crosscheck].to_dict(),
-        digest=digest("nucleation.simulation"),
+        digest=digest("nucleation.simulation.run"),
     threads: 1
     message:
         "Crosscheck {wildcards.crosscheck} with the project's solver"
@@ -46,7 +46,7 @@ rule crosscheck_freefem:
         settings=asdict(settings.crosscheck),
         extraction=asdict(settings.extraction),
         script=sha256(FREEFEM_SCRIPT.read_bytes()).hexdigest(),
-        digest=digest("nucleation.freefem"),
+        digest=digest("nucleation.verification.crosscheck.freefem"),
     threads: 1
     message:
         "Crosscheck {wildcards.crosscheck} with FreeFem++"
@@ -64,7 +64,7 @@ rule compare_crosscheck:
     params:
         ids=list(CROSSCHECKS),
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.crosscheck"),
+        digest=digest("nucleation.verification.crosscheck.compare"),
     message:
         "Crosscheck: differences of the two solvers"
     script:

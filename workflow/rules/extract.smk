@@ -25,7 +25,7 @@ rule extract:
         study="|".join(settings.studies),
     params:
         parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
-        digest=digest("nucleation.lengths"),
+        digest=digest("nucleation.analysis.lengths"),
     message:
         "Critical lengths of the study {wildcards.study}"
     script:
@@ -39,7 +39,7 @@ rule gather_lengths:
         dataset=LENGTHS,
         table=f"{RESULTS}/lengths.csv",
     params:
-        digest=digest("nucleation.lengths"),
+        digest=digest("nucleation.analysis.lengths"),
     message:
         "Critical lengths of the studies " + ", ".join(SHARED)
     script:

@@ -4,7 +4,9 @@ DRAWING = ("matplotlib", "numpy")
 
 
 def drawing_digest(name):
-    return digest(f"nucleation.figures.{name}", libraries=DRAWING)
+    (path,) = Path(SOURCE, "nucleation", "figures").rglob(f"{name}.py")
+    name = ".".join(path.relative_to(SOURCE).with_suffix("").parts)
+    return digest(name, libraries=DRAWING)
 
 
 def shown(height):

@@ -30,7 +30,7 @@ rule patch:
         f"{RESULTS}/patches/{{id}}.nc",
     params:
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.stability_length"),
+        digest=digest("nucleation.patch.growth"),
     message:
         "Stability of the creeping patch of {wildcards.id}"
     script:
@@ -50,7 +50,7 @@ rule gather_patches:
         table="|".join(PATCH_TABLES),
     params:
         runs=lambda wildcards: [run.to_dict() for run in runs_in(*PATCH_TABLES[wildcards.table])],
-        digest=digest("nucleation.stability_length"),
+        digest=digest("nucleation.patch.growth"),
     message:
         "Patch lengths at which growth begins: {wildcards.table}"
     script:
@@ -63,7 +63,7 @@ rule twin:
     params:
         run=lambda wildcards: run_of(wildcards).to_dict(),
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.twin_runs"),
+        digest=digest("nucleation.patch.twins"),
     threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2 * memory(wildcards, attempt),
@@ -82,7 +82,7 @@ rule gather_twins:
         table=f"{RESULTS}/twin_runs.csv",
     params:
         runs=[run.to_dict() for run in runs_in("twin_runs")],
-        digest=digest("nucleation.twin_runs"),
+        digest=digest("nucleation.patch.twins"),
     message:
         "Growth of kicks in twin runs"
     script:

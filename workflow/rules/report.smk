@@ -1,7 +1,7 @@
 # The report: one HTML file with every figure that the configuration has the studies for, the
 # theory with sliders, a player of the run of Figure S2, tables and provenance; and the animation,
 # of the run in the inset of Figure 3.
-from nucleation.report import catalogue
+from nucleation.figures import catalogue
 
 FILM = f"{RESULTS}/film.nc"
 ANIMATION = f"{RESULTS}/figures/animation.gif"
@@ -51,7 +51,7 @@ rule film:
         FILM,
     params:
         id=inset_id,
-        digest=digest("nucleation.film"),
+        digest=digest("nucleation.analysis.film"),
     threads: 1
     message:
         "Film: a run once more, for the stress in its block"
@@ -67,7 +67,7 @@ rule draw_animation:
         captioned(ANIMATION, "animation"),
     params:
         id=inset_id,
-        digest=digest("nucleation.figures.animation", libraries=(*DRAWING, "pillow")),
+        digest=digest("nucleation.figures.beyond.animation", libraries=(*DRAWING, "pillow")),
     message:
         "Animation of creep, nucleation and rupture"
     script:

@@ -18,7 +18,7 @@ rule simulate:
         simulation("{id}"),
     params:
         parameters=lambda wildcards: run_of(wildcards).parameters.to_dict(),
-        digest=digest("nucleation.simulation"),
+        digest=digest("nucleation.simulation.run"),
     wildcard_constraints:
         id="|".join(RUNS).replace(".", r"\."),
     log:

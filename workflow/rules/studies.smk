@@ -2,7 +2,7 @@
 #
 # Every study whose name begins with `convergence` takes part in the table of refinement; the first
 # of them refines along x, and its runs at the height of Figure S2 show the hops of the front.
-REFINEMENT = f"{RESULTS}/refinement.nc"
+CONVERGENCE = f"{RESULTS}/convergence.nc"
 SENSITIVITY = f"{RESULTS}/sensitivity.nc"
 CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
 
@@ -61,18 +61,18 @@ rule figure_studies:
         f"The studies' figures are in {RESULTS}/figures"
 
 
-rule refinement:
+rule convergence:
     input:
         [study_lengths(study) for study in CONVERGENCE_STUDIES],
     output:
-        dataset=REFINEMENT,
-        table=f"{RESULTS}/refinement.csv",
+        dataset=CONVERGENCE,
+        table=f"{RESULTS}/convergence.csv",
     params:
-        digest=digest("nucleation.refinement"),
+        digest=digest("nucleation.analysis.convergence"),
     message:
         "Critical lengths against mesh and steps"
     script:
-        "../scripts/refinement.py"
+        "../scripts/convergence.py"
 
 
 rule hops:
@@ -82,7 +82,7 @@ rule hops:
         f"{RESULTS}/hops/{{id}}.nc",
     params:
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.hops"),
+        digest=digest("nucleation.patch.hops"),
     message:
         "Hops of the front of {wildcards.id}"
     script:
@@ -91,7 +91,7 @@ rule hops:
 
 rule draw_figure_convergence:
     input:
-        table=REFINEMENT,
+        table=CONVERGENCE,
         hops=lambda wildcards: [f"{RESULTS}/hops/{run.id}.nc" for run in hopping(wildcards)],
         patch=lambda wildcards: f"{RESULTS}/patches/{hopping(wildcards)[0].id}.nc",
     output:
@@ -108,10 +108,10 @@ rule figure_convergence:
     input:
         rules.draw_figure_convergence.output,
         rules.draw_figure_convergence.input,
-        rules.refinement.output,
+        rules.convergence.output,
         measured(*CONVERGENCE_STUDIES),
     message:
-        "The convergence figure is in {input[0]}, its table in {REFINEMENT}"
+        "The convergence figure is in {input[0]}, its table in {CONVERGENCE}"
 
 
 rule sensitivity:
@@ -123,7 +123,7 @@ rule sensitivity:
     params:
         runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.sensitivity"),
+        digest=digest("nucleation.analysis.sensitivity"),
     message:
         "Sensitivity of critical lengths"
     script:

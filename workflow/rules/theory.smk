@@ -4,7 +4,7 @@ rule theory:
         THEORY,
     params:
         parameters=settings.theory_parameters(),
-        digest=digest("nucleation.theory"),
+        digest=digest("nucleation.theory.curves"),
     message:
         "Theory: critical lengths and friction curves"
     script:

@@ -4,7 +4,7 @@
 # by the simulations' solver, beside the spectrum. Orders of convergence: manufactured solutions,
 # which depend on no configuration.
 DISPERSION = f"{RESULTS}/dispersion.nc"
-CONVERGENCE = f"{RESULTS}/convergence.nc"
+VERIFICATION = f"{RESULTS}/verification.nc"
 
 
 localrules:
@@ -19,7 +19,7 @@ rule dispersion:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
-        digest=digest("nucleation.dispersion"),
+        digest=digest("nucleation.verification.dispersion"),
     threads: 1
     message:
         "Dispersion: growth of single modes, time integration and theory"
@@ -48,22 +48,22 @@ rule figure_dispersion:
         "The dispersion figure is in {input[0]}"
 
 
-rule convergence:
+rule verification:
     output:
-        dataset=CONVERGENCE,
-        table=f"{RESULTS}/convergence.csv",
+        dataset=VERIFICATION,
+        table=f"{RESULTS}/verification.csv",
     params:
-        digest=digest("nucleation.convergence"),
+        digest=digest("nucleation.verification.orders"),
     threads: 1
     message:
         "Convergence: errors of manufactured solutions against element size and time step"
     script:
-        "../scripts/convergence.py"
+        "../scripts/verification.py"
 
 
 rule draw_figure_verification:
     input:
-        convergence=CONVERGENCE,
+        verification=VERIFICATION,
     output:
         figure("figure_verification"),
     params:
@@ -77,6 +77,6 @@ rule draw_figure_verification:
 rule figure_verification:
     input:
         figure("figure_verification"),
-        rules.convergence.output,
+        rules.verification.output,
     message:
         "The verification figure is in {input[0]}"

@@ -1,9 +1,9 @@
 """Draw the animation."""
 
-from nucleation import datasets
-from nucleation.figures import animation
-from nucleation.lengths import row
+from nucleation.analysis.lengths import row
+from nucleation.datasets import netcdf
+from nucleation.figures.beyond import animation
 
-film = datasets.read(snakemake.input.film)
-entry = row(datasets.read(snakemake.input.lengths), snakemake.params.id)
+film = netcdf.read(snakemake.input.film)
+entry = row(netcdf.read(snakemake.input.lengths), snakemake.params.id)
 animation.save(animation.frames(film, entry), snakemake.output[0])

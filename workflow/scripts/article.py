@@ -3,12 +3,13 @@
 import json
 from pathlib import Path
 
-from nucleation import article, datasets
+from nucleation.claims import article
+from nucleation.datasets import netcdf
 
 given = snakemake.input
 text = article.render(
     snakemake.params.template,
     json.loads(Path(given.claims).read_text(encoding="utf-8")),
-    [datasets.read(path) for path in given.lengths],
+    [netcdf.read(path) for path in given.lengths],
 )
-datasets.write_text(text, snakemake.output[0])
+netcdf.write_text(text, snakemake.output[0])

@@ -1,7 +1,7 @@
 """List the results that are not what the present code and configuration would make."""
 
-from nucleation.check import check_results, unverified
-from nucleation.configuration import configure
+from nucleation.configuration.load import configure
+from nucleation.pipeline.check import check_results, unverified
 
 settings = configure(snakemake.config)
 findings = check_results(settings)

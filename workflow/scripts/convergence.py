@@ -1,9 +1,11 @@
-"""Measure the orders of convergence on manufactured solutions."""
+"""Compare each run of the convergence studies with the next coarser one."""
 
-from nucleation import datasets, provenance
-from nucleation.convergence import convergence_dataset, to_csv
+from nucleation.analysis import convergence, lengths
+from nucleation.datasets import netcdf, provenance
 
-dataset = convergence_dataset()
-attributes = provenance.attributes({}, snakemake.params.digest, "snakemake figure_verification")
-datasets.write(dataset, snakemake.output.dataset, **attributes)
-datasets.write_text(to_csv(dataset), snakemake.output.table)
+table = convergence.refinement_table(lengths.join(map(netcdf.read, snakemake.input)))
+attributes = provenance.attributes(
+    {}, snakemake.params.digest, "snakemake figure_convergence", snakemake.input
+)
+netcdf.write(table, snakemake.output.dataset, **attributes)
+netcdf.write_text(lengths.to_csv(table, convergence.COLUMNS), snakemake.output.table)

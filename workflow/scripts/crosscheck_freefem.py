@@ -4,9 +4,11 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from nucleation import datasets, freefem, provenance
-from nucleation.parameters import Parameters
-from nucleation.settings import CrosscheckSettings, ExtractionSettings
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.parameters import Parameters
+from nucleation.verification.crosscheck import freefem
+from nucleation.verification.crosscheck.plan import CrosscheckSettings
 
 params, output = snakemake.params, snakemake.output[0]
 settings = {**params.settings, "heights": tuple(params.settings["heights"])}
@@ -22,4 +24,4 @@ with TemporaryDirectory() as directory:
     except freefem.FreeFemError as error:
         sys.exit(str(error))
 attributes = provenance.attributes(params.parameters, params.digest, f"snakemake {output}")
-datasets.write(record, output, **attributes)
+netcdf.write(record, output, **attributes)

@@ -2,13 +2,13 @@
 
 import sys
 
-from nucleation import datasets, provenance
-from nucleation.crosscheck import simulate_timed
-from nucleation.parameters import Parameters
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.parameters import Parameters
+from nucleation.verification.crosscheck.compare import simulate_timed
 
 params, output = snakemake.params, snakemake.output[0]
 record = simulate_timed(Parameters.from_dict(params.parameters))
 if not record.attrs["completed"]:
     sys.exit(f"{output}: {record.attrs['status']}")
 attributes = provenance.attributes(params.parameters, params.digest, f"snakemake {output}")
-datasets.write(record, output, **attributes)
+netcdf.write(record, output, **attributes)

@@ -1,10 +1,10 @@
 """Integrate single modes of homogeneous sliding and compare with the spectrum."""
 
-from nucleation import datasets, provenance
-from nucleation.dispersion import dispersion_dataset, to_csv
-from nucleation.elasticity import Material
-from nucleation.friction import Friction
-from nucleation.parameters import Loading, Parameters
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.friction.law import Friction
+from nucleation.model.material import Material
+from nucleation.model.parameters import Loading, Parameters
+from nucleation.verification.dispersion import dispersion_dataset, to_csv
 
 params = snakemake.params
 dataset = dispersion_dataset(
@@ -16,5 +16,5 @@ dataset = dispersion_dataset(
 )
 settings = {name: value for name, value in params.items() if name != "digest"}
 attributes = provenance.attributes(settings, params.digest, "snakemake figure_dispersion")
-datasets.write(dataset, snakemake.output.dataset, **attributes)
-datasets.write_text(to_csv(dataset), snakemake.output.table)
+netcdf.write(dataset, snakemake.output.dataset, **attributes)
+netcdf.write_text(to_csv(dataset), snakemake.output.table)

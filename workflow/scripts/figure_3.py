@@ -2,15 +2,16 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_3, style
-from nucleation.lengths import row
+from nucleation.analysis.lengths import row
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.paper import figure_3
 
-table = datasets.read(snakemake.input.lengths)
+table = netcdf.read(snakemake.input.lengths)
 drawn = figure_3.draw(
-    datasets.read(snakemake.input.theory),
+    netcdf.read(snakemake.input.theory),
     table,
-    datasets.read(snakemake.input.simulation),
+    netcdf.read(snakemake.input.simulation),
     row(table, snakemake.params.id),
 )
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_3_extended, style
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_3_extended
 
 drawn = figure_3_extended.draw(
-    *(datasets.read(snakemake.input[name]) for name in ("theory", "lengths", "table"))
+    *(netcdf.read(snakemake.input[name]) for name in ("theory", "lengths", "table"))
 )
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

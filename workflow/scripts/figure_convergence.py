@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_convergence, style
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.checks import figure_convergence
 
 drawn = figure_convergence.draw(
-    datasets.read(snakemake.input.table),
-    [datasets.read(path) for path in snakemake.input.hops],
-    datasets.read(snakemake.input.patch),
+    netcdf.read(snakemake.input.table),
+    [netcdf.read(path) for path in snakemake.input.hops],
+    netcdf.read(snakemake.input.patch),
 )
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

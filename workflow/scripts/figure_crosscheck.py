@@ -3,15 +3,17 @@
 from pathlib import Path
 
 import numpy as np
-from nucleation import crosscheck, datasets
-from nucleation.figures import figure_crosscheck, style
-from nucleation.settings import ExtractionSettings
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.checks import figure_crosscheck
+from nucleation.verification.crosscheck import plan
 
 params, own, freefem = snakemake.params, snakemake.input.own, snakemake.input.freefem
-table = datasets.read(snakemake.input.table)
-shown = [i for i, name in enumerate(params.ids) if name != crosscheck.TIMING]
+table = netcdf.read(snakemake.input.table)
+shown = [i for i, name in enumerate(params.ids) if name != plan.TIMING]
 drawn = figure_crosscheck.draw(
-    [(datasets.read(own[i]), datasets.read(freefem[i])) for i in shown],
+    [(netcdf.read(own[i]), netcdf.read(freefem[i])) for i in shown],
     table.isel(run=np.array(shown)),
     ExtractionSettings(**params.extraction),
 )

@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_dispersion, style
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.checks import figure_dispersion
 
-drawn = figure_dispersion.draw(datasets.read(snakemake.input.dispersion))
+drawn = figure_dispersion.draw(netcdf.read(snakemake.input.dispersion))
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

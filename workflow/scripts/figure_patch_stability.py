@@ -2,12 +2,13 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_patch_stability, style
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_patch_stability
 
 drawn = figure_patch_stability.draw(
-    datasets.read(snakemake.input.table),
-    [datasets.read(path) for path in snakemake.input.patches],
-    datasets.read(snakemake.input.twins),
+    netcdf.read(snakemake.input.table),
+    [netcdf.read(path) for path in snakemake.input.patches],
+    netcdf.read(snakemake.input.twins),
 )
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

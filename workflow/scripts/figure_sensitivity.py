@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_sensitivity, style
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_sensitivity
 
-drawn = figure_sensitivity.draw(datasets.read(snakemake.input.table))
+drawn = figure_sensitivity.draw(netcdf.read(snakemake.input.table))
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

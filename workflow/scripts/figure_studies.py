@@ -2,11 +2,12 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_studies, style
-from nucleation.studies import STUDY_PARAMETERS
+from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.beyond import figure_studies
 
 varied = snakemake.params.varied
 entries = {name: STUDY_PARAMETERS[name][1] for name in varied}
-drawn = figure_studies.draw(datasets.read(snakemake.input.table), varied, entries)
+drawn = figure_studies.draw(netcdf.read(snakemake.input.table), varied, entries)
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""))

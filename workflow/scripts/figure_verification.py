@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from nucleation import datasets
-from nucleation.figures import figure_verification, style
+from nucleation.datasets import netcdf
+from nucleation.figures import style
+from nucleation.figures.checks import figure_verification
 
-drawn = figure_verification.draw(datasets.read(snakemake.input.convergence))
+drawn = figure_verification.draw(netcdf.read(snakemake.input.verification))
 style.save(drawn, Path(snakemake.output[0]).with_suffix(""), snakemake.params.digest)

@@ -1,9 +1,10 @@
 """Join the tables of lengths of several studies."""
 
-from nucleation import datasets, lengths, provenance
+from nucleation.analysis import lengths
+from nucleation.datasets import netcdf, provenance
 
 params = snakemake.params
-table = lengths.join(map(datasets.read, snakemake.input))
+table = lengths.join(map(netcdf.read, snakemake.input))
 attributes = provenance.attributes({}, params.digest, "snakemake lengths", snakemake.input)
-datasets.write(table, snakemake.output.dataset, **attributes)
-datasets.write_text(lengths.to_csv(table), snakemake.output.table)
+netcdf.write(table, snakemake.output.dataset, **attributes)
+netcdf.write_text(lengths.to_csv(table), snakemake.output.table)

@@ -1,11 +1,13 @@
 """Gather the lengths at which the patches of simulations turn unstable."""
 
-from nucleation import datasets, lengths, provenance, stability_length
+from nucleation.analysis import lengths
+from nucleation.datasets import netcdf, provenance
+from nucleation.patch import growth
 
 params = snakemake.params
-table = stability_length.gather(params.runs, map(datasets.read, snakemake.input))
+table = growth.gather(params.runs, map(netcdf.read, snakemake.input))
 attributes = provenance.attributes(
     params.runs, params.digest, "snakemake figure_patch_stability", snakemake.input
 )
-datasets.write(table, snakemake.output.dataset, **attributes)
-datasets.write_text(lengths.to_csv(table, stability_length.COLUMNS), snakemake.output.table)
+netcdf.write(table, snakemake.output.dataset, **attributes)
+netcdf.write_text(lengths.to_csv(table, growth.COLUMNS), snakemake.output.table)

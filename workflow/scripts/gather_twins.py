@@ -1,11 +1,13 @@
 """Gather the growth of kicks in all twin runs."""
 
-from nucleation import datasets, lengths, provenance, twin_runs
+from nucleation.analysis import lengths
+from nucleation.datasets import netcdf, provenance
+from nucleation.patch import twins
 
 params = snakemake.params
-table = twin_runs.gather(params.runs, map(datasets.read, snakemake.input))
+table = twins.gather(params.runs, map(netcdf.read, snakemake.input))
 attributes = provenance.attributes(
     params.runs, params.digest, "snakemake figure_patch_stability", snakemake.input
 )
-datasets.write(table, snakemake.output.dataset, **attributes)
-datasets.write_text(lengths.to_csv(table, twin_runs.COLUMNS), snakemake.output.table)
+netcdf.write(table, snakemake.output.dataset, **attributes)
+netcdf.write_text(lengths.to_csv(table, twins.COLUMNS), snakemake.output.table)

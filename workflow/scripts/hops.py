@@ -1,13 +1,13 @@
 """Follow the hops of one simulation's front."""
 
-from nucleation import datasets, provenance
-from nucleation.hops import follow_hops
-from nucleation.settings import ExtractionSettings
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.datasets import netcdf, provenance
+from nucleation.patch.hops import follow_hops
 
 params, output = snakemake.params, snakemake.output[0]
-followed = follow_hops(datasets.read(snakemake.input[0]), ExtractionSettings(**params.extraction))
+followed = follow_hops(netcdf.read(snakemake.input[0]), ExtractionSettings(**params.extraction))
 attributes = provenance.attributes(
     params.extraction, params.digest, f"snakemake {output}", snakemake.input
 )
 attributes["parameters"] = followed.attrs["parameters"]
-datasets.write(followed, output, **attributes)
+netcdf.write(followed, output, **attributes)

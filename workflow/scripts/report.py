@@ -3,20 +3,21 @@
 import json
 from pathlib import Path
 
-from nucleation import datasets, provenance
-from nucleation.elasticity import Material
-from nucleation.friction import Friction
-from nucleation.lengths import row
-from nucleation.report import catalogue, page
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.lengths import row
+from nucleation.datasets import netcdf, provenance
+from nucleation.figures import catalogue
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.report import page
 from nucleation.report.player import player_dataset
-from nucleation.settings import ExtractionSettings
-from nucleation.stability import InterfaceState
 
 params, given = snakemake.params, snakemake.input
-results = {Path(path).stem: datasets.read(path) for path in given.datasets}
+results = {Path(path).stem: netcdf.read(path) for path in given.datasets}
 player = None
 if given.player:
-    simulation = datasets.read(given.player)
+    simulation = netcdf.read(given.player)
     entry = row(results["lengths"], Path(given.player).stem)
     player = page.Player(
         player_dataset(simulation, entry, ExtractionSettings(**params.extraction)), entry
@@ -44,4 +45,4 @@ content = page.Content(
     claims=json.loads(Path(given.claims).read_text(encoding="utf-8")),
     player=player,
 )
-datasets.write_text(page.build(content), snakemake.output[0])
+netcdf.write_text(page.build(content), snakemake.output[0])

@@ -5,9 +5,10 @@ from pathlib import Path
 
 sys.stderr = open(snakemake.log[0], "a", buffering=1, encoding="utf-8")  # noqa: SIM115 to the end
 
-from nucleation.checkpoints import Stopped, checkpoint_of, run_to_file  # noqa: E402
-from nucleation.parameters import Parameters  # noqa: E402
-from nucleation.progress import Progress  # noqa: E402
+from nucleation.model.parameters import Parameters  # noqa: E402
+from nucleation.pipeline.job import checkpoint_of, run_to_file  # noqa: E402
+from nucleation.pipeline.progress import Progress  # noqa: E402
+from nucleation.simulation.checkpoints import Stopped  # noqa: E402
 
 params, output = snakemake.params, Path(snakemake.output[0])
 parameters = Parameters.from_dict(params.parameters)

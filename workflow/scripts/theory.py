@@ -1,11 +1,10 @@
 """Compute all curves of the linear theory."""
 
-from nucleation import datasets, provenance
-from nucleation.elasticity import Material
-from nucleation.friction import Friction
-from nucleation.settings import Curves
-from nucleation.stability import InterfaceState
-from nucleation.theory import theory_dataset
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.theory.curves import Curves, theory_dataset
 
 params = snakemake.params
 parameters = params.parameters
@@ -16,4 +15,4 @@ dataset = theory_dataset(
     Curves(**parameters["curves"]),
 )
 attributes = provenance.attributes(parameters, params.digest, "snakemake theory")
-datasets.write(dataset, snakemake.output[0], **attributes)
+netcdf.write(dataset, snakemake.output[0], **attributes)

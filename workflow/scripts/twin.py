@@ -1,13 +1,13 @@
 """Kick the patch of one run at several of its lengths, and follow the kicks."""
 
-from nucleation import datasets, provenance
-from nucleation.parameters import Parameters
-from nucleation.settings import ExtractionSettings
-from nucleation.twin_runs import follow_twins
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.datasets import netcdf, provenance
+from nucleation.model.parameters import Parameters
+from nucleation.patch.twins import follow_twins
 
 params, output = snakemake.params, snakemake.output[0]
 parameters = Parameters.from_dict(params.run["parameters"])
 settings = ExtractionSettings(**params.extraction)
 twins = follow_twins(parameters, params.run["theory_length"], settings)
 attributes = provenance.attributes(params.run["parameters"], params.digest, f"snakemake {output}")
-datasets.write(twins, output, **attributes)
+netcdf.write(twins, output, **attributes)

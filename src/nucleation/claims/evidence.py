@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..elasticity import Material
-from ..friction import Friction
-from ..parameters import Loading
-from ..stability import InterfaceState
+from ..model.friction.law import Friction
+from ..model.linearised import InterfaceState
+from ..model.material import Material
+from ..model.parameters import Loading
 from .claim import Cause, Result
 from .measure import Measures
 from .said import Missing, Ours

@@ -9,11 +9,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..drop import WINDOW
-from ..extraction import Onset, find_onset, patch_lengths
-from ..friction import Friction
-from ..parameters import Parameters
-from ..settings import ExtractionSettings
+from ..analysis.extraction import ExtractionSettings, Onset, find_onset, patch_lengths
+from ..model.friction.law import Friction
+from ..model.parameters import Parameters
+from ..simulation.event import WINDOW
 
 Array = NDArray[np.float64]
 
@@ -64,7 +63,7 @@ NONE = float("nan")
 
 
 def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
-    """Read a simulation (the record of :func:`nucleation.simulation.simulate`)."""
+    """Read a simulation (the record of :func:`nucleation.simulation.run.simulate`)."""
     parameters = Parameters.from_json(simulation.attrs["parameters"])
     steps = simulation["step_time"].values
     force = np.abs(simulation["driving_force"].values)

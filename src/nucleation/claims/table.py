@@ -9,9 +9,9 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Any
 
-from . import bimaterial, course, finite_height, friction_law, simulations, sliding
 from .claim import Claim, Verdict
 from .evidence import Evidence
+from .statements import bimaterial, course, finite_height, friction_law, simulations, sliding
 
 SUBJECTS: dict[str, list[Claim]] = {
     "homogeneous sliding": sliding.CLAIMS,

@@ -63,8 +63,8 @@ def main() -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command line, without its name, and return the exit code."""
-    from ..datasets import DatasetError
-    from ..quantities import ParameterError
+    from ..datasets.variables import DatasetError
+    from ..model.quantities import ParameterError
 
     try:
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE

@@ -9,12 +9,12 @@ from typing import Any
 import click
 import numpy as np
 
-from ..api import CriticalMode, critical_mode
-from ..elasticity import Material
-from ..fault import QUANTITIES, Fault
-from ..lengths_in_use import LENGTHS, WEAKENING_RATE, Length, lengths_of
-from ..quantities import ParameterError, declarations
-from . import DONE, EXIT_CODES, STABLE, units
+from ..commands import DONE, EXIT_CODES, STABLE, units
+from ..model.material import Material
+from ..model.quantities import ParameterError, declarations
+from ..theory.arrays import CriticalMode, critical_mode
+from ..theory.fault import QUANTITIES, Fault
+from ..theory.literature_table import LENGTHS, WEAKENING_RATE, Length, lengths_of
 
 DENSITY = declarations(Material)["density"]
 

@@ -11,12 +11,13 @@ import click
 import numpy as np
 import xarray as xr
 
-from .. import datasets, provenance
-from ..extraction import extract
-from ..parameters import Parameters
-from ..quantities import ParameterError
-from ..studies import linearised, theory_length
-from . import DONE, EXIT_CODES, text
+from ..analysis.extraction import extract
+from ..commands import DONE, EXIT_CODES, text
+from ..datasets import netcdf, provenance
+from ..model.linearised import linearised
+from ..model.parameters import Parameters
+from ..model.quantities import ParameterError
+from ..theory.critical import theory_length
 
 SHOWN_ROWS = 60
 
@@ -44,7 +45,7 @@ def command(file: Path, plot: Path | None, force: bool) -> int:
     Example:
       nucleation show run.nc --plot run.png
     """
-    dataset = datasets.read(file)
+    dataset = netcdf.read(file)
     kind = kind_of(dataset)
     if plot:
         _check_plot(plot, kind, force)
@@ -77,8 +78,8 @@ def _save(figure: Any, plot: Path) -> None:
     """Write the figure as the project's are written, keeping the format asked for."""
     import matplotlib as mpl
 
+    from ..datasets.files import replacing
     from ..figures import style
-    from ..files import replacing
 
     with mpl.rc_context(style.STYLE), replacing(plot) as temporary:
         figure.savefig(temporary, format=plot.suffix[1:])
@@ -92,7 +93,7 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
         digest = attributes["code_digest"]
         verdict = ""
         if kind.name == SIMULATION:
-            same = digest == provenance.digest("nucleation.simulation")
+            same = digest == provenance.digest("nucleation.simulation.run")
             verdict = ", that of this installation" if same else ", NOT that of this installation"
         lines.append(f"code: {digest[:12]}{verdict}")
     if "versions" in attributes:
@@ -150,7 +151,7 @@ def _variable_lines(dataset: xr.Dataset) -> list[str]:
 
 
 def _draw_simulation(dataset: xr.Dataset) -> Any:
-    from ..figures import figure_s2
+    from ..figures.paper import figure_s2
 
     return figure_s2.draw(dataset, xr.Dataset(extract(dataset)))
 
@@ -174,19 +175,19 @@ def _draw_patch(dataset: xr.Dataset) -> Any:
 
 
 def _draw_dispersion(dataset: xr.Dataset) -> Any:
-    from ..figures import figure_dispersion
+    from ..figures.checks import figure_dispersion
 
     return figure_dispersion.draw(dataset)
 
 
 def _draw_convergence(dataset: xr.Dataset) -> Any:
-    from ..figures import figure_verification
+    from ..figures.checks import figure_verification
 
     return figure_verification.draw(dataset)
 
 
 def _draw_sensitivity(dataset: xr.Dataset) -> Any:
-    from ..figures import figure_sensitivity
+    from ..figures.beyond import figure_sensitivity
 
     return figure_sensitivity.draw(dataset)
 

@@ -14,18 +14,18 @@ from typing import Any
 
 import click
 
-from .. import datasets, provenance
-from ..advice import advise
-from ..configuration import configure, load
-from ..extraction import extract
-from ..friction import Friction
-from ..full_law import CONSTANTS, with_constants
-from ..parameters import Parameters
-from ..quantities import ParameterError, check, declarations
-from ..settings import Limits
-from ..strict_yaml import read_yaml
-from ..studies import STUDY_PARAMETERS, Run, StudySettings, estimated_megabytes
-from . import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
+from ..analysis.extraction import extract
+from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
+from ..configuration.advice import advise
+from ..configuration.load import configure, load
+from ..configuration.settings import Limits, estimated_megabytes
+from ..configuration.strict_yaml import read_yaml
+from ..configuration.studies import STUDY_PARAMETERS, Run, StudySettings
+from ..datasets import netcdf, provenance
+from ..model.friction.constants import CONSTANTS, with_constants
+from ..model.friction.law import Friction
+from ..model.parameters import Parameters
+from ..model.quantities import ParameterError, check, declarations
 from .text import event_lines, parameter_lines, with_unit
 
 KNOWN = 30  # names listed in a message
@@ -160,7 +160,7 @@ def _of_run(config: str, run_id: str) -> tuple[dict[str, Any], dict[str, Any]]:
 def _of_file(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
     """The parameters of a dataset; or the defaults, and what a YAML or JSON file gives."""
     if path.suffix == ".nc":
-        attributes = datasets.read(path, requires=["slip_rate", "driving_force"]).attrs
+        attributes = netcdf.read(path, requires=["slip_rate", "driving_force"]).attrs
         return _flat(Parameters.from_json(attributes["parameters"]).to_dict()), {}
     content = read_yaml(path)
     if not isinstance(content, dict):
@@ -218,10 +218,11 @@ def _command(output: Path, run: Run) -> str:
 
 def _simulate(run: Run, output: Path, command_line: str) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
-    from ..checkpoints import Stopped, checkpoint_of, run_to_file
-    from ..progress import Progress
+    from ..pipeline.job import checkpoint_of, run_to_file
+    from ..pipeline.progress import Progress
+    from ..simulation.checkpoints import Stopped
 
-    digest = provenance.digest("nucleation.simulation")
+    digest = provenance.digest("nucleation.simulation.run")
     checkpoint = checkpoint_of(run.parameters, output, digest)
     progress = Progress(run.parameters, sys.stderr)
     try:
@@ -245,7 +246,7 @@ def _simulate(run: Run, output: Path, command_line: str) -> int:
 @contextlib.contextmanager
 def _listening(checkpoint: Any) -> Iterator[None]:
     """Signals stop the run after its present step, within the context alone."""
-    from ..checkpoints import SIGNALS
+    from ..simulation.checkpoints import SIGNALS
 
     before = {number: signal.getsignal(number) for number in SIGNALS}
     checkpoint.listen()

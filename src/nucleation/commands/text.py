@@ -7,8 +7,8 @@ import math
 import re
 from typing import Any
 
-from ..parameters import Parameters
-from ..quantities import Quantity, declarations
+from ..model.parameters import Parameters
+from ..model.quantities import Quantity, declarations
 
 GROUPS = {field.name: declarations(type(field.default)) for field in dataclasses.fields(Parameters)}
 

@@ -11,7 +11,7 @@ from typing import Any
 import click
 from click.shell_completion import CompletionItem
 
-from ..quantities import ParameterError, Quantity, check
+from ..model.quantities import ParameterError, Quantity, check
 
 NUMBER = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf(?:inity)?))\s*(.*?)\s*")
 UNIT = re.compile(r"[A-Za-zµμ%*/^0-9 ().\-]{1,40}")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from ..elasticity import Material
+from ..model.material import Material
 from .grid import Grid
 
 Array = NDArray[np.float64]
@@ -55,7 +55,8 @@ def assemble(grid: Grid, material: Material) -> tuple[sparse.csr_matrix, sparse.
         local = _element_matrices(grid.dx, dy, material)
         corners = ((0, 0), (1, 0), (0, 1), (1, 1))
         numbers = np.stack(
-            [unknown(grid, columns + a, j + b, c) for a, b in corners for c in (0, 1)], axis=1  # type: ignore[arg-type]
+            [unknown(grid, columns + a, j + b, c) for a, b in corners for c in (0, 1)],
+            axis=1,  # type: ignore[arg-type]
         )
         rows = np.repeat(numbers, 8, axis=1).ravel()
         cols = np.tile(numbers, (1, 8)).ravel()

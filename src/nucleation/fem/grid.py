@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from . import kernels
+from ..fem import kernels
 
 Array = NDArray[np.float64]
 

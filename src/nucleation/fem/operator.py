@@ -18,8 +18,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from . import kernels
-from .body import Body, Field
+from ..fem import kernels
+from .block import Block, Field
 from .right_edge import RightEdge
 
 Array = NDArray[np.float64]
@@ -33,7 +33,7 @@ class LinearResponse:
 
     `w` and `tangential` at the nodes 1..n_x, `normal` at 0..n_x, `edge` at the levels 0..n_y.
     Where the edge values were given and not found, `swept` holds the sweep down to the interface
-    with them, (n_y + 1, 2, n_x): :meth:`BodyOperator.displacement` goes on from there.
+    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.displacement` goes on from there.
     """
 
     w: Array
@@ -43,10 +43,10 @@ class LinearResponse:
     swept: Array | None = None
 
 
-class BodyOperator:
-    """``K + s M`` of a :class:`Body` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
+class BlockOperator:
+    """``K + s M`` of a :class:`Block` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
-    def __init__(self, body: Body, s: float) -> None:
+    def __init__(self, body: Block, s: float) -> None:
         self.body, self.s = body, s
         grid, material = body.grid, body.material
         lame, shear, p_modulus = (
@@ -70,7 +70,7 @@ class BodyOperator:
         """Modes of the bulk for a given interface ``w`` (amplitudes) and given edge values.
 
         Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
-        (2, n_x); all loads in the scaling of :meth:`Body.top_load` (N/m).
+        (2, n_x); all loads in the scaling of :meth:`Block.top_load` (N/m).
         """
         modes = self._swept(load, edge)
         reduced = modes[0].copy()

@@ -23,19 +23,15 @@ from numpy.typing import NDArray
 from scipy import fft
 from scipy.linalg import circulant
 
-from ..elasticity import Material
-from ..parameters import Parameters
-from .body import Body, Field
-from .dynamics import Dynamics
+from ..model.material import Material
+from .block import Block, Field
 from .grid import Grid
-from .operator import BodyOperator, LinearResponse
-from .state import State
-from .stepping import rung_value
+from .operator import BlockOperator, LinearResponse
 
 Array = NDArray[np.float64]
 
 
-class PeriodicBody(Body):
+class PeriodicBlock(Block):
     """A layer of one period along x on the interface y = 0."""
 
     def __init__(self, grid: Grid, material: Material) -> None:
@@ -91,8 +87,8 @@ class PeriodicBody(Body):
         return self.sine_values(field.modes[:, 0]), self.cosine_values(field.modes[:, 1])
 
 
-class PeriodicOperator(BodyOperator):
-    """``K + s M`` of a :class:`PeriodicBody`; D and N are circulant."""
+class PeriodicOperator(BlockOperator):
+    """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
 
     def apply(self, w: Array) -> tuple[Array, Array, Array]:
         """``D w``, ``N w`` (with entry 0) and the edge values, which do not exist: zeros."""
@@ -129,35 +125,3 @@ class PeriodicOperator(BodyOperator):
 def with_entry_zero(nodal: Array) -> Array:
     """Values at the period's nodes as an interface array: entry 0 repeats the last node."""
     return np.append(nodal[-1], nodal)
-
-
-class PeriodicDynamics(Dynamics):
-    """A period of a long block, driven at constant traction to slide homogeneously at V.
-
-    ``geometry.length`` is the period. The reports' driving force has no meaning here.
-    """
-
-    def __init__(self, parameters: Parameters) -> None:
-        super().__init__(parameters)
-        self.body = PeriodicBody(self.grid, parameters.material)
-        law, sigma0 = parameters.friction, parameters.loading.normal_stress
-        self._steady_log_state = float(np.log(law.steady_state(self.velocity)))
-        self._load = self.body.top_load(sigma0, sigma0 * law.steady_coefficient(self.velocity))  # type: ignore[arg-type]
-
-    def sliding_state(self, perturbation: Array) -> State:
-        """Homogeneous steady sliding, with a perturbation of log(phi) at the period's nodes."""
-        n = self.grid.n_x
-        modes, _ = PeriodicOperator(self.body, 0.0).solve(
-            self._load, np.zeros(n), np.zeros(self.grid.n_y + 1)
-        )
-        displacement = Field(modes, np.zeros(modes.shape[0]))
-        log_state = self._steady_log_state + np.append(0.0, perturbation)
-        rates = np.full(n + 1, self.velocity)
-        return State.beginning(
-            displacement, self.body.zero_field(), rates, log_state, np.zeros(n), 0.0
-        )
-
-    def _operator(self, rung: int) -> PeriodicOperator:
-        if rung not in self._operators:
-            self._operators[rung] = PeriodicOperator(self.body, 1.0 / rung_value(rung) ** 2)
-        return self._operators[rung]  # type: ignore[return-value]

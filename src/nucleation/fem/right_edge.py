@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from . import kernels
-from .body import Body, Field
+from ..fem import kernels
+from .block import Block, Field
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 class RightEdge:
     """The rows of the edge values in ``K + s M``, given the factors of the bulk's elimination."""
 
-    def __init__(self, body: Body, s: float, inverse: Array, lower: Array) -> None:
+    def __init__(self, body: Block, s: float, inverse: Array, lower: Array) -> None:
         self.body, self._inverse, self._lower = body, inverse, lower
         dx, material = body.grid.dx, body.material
         lame, shear = material.lame_modulus, material.shear_modulus

@@ -8,7 +8,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from . import style
+from ..figures import style
 
 CREEP_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the onset time
 EVENT_FRACTIONS = (0.4, 0.8)  # of the way, in log slip rate, from the onset to the peak

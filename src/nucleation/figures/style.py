@@ -12,7 +12,7 @@ import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..files import replacing
+from ..datasets.files import replacing
 
 P = ParamSpec("P")
 
@@ -119,7 +119,7 @@ def save(figure: Figure, stem: str | os.PathLike[str], code: str = "") -> tuple[
     stem : path
         Path of the files without their suffix; missing directories are made.
     code : str
-        Digest of the code that drew it (:func:`nucleation.provenance.digest`), kept in the files.
+        Digest of the code that drew it (:func:`nucleation.datasets.provenance.digest`), kept in the files.
 
     Returns
     -------

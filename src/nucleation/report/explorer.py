@@ -5,8 +5,8 @@ from __future__ import annotations
 import dataclasses
 from typing import Any, NamedTuple
 
-from ..elasticity import Material
-from ..stability import InterfaceState
+from ..model.linearised import InterfaceState
+from ..model.material import Material
 
 
 class Slider(NamedTuple):

@@ -14,13 +14,14 @@ import xarray as xr
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from .. import datasets
-from ..elasticity import Material
-from ..figures import style, table_s1
-from ..friction import Friction
-from ..parameters import Parameters
-from ..stability import InterfaceState
-from . import catalogue, encode, explorer, tables
+from ..datasets import netcdf
+from ..figures import catalogue, style
+from ..figures.paper import table_s1
+from ..model.friction.law import Friction
+from ..model.linearised import InterfaceState
+from ..model.material import Material
+from ..model.parameters import Parameters
+from ..report import encode, explorer, tables
 from .captions import caption_html
 
 HERE = Path(__file__).parent
@@ -56,7 +57,7 @@ class Content(NamedTuple):
     friction: Friction
     interface: InterfaceState
     config: dict[str, Any]  # as given
-    provenance: dict[str, str]  # of nucleation.provenance.attributes
+    provenance: dict[str, str]  # of nucleation.datasets.provenance.attributes
     results: dict[str, xr.Dataset]  # datasets by name
     pictures: list[Picture]
     claims: list[dict[str, Any]] | None = None
@@ -161,7 +162,7 @@ def _netcdf(dataset: xr.Dataset) -> bytes:
     with tempfile.TemporaryDirectory() as directory:
         path = Path(directory, "run.nc")
         single = dataset.map(lambda v: v.astype("f4") if v.ndim > 1 else v, keep_attrs=True)
-        datasets.write(single, path)
+        netcdf.write(single, path)
         return path.read_bytes()
 
 

@@ -6,10 +6,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..extraction import patch_lengths
-from ..moments import chosen_frames, event_interval, thinned
-from ..parameters import Parameters
-from ..settings import ExtractionSettings
+from ..analysis.extraction import ExtractionSettings, patch_lengths
+from ..analysis.moments import chosen_frames, event_interval, thinned
+from ..model.parameters import Parameters
 
 Array = NDArray[np.float64]
 
@@ -35,7 +34,7 @@ def player_dataset(
     Parameters
     ----------
     simulation : Dataset
-        The record of :func:`nucleation.simulation.simulate`.
+        The record of :func:`nucleation.simulation.run.simulate`.
     row : Dataset
         Its entry of the table of lengths, with ``onset_time`` (s).
     settings : ExtractionSettings
@@ -47,7 +46,7 @@ def player_dataset(
         ``slip_rate`` (m/s), ``shear_stress`` (Pa) and ``state`` (s) on (time, x), ``patch_length``
         (m) on (time), the furthest that has crept until then; ``driving_force`` (N/m) on (step).
         The attributes ``event_start`` and ``event_end`` (s) are those of
-        :func:`nucleation.moments.event_interval`.
+        :func:`nucleation.analysis.moments.event_interval`.
     """
     parameters = Parameters.from_json(simulation.attrs["parameters"])
     threshold = settings.edge_threshold * parameters.loading.velocity

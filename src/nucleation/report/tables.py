@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..datasets import VARIABLES
-from ..figures import figure_3
+from ..datasets.variables import VARIABLES
+from ..figures.paper import figure_3
 
 VERDICTS = {
     "replicated": ("✓", "yes"),

@@ -1,7 +1,7 @@
 "use strict";
 // The critical nucleation length of a block on a rigid base, computed in the page.
 //
-// The same theory as nucleation.stability: the neutral points of Eq. (5) with the transfer
+// The same theory as nucleation.theory: the neutral points of Eq. (5) with the transfer
 // functions of Eq. (10). With q = k H, b = a + zeta, rho = f G2 / G1 and the stiffness
 // s = mu ell / (sigma0 H), sliding is marginal where s q G1(q) = h(rho), and h is the upper root of
 // (h - zeta)^2 = rho^2 h (b - h). Only s knows of the height, so that h / (q G1) is tabulated once

@@ -9,10 +9,10 @@ import psutil
 import pytest
 from commands_of_slurm import output_of, wait_for
 
-from nucleation import datasets
-from nucleation.configuration import configure
-from nucleation.strict_yaml import read_yaml
-from nucleation.studies import estimated_megabytes
+from nucleation.configuration.load import configure
+from nucleation.configuration.settings import estimated_megabytes
+from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.datasets import netcdf
 
 ROOT = Path(__file__).parents[3]
 OFTEN = ("--slurm-init-seconds-before-status-checks", "2")
@@ -63,9 +63,7 @@ def let_go(held):
 def assert_same_variables(made, local, ids):
     """Simulations of a cluster are those made here, to the last bit."""
     for id in ids:
-        cluster, here = (
-            datasets.read(workflow.directory / result(id)) for workflow in (made, local)
-        )
+        cluster, here = (netcdf.read(workflow.directory / result(id)) for workflow in (made, local))
         assert set(cluster.variables) == set(here.variables)
         for name, variable in here.variables.items():
             assert cluster[name].attrs == variable.attrs

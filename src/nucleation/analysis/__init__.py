@@ -1,0 +1,4 @@
+"""What is read from recorded runs: onset, critical length, tables of runs, convergence, sensitivity.
+
+It uses :mod:`nucleation.simulation` and what that uses.
+"""

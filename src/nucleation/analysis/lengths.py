@@ -1,0 +1,102 @@
+"""The table of critical lengths: one row for each simulation, SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .extraction import ExtractionSettings, extract
+
+MEASURED = (
+    "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",
+)  # fmt: skip
+"""What :func:`nucleation.analysis.extraction.extract` reads from a simulation."""
+
+DIAGNOSTICS = ("status", "steps", "wall_seconds", "peak_megabytes")
+"""Attributes of a simulation's dataset that go into the table."""
+
+COLUMNS = (
+    "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
+    "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
+    "applied_stress",
+)  # fmt: skip
+
+
+def gather(
+    runs: Iterable[dict[str, Any]],
+    simulations: Iterable[xr.Dataset],
+    settings: ExtractionSettings,
+) -> xr.Dataset:
+    """The table of runs, with what is extracted from their simulations.
+
+    Parameters
+    ----------
+    runs : iterable of dict
+        From :meth:`nucleation.configuration.studies.Run.to_dict`.
+    simulations : iterable of Dataset
+        Their simulations, in the same order.
+    settings : ExtractionSettings
+        How lengths are read.
+
+    Returns
+    -------
+    Dataset
+        The variables :data:`COLUMNS` on the dimension ``run``.
+    """
+    rows = [
+        _row(run, simulation, settings) for run, simulation in zip(runs, simulations, strict=True)
+    ]
+    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+
+
+def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """One table of the rows of several."""
+    return xr.concat(list(tables), dim="run", combine_attrs="drop")
+
+
+def description(run: dict[str, Any]) -> dict[str, Any]:
+    """The columns that say which simulation a row is about, and the theory's length for it."""
+    parameters = run["parameters"]
+    return {
+        "id": run["id"],
+        "study": run["study"],
+        "law": parameters["friction"]["evolution"],
+        "height": parameters["geometry"]["height"],
+        "phi0": parameters["loading"]["initial_state"],
+        "n_x": parameters["mesh"]["n_x"],
+        "n_y": parameters["mesh"]["n_y"],
+        "theory_length": run["theory_length"],
+        "block_length": parameters["geometry"]["length"],
+        "grading": parameters["mesh"]["grading"],
+        "tolerance": parameters["stepping"]["tolerance"],
+        "longest_step": parameters["stepping"]["longest_step"],
+        "density": parameters["material"]["density"],
+        "slip_distance": parameters["friction"]["characteristic_slip_distance"],
+        "velocity": parameters["loading"]["velocity"],
+        "applied_stress": parameters["loading"]["normal_stress"],
+    }
+
+
+def _row(
+    run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
+) -> dict[str, Any]:
+    measured = extract(simulation, settings)
+    return {
+        **description(run),
+        **{name: float(measured[name]) for name in MEASURED},
+        **{name: simulation.attrs[name] for name in DIAGNOSTICS},
+    }
+
+
+def row(table: xr.Dataset, identifier: str) -> xr.Dataset:
+    """The row of one simulation, by its id."""
+    (index,) = np.flatnonzero(table["id"].values == identifier)
+    return table.isel(run=int(index))
+
+
+def to_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> str:
+    """A table of runs as comma-separated text, in the order of the columns."""
+    return table.to_dataframe()[list(columns)].to_csv(index=False)

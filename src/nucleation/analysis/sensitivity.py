@@ -1,0 +1,178 @@
+"""Sensitivity of the critical length: every run against the base run of its height.
+
+The base is the first run of each height. What a run varies is found by comparing parameters, so
+that a study may vary any of them. Definitions of the extraction are varied on the base run itself.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..model.parameters import Parameters
+from ..model.quantities import Quantity, declarations
+from .extraction import ExtractionSettings, extract, patch_lengths
+
+COLUMNS = (
+    "id", "height", "varied", "variation", "length", "length_change", "theory_length",
+    "length_over_theory", "ratio_change", "onset_time", "onset_change", "status",
+)  # fmt: skip
+
+EDGE_THRESHOLDS = (0.5, 0.1, 1e-3)  # over V
+DROPS = (0.005, 0.01, 0.05, 0.1)  # fractions of |f_d|
+
+BASE = "base"
+DROP_COMPLETE = "end of the drop"
+
+NOT_PHYSICAL = ("n_x", "n_y", "grading", "end_time", "time_after_event")
+"""Not varied for their own sake: a longer block keeps its element length, a run may end sooner."""
+
+SAME_LENGTH = 1e-2  # block lengths over the theory's differ by less through rounding
+
+Row = dict[str, Any]
+
+
+class Case(NamedTuple):
+    """One run and what it is about."""
+
+    id: str
+    parameters: Parameters
+    theory_length: float  # m
+    simulation: xr.Dataset
+
+
+def variation(case: Case, base: Case) -> tuple[str, str]:
+    """The parameters that a run varies against its base, and how, in words.
+
+    The block's length counts where it is another multiple of the theory's critical length; the
+    start in uniform shear is named by its shear stress.
+    """
+    values, usual, entries = _flat(case.parameters), _flat(base.parameters), _entries()
+    ratio = values["length"] / case.theory_length * base.theory_length / usual["length"]
+    varied = {
+        name
+        for name, value in values.items()
+        if value != usual[name] and name not in (*NOT_PHYSICAL, "length")
+    }
+    if abs(ratio - 1.0) > SAME_LENGTH:
+        varied.add("length")
+    if "initial_stress" in varied:
+        varied = (varied - {"initial_stress"}) | {"initial_shear_stress"}
+    words = [_words(entries[name], name, values[name], usual[name]) for name in sorted(varied)]
+    return ", ".join(sorted(varied)) or BASE, ", ".join(words) or BASE
+
+
+def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:
+    """A changed value in words: a multiple of the usual one where there is one."""
+    symbol = entry.symbol or name
+    if isinstance(value, str):
+        return f"{symbol} = {value}"
+    if value and usual:
+        return f"{symbol} x {value / usual:.3g}"
+    return f"{symbol} = {value:g}" + ("" if entry.unit == "1" or not value else f" {entry.unit}")
+
+
+def _flat(parameters: Parameters) -> Row:
+    return {k: v for group in parameters.to_dict().values() for k, v in group.items()}
+
+
+def _entries() -> dict[str, Quantity]:
+    groups = (f.default for f in dataclasses.fields(Parameters))
+    return {k: entry for group in groups for k, entry in declarations(type(group)).items()}
+
+
+def sensitivity_table(
+    runs: Iterable[Row],
+    simulations: Iterable[xr.Dataset],
+    settings: ExtractionSettings = ExtractionSettings(),
+) -> xr.Dataset:
+    """Relative changes of critical length and onset, by what was varied.
+
+    Parameters
+    ----------
+    runs : iterable of dict
+        From :meth:`nucleation.configuration.studies.Run.to_dict`; the first of each height is the base.
+    simulations : iterable of Dataset
+        Their simulations, in the same order.
+    settings : ExtractionSettings
+        The usual definitions.
+
+    Returns
+    -------
+    Dataset
+        On ``run``, :data:`COLUMNS`: lengths in m, times in s. ``length_change`` is that of L_c
+        over the base's, ``ratio_change`` that of L_c over the theory's length for the run's own
+        parameters, ``onset_change`` that of the onset; all relative. NaN without an event.
+    """
+    cases = [
+        Case(r["id"], Parameters.from_dict(r["parameters"]), r["theory_length"], simulation)
+        for r, simulation in zip(runs, simulations, strict=True)
+    ]
+    bases: dict[float, Case] = {}
+    for case in cases:
+        bases.setdefault(case.parameters.geometry.height, case)
+    rows = [
+        row
+        for height, base in bases.items()
+        for row in _against(base, [c for c in cases if c.parameters.geometry.height == height],
+                            settings)
+    ]  # fmt: skip
+    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+
+
+def _against(base: Case, cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]:
+    """The rows of one height."""
+    usual = extract(base.simulation, settings)
+    reference = usual["length"], usual["onset_time"]
+    for case in cases:
+        found = extract(case.simulation, settings)
+        measured = found["length"], found["onset_time"]
+        yield _row(case, variation(case, base), measured, reference, base)
+    for name, words, measured in _redefined(base, usual, settings):
+        yield _row(base, (name, words), measured, reference, base)
+
+
+def _redefined(
+    base: Case, usual: dict[str, float], settings: ExtractionSettings
+) -> Iterator[tuple[str, str, tuple[float, float]]]:
+    """Length (m) and onset (s) of one run by other definitions of edge, drop and instant."""
+    for name, values, text in (
+        ("edge_threshold", EDGE_THRESHOLDS, "edge at {:g} V"),
+        ("drop", DROPS, "drop by {:g}"),
+    ):
+        for value in values:
+            found = extract(base.simulation, dataclasses.replace(settings, **{name: value}))
+            yield name, text.format(value), (found["length"], found["onset_time"])
+    end = usual["onset_time_high"]
+    if math.isfinite(end):
+        threshold = settings.edge_threshold * base.parameters.loading.velocity
+        frame = int(np.abs(base.simulation["time"].values - end).argmin())
+        reach = patch_lengths(base.simulation.isel(time=slice(0, frame + 1)), threshold)
+        yield "instant", DROP_COMPLETE, (float(reach.max()), end)
+
+
+def _row(
+    case: Case, what: tuple[str, str], measured: tuple[float, float],
+    reference: tuple[float, float], base: Case,
+) -> Row:  # fmt: skip
+    (length, onset), (base_length, base_onset) = measured, reference
+    change = length / base_length
+    return {
+        "id": case.id,
+        "height": case.parameters.geometry.height,
+        "varied": what[0],
+        "variation": what[1],
+        "length": length,
+        "length_change": change - 1.0,
+        "theory_length": case.theory_length,
+        "length_over_theory": length / case.theory_length,
+        "ratio_change": change * base.theory_length / case.theory_length - 1.0,
+        "onset_time": onset,
+        "onset_change": onset / base_onset - 1.0,
+        "status": case.simulation.attrs["status"],
+    }

@@ -1,0 +1,75 @@
+"""The article on the replication: a template whose numbers come from the results alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import jinja2
+import xarray as xr
+
+from .claim import Verdict
+from .table import counts, number_text
+
+
+def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dataset]) -> str:
+    """The article's text.
+
+    Parameters
+    ----------
+    template : str
+        Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
+        number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(study)``,
+        the rows of a study's lengths; and the filters ``digits(n)`` and ``percent(n)``.
+    claims : list of dict
+        Rows of :func:`nucleation.claims.table.evaluate`.
+    lengths : iterable of Dataset
+        Tables of lengths, one for each study.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        For a name that the results do not have.
+    KeyError
+        For an unknown claim.
+    """
+    environment = jinja2.Environment(
+        undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )  # fmt: skip
+    environment.filters |= {"digits": digits, "percent": percent}
+    by_id = {row["id"]: row for row in claims}
+    records = [row for table in lengths for row in table.to_dataframe().to_dict("records")]
+
+    def runs(study: str) -> list[dict[str, Any]]:
+        return [row for row in records if row["study"] == study]
+
+    def ours(id: str) -> str:
+        return number_text(by_id[id]) or "not computed"
+
+    return environment.from_string(template).render(
+        claim=by_id.__getitem__, ours=ours, verdicts=counts(claims), claims=claims, runs=runs,
+        pairs=paired(runs("paper"), runs("converged")), verdict=Verdict,
+    )  # fmt: skip
+
+
+def paired(
+    paper: list[dict[str, Any]], converged: list[dict[str, Any]]
+) -> list[tuple[dict[str, Any], dict[str, Any] | None]]:
+    """The rows of one study, each with that of the other study for the same block, or None."""
+
+    def block(row: dict[str, Any]) -> tuple[Any, ...]:
+        return row["law"], row["height"], row["phi0"]
+
+    others = {block(row): row for row in converged}
+    return [(row, others.get(block(row))) for row in paper]
+
+
+def digits(value: float | None, number: int) -> str:
+    """A number to some significant digits, a dash for none."""
+    return "–" if value is None else f"{value:.{number}g}"
+
+
+def percent(value: float | None, places: int = 0) -> str:
+    """A part as percent, a dash for none."""
+    return "–" if value is None else f"{100.0 * value:.{places}f} %"

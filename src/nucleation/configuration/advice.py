@@ -1,0 +1,147 @@
+"""What deserves a warning before a study runs: allowed values that will hardly give what is wanted.
+
+Each warning names the study, the runs concerned and the numbers. The measures are estimates from
+the linear theory and the thin block's statics; docs/studies.md says what they are worth.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from ..model.linearised import linearised
+from ..model.parameters import Parameters
+from ..theory.estimates import (
+    growth_time,
+    process_zone,
+)
+from .studies import Run
+
+ELEMENTS_PER_ZONE = 3.0
+"""Least elements per process zone: below, the front is not resolved (Day and others, 2005)."""
+
+STEPS_PER_PERIOD = 8.0
+"""Least time steps per period of the nucleating mode."""
+
+CONVERGED_ELEMENTS = 35.0
+"""Elements per process zone of the study ``converged``, whose lengths no longer change."""
+
+UNSTABLE = 0.55
+"""Length over the theory's critical length at which the creeping patch turns unstable."""
+
+SHORT_BLOCK = 2.0
+"""Block length over the critical length below which the far end is felt by the patch."""
+
+
+class Advice(NamedTuple):
+    """One warning about one run: what it is about, how bad it is, and its text."""
+
+    topic: str
+    badness: float
+    text: str
+
+
+def element_sizes(parameters: Parameters) -> tuple[float, float]:
+    """Length of the elements, and height of those at the interface (m)."""
+    mesh, geometry = parameters.mesh, parameters.geometry
+    growth = mesh.grading ** (1.0 / (mesh.n_y - 1))
+    rows = sum(growth**row for row in range(mesh.n_y))
+    return geometry.length / mesh.n_x, geometry.height / rows
+
+
+def advise(runs: Iterable[Run]) -> list[str]:
+    """The warnings about some runs: one for each study and topic, with its worst case."""
+    found: dict[tuple[str, str], list[tuple[Advice, Run]]] = {}
+    for run in runs:
+        for advice in _about(run):
+            found.setdefault((run.study, advice.topic), []).append((advice, run))
+    texts = []
+    for (study, topic), cases in found.items():
+        advice, run = max(cases, key=lambda case: case[0].badness)
+        where = run.id if len(cases) == 1 else f"{len(cases)} runs, the worst {run.id}"
+        texts.append(f"studies.{study}: {topic} ({where}): {advice.text}")
+    return texts
+
+
+def _about(run: Run) -> Iterator[Advice]:
+    yield from _mesh(run)
+    interface = linearised(run.parameters.friction, run.parameters.loading)
+    if interface.zeta <= 0.0:
+        yield Advice(
+            "nothing will nucleate", -interface.zeta,
+            f"zeta = {interface.zeta:.3g} at V = {run.parameters.loading.velocity:g} m/s: friction "
+            "strengthens with velocity",
+        )  # fmt: skip
+        return
+    yield from _steps(run, 2.0 * math.pi * math.sqrt(interface.a / interface.zeta))
+    yield from _span(run)
+    yield from _block(run)
+    yield from _start(run)
+
+
+def _mesh(run: Run) -> Iterator[Advice]:
+    mesh, zone = run.parameters.mesh, process_zone(run.parameters)
+    along, across = element_sizes(run.parameters)
+    if along > zone / ELEMENTS_PER_ZONE:
+        least, best = (
+            math.ceil(mesh.n_x * along / zone * n) for n in (ELEMENTS_PER_ZONE, CONVERGED_ELEMENTS)
+        )
+        yield Advice(
+            "mesh too coarse along x", along / zone,
+            f"n_x = {mesh.n_x} makes elements of {along:.3g} m, {zone / along:.2g} to a process "
+            f"zone of {zone:.3g} m; recommended is n_x = {least} or more, and about {best} for "
+            "lengths that no longer depend on the mesh",
+        )  # fmt: skip
+    if across > zone / ELEMENTS_PER_ZONE:
+        yield Advice(
+            "mesh too coarse along y", across / zone,
+            f"n_y = {mesh.n_y} and grading = {mesh.grading:g} make elements of {across:.3g} m at "
+            f"the interface, {zone / across:.2g} to a process zone of {zone:.3g} m; recommended "
+            f"are {zone / ELEMENTS_PER_ZONE:.3g} m or less",
+        )  # fmt: skip
+
+
+def _steps(run: Run, period: float) -> Iterator[Advice]:
+    """`period` is that of the nucleating mode in units of D/V."""
+    longest = run.parameters.stepping.longest_step
+    if longest > period / STEPS_PER_PERIOD:
+        yield Advice(
+            "time steps too long", longest,
+            f"longest_step = {longest:g} D/V makes {period / longest:.2g} steps in a period of the "
+            f"nucleating mode; recommended is {period / STEPS_PER_PERIOD:.2g} or less",
+        )  # fmt: skip
+
+
+def _span(run: Run) -> Iterator[Advice]:
+    end, critical = run.parameters.stepping.end_time, run.theory_length
+    earliest = growth_time(run.parameters, UNSTABLE * critical)
+    if end < earliest:
+        latest = growth_time(run.parameters, critical)
+        yield Advice(
+            "simulated time too short", earliest / end,
+            f"end_time = {end:g} s, but the patch needs about {earliest:.3g} s to become unstable "
+            f"and {latest:.3g} s to reach the theory's critical length, {critical:.3g} m",
+        )  # fmt: skip
+
+
+def _block(run: Run) -> Iterator[Advice]:
+    length = run.parameters.geometry.length
+    if length < SHORT_BLOCK * run.theory_length:
+        yield Advice(
+            "block short", run.theory_length / length,
+            f"length = {length:g} m is {length / run.theory_length:.3g} times the theory's "
+            f"critical length, {run.theory_length:.3g} m; recommended are 4 to 6 times",
+        )  # fmt: skip
+
+
+def _start(run: Run) -> Iterator[Advice]:
+    friction, loading = run.parameters.friction, run.parameters.loading
+    strength = float(friction.coefficient(loading.velocity, loading.initial_state))
+    strength *= loading.normal_stress
+    if loading.initial_shear_stress >= strength:
+        yield Advice(
+            "start above the strength", loading.initial_shear_stress / strength,
+            f"initial_shear_stress = {loading.initial_shear_stress:g} Pa, while the interface "
+            f"slips at V under {strength:.3g} Pa: it slips everywhere from the start",
+        )  # fmt: skip

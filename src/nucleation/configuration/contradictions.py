@@ -1,0 +1,120 @@
+"""What is wrong with values that are each allowed alone: settings and runs that can't be meant."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..analysis.extraction import ExtractionSettings
+from ..model.linearised import InterfaceState
+from ..model.parameters import FIRST_STEP, Mesh, Parameters
+from ..model.quantities import ParameterError
+from ..theory.critical import NoInstability, theory_length
+from ..theory.curves import Curves
+from ..verification.crosscheck.plan import CrosscheckSettings
+from ..verification.crosscheck.plan import runs as crosscheck_runs
+from .settings import Limits, estimated_megabytes
+from .studies import Run
+
+LONGEST_ID = 200
+"""Characters of an identifier: with its suffixes it is a file's name, of 255 bytes at most."""
+
+
+def setting_problems(
+    base: Parameters,
+    interface: InterfaceState,
+    curves: Curves,
+    extraction: ExtractionSettings,
+    crosscheck: CrosscheckSettings,
+    limits: Limits,
+) -> Iterator[str]:
+    """Contradictions among the settings that no study changes."""
+    low, edge, high = (
+        extraction.edge_threshold_low, extraction.edge_threshold, extraction.edge_threshold_high,
+    )  # fmt: skip
+    if not low <= edge <= high:
+        yield (
+            f"extraction: edge_threshold_low = {low:g}, edge_threshold = {edge:g}, "
+            f"edge_threshold_high = {high:g} is not allowed: they must ascend, each in (0, 1]"
+        )
+    try:
+        for height in (min(curves.heights), max(curves.heights)):
+            theory_length(height, base.material, interface)
+    except NoInstability as error:
+        yield (
+            f"main_text_interface: zeta = {interface.zeta:g} with a = {interface.a:g} is not "
+            f"allowed: the theory's curve needs an instability at H = {height:g} m; {error}"
+        )
+        return
+    try:
+        parameters = crosscheck_runs(base, crosscheck, interface)
+    except (ParameterError, NoInstability) as error:
+        yield f"crosscheck: {error}"
+        return
+    for run in parameters.values():
+        yield from memory_problems("crosscheck", run.mesh, limits)
+
+
+def run_problems(key: str, run: Run, limits: Limits) -> Iterator[str]:
+    """Contradictions among the parameters of one run, which stands at a key."""
+    stepping, loading = run.parameters.stepping, run.parameters.loading
+    longest = stepping.longest_step * run.parameters.memory_time
+    first = FIRST_STEP * run.parameters.memory_time
+    if stepping.shortest_step >= min(longest, first):
+        yield (
+            f"{key}: shortest_step = {stepping.shortest_step:g} s is not allowed: it must be less "
+            f"than the first step, {first:.3g} s, and longest_step D/V = {longest:.3g} s"
+        )
+    if loading.initial_shear_stress and loading.initial_stress == "no_slip":
+        yield (
+            f"{key}: initial_shear_stress = {loading.initial_shear_stress:g} Pa is not allowed "
+            "with initial_stress = no_slip: it must be 0 Pa, or initial_stress uniform_shear"
+        )
+    if len(run.id) > LONGEST_ID:
+        yield (
+            f"{key}: {run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
+            f"characters, more than {LONGEST_ID}; put what does not vary into the study's defaults"
+        )
+    yield from memory_problems(key, run.parameters.mesh, limits)
+
+
+def memory_problems(key: str, mesh: Mesh, limits: Limits) -> Iterator[str]:
+    """A mesh whose simulation would need more memory than allowed."""
+    need = estimated_megabytes(mesh)
+    if need > limits.memory:
+        yield (
+            f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y} is not allowed: the simulation would "
+            f"need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
+        )
+
+
+def results_problems(results: str) -> Iterator[str]:
+    """Why a text can't name the directory of results."""
+    if results != results.strip() or not results.isprintable() or set(results) & set("{}*?"):
+        yield (
+            f"results = {results!r} is not allowed: a directory must be named without braces, "
+            "wildcards, control characters, and spaces at its ends"
+        )
+    if results.startswith("~"):
+        yield f"results = {results!r} is not allowed: write the home directory out in place of ~"
+
+
+def directory_problem(results: str | os.PathLike[str], write: bool = True) -> str | None:
+    """Why results can't be kept in a directory, which need not exist yet; or None.
+
+    Parameters
+    ----------
+    results : path
+        The directory, relative to the working directory or absolute.
+    write : bool
+        Whether anything is to be written there.
+    """
+    path = Path(results).absolute()
+    while not os.path.lexists(path):
+        path = path.parent
+    if not path.is_dir():
+        return f"results = {str(results)!r} is not allowed: {path} is no directory"
+    if write and not os.access(path, os.W_OK | os.X_OK):
+        return f"results = {str(results)!r} is not allowed: {path} is not writable"
+    return None

@@ -1,0 +1,267 @@
+"""The configuration of the workflow: read, checked as a whole, turned into settings and runs.
+
+All problems of a configuration are reported together, each with key, value, unit and range.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import numbers
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import jsonschema
+from jsonschema.exceptions import ValidationError
+
+from ..analysis.extraction import ExtractionSettings
+from ..configuration import schema
+from ..model.friction.law import Friction
+from ..model.linearised import InterfaceState, loaded
+from ..model.parameters import Parameters
+from ..model.quantities import ParameterError, refusal
+from ..theory.curves import Curves
+from ..verification.crosscheck.plan import CrosscheckSettings
+from .contradictions import results_problems, run_problems, setting_problems
+from .settings import FigureSettings, Limits
+from .strict_yaml import read_yaml
+from .studies import (
+    LARGEST_GRID,
+    Run,
+    StudySettings,
+    expand,
+    grid_size,
+    range_problem,
+    study_runs,
+    study_settings,
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Configuration:
+    """Everything the workflow does, checked."""
+
+    results: str
+    base: Parameters
+    main_text_interface: InterfaceState
+    curves: Curves
+    extraction: ExtractionSettings
+    figures: FigureSettings
+    limits: Limits
+    crosscheck: CrosscheckSettings
+    studies: dict[str, StudySettings]
+    runs: tuple[Run, ...]
+
+    def runs_of(self, study: str) -> list[Run]:
+        """The runs of one study, none if there is no such study."""
+        return [run for run in self.runs if run.study == study]
+
+    def theory_parameters(self) -> dict[str, Any]:
+        """What the dataset of the linear theory depends on, as plain dictionaries."""
+        parts = {
+            "material": self.base.material,
+            "friction": self.base.friction,
+            "main_text_interface": self.main_text_interface,
+            "curves": self.curves,
+        }
+        return {name: dataclasses.asdict(part) for name, part in parts.items()}  # type: ignore[call-overload]
+
+    def lengths_parameters(self, study: str) -> dict[str, Any]:
+        """What the table of a study's lengths depends on, as plain dictionaries."""
+        runs = [run.to_dict() for run in self.runs_of(study)]
+        return {"runs": runs, "extraction": dataclasses.asdict(self.extraction)}
+
+    @property
+    def friction(self) -> Friction:
+        """The friction law of the section ``friction``."""
+        return self.base.friction
+
+    def find(self, **labels: Any) -> Run:
+        """The one run with these labels (study, law, height in m, phi0 in s).
+
+        Raises
+        ------
+        ParameterError
+            If there is none.
+        """
+        for run in self.runs:
+            if labels.items() <= run.labels.items():
+                return run
+        wanted = ", ".join(f"{name} {value}" for name, value in labels.items())
+        raise ParameterError(f"no run of the configuration has {wanted}")
+
+
+def load(path: str | os.PathLike[str]) -> Configuration:
+    """The configuration in a YAML file; raises ParameterError with all its problems."""
+    return configure(read_yaml(path))
+
+
+def configure(values: Any) -> Configuration:
+    """The configuration in plain dictionaries, as read from YAML.
+
+    Raises
+    ------
+    ParameterError
+        With one line for each problem found.
+    """
+    _stop_on(_schema_problems(values))
+    _stop_on([*_range_problems(values), *results_problems(values.get("results", "results"))])
+    groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
+    base = Parameters(**{k: groups.pop(k) for k in ("material", "friction", "loading", "stepping")})
+    interface = loaded(groups.pop("main_text_interface"), base.loading)
+    found: list[tuple[str, Run | str]] = []
+    for name, study in values["studies"].items():
+        found.extend(study_runs(name, study, base, interface))
+    settings = {k: v for k, v in groups.items() if k != "figures"}
+    _stop_on(
+        [
+            *_run_problems(found, groups["limits"]),
+            *setting_problems(base, interface, **settings),
+        ]
+    )
+    runs = tuple(run for _, run in found if isinstance(run, Run))
+    studies = {name: study_settings(study) for name, study in values["studies"].items()}
+    return Configuration(
+        values.get("results", "results"), base, interface, studies=studies, runs=runs, **groups
+    )
+
+
+def _stop_on(problems: Iterable[str]) -> None:
+    """Raise one ParameterError that lists all problems, if there are any."""
+    lines = list(dict.fromkeys(problems))
+    if lines:
+        count = "one problem" if len(lines) == 1 else f"{len(lines)} problems"
+        listing = "".join(f"\n  - {line}" for line in lines)
+        raise ParameterError(f"the configuration has {count}:{listing}")
+
+
+def _group(name: str, values: dict[str, Any]) -> Any:
+    """The dataclass of a section, numbers in their declared type."""
+    entries = schema.group_entries(name)
+    typed = {}
+    for key, value in values.items():
+        if entries[key].many:
+            typed[key] = tuple(float(x) for x in expand(value))
+        else:
+            typed[key] = float(value) if entries[key].kind == "float" else value  # type: ignore[assignment]
+    return schema.GROUPS[name](**typed)
+
+
+def _is_integer(_: Any, value: Any) -> bool:
+    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
+
+
+def _is_finite(_: Any, value: Any) -> bool:
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        return False
+    return abs(value) <= sys.float_info.max  # type: ignore[operator]  # also of integers beyond the largest float; not NaN
+
+
+_Validator = jsonschema.validators.extend(
+    jsonschema.Draft202012Validator,
+    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine_many(
+        {"integer": _is_integer, "number": _is_finite}
+    ),
+)
+
+
+def _schema_problems(values: Any) -> Iterator[str]:
+    """What is wrong with the configuration against the schema."""
+    for error in _Validator(schema.build()).iter_errors(values):
+        for cause in _causes(error):
+            yield from _messages(cause)
+
+
+def _causes(error: ValidationError) -> list[ValidationError]:
+    """The errors behind one of several forms: those of the form that the value has."""
+    if error.validator != "anyOf":
+        return [error]
+    forms = {list: "array", dict: "object"}
+    wanted = forms.get(type(error.instance))  # type: ignore[call-overload]
+    kinds = [branch.get("type") for branch in error.validator_value]
+    chosen = kinds.index(wanted) if wanted in kinds else 0
+    return [cause for cause in error.context if cause.relative_schema_path[0] == chosen]
+
+
+def _messages(error: ValidationError) -> Iterator[str]:
+    """One schema error in words."""
+    path = tuple(error.absolute_path)
+    key = key_text(path)
+    entry = schema.entry_at(path)
+    leaf = "unit" in error.schema
+    if error.validator == "additionalProperties":
+        yield from _unknown_keys(path, error.instance, list(error.schema["properties"]))
+    elif error.validator == "required":
+        missing = [k for k in error.validator_value if k not in error.instance]
+        yield f"{key} lacks the key {', '.join(missing)}"
+    elif error.validator in ("minItems", "minProperties"):
+        yield f"{key} = {error.instance!r} is empty: it needs at least one entry"
+    elif error.validator == "uniqueItems":
+        yield f"{key} = {_short(error.instance)} has a value twice"
+    elif "propertyNames" in error.absolute_schema_path:
+        yield (
+            f"{key}: {error.instance!r} is not allowed as a name: it must be made of at most 60 "
+            "letters, digits and _, beginning with a letter"
+        )
+    elif leaf and entry is not None:
+        yield refusal(key, error.instance, entry)
+    else:
+        form = {"object": "a mapping (lines of key: value)", "array": "a list"}
+        yield f"{key} = {_short(error.instance)} must be {form[error.validator_value]}"
+
+
+def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]) -> Iterator[str]:
+    for name in given:
+        if name in known:
+            continue
+        close = difflib.get_close_matches(str(name), known, n=1)
+        hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(known)}"
+        value = _short(given[name])
+        yield f"{key_text((*path, name))} = {value} is not allowed: unknown key; {hint}"
+
+
+def key_text(path: tuple[Any, ...]) -> str:
+    """A place in the configuration as text, ``studies.paper.runs[0].height``."""
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.lstrip(".") or "the configuration"
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 80 else f"{text[:76]} ..."
+
+
+def _range_problems(values: dict[str, Any]) -> Iterator[str]:
+    """Ranges that can't be expanded, wherever they stand, and grids that are far too large."""
+    places = [((g, k), v) for g in schema.GROUPS for k, v in values.get(g, {}).items()]
+    for name, study in values["studies"].items():
+        for number, entry in enumerate(study["runs"]):
+            path = ("studies", name, "runs", number)
+            places += [((*path, k), v) for k, v in entry.items()]  # type: ignore[misc]
+            size = grid_size(entry)
+            if size > LARGEST_GRID:
+                yield f"{key_text(path)} stands for {size} simulations, more than {LARGEST_GRID}"
+    for path, value in places:  # type: ignore[assignment]
+        problem = range_problem(value)
+        if problem:
+            yield f"{key_text(path)}: {problem}"
+
+
+def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterator[str]:
+    """Runs that can't be made, stand twice or contradict themselves."""
+    seen: dict[Any, str] = {}
+    for key, run in found:
+        if isinstance(run, str):
+            yield f"{key}: {run}"
+            continue
+        for mark in (run.id, (run.study, run.parameters)):
+            if mark in seen:
+                yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
+            seen[mark] = key
+        yield from run_problems(key, run, limits)
+
+
+if __name__ == "__main__":  # python -m nucleation.configuration.load > config/schema.yaml
+    print(schema.text(), end="")

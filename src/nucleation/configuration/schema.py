@@ -1,0 +1,158 @@
+"""The JSON schema of the configuration, made from the declarations of the parameters."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import yaml
+
+from ..analysis.extraction import ExtractionSettings
+from ..model.friction.law import Friction
+from ..model.linearised import InterfaceState
+from ..model.material import Material
+from ..model.parameters import Loading, Stepping
+from ..model.quantities import Quantity, declarations
+from ..theory.curves import Curves
+from ..verification.crosscheck.plan import CrosscheckSettings
+from .settings import FigureSettings, Limits
+from .studies import RANGE, STUDY_PARAMETERS, StudySettings
+
+Node = dict[str, Any]
+
+
+GROUPS: dict[str, type] = {
+    "material": Material,
+    "friction": Friction,
+    "loading": Loading,
+    "stepping": Stepping,
+    "main_text_interface": InterfaceState,
+    "curves": Curves,
+    "extraction": ExtractionSettings,
+    "figures": FigureSettings,
+    "limits": Limits,
+    "crosscheck": CrosscheckSettings,
+}
+"""The sections of the configuration that are one dataclass each."""
+
+FROM_LOADING = ("velocity", "normal_stress")
+"""Fields of ``main_text_interface`` that come from the section ``loading``."""
+
+RESULTS = Quantity("directory of all results", kind="str")
+
+
+def group_entries(group: str) -> dict[str, Quantity]:
+    """The keys of a section and their declarations."""
+    entries = declarations(GROUPS[group])
+    taken = FROM_LOADING if group == "main_text_interface" else ()
+    return {name: entry for name, entry in entries.items() if name not in taken}
+
+
+def entry_at(path: tuple[Any, ...]) -> Quantity | None:
+    """The declaration that a value of the configuration has to meet, by its place there."""
+    if path == ("results",):
+        return RESULTS
+    names = [part for part in path if isinstance(part, str)]
+    if names and names[-1] in RANGE:
+        return RANGE[names[-1]]
+    if names[:1] == ["studies"]:
+        known = {name: entry for name, (_, entry) in STUDY_PARAMETERS.items()}
+        known |= declarations(StudySettings)
+        names = names[2:]
+    else:
+        known = group_entries(names[0]) if names and names[0] in GROUPS else {}
+    return next((known[name] for name in names if name in known), None)
+
+
+def build() -> Node:
+    """The schema of the whole configuration (JSON Schema, draft 2020-12)."""
+    sections = {"results": _leaf(RESULTS)}
+    for group, cls in GROUPS.items():
+        entries = {k: _any_leaf(entry) for k, entry in group_entries(group).items()}
+        sections[group] = _mapping(str(cls.__doc__).splitlines()[0], entries)
+    sections["studies"] = {
+        "description": "named sets of simulations; the paper's figures stand on the study paper",
+        "type": "object",
+        "minProperties": 1,
+        "propertyNames": {"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_]*$", "maxLength": 60},
+        "additionalProperties": {"$ref": "#/$defs/study"},
+    }
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Configuration of the workflow; SI units; made by make schema",
+        **_mapping("all settings; a key left out has its default", sections, ["studies"]),
+        "$defs": {"study": _study(), **{k: _leaf(entry) for k, entry in RANGE.items()}},
+    }
+
+
+def _study() -> Node:
+    """The schema of one study."""
+    settings = {k: _leaf(entry) for k, entry in declarations(StudySettings).items()}
+    single = {name: _leaf(entry) for name, (_, entry) in STUDY_PARAMETERS.items()}
+    place = "#/$defs/study/properties/defaults/properties/"
+    varied = {
+        name: _values({"$ref": place + name}, entry)
+        for name, (_, entry) in STUDY_PARAMETERS.items()
+    }
+    runs = {
+        "description": "each entry stands for all combinations of its values",
+        "type": "array",
+        "minItems": 1,
+        "items": _mapping("a value, a list of values or a range for any parameter", varied),
+    }
+    runs["items"]["minProperties"] = 1  # type: ignore[index]
+    defaults = _mapping("values for all runs of the study that do not give their own", single)
+    return _mapping("a study", {**settings, "defaults": defaults, "runs": runs}, ["runs"])
+
+
+def _mapping(description: str, properties: Node, required: list[str] | None = None) -> Node:
+    node = {
+        "description": description,
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": False,
+    }
+    return node | ({"required": required} if required else {})
+
+
+def _leaf(entry: Quantity) -> Node:
+    """The schema of one value."""
+    node: Node = {"description": entry.description, "unit": entry.unit}
+    if entry.symbol:
+        node["symbol"] = entry.symbol
+    if entry.choices:
+        return node | {"enum": list(entry.choices)}
+    if entry.kind == "str":
+        return node | {"type": "string", "minLength": 1}
+    low = "minimum" if entry.closed in ("low", "both") else "exclusiveMinimum"
+    high = "maximum" if entry.closed in ("high", "both") else "exclusiveMaximum"
+    kind = "integer" if entry.kind == "int" else "number"
+    return node | {"type": kind, low: entry.low, high: entry.high}
+
+
+def _any_leaf(entry: Quantity) -> Node:
+    """The schema of one value, or of one or more if the parameter takes many."""
+    leaf = _leaf(entry)
+    return _values(leaf, entry) if entry.many else leaf
+
+
+def _values(leaf: Node, entry: Quantity) -> Node:
+    """The schema of a value, a list of values or (of numbers) a range."""
+    values = {"type": "array", "minItems": 1, "uniqueItems": True, "items": leaf}
+    forms = [leaf, values]
+    if not entry.choices and entry.kind != "int":
+        keys = {"start": leaf, "stop": leaf}
+        keys |= {key: {"$ref": f"#/$defs/{key}"} for key in RANGE}
+        forms.append(_mapping("evenly spaced values", keys, ["start", "stop", "num"]))
+    return {"description": f"{entry.description}: a value, a list or a range", "anyOf": forms}
+
+
+class _Plain(yaml.SafeDumper):
+    """A dumper that writes every value out and marks nothing as an alias."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def text() -> str:
+    """The schema as YAML."""
+    return yaml.dump(build(), Dumper=_Plain, sort_keys=False, width=100, allow_unicode=True)

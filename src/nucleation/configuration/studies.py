@@ -1,0 +1,254 @@
+"""Studies: named sets of simulations over lists or ranges of parameters, one `Run` for each."""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+
+from ..model.friction.constants import CONSTANTS, constants, with_constants
+from ..model.linearised import (
+    InterfaceState,
+    linearised,
+    loaded,
+)
+from ..model.parameters import Parameters
+from ..model.quantities import Checked, ParameterError, Quantity, declarations, quantity
+from ..theory.critical import (
+    NoInstability,
+    theory_length,
+)
+
+SHORT_NAMES = {"evolution": "law", "initial_state": "phi0"}
+"""Names in studies, identifiers and the table of lengths that differ from the field's name."""
+
+
+def _study_parameters() -> dict[str, tuple[str, Quantity]]:
+    """Everything a study may vary by its name there: name of a field (if any) and declaration."""
+    fields = {
+        SHORT_NAMES.get(name, name): (name, entry)
+        for group in dataclasses.fields(Parameters)
+        for name, entry in declarations(type(group.default)).items()
+    }
+    return fields | {name: (name, entry) for name, entry in CONSTANTS.items()}
+
+
+STUDY_PARAMETERS = _study_parameters()
+
+
+def _identifier_order() -> tuple[str, ...]:
+    """Names in the order of identifiers, whatever the order in the configuration.
+
+    By the groups of the parameters; within a group words before numbers, then by name.
+    """
+    groups = [declarations(type(f.default)) for f in dataclasses.fields(Parameters)] + [CONSTANTS]
+    keys = {
+        SHORT_NAMES.get(name, name): (number, not entry.choices, name)
+        for number, group in enumerate(groups)
+        for name, entry in group.items()
+    }
+    return tuple(sorted(keys, key=keys.__getitem__))
+
+
+IDENTIFIER_ORDER = _identifier_order()
+
+RANGE: dict[str, Quantity] = {
+    "num": Quantity("number of values", low=2, high=10000, closed="both", kind="int"),
+    "scale": Quantity("spacing of the values", choices=("linear", "log")),
+}
+"""Keys of a range beside ``start`` and ``stop``, which have the parameter's own declaration."""
+
+LARGEST_GRID = 10000
+"""Simulations that one entry of a study may stand for."""
+
+
+@dataclasses.dataclass(frozen=True)
+class StudySettings(Checked):
+    """What a study says once for all of its runs."""
+
+    description: str = quantity("what the study is for", default="a set of simulations")
+    length_over_critical: float = quantity(
+        "block length over the theory's critical length, unless a run gives its length",
+        low=1.0, high=1000.0, default=6.0, symbol="L/L_c",
+    )  # fmt: skip
+    interface: str = quantity(
+        "linearised friction of the theory: the rounded values of the group main_text_interface, "
+        "or each run's own friction law expanded at its velocity",
+        choices=("main_text", "friction_law"), default="friction_law",
+    )  # fmt: skip
+    table: str = quantity(
+        "where its lengths go: with the other studies into lengths.csv, and so into the targets "
+        "lengths and simulations; or into its own table alone",
+        choices=("lengths", "own"), default="lengths",
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """One simulation of a study, with the length the linear theory predicts for it (m)."""
+
+    id: str
+    study: str
+    parameters: Parameters
+    theory_length: float
+    given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
+
+    def to_dict(self) -> dict[str, Any]:
+        """The run as plain nested dictionaries."""
+        return {k: v for k, v in dataclasses.asdict(self).items() if k != "given"}
+
+    def value(self, name: str) -> Any:
+        """What a parameter of studies is in this run, also if its study doesn't give it."""
+        if name in self.given:
+            return self.given[name]
+        friction, loading = self.parameters.friction, self.parameters.loading
+        if name in CONSTANTS:
+            return constants(friction, loading.velocity)[name]
+        values = {k: v for group in self.parameters.to_dict().values() for k, v in group.items()}
+        return values[STUDY_PARAMETERS[name][0]]
+
+    @property
+    def labels(self) -> dict[str, Any]:
+        """What tells runs apart: study, law, height (m) and phi0 (s)."""
+        return {
+            "study": self.study,
+            "law": self.parameters.friction.evolution,
+            "height": self.parameters.geometry.height,
+            "phi0": self.parameters.loading.initial_state,
+        }
+
+
+def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
+    """The parameters that differ among runs of a study, each with its values in their order.
+
+    Only what the study gives is looked at: a block's length that follows from the theory is not.
+    """
+    runs = list(runs)
+    names = [name for name in STUDY_PARAMETERS if any(name in run.given for run in runs)]
+    names.sort(key=lambda name: name != "height")  # first
+    values = {name: [run.value(name) for run in runs] for name in names}
+    return {name: found for name, found in values.items() if len(set(found)) > 1}
+
+
+def expand(value: Any) -> tuple[Any, ...]:
+    """The values meant by a value, a list of values or a range, in the order given.
+
+    Values of a range are rounded to six significant digits, which identifiers then state exactly.
+    """
+    if isinstance(value, list):
+        return tuple(value)
+    if not isinstance(value, dict):
+        return (value,)
+    spaced = np.geomspace if value.get("scale", "linear") == "log" else np.linspace
+    return tuple(float(f"{x:.6g}") for x in spaced(value["start"], value["stop"], value["num"]))
+
+
+def grid_size(entry: dict[str, Any]) -> int:
+    """The number of simulations that an entry of a study stands for."""
+    return math.prod(
+        value["num"] if isinstance(value, dict) else len(value) if isinstance(value, list) else 1
+        for value in entry.values()
+    )
+
+
+def range_problem(value: Any) -> str | None:
+    """Why a range can't be expanded, or None."""
+    if not isinstance(value, dict):
+        return None
+    if not value["start"] < value["stop"]:
+        return f"start {value['start']!r} must be less than stop {value['stop']!r}"
+    if value.get("scale") == "log" and not value["start"] > 0.0:
+        return f"start {value['start']!r} must be positive on a log scale"
+    if len(set(expand(value))) < value["num"]:
+        return f"its {value['num']} values from {value['start']!r} on are not all different"
+    return None
+
+
+def identifier(study: str, labels: dict[str, Any], varied: dict[str, Any]) -> str:
+    """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``."""
+    parts = [study, labels["law"], f"H{_text(labels['height'])}", f"phi{_text(labels['phi0'])}"]
+    others = [name for name in IDENTIFIER_ORDER if name in varied and name not in labels]
+    parts += [f"{name}{_text(varied[name])}" for name in others]
+    return "-".join(parts)
+
+
+def _text(value: Any) -> str:
+    """A number in its shortest form without a plus sign, ``4e9`` for 4.0e+9."""
+    if isinstance(value, str):
+        return value
+    mantissa, _, exponent = f"{value:.12g}".partition("e")
+    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
+
+
+def study_settings(study: dict[str, Any]) -> StudySettings:
+    """The settings in a study's section of the configuration."""
+    return StudySettings(**{k: v for k, v in study.items() if k not in ("defaults", "runs")})
+
+
+def study_runs(
+    name: str, study: dict[str, Any], base: Parameters, main_text: InterfaceState
+) -> Iterator[tuple[str, Run | str]]:
+    """The runs of a study, each with the key it comes from; a string in place of a bad run.
+
+    Parameters
+    ----------
+    name : str
+        The study's name.
+    study : dict
+        Its section of the configuration, valid against the schema.
+    base : Parameters
+        Values of all that the study does not set.
+    main_text : InterfaceState
+        The main text's rounded interface.
+    """
+    settings = study_settings(study)
+    for number, entry in enumerate(study["runs"]):
+        key = f"studies.{name}.runs[{number}]"
+        for values in itertools.product(*(expand(v) for v in entry.values())):
+            varied = dict(zip(entry, values, strict=True))
+            try:
+                yield key, _run(name, settings, study.get("defaults", {}), varied, base, main_text)
+            except (ParameterError, NoInstability) as error:
+                yield key, str(error)
+
+
+def _run(
+    study: str,
+    settings: StudySettings,
+    defaults: dict[str, Any],
+    varied: dict[str, Any],
+    base: Parameters,
+    main_text: InterfaceState,
+) -> Run:
+    """One run; its length, unless given, is a multiple of the theory's critical length."""
+    values = {**defaults, **varied}
+    if "height" not in values:
+        raise ParameterError("the run has no height: give it here or in the study's defaults")
+    parameters = base.replaced({STUDY_PARAMETERS[k][0]: _number(k, v) for k, v in values.items()})
+    height = parameters.geometry.height
+    loading = parameters.loading
+    friction = with_constants(parameters.friction, loading.velocity, values)
+    parameters = dataclasses.replace(parameters, friction=friction)
+    if settings.interface == "main_text":
+        interface = loaded(main_text, loading)
+    else:
+        interface = linearised(parameters.friction, loading)
+    critical = theory_length(height, parameters.material, interface)
+    length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
+    if length <= critical:
+        raise ParameterError(
+            f"length = {length:g} m is not allowed: the block must be longer than the critical "
+            f"nucleation length of the theory, {critical:.3g} m, better 6 times as long"
+        )
+    parameters = parameters.replaced({"length": float(length)})
+    run = Run("", study, parameters, critical, {k: _number(k, v) for k, v in values.items()})
+    return dataclasses.replace(run, id=identifier(study, run.labels, varied))
+
+
+def _number(name: str, value: Any) -> Any:
+    """The value in its field's type, so that 1 and 1.0 give one and the same simulation."""
+    return float(value) if STUDY_PARAMETERS[name][1].kind == "float" else value

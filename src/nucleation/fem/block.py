@@ -1,0 +1,167 @@
+"""The elastic block, solved by exact separation of the finite-element equations along x.
+
+The displacement is ``u_x = V t + w_x`` and ``u_y``, with ``w_x = 0`` on the left edge. On a grid
+that is uniform along x the matrices of bilinear elements are sums of Kronecker products of
+one-dimensional matrices, and with ``theta_m = (m + 1/2) pi / n_x``
+
+    w_x(x_i) = sum_m W_m sin(theta_m i),  i = 1..n_x       (free of sigma_xx at the right edge)
+    u_y(x_i) = sum_m U_m cos(theta_m i),  i = 0..n_x - 1   (zero at the right edge)
+
+the modes decouple; each is a block-tridiagonal system along y. The paper's right edge is free of
+sigma_xy as well, so the n_y values ``e_j = u_y(L, y_j)`` are unknowns of their own that couple to
+all modes. They are eliminated by their Schur complement, so that the result is that of the
+assembled matrix to round-off (tests/fem/test_block.py).
+
+A :class:`Block` knows the mesh and the material;
+:class:`~nucleation.fem.operator.BlockOperator` is its dynamic stiffness ``K + s M`` for one ``s``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from ..fem import kernels
+from ..model.material import Material
+from .grid import Grid, Tridiagonal, element_matrices
+
+Array = NDArray[np.float64]
+
+
+@dataclasses.dataclass(frozen=True)
+class Field:
+    """A displacement-like field: mode amplitudes and the values of u_y on the right edge.
+
+    `modes` has shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
+    `edge` has shape (n_y + 1,); ``edge[0]`` is always zero.
+    """
+
+    modes: Array
+    edge: Array
+
+
+Terms = Sequence[tuple[float, Field]]
+
+
+class Stacked(NamedTuple):
+    """The y-matrices as arrays (3, n_y + 1) for the kernels: lower, diagonal, upper."""
+
+    mass: Array
+    stiffness: Array
+    derivative: Array
+
+
+def _stacked(matrix: Tridiagonal) -> Array:
+    return np.array([matrix.lower, matrix.diagonal, matrix.upper])
+
+
+class Block:
+    """One deformable rectangular block on the interface y = 0."""
+
+    def __init__(self, grid: Grid, material: Material) -> None:
+        self.grid, self.material = grid, material
+        self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
+        self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
+        theta = (np.arange(grid.n_x) + 0.5) * np.pi / grid.n_x
+        sine, cosine = np.sin(theta), np.cos(theta)
+        self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
+        self.x_mass = grid.dx * (4.0 + 2.0 * cosine) / 6.0
+        self.sine = sine
+        self._alternating = (-1.0) ** np.arange(grid.n_x)
+        # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
+        self.edge_weights = self._alternating * np.array(
+            [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, sine]
+        )
+        # integral along x of each sine mode, for the momentum
+        self.x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
+
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        n = self.grid.n_y + 1
+        return Field(np.zeros((n, 2, self.grid.n_x)), np.zeros(n))
+
+    # -- transforms between interface nodes and modes -------------------------------------------
+
+    def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
+        n = self.grid.n_x
+        # the inverse transform weighs the last node by one half, and type 3 counts it once
+        return fft.dst(nodal, type=3) / n
+
+    def sine_values(self, amplitudes: Array) -> Array:
+        """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""
+        return 0.5 * fft.dst(amplitudes, type=2)
+
+    def cosine_values(self, amplitudes: Array) -> Array:
+        """Nodal values at i = 0..n_x - 1 (last axis) of cosine amplitudes."""
+        return 0.5 * fft.dct(amplitudes, type=2)
+
+    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+        """Nodal forces whose generalised forces per mode are ``modal * n_x/2``, (2, ..., n_x).
+
+        Along x at i = 1..n_x and along y at i = 0..n_x - 1. Both transforms are done in one: with
+        alternating signs, the cosines in reversed order are the sines.
+        """
+        modal = np.array(modal)
+        modal[0] *= self._alternating
+        forces = fft.dct(modal, type=2, overwrite_x=True)
+        forces *= 0.5
+        tangential, normal = forces[0, ..., ::-1], forces[1]
+        tangential[..., -1] *= 0.5  # half of an element belongs to the last node
+        normal[..., 0] *= 0.5  # and to the first one
+        return tangential, normal
+
+    # -- loads and integrals --------------------------------------------------------------------
+
+    def top_load(self, normal_stress: float) -> Field:
+        """Nodal forces of the compressive stress (Pa) on the top, per mode times 2/n_x (N/m)."""
+        load = self.zero_field()
+        n = self.grid.n_x
+        forces = -normal_stress * self.grid.nodal_lengths
+        full = np.array(forces[:-1])
+        # sum_i F_i cos(theta_m i): scipy's type 3 counts the first entry once, others twice
+        full[0] *= 2.0
+        load.modes[-1, 1] = fft.dct(full, type=3) / n
+        load.edge[-1] = forces[-1]
+        return load
+
+    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`.
+
+        Parameters
+        ----------
+        s : of ``K + s M`` (1/s^2).
+        terms : coefficients and fields (m).
+        load : a load (N/m) to add to; none by default.
+        """
+        load = self.zero_field() if load is None else load
+        terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
+        coefficients = np.array([c for c, _ in terms])
+        edge = sum(c * field.edge for c, field in terms)
+        rho_s = s * self.material.density
+        edge_mass = rho_s * self.grid.dx / 6.0
+        near, modes = np.empty_like(load.edge), np.empty_like(load.modes)
+        kernels.add_inertia(
+            self.stacked.mass, rho_s * self.x_mass, coefficients,
+            tuple(field.modes for _, field in terms),
+            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],  # type: ignore[operator]
+            load.modes, near, modes,
+        )  # fmt: skip
+        return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))
+
+    def momentum_x(self, velocity: Field) -> float:
+        """Momentum along x of the velocity field w_t (kg/s per unit depth)."""
+        along_y = self.stacked.mass.sum(axis=0)
+        return self.material.density * float(along_y @ (velocity.modes[:, 0] @ self.x_integral))
+
+    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+        """Nodal w_x and u_y, each of shape (n_y + 1, n_x + 1)."""
+        left = np.zeros((self.grid.n_y + 1, 1))
+        x = np.hstack((left, self.sine_values(field.modes[:, 0])))
+        y = np.hstack((self.cosine_values(field.modes[:, 1]), field.edge[:, None]))
+        return x, y

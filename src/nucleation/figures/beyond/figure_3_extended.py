@@ -1,0 +1,159 @@
+"""Figure 3 with one more length: where the patch turns unstable, beside theory and force drop."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...figures import style
+
+USUAL_AGE = 1.0  # s
+RATIOS = (0.4, 1.3)
+ABOVE = 1.12  # the axes end at this multiple of the highest block
+LIMIT_HEIGHTS = (0.004, 0.13)  # m, of the logarithmic axis
+
+
+class Kind(NamedTuple):
+    """How runs of one evolution law and initial state are drawn."""
+
+    marker: str
+    colour: str
+    label: str
+
+
+class Series(NamedTuple):
+    """One set of lengths: column, study, and how it is drawn and called."""
+
+    column: str
+    study: str
+    colour: str | None  # None: the kind's own
+    filled: bool
+    size: float  # points
+    bars: bool  # whether it has error bars
+    label: str
+
+
+KINDS: dict[tuple[str, bool], Kind] = {
+    ("aging", False): Kind("o", style.AGING, "aging law"),
+    ("slip", False): Kind("^", style.SLIP, "slip law"),
+    ("aging", True): Kind("s", style.OLD_AGE, "aging law, older interface"),
+    ("slip", True): Kind("v", style.SLIP, "slip law, older interface"),
+}
+
+DROPS = (
+    Series("length", "paper", None, True, 3.0, False, "force drops, paper's mesh"),
+    Series("length", "converged", None, False, 4.8, True, "force drops, converged mesh"),
+)
+STABILITY = ("converged", "paper")  # growth begins: in the first of these studies that is there
+
+
+@style.styled
+def draw(theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset) -> Figure:
+    """Draw lengths against height, and the same over the theory's.
+
+    Parameters
+    ----------
+    theory : Dataset
+        With ``critical_length(height)`` (m).
+    lengths : Dataset
+        On ``run``: ``study``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        ``length`` with ``_low`` and ``_high`` (m).
+    table : Dataset
+        The same with ``stability_length`` in place of ``length``.
+
+    Returns
+    -------
+    Figure
+        Two columns wide.
+    """
+    figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
+    left, right = figure.subplots(1, 2)
+    studies = table["study"].values.astype(str)
+    study = next((name for name in STABILITY if name in studies), STABILITY[0])
+    stability = Series(
+        "stability_length", study, style.GREEN, True, 4.8, True, "patch turns unstable, $L_s$"
+    )
+    for axes, relative in ((left, False), (right, True)):
+        _draw_theory(axes, theory, relative)
+        for series in (*DROPS, stability):
+            _draw_series(axes, table if series is stability else lengths, series, relative)
+        axes.set_xlabel("Height $H$ (m)")
+    _finish_lengths(left, theory, lengths, (*DROPS[::-1], stability))
+    _finish_ratios(right, lengths)
+    for axes, letter in ((left, "(a)"), (right, "(b)")):
+        axes.set_title(letter, loc="left")
+        axes.minorticks_on()
+    return figure
+
+
+def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
+    """The theory's length, solid, and its half, dashed."""
+    height, length = theory["height"].values, theory["critical_length"].values
+    for part, dashes in ((1.0, "-"), (0.5, "--")):
+        values = np.full(height.shape, part) if relative else part * length
+        axes.plot(height, values, dashes, color=style.THEORY, linewidth=1.2)
+
+
+def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
+    """One set of lengths, a marker for each law and initial state."""
+    laws = table["law"].values.astype(str)
+    aged = ~np.isclose(table["phi0"].values, USUAL_AGE)
+    chosen = table["study"].values.astype(str) == series.study
+    chosen &= np.isfinite(table[series.column].values)
+    scale = table["theory_length"].values if relative else np.ones(laws.size)
+    for (law, old), kind in KINDS.items():
+        runs = np.flatnonzero(chosen & (laws == law) & (aged == old))
+        if not runs.size:
+            continue
+        middle, low, high = (
+            (table[series.column + end].values / scale)[runs] for end in ("", "_low", "_high")
+        )
+        colour = series.colour or kind.colour
+        below, above = np.clip(np.nan_to_num([middle - low, high - middle]), 0.0, None)
+        axes.errorbar(
+            table["height"].values[runs], middle, yerr=(below, above) if series.bars else None,
+            linestyle="none", marker=kind.marker, markersize=series.size, color=colour,
+            markerfacecolor=colour if series.filled else "white", elinewidth=0.8,
+            label=f"{series.label}, {kind.label}",
+        )  # fmt: skip
+
+
+def _finish_lengths(
+    axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, drawn: tuple[Series, ...]
+) -> None:
+    highest = ABOVE * float(lengths["height"].max())
+    top = np.interp(highest, theory["height"].values, theory["critical_length"].values)
+    axes.set_xlim(0.0, highest)
+    axes.set_ylim(0.0, 1.35 * float(top))
+    axes.set_ylabel("Length $L$ (m)")
+    handles = [
+        axes.plot([], [], dashes, color=style.THEORY, linewidth=1.2, label=label)[0]
+        for dashes, label in (("-", "theory $L_c$"), ("--", "theory $L_c/2$"))
+    ]
+    usual = KINDS["aging", False]
+    for series in drawn:
+        colour = series.colour or usual.colour
+        handles += axes.plot(
+            [], [], usual.marker, color=colour, markersize=series.size, label=series.label,
+            markerfacecolor=colour if series.filled else "white",
+        )  # fmt: skip
+    axes.legend(handles=handles, loc="upper left", labelspacing=0.3)
+
+
+def _finish_ratios(axes: Axes, lengths: xr.Dataset) -> None:
+    axes.set_xscale("log")
+    axes.set_xlim(*LIMIT_HEIGHTS)
+    axes.set_ylim(*RATIOS)
+    axes.set_ylabel("Length over theory $L/L_c$")
+    laws = lengths["law"].values.astype(str)
+    aged = ~np.isclose(lengths["phi0"].values, USUAL_AGE)
+    handles = [
+        axes.plot([], [], kind.marker, color=style.GUIDE, markersize=4.8, label=kind.label)[0]
+        for (law, old), kind in KINDS.items()
+        if ((laws == law) & (aged == old)).any()
+    ]
+    axes.legend(handles=handles, loc="upper left", labelspacing=0.3)

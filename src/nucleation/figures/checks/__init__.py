@@ -1,0 +1,4 @@
+"""Figures that show why to believe the solver.
+
+One module each, with a function ``draw``.
+"""

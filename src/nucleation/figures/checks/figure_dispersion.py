@@ -1,0 +1,100 @@
+"""Dispersion: growth and frequency of single modes, time integration against Eq. (5)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from ...figures import style
+
+BRANCHES = (("o", "-"), ("s", (0, (4, 1.5))))  # marker and line: along +x and -x
+
+
+@style.styled
+def draw(dispersion: xr.Dataset) -> Figure:
+    """Draw growth rates and frequencies against ``k/k_c``, one colour for each height.
+
+    Parameters
+    ----------
+    dispersion : Dataset
+        From :func:`nucleation.verification.dispersion.dispersion_dataset`: rates (1/s) on (height, mode,
+        branch) and (height, curve, branch), wavenumbers (1/m), ``memory_time`` (s).
+
+    Returns
+    -------
+    Figure
+        Two columns wide: growth rates on the left, frequencies on the right.
+    """
+    figure = style.new_figure(style.DOUBLE_COLUMN, 8.8 * style.CENTIMETRE)
+    figure.get_layout_engine().set(wspace=0.05)
+    growth, frequency = figure.subplots(1, 2, sharex=True)
+    heights = dispersion["height"].values
+    shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.85, heights.size))
+    for i, shade in enumerate(shades):
+        one = dispersion.isel(height=i)
+        for axes, name in ((growth, "growth"), (frequency, "frequency")):
+            _draw_height(axes, one, name, shade)
+    growth.axhline(0.0, color=style.GUIDE, linewidth=0.7)
+    for axes, letter in ((growth, "(a)"), (frequency, "(b)")):
+        axes.set_title(letter, loc="left")
+        axes.axvline(1.0, color=style.GUIDE, linestyle="--", linewidth=0.9)
+        axes.set_xlabel(r"Wavenumber $k/k_c$")
+        axes.minorticks_on()
+    growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda\, D/V$")
+    frequency.set_ylabel(r"Angular frequency $\mathrm{Im}\,\Lambda\, D/V$")
+    modes = (dispersion["mode_wavenumber"] / dispersion["critical_wavenumber"]).values
+    margin = 0.04 * (modes.max() - modes.min())
+    growth.set_xlim(modes.min() - margin, modes.max() + margin)
+    for axes in (growth, frequency):
+        _limit_to_lines(axes)
+    _legends(growth, frequency, heights, shades)
+    return figure
+
+
+def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: np.ndarray) -> None:
+    critical, unit = float(one["critical_wavenumber"]), float(one["memory_time"])
+    curve, modes = one["curve_wavenumber"] / critical, one["mode_wavenumber"] / critical
+    lines = (one[f"curve_{name}"] * unit).transpose("curve", "branch").values
+    marks = (one[f"measured_{name}"] * unit).transpose("mode", "branch").values
+    for branch, (marker, dash) in enumerate(BRANCHES):
+        axes.plot(curve, lines[:, branch], color=shade, linestyle=dash, linewidth=1.0)
+        axes.plot(
+            modes, marks[:, branch], marker, color=shade, markersize=3.6, markerfacecolor="white",
+            markeredgewidth=0.9,
+        )  # fmt: skip
+
+
+def _limit_to_lines(axes: Axes) -> None:
+    """Limit the ordinate so that nothing within the abscissa's limits is cut."""
+    left, right = axes.get_xlim()
+    shown = []
+    for line in axes.get_lines():
+        x, y = line.get_xdata(), line.get_ydata()
+        if line.get_transform() == axes.transData:
+            shown.append(y[(x >= left) & (x <= right)])
+    low, high = np.concatenate(shown).min(), np.concatenate(shown).max()
+    axes.set_ylim(low - 0.04 * (high - low), high + 0.04 * (high - low))
+
+
+def _legends(growth: Axes, frequency: Axes, heights: np.ndarray, shades: np.ndarray) -> None:
+    colours = [Line2D([], [], color=shade) for shade in shades]
+    growth.legend(
+        colours, [f"${h:g}$" for h in heights], title="$H$ (m)", loc="lower left",
+        title_fontsize=9.0, labelspacing=0.3,
+    )  # fmt: skip
+    entries = {
+        f"mode along {direction}": Line2D(
+            [], [], color=style.GUIDE, linestyle=dash, marker=marker, linewidth=1.0,
+            markersize=3.6, markerfacecolor="white",
+        )
+        for direction, (marker, dash) in zip(("$+x$", "$-x$"), BRANCHES, strict=True)
+    }  # fmt: skip
+    frequency.legend(
+        list(entries.values()), list(entries), title="lines: Eq. (5)\nsymbols: time integration",
+        title_fontsize=style.SMALL, fontsize=style.SMALL, loc="center left",
+        bbox_to_anchor=(1.03, 0.2), bbox_transform=frequency.transData, alignment="left",
+    )  # fmt: skip

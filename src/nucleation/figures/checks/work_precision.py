@@ -1,0 +1,29 @@
+"""Work and precision of the time integration: a diagram of the benchmark."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.figure import Figure
+
+from ...figures import style
+
+
+@style.styled
+def draw(rows: Sequence[dict[str, float]]) -> Figure:
+    """Relative error of the onset time against wall time, one symbol per tolerance."""
+    figure = style.new_figure(style.SINGLE_COLUMN, 6.5 * style.CENTIMETRE)
+    axes = figure.add_subplot()
+    markers = dict(zip(sorted({row["tolerance"] for row in rows}), "os^vD", strict=False))
+    for tolerance, marker in markers.items():
+        chosen = [row for row in rows if row["tolerance"] == tolerance]
+        axes.plot(
+            [row["seconds"] for row in chosen], [row["onset_error"] for row in chosen],
+            marker=marker, label=f"{tolerance:g}",
+        )  # fmt: skip
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("Wall time (s)")
+    axes.set_ylabel("Relative error of the onset time")
+    axes.legend(title="tolerance")
+    return figure

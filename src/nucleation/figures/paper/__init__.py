@@ -1,0 +1,4 @@
+"""The paper's figures and table.
+
+One module each, with a function ``draw``.
+"""

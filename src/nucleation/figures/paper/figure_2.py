@@ -1,0 +1,48 @@
+"""Figure 2: the critical length of bimaterial interfaces against the contrast (Eq. 9)."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps
+from matplotlib.figure import Figure
+
+from ...figures import style
+
+DASHES = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1.2, 1.2)), (0, (9, 1.5, 1, 1.5, 1, 1.5)))
+
+
+@style.styled
+def draw(theory: xr.Dataset) -> Figure:
+    """Draw ``L_c / L_c^M`` against ``f beta``, one curve for each ``zeta / a``.
+
+    Parameters
+    ----------
+    theory : Dataset
+        With ``bimaterial_length_ratio(zeta_over_a, f_beta)``, dimensionless.
+
+    Returns
+    -------
+    Figure
+        One column wide.
+    """
+    figure = style.new_figure(style.SINGLE_COLUMN, 6.6 * style.CENTIMETRE)
+    axes = figure.add_subplot()
+    ratio = theory["bimaterial_length_ratio"].sortby("zeta_over_a", ascending=False)
+    shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.82, ratio.sizes["zeta_over_a"]))
+    for i, value in enumerate(ratio["zeta_over_a"].values):
+        axes.plot(
+            ratio["f_beta"].values,
+            ratio.sel(zeta_over_a=value).transpose("f_beta").values,
+            color=shades[i],
+            linestyle=DASHES[i % len(DASHES)],
+            label=f"${value:.3g}$",
+        )
+    axes.set_xlabel(r"Bimaterial contrast $f\beta$")
+    axes.set_ylabel(r"Critical length $L_c/L_c^{\mathcal{M}}$")
+    axes.set_xlim(float(ratio["f_beta"].min()), float(ratio["f_beta"].max()))
+    axes.set_ylim(0.0, 1.04)
+    axes.minorticks_on()
+    # The curves fall from one, highest zeta/a on top: the legend has their order.
+    axes.legend(title=r"$\zeta/a$", loc="lower left", title_fontsize=9.0, labelspacing=0.3)
+    return figure

@@ -1,0 +1,174 @@
+"""Figure 3: the critical length against the block's height, theory and simulations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...figures import slip_rate_snapshots, style
+
+USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
+
+
+class Kind(NamedTuple):
+    """How one kind of simulation is drawn, and how the legend calls it."""
+
+    marker: str
+    size: float  # points; other kinds are wider than the usual one, which is drawn upon them
+    colour: str
+    label: str
+
+
+class Study(NamedTuple):
+    """How the points of one study are filled, and what the legend adds for it."""
+
+    filled: bool
+    suffix: str
+
+
+Series = tuple[Study, str, Kind, xr.Dataset]  # style, legend, marker, entries of the table
+
+# The inset, in parts of the axes: the points rise to the right and leave this corner free.
+INSET_LEFT, INSET_BOTTOM, INSET_WIDTH = 0.515, 0.1, 0.315
+INSET_HEIGHTS = (0.2, 0.4)
+
+# By evolution law, and by whether the initial state differs from USUAL_AGE.
+KINDS: dict[tuple[str, bool], Kind] = {
+    ("aging", False): Kind("o", 4.6, style.AGING, "aging law"),
+    ("slip", False): Kind("^", 7.2, style.SLIP, "slip law"),
+    ("aging", True): Kind("s", 6.6, style.OLD_AGE, "aging law"),
+    ("slip", True): Kind("v", 7.2, style.SLIP, "slip law"),
+}
+
+# Only the studies named here are drawn; a table of lengths may hold others.
+STUDIES: dict[str, Study] = {
+    "paper": Study(filled=True, suffix=""),
+    "converged": Study(filled=False, suffix=", converged mesh"),
+}
+
+
+@style.styled
+def draw(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    inset_simulation: xr.Dataset,
+    inset_row: xr.Dataset,
+    studies: Mapping[str, Study] = STUDIES,
+) -> Figure:
+    """Draw ``L_c(H)`` with the simulations as points, and slip-rate snapshots as an inset.
+
+    Parameters
+    ----------
+    theory : Dataset
+        With ``critical_length(height)`` and ``thin_limit_length(height)`` (m).
+    lengths : Dataset
+        One entry on dimension ``run`` per simulation, with ``study``, ``law``, ``height`` (m),
+        ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m); entries without a
+        finite length are left out.
+    inset_simulation : Dataset
+        The simulation whose slip rate the inset shows.
+    inset_row : Dataset
+        Its entry of `lengths`, of which ``onset_time`` (s) and ``length`` (m) are marked.
+    studies : mapping
+        The studies to draw, by name.
+
+    Returns
+    -------
+    Figure
+        Two columns wide.
+    """
+    figure = style.new_figure(style.DOUBLE_COLUMN, 12.4 * style.CENTIMETRE)
+    axes = figure.add_subplot()
+    _draw_theory(axes, theory)
+    drawn = list(_series(lengths, studies))
+    for series in drawn:
+        _draw_points(axes, *series)
+    _limits(axes, theory, drawn)
+    axes.set_xlabel("Height $H$ (m)")
+    axes.set_ylabel("Critical nucleation length $L_c$ (m)")
+    axes.legend(loc="upper left", labelspacing=0.35)
+    inset = axes.inset_axes((INSET_LEFT, INSET_BOTTOM, INSET_WIDTH, _inset_height(axes, drawn)))
+    slip_rate_snapshots.draw(inset, inset_simulation, inset_row)
+    return figure
+
+
+def _draw_theory(axes: Axes, theory: xr.Dataset) -> None:
+    """The prediction, solid, and its limit for thin blocks, dashed."""
+    height = theory["height"].values
+    axes.plot(height, theory["critical_length"].values, color=style.THEORY, label="theory")
+    axes.plot(
+        height,
+        theory["thin_limit_length"].values,
+        color=style.THIN_LIMIT,
+        linestyle="--",
+        linewidth=1.1,
+        label=r"theory, $Hk\to 0$",
+    )
+
+
+def _limits(axes: Axes, theory: xr.Dataset, drawn: list[Series]) -> None:
+    """Axes from zero to a little beyond the highest block that was simulated."""
+    simulated = [float(runs["height"].max()) for *_, runs in drawn]
+    highest = 1.12 * max(simulated, default=float(theory["height"].max()))
+    longest = np.interp(highest, theory["height"].values, theory["thin_limit_length"].values)
+    axes.set_xlim(0.0, highest)
+    axes.set_ylim(0.0, 1.04 * float(longest))
+    axes.minorticks_on()
+
+
+def _inset_height(axes: Axes, drawn: list[Series]) -> float:
+    """Height of the inset, in parts of the axes: up to the lowest point above it."""
+    left = (INSET_LEFT - 0.02) * axes.get_xlim()[1]
+    above = [runs["length_low"].where(runs["height"] > left).min() for *_, runs in drawn]
+    lowest = np.nanmin([*map(float, above), axes.get_ylim()[1]])
+    room = lowest / axes.get_ylim()[1] - INSET_BOTTOM - 0.03
+    return float(np.clip(room, *INSET_HEIGHTS))
+
+
+def _series(lengths: xr.Dataset, studies: Mapping[str, Study]) -> Iterator[Series]:
+    """The sets of points that share study, law and initial state: style, label and entries."""
+    law, phi0 = lengths["law"].values.astype(str), lengths["phi0"].values
+    names = lengths["study"].values.astype(str)
+    usable = np.isfinite(lengths["length"].values)
+    for name, study in studies.items():
+        for evolution, aged in KINDS:
+            ages = phi0[usable & (names == name) & (law == evolution)]
+            for age in np.unique(ages[~np.isclose(ages, USUAL_AGE) == aged]):
+                chosen = usable & (names == name) & (law == evolution) & (phi0 == age)
+                kind = KINDS[evolution, aged]
+                state = f", $\\phi(t\\!=\\!0)={_number(age)}$ s" if aged else ""
+                label = f"FEM, {kind.label}{state}{study.suffix}"
+                yield study, label, kind, lengths.isel(run=np.flatnonzero(chosen))
+
+
+def _draw_points(axes: Axes, study: Study, label: str, kind: Kind, runs: xr.Dataset) -> None:
+    """One set of points with error bars from the lowest to the highest length."""
+    length = runs["length"].values
+    below = np.nan_to_num(length - runs["length_low"].values)
+    above = np.nan_to_num(runs["length_high"].values - length)
+    axes.errorbar(
+        runs["height"].values,
+        length,
+        yerr=np.clip([below, above], 0.0, None),
+        linestyle="none",
+        marker=kind.marker,
+        markersize=kind.size,
+        color=kind.colour,
+        markerfacecolor=kind.colour if study.filled else "white",
+        elinewidth=0.9,
+        label=label,
+        zorder=4.0 - 0.1 * kind.size,
+    )
+
+
+def _number(value: float) -> str:
+    """A number as TeX, a power of ten where that is shorter."""
+    exponent = np.log10(value)
+    if exponent >= 3.0 and exponent == round(exponent):
+        return f"10^{{{exponent:.0f}}}"
+    return f"{value:g}"

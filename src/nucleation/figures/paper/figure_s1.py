@@ -1,0 +1,51 @@
+"""Figure S1: steady-state friction, the full law and its logarithmic expansion."""
+
+from __future__ import annotations
+
+import xarray as xr
+from matplotlib.figure import Figure
+
+from ...figures import style
+
+
+@style.styled
+def draw(theory: xr.Dataset) -> Figure:
+    """Draw both steady-state friction curves and mark the driving velocity V.
+
+    Parameters
+    ----------
+    theory : Dataset
+        With ``steady_friction(slip_rate)`` and ``steady_friction_logarithmic(slip_rate)``,
+        dimensionless, the slip rate in m/s, and ``velocity`` (m/s) as variable or attribute.
+
+    Returns
+    -------
+    Figure
+        One column wide.
+    """
+    figure = style.new_figure(style.SINGLE_COLUMN, 6.4 * style.CENTIMETRE)
+    axes = figure.add_subplot()
+    rate = theory["slip_rate"].values
+    full = theory["steady_friction"].values
+    velocity = float(theory["velocity"] if "velocity" in theory else theory.attrs["velocity"])
+    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
+    axes.semilogx(
+        rate,
+        theory["steady_friction_logarithmic"].values,
+        color=style.LOGARITHMIC_LAW,
+        linewidth=1.1,
+        label="logarithmic law",
+    )
+    axes.axvline(velocity, color=style.GUIDE, linestyle="--", linewidth=0.9)
+    axes.annotate(
+        "$V$",
+        xy=(velocity, 0.0),
+        xycoords=axes.get_xaxis_transform(),
+        xytext=(4.0, 5.0),
+        textcoords="offset points",
+    )
+    axes.set_xlabel(r"Slip rate $v$ (m/s)")
+    axes.set_ylabel(r"Steady-state friction coefficient $f_{\mathrm{ss}}$")
+    axes.set_xlim(rate.min(), rate.max())
+    axes.legend(loc="upper right")
+    return figure

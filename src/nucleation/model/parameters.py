@@ -1,0 +1,133 @@
+"""All parameters of one simulation, as frozen and checked dataclasses in SI units."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from typing import Any
+
+from .friction.law import Friction
+from .material import Material
+from .quantities import Checked, quantity
+
+
+@dataclasses.dataclass(frozen=True)
+class Loading(Checked):
+    """The external loading and the initial state of the interface."""
+
+    normal_stress: float = quantity(
+        "applied compressive normal stress",
+        unit="Pa", low=0.0, high=1e10, symbol="sigma0", default=1.0e6,
+    )  # fmt: skip
+    velocity: float = quantity(
+        "imposed velocity of the left edge", unit="m/s", low=0.0, high=1.0, symbol="V",
+        default=1.0e-5,
+    )  # fmt: skip
+    initial_state: float = quantity(
+        "initial state variable (age) of the interface", unit="s", low=0.0, high=1e12,
+        symbol="phi0", default=1.0,
+    )  # fmt: skip
+    initial_stress: str = quantity(
+        "static field at the start: that of an interface that has not slipped, or of one that has "
+        "slipped to the uniform shear stress initial_shear_stress",
+        choices=("no_slip", "uniform_shear"), default="no_slip",
+    )  # fmt: skip
+    initial_shear_stress: float = quantity(
+        "shear stress at the interface at the start, if initial_stress is uniform_shear",
+        unit="Pa", low=0.0, high=1e10, closed="low", symbol="tau0", default=0.0,
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Geometry(Checked):
+    """The deformable block ``0 <= x <= length``, ``0 <= y <= height``."""
+
+    height: float = quantity("block height", unit="m", low=0.0, high=1e6, symbol="H", default=0.005)
+    length: float = quantity("block length", unit="m", low=0.0, high=1e7, symbol="L", default=1.0)
+
+
+@dataclasses.dataclass(frozen=True)
+class Mesh(Checked):
+    """The structured finite-element mesh: numbers of bilinear elements and grading in y."""
+
+    n_x: int = quantity("number of elements along x", low=8, high=100000, closed="both",
+                        symbol="N_x", default=400)  # fmt: skip
+    n_y: int = quantity("number of elements along y", low=2, high=10000, closed="both",
+                        symbol="N_y", default=150)  # fmt: skip
+    grading: float = quantity(
+        "height of the top row of elements over that of the bottom row", low=1.0, high=1000.0,
+        closed="both", default=1.0,
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Stepping(Checked):
+    """Control of the time integration."""
+
+    end_time: float = quantity(
+        "simulated time", unit="s", low=0.0, high=1e12, default=16.0, symbol="t"
+    )
+    time_after_event: float = quantity(
+        "time simulated after the event's onset before the run may end", unit="s", low=0.0,
+        high=1e12, closed="low", default=1e12 / 2,
+    )  # fmt: skip
+    tolerance: float = quantity(
+        "tolerance of the local error of log slip rate and log state per step", low=0.0, high=1.0,
+        default=1.0e-2,
+    )  # fmt: skip
+    longest_step: float = quantity(
+        "longest time step over the memory time D/V", low=0.0, high=1.0, closed="high",
+        default=0.1,
+    )  # fmt: skip
+    shortest_step: float = quantity(
+        "shortest time step, below which the run ends as failed", unit="s", low=0.0, high=1.0,
+        default=1.0e-12,
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameters:
+    """Everything one simulation depends on; two equal objects give the same result."""
+
+    material: Material = Material()
+    friction: Friction = Friction()
+    loading: Loading = Loading()
+    geometry: Geometry = Geometry()
+    mesh: Mesh = Mesh()
+    stepping: Stepping = Stepping()
+
+    @property
+    def memory_time(self) -> float:
+        """Time ``D/V`` (s) over which friction forgets at the imposed velocity."""
+        return self.friction.characteristic_slip_distance / self.loading.velocity
+
+    def to_dict(self) -> dict[str, dict[str, Any]]:
+        """The parameters as nested plain dictionaries."""
+        return dataclasses.asdict(self)
+
+    @classmethod
+    def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
+        """The inverse of :meth:`to_dict`; raises ParameterError for a bad value."""
+        groups = {f.name: f.default for f in dataclasses.fields(cls)}
+        return cls(**{name: type(default)(**values[name]) for name, default in groups.items()})  # type: ignore[misc]
+
+    def replaced(self, values: dict[str, Any]) -> Parameters:
+        """A copy with other values of the fields of its groups, given by field name alone."""
+        groups = {}
+        for group in dataclasses.fields(self):
+            own = getattr(self, group.name)
+            changes = {f.name: values[f.name] for f in dataclasses.fields(own) if f.name in values}
+            groups[group.name] = dataclasses.replace(own, **changes)
+        return Parameters(**groups)
+
+    def to_json(self) -> str:
+        """The parameters as JSON text, as datasets carry them."""
+        return json.dumps(self.to_dict(), sort_keys=True)
+
+    @classmethod
+    def from_json(cls, text: str) -> Parameters:
+        """The inverse of :meth:`to_json`."""
+        return cls.from_dict(json.loads(text))
+
+
+FIRST_STEP = 2.0e-6  # over the memory time D/V

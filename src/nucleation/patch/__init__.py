@@ -1,0 +1,4 @@
+"""The creeping patch's own stability: its spectrum when frozen, its growth in twin runs, its hops.
+
+It uses :mod:`nucleation.analysis`, :mod:`nucleation.theory` and what these use.
+"""

@@ -1,0 +1,225 @@
+"""The length at which the creep patch of a simulation turns linearly unstable, free of its noise.
+
+Growth of the frozen patch (:mod:`nucleation.patch.frozen`) begins where its oscillating mode
+stops decaying. Each instant of a run needs the spectrum of a dense matrix, and a run has some
+hundred of them: a few, spaced evenly in patch length, find the crossing, and a line through the
+instants around it gives its length. The patch's length is the one of
+:func:`nucleation.analysis.extraction.extract`, the furthest that its edge has come.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..analysis.extraction import ExtractionSettings, find_onset, patch_lengths
+from ..analysis.lengths import description
+from ..fem.block import Block
+from ..fem.grid import Grid
+from ..fem.operator import BlockOperator
+from ..model.parameters import Parameters
+from ..simulation.event import WINDOW
+from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+FEWEST_NODES = 8  # a shorter patch is not resolved
+SCANNED = 40  # instants that find the crossing,
+NEAR = 60  # and those around it, at most, through which the line is laid:
+AROUND = 0.08  # within this part of the crossing's length
+REFITS = 2  # the second about the first one's crossing
+FEWEST_NEAR = 4  # instants for a line
+
+
+def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
+    """Growth of the frozen patch along a run up to its onset, and the length where it begins.
+
+    Returns
+    -------
+    Dataset
+        On ``instant``: ``instant_time`` (s), ``patch_length`` (m), ``growth_rate`` and
+        ``growth_frequency`` (1/s, angular) of the fastest growing mode, ``oscillation_growth`` and
+        ``oscillation_frequency`` of the fastest growing oscillating one, NaN without one. Where
+        growth begins: ``stability_length`` (m), its ends ``_low`` and ``_high`` between which the
+        front's hops take the growth to and fro, ``stability_length_error``, its standard error,
+        and ``stability_frequency`` (1/s), NaN where it does not begin. On ``x``: real and
+        imaginary part of the displacement in that mode, ``mode_real`` and ``mode_imaginary``.
+    """
+    record = _Record(simulation, settings)
+    frames = record.usable_frames()
+    scanned = evenly(frames, record.length, SCANNED)
+    crossing = rough_crossing(record.length[scanned], record.growth(scanned).real)
+    fit = dict.fromkeys(FITTED, float("nan"))
+    mode = np.zeros(record.grid.n_x + 1, dtype=complex)
+    for _ in range(REFITS):
+        if np.isfinite(crossing):
+            near = frames[np.abs(record.length[frames] / crossing - 1.0) < AROUND]
+            near = evenly(near, record.length, NEAR)
+            fit = fitted_crossing(record.length[near], record.growth(near))
+            crossing = fit["stability_length"]
+    if np.isfinite(fit["stability_length"]):
+        at = near[np.abs(record.length[near] - fit["stability_length"]).argmin()]
+        patch = record.patch(at)
+        mode[patch.nodes], _ = patch.mode(record.growth([at])[0])
+    return record.dataset(fit, mode)
+
+
+class _Record:
+    """A simulation's frames up to the onset, and the frozen patch at each."""
+
+    def __init__(self, simulation: xr.Dataset, settings: ExtractionSettings) -> None:
+        self.parameters = Parameters.from_json(simulation.attrs["parameters"])
+        geometry, mesh = self.parameters.geometry, self.parameters.mesh
+        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+        self._operator = BlockOperator(Block(self.grid, self.parameters.material), 0.0)
+        self._threshold = settings.edge_threshold * self.parameters.loading.velocity
+        self._slowest_oscillation = OSCILLATING / self.parameters.memory_time
+        steps = simulation["step_time"].values
+        force = np.abs(simulation["driving_force"].values)
+        window = WINDOW * self.parameters.memory_time
+        onset = find_onset(steps, force, window, settings.drop)
+        last = steps[onset.start] if onset is not None else np.inf
+        before = simulation.isel(time=np.flatnonzero(simulation["time"].values <= last))
+        self._fields = [before[name].values for name in ("slip_rate", "state", "normal_stress")]
+        self.time = before["time"].values
+        self.length = np.maximum.accumulate(patch_lengths(before, self._threshold))
+        self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
+
+    def usable_frames(self) -> NDArray[np.intp]:
+        """Frames whose patch is resolved."""
+        return np.flatnonzero(self.length >= FEWEST_NODES * self.grid.dx)
+
+    def patch(self, i: int) -> FrozenPatch:
+        """The frozen patch at a frame."""
+        rate, state, stress = (field[i] for field in self._fields)
+        force = -stress * self.grid.nodal_lengths
+        return frozen_patch(
+            self._operator, self.parameters.friction, rate, state, force, self._threshold
+        )
+
+    def growth(self, frames: Iterable[int]) -> ComplexArray:
+        """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
+        for i in set(frames) - set(self._known):
+            patch = self.patch(i)
+            fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
+            self._known[i] = (fastest, patch.oscillating(self._slowest_oscillation))
+        return np.array([self._known[i][1] for i in frames], dtype=complex)
+
+    def dataset(self, fit: dict[str, float], mode: ComplexArray) -> xr.Dataset:
+        """What :func:`follow_patch` returns."""
+        frames = sorted(self._known)
+        fastest, pairs = np.array([self._known[i] for i in frames]).reshape(-1, 2).T
+        columns = {
+            "instant_time": self.time[frames],
+            "patch_length": self.length[frames],
+            "growth_rate": fastest.real,
+            "growth_frequency": np.abs(fastest.imag),
+            "oscillation_growth": pairs.real,
+            "oscillation_frequency": pairs.imag,
+        }
+        return xr.Dataset(
+            {
+                **{name: ("instant", values) for name, values in columns.items()},
+                **fit,
+                "mode_real": ("x", mode.real),
+                "mode_imaginary": ("x", mode.imag),
+            },
+            coords={"x": self.grid.x},
+            attrs={"parameters": self.parameters.to_json()},
+        )
+
+
+def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.intp]:
+    """At most `number` of some frames, spaced evenly in patch length (m)."""
+    if frames.size <= number:
+        return frames
+    wanted = np.linspace(length[frames[0]], length[frames[-1]], number)
+    return frames[np.unique(np.searchsorted(length[frames], wanted).clip(0, frames.size - 1))]
+
+
+def rough_crossing(length: Array, growth: Array) -> float:
+    """Patch length (m) that best divides decay from growth, NaN without either.
+
+    The range of lengths on the wrong side of it is the least possible: on a coarse mesh the
+    front's hops take growth to and fro.
+    """
+    usable = np.isfinite(growth)
+    length, growth = length[usable], growth[usable]
+    if length.size < FEWEST_NEAR or growth.max() <= 0.0 or growth.min() > 0.0:
+        return float("nan")
+    ranges = np.gradient(length) * np.sign(growth)
+    wrong = np.append(0.0, np.cumsum(ranges))  # less the same constant for each division
+    at = int(wrong.argmin())
+    return float(length[min(at, length.size - 1)]) if at else float("nan")
+
+
+FITTED = (
+    "stability_length", "stability_length_low", "stability_length_high", "stability_length_error",
+    "stability_frequency",
+)  # fmt: skip
+
+
+def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
+    """Where a line through eigenvalues (1/s) over patch length (m) crosses zero growth.
+
+    The front advances by one node at a time, and growth varies within each hop: the scatter about
+    the line over its slope gives the range of lengths at which growth may begin.
+    """
+    usable = np.isfinite(growth)
+    length, growth = length[usable], growth[usable]
+    if length.size < FEWEST_NEAR:
+        return dict.fromkeys(FITTED, float("nan"))
+    centre = length.mean()
+    slope, level = np.polyfit(length - centre, growth.real, 1)
+    if slope <= 0.0 or not length.min() <= centre - level / slope <= length.max():
+        return dict.fromkeys(FITTED, float("nan"))
+    turn, frequency = np.polyfit(length - centre, growth.imag, 1)
+    crossing = centre - level / slope
+    scatter = np.std(growth.real - level - slope * (length - centre), ddof=2) / slope
+    lever = np.hypot(1.0, (crossing - centre) / length.std())
+    values = (
+        crossing, crossing - scatter, crossing + scatter, scatter * lever / np.sqrt(length.size),
+        frequency + turn * (crossing - centre),
+    )  # fmt: skip
+    return dict(zip(FITTED, map(float, values), strict=True))
+
+
+COLUMNS = (
+    "id", "study", "law", "height", "phi0", "n_x", "n_y", "grading", "tolerance", "longest_step",
+    *FITTED, "theory_length", "stability_ratio", "stability_change",
+)  # fmt: skip
+
+SAME = ("law", "height", "phi0")
+
+
+def gather(
+    runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset], reference: str = "converged"
+) -> xr.Dataset:
+    """The table of runs with the lengths at which their frozen patches turn unstable.
+
+    Parameters
+    ----------
+    runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
+    patches : of :func:`follow_patch`, in the same order.
+    reference : the study with whose run of the same law, height and initial state each run is
+        compared: ``stability_change`` is the length over that run's, minus one, NaN without one.
+    """
+    rows = [
+        description(run) | {name: float(patch[name]) for name in FITTED}
+        for run, patch in zip(runs, patches, strict=True)
+    ]
+    compared = {
+        tuple(row[name] for name in SAME): row["stability_length"]
+        for row in rows
+        if row["study"] == reference
+    }
+    for row in rows:
+        value = compared.get(tuple(row[name] for name in SAME), float("nan"))
+        row["stability_ratio"] = row["stability_length"] / row["theory_length"]
+        row["stability_change"] = row["stability_length"] / value - 1.0
+    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})

@@ -1,0 +1,202 @@
+"""Twin runs: does a small kick of the creeping patch grow as the frozen patch says?
+
+A run is stopped when its patch has some length, and goes on twice from the same state: as it is,
+and with the log of the state variable kicked in the shape of the patch's oscillating mode. Both
+twins take the same steps, so the difference of the two obeys the full equations, linearised about
+the run as it goes on: inertia, the moving front and its hops from node to node included. All of
+that is left out where the patch is frozen (:mod:`nucleation.patch.frozen`).
+
+The mode's complex amplitude in the difference follows by the left eigenvector of the frozen patch,
+which other modes do not enter; its logarithm's slope is growth rate and frequency. As the patch
+grows by some per cent meanwhile, it is compared with the frozen patch's mean over the same time.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections import deque
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..analysis.extraction import ExtractionSettings, patch_edge
+from ..analysis.lengths import description
+from ..fem.block import Block
+from ..fem.grid import Grid
+from ..fem.operator import BlockOperator
+from ..model.parameters import Parameters
+from ..simulation.control import Instant
+from ..simulation.run import run
+from ..simulation.state import State
+from ..simulation.step import Dynamics, StepReport
+from ..stepping.ladder import RUNGS_PER_OCTAVE, beta_of_step
+from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+
+ComplexArray = NDArray[np.complex128]
+
+SHARES = (0.45, 0.5, 0.53, 0.56, 0.6, 0.65)  # patch lengths over the theory's critical length
+KICK = 1e-4  # of log(phi), largest over the patch
+PERIODS = 3.0  # of the frozen patch's oscillation over which the twins are followed,
+SKIPPED = 0.5  # of them at first: what the kick's other parts leave dies out
+FROZEN = 8  # instants of that time at which the patch is frozen again
+EVENT = 10.0  # slip rate over V beyond which the run has left its creep
+
+MEASURED = (
+    "twin_time", "twin_length", "twin_length_first", "twin_length_last", "twin_growth",
+    "twin_frequency", "frozen_growth", "frozen_frequency",
+)  # fmt: skip
+
+
+class Patches:
+    """The frozen patches of one run, from its step reports."""
+
+    def __init__(self, parameters: Parameters, settings: ExtractionSettings) -> None:
+        geometry, mesh = parameters.geometry, parameters.mesh
+        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+        self._operator = BlockOperator(Block(self.grid, parameters.material), 0.0)
+        self._law = parameters.friction
+        self._threshold = settings.edge_threshold * parameters.loading.velocity
+        self._slowest_oscillation = OSCILLATING / parameters.memory_time
+
+    def length(self, report: StepReport) -> float:
+        """The patch's length (m) at an instant."""
+        return patch_edge(self.grid.x, report.interface.slip_rate, self._threshold)
+
+    def frozen(self, report: StepReport) -> FrozenPatch:
+        """The frozen patch at an instant."""
+        at = report.interface
+        return frozen_patch(
+            self._operator, self._law, at.slip_rate, np.exp(at.log_state), at.normal,
+            self._threshold,
+        )  # fmt: skip
+
+    def rate(self, patch: FrozenPatch) -> complex:
+        """Lambda (1/s) of the oscillating mode, NaN where none oscillates."""
+        return patch.oscillating(self._slowest_oscillation)
+
+
+class Twin:
+    """A kicked run beside the run it started from, and what is seen of the two."""
+
+    def __init__(self, patches: Patches, dynamics: Dynamics, instant: Instant) -> None:
+        self._patches, self._dynamics = patches, dynamics
+        patch = patches.frozen(instant.report)
+        self._rate, self._nodes = patches.rate(patch), patch.nodes
+        self._weights = patch.amplitude(self._rate)
+        shape = np.zeros(patches.grid.n_x + 1)
+        shape[patch.nodes] = patch.mode(self._rate)[1].real
+        self.state = kicked(instant.state, shape, KICK)
+        self._start = instant.state.time
+        self._duration = 2.0 * np.pi * PERIODS / self._rate.imag
+        self._time: list[float] = []
+        self._amplitude: list[complex] = []
+        self._frozen: list[complex] = []
+        self._lengths: list[float] = []
+
+    def advance(self, instant: Instant) -> bool:
+        """Take the step that the run has taken; whether the twins have been followed enough."""
+        rung = round(
+            RUNGS_PER_OCTAVE
+            * math.log2(beta_of_step(instant.state.last_step, self.state.last_step))
+        )
+        self.state, _ = self._dynamics.advance(self.state, rung)
+        since = instant.state.time - self._start
+        self._time.append(since)
+        change = difference(instant.state, self.state, self._nodes)
+        self._amplitude.append(complex(change @ self._weights))
+        if since >= len(self._lengths) * self._duration / FROZEN:
+            self._lengths.append(self._patches.length(instant.report))
+            self._frozen.append(self._patches.rate(self._patches.frozen(instant.report)))
+        return since >= self._duration
+
+    @property
+    def measured(self) -> dict[str, float]:
+        """:data:`MEASURED`."""
+        used = np.array(self._time) >= 2.0 * np.pi * SKIPPED / self._rate.imag
+        rate = fitted_rate(np.array(self._time)[used], np.array(self._amplitude)[used])
+        frozen = complex(np.mean(self._frozen))
+        values = (
+            self._start, float(np.mean(self._lengths)), self._lengths[0], self._lengths[-1],
+            rate.real, rate.imag, frozen.real, frozen.imag,
+        )  # fmt: skip
+        return dict(zip(MEASURED, values, strict=True))
+
+
+def kicked(state: State, shape: NDArray[np.float64], size: float) -> State:
+    """A state whose log state variable is changed by a shape over the nodes 0..n_x, at all times.
+
+    Past values change alike: the kick is one of the field, not of its rate.
+    """
+    change = size * shape / np.abs(shape).max()
+    return dataclasses.replace(state, past_log_states=state.past_log_states + change)
+
+
+def difference(one: State, other: State, nodes: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Displacement (m) and log state of one state less those of another at some nodes, (2 n,)."""
+    return np.append(
+        (other.past_w[0] - one.past_w[0])[nodes - 1],
+        (other.past_log_states[0] - one.past_log_states[0])[nodes],
+    )
+
+
+def fitted_rate(time: NDArray[np.float64], amplitude: ComplexArray) -> complex:
+    """Growth rate and frequency (1/s) of a complex amplitude over time (s), by least squares."""
+    logarithm = np.log(np.abs(amplitude)) + 1j * np.unwrap(np.angle(amplitude))
+    return complex(np.polyfit(time, logarithm, 1)[0])
+
+
+def follow_twins(
+    parameters: Parameters, theory_length: float, settings: ExtractionSettings,
+    shares: Iterable[float] = SHARES,
+) -> xr.Dataset:  # fmt: skip
+    """Twins of one run, started at several lengths of its patch.
+
+    Parameters
+    ----------
+    parameters : the run; twins not followed enough when it or its creep ends are left out.
+    theory_length : the theory's critical length (m).
+    settings : definition of the patch's edge.
+    shares : patch lengths at which twins start, over `theory_length`.
+
+    Returns
+    -------
+    Dataset on ``twin``: :data:`MEASURED`, times in s, lengths in m, rates in 1/s.
+    """
+    patches, dynamics = Patches(parameters, settings), Dynamics(parameters)
+    lengths = deque(share * theory_length for share in sorted(shares))
+    active: list[Twin] = []
+    rows = []
+    for instant in run(parameters):
+        state = instant.state
+        fastest = float(np.abs(state.past_slip_rates[0]).max())
+        creeps = fastest < EVENT * parameters.loading.velocity
+        if not (creeps and state.time < parameters.stepping.end_time and (active or lengths)):
+            break
+        finished = [twin for twin in active if twin.advance(instant)]
+        active = [twin for twin in active if twin not in finished]
+        rows += [twin.measured for twin in finished]
+        if lengths and patches.length(instant.report) >= lengths[0]:
+            lengths.popleft()
+            active.append(Twin(patches, dynamics, instant))
+    rows.sort(key=lambda row: row["twin_time"])
+    return xr.Dataset(
+        {name: ("twin", [row[name] for row in rows]) for name in MEASURED},
+        attrs={"parameters": parameters.to_json()},
+    )
+
+
+COLUMNS = ("id", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length")
+
+
+def gather(runs: Iterable[dict[str, Any]], datasets: Iterable[xr.Dataset]) -> xr.Dataset:
+    """One table of all twins, on ``twin``, with the runs that they belong to."""
+    rows = [
+        description(run) | {name: float(twins[name][i]) for name in MEASURED}
+        for run, twins in zip(runs, datasets, strict=True)
+        for i in range(twins.sizes["twin"])
+    ]
+    return xr.Dataset({name: ("twin", [row[name] for row in rows]) for name in COLUMNS})

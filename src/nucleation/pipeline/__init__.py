@@ -1,0 +1,4 @@
+"""What surrounds a computation: a job, its progress, the cache, checks, archives, the benchmark.
+
+It may use every other wing but the command line.
+"""

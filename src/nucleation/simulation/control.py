@@ -1,0 +1,96 @@
+"""Control of the step size: from one accepted step to the next, or the reason why there is none."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+
+import numpy as np
+
+from ..model.parameters import (
+    Stepping,
+)
+from ..stepping.bdf import LARGEST_GROWTH
+from ..stepping.ladder import beta_of_step, rung_below, rung_value
+from .interface import NewtonFailure, Tension
+from .state import State
+from .step import Dynamics, StepReport
+
+SAFETY = 0.85  # of the step size against the estimated error
+SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
+
+
+class Outcome(enum.Enum):
+    """How a run ended."""
+
+    END_TIME = "completed: the end time was reached"
+    AFTER_EVENT = "completed: the event and the time asked for after it are covered"
+    STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
+    TENSION = "failed: the interface came under tension, where the friction law has no meaning"
+    NOT_FINITE = "failed: a recorded value is not finite"
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run reached its planned end."""
+        return self.value.startswith("completed")
+
+
+class SimulationFailure(RuntimeError):
+    """The time integration could not go on; `outcome` names why."""
+
+    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
+        super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
+        self.outcome = outcome
+
+
+@dataclasses.dataclass(frozen=True)
+class Control:
+    """What the control of the step size carries from one accepted step to the next."""
+
+    wanted: float  # leading coefficient beta (s) of the next step
+    steps: int = 0  # accepted so far
+    rejected: int = 0  # so far
+
+
+@dataclasses.dataclass(frozen=True)
+class Instant:
+    """One accepted step of a run."""
+
+    state: State
+    report: StepReport
+    control: Control
+
+
+def _accepted_step(
+    dynamics: Dynamics, stepping: Stepping, state: State, control: Control, longest: float
+) -> Instant:
+    """The next step whose error is within the tolerance; `longest` is the largest beta (s)."""
+    wanted, rejected, growth = control.wanted, control.rejected, LARGEST_GROWTH
+    cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
+    while True:
+        rung = rung_below(min(wanted, longest))
+        beta = rung_value(rung)
+        if beta < stepping.shortest_step:
+            outcome = Outcome.TENSION if isinstance(cause, Tension) else Outcome.STEP_UNDERFLOW
+            raise SimulationFailure(outcome, state, f"step {beta:.3g} s; {cause}")
+        try:
+            new, report = dynamics.advance(state, rung)
+        except NewtonFailure as failure:
+            cause = failure
+            wanted, rejected, growth = 0.5 * beta, rejected + 1, 1.0
+            continue
+        factor = _step_factor(report.error / stepping.tolerance)
+        if report.error > stepping.tolerance and np.isfinite(report.error):
+            wanted, rejected, cause = beta * min(factor, 0.9), rejected + 1, None
+            continue
+        factor = min(factor, growth)  # not at once back to where Newton's method failed
+        wanted = beta_of_step(new.last_step * factor, new.last_step)
+        return Instant(new, report, Control(wanted, control.steps + 1, rejected))
+
+
+def _step_factor(error: float) -> float:
+    """Factor on the step size for a local error of third order, given over the tolerance."""
+    if not np.isfinite(error):
+        return 1.0  # the first step has no estimate
+    ideal = SAFETY * max(error, 1e-9) ** (-1.0 / 3.0)
+    return min(LARGEST_GROWTH, max(SMALLEST_SHRINKING, ideal))

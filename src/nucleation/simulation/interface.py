@@ -1,0 +1,196 @@
+"""The frictional interface: Newton's method for the slip rates of one implicit step.
+
+At the new time the slip rate ``v``, the state ``psi = log(phi)``, the nodal tangential force
+``p`` and the nodal normal force ``R`` (on the body, R > 0 in compression) fulfil
+
+    p = p0 + D (w - w0),   R = R0 + N (w - w0),   w = w_history + beta (v - V)
+    p + f(v, psi(v)) R = 0
+
+at the nodes 1..n_x, with the body's condensed operator D, N and the state eliminated by the
+closed form of its implicit step. Node 0 slips at the imposed velocity V.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from ..fem.operator import BlockOperator, LinearResponse
+from ..model.friction.law import Friction
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-14  # relative, of displacements
+LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
+ENOUGH = 0.1  # error expected of an iteration with old factors, in units of the tolerance
+ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
+
+
+class NewtonFailure(RuntimeError):
+    """Newton's method did not converge; the step must be shortened."""
+
+
+class Tension(NewtonFailure):
+    """The interface is in tension somewhere, where the friction law has no meaning."""
+
+
+@dataclasses.dataclass(frozen=True)
+class InterfaceSolution:
+    """The interface at the new time; arrays over the nodes 0..n_x unless said otherwise."""
+
+    slip_rate: Array  # m/s
+    log_state: Array
+    tangential: Array  # N/m, force on the body
+    normal: Array  # N/m, force on the body
+    w: Array  # m, nodes 1..n_x
+    edge: Array  # m, levels 0..n_y
+    iterations: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Factors:
+    """Newton's matrix among the nodes that elasticity couples, factorised; others are alone.
+
+    In single precision, twice as fast: that costs Newton's method less than its second order.
+    """
+
+    active: NDArray[np.intp]
+    damping: Array  # R df/dv at the active nodes when it was factorised
+    lu: NDArray[np.float32]
+    pivots: NDArray[np.int32]
+
+    @classmethod
+    def of(
+        cls, operator: BlockOperator, coefficient: Array, damping: Array, elastic: Array,
+        beta: float,
+    ) -> Factors:  # fmt: skip
+        """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
+        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
+        if not active.size:
+            nothing = np.empty((0, 0), dtype=np.float32)
+            return cls(active, damping[active], nothing, np.empty(0, dtype=np.int32))
+        stiffness, coupling = operator.tangent(active + 1, np.float32)
+        coupling *= coefficient[active, None].astype(np.float32)
+        stiffness += coupling
+        stiffness *= beta
+        stiffness[np.diag_indices_from(stiffness)] += damping[active]
+        lu, pivots, info = lapack.sgetrf(stiffness.T, overwrite_a=True)  # of the transpose
+        if info:
+            raise NewtonFailure("the interface's tangent is singular")
+        return cls(active, damping[active], lu, pivots)
+
+    def change(self, damping: Array, elastic: Array) -> float:
+        """Largest relative change of a node's slope since, by which an iteration would err."""
+        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
+        if not np.array_equal(active, self.active):
+            return np.inf
+        change = np.abs(damping[active] - self.damping) / (elastic[active] + np.abs(self.damping))
+        return float(change.max(initial=0.0))
+
+    def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
+        """Newton's direction for a residual, to first order in the change since factorising."""
+        change = residual / -(elastic + damping)
+        if self.active.size:
+            change[self.active], _ = lapack.sgetrs(
+                self.lu, self.pivots, -residual[self.active], trans=1
+            )
+        return change
+
+
+@dataclasses.dataclass(frozen=True)
+class Interface:
+    """Friction between the body and the rigid substrate, and how tightly it is solved."""
+
+    friction: Friction
+    velocity: float  # m/s, of the left edge
+    tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
+    most_iterations: int = 8
+
+    def solve(
+        self,
+        operator: BlockOperator,
+        response: LinearResponse,
+        w_history: Array,
+        log_state_history: Array,
+        beta: float,
+        guess: Array,
+    ) -> InterfaceSolution:
+        """Solve for the slip rates at the new time.
+
+        Parameters
+        ----------
+        operator, response : the condensed body and its forces at the predicted displacement.
+        w_history : the part of w (m) at nodes 1..n_x that the step's formula takes from the past.
+        log_state_history : the same for psi at nodes 0..n_x.
+        beta : coefficient (s) of the new slip rate in the step's formula.
+        guess : slip rates (m/s) at nodes 1..n_x, those that belong to ``response.w``.
+
+        Raises
+        ------
+        NewtonFailure
+            No convergence, or a force that is not finite.
+        Tension
+            A nodal normal force of the solution is tensile.
+        """
+        v, w, factors = guess, response.w, None
+        rounding = ROUNDING * np.abs(w_history).max() / beta  # of v = (w - w_history) / beta
+        p, normal, edge = response.tangential, response.normal, response.edge
+        for iteration in range(self.most_iterations + 1):
+            rates = np.append(self.velocity, v)
+            coefficient, slope, psi = self._friction(rates, log_state_history, beta)
+            residual = p + coefficient[1:] * normal[1:]
+            damping = slope[1:] * normal[1:]
+            elastic = beta * operator.diagonal
+            resolved = np.abs(v) + self.friction.regularisation_slip_rate
+            scale = (elastic + np.abs(damping)) * (self.tolerance * resolved) + elastic * rounding
+            error = float(np.max(np.abs(residual) / scale))
+            if not np.isfinite(error):
+                raise NewtonFailure("slip rate is not finite")
+            if error < 1.0:
+                if normal.min() <= 0.0:
+                    raise Tension("the interface is in tension")
+                # node 0 belongs to the driven edge; its friction follows from its rate V
+                tangential = np.append(-coefficient[0] * normal[0], p)
+                return InterfaceSolution(rates, psi, tangential, normal, w, edge, iteration)
+            # old factors serve where they promise that one more iteration is enough
+            if factors is None or error * factors.change(damping, elastic) > ENOUGH:
+                factors = Factors.of(operator, coefficient[1:], damping, elastic, beta)
+            v = self._updated(v, factors.direction(residual, damping, elastic))
+            w = w_history + beta * (v - self.velocity)
+            dp, dnormal, dedge = operator.apply(w - response.w)
+            p, normal, edge = (
+                response.tangential + dp, response.normal + dnormal, response.edge + dedge,
+            )  # fmt: skip
+        raise NewtonFailure(f"no convergence in {self.most_iterations} iterations")
+
+    def _friction(
+        self, v: Array, log_state_history: Array, beta: float
+    ) -> tuple[Array, Array, Array]:
+        """Friction coefficient, its total derivative by v, and psi, state at the new time."""
+        law, distance = self.friction, self.friction.characteristic_slip_distance
+        speed = law.slip_speed(v)
+        psi, psi_by_rate = law.evolution_law.implicit_log_state(
+            log_state_history, beta, speed / distance
+        )
+        aging, aging_slope = law.aging_factor(psi)
+        rate, rate_slope = law.rate_factor(v)
+        slope = aging * rate_slope + aging_slope * rate * psi_by_rate * v / (speed * distance)
+        return aging * rate, slope, psi
+
+    def _updated(self, v: Array, change: Array) -> Array:
+        """``v + change``, but a slip rate that shrinks does so in asinh(v / v0).
+
+        Friction is concave in v > 0: from above, Newton's method goes far beyond the root. Both
+        forms agree to first order in the change, so that convergence stays quadratic.
+        """
+        v0 = self.friction.regularisation_slip_rate
+        ratio = change / self.friction.slip_speed(v)
+        updated = v + change
+        shrinking = (np.abs(ratio) > 0.5) & (v * change < 0.0)
+        if shrinking.any():
+            shift = np.clip(ratio[shrinking], -LARGEST_SHIFT, LARGEST_SHIFT)
+            updated[shrinking] = v0 * np.sinh(np.arcsinh(v[shrinking] / v0) + shift)
+        return updated

@@ -1,0 +1,148 @@
+"""Recording a run: interface fields at adaptive times, the drive at every step, bulk snapshots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..fem.block import Block, Field
+from ..fem.grid import Grid
+from ..model.parameters import Parameters
+from .event import WINDOW, DropWatch
+from .state import State
+from .step import StepReport
+
+Array = NDArray[np.float64]
+
+LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
+FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
+FRAME_STEPS = 40  # and at least every so many steps
+SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
+
+
+class Recorder:
+    """Collects the states of one run and makes the dataset."""
+
+    def __init__(self, parameters: Parameters) -> None:
+        self.parameters = parameters
+        geometry, mesh = parameters.geometry, parameters.mesh
+        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+        self._body = Block(self.grid, parameters.material)
+        self._velocity = parameters.loading.velocity
+        self._longest_pause = LONGEST_PAUSE * parameters.memory_time
+        self._rows: list[tuple[float, float, float, float, int]] = []
+        self._frames: list[tuple[float, Array]] = []
+        self._snapshots: list[tuple[float, Array]] = []
+        self._last_scaled = np.empty(0)
+        self._last_frame_step = 0
+        self._next_snapshot_rate = 0
+        self._watch = DropWatch(WINDOW * parameters.memory_time)
+        self._event_time = np.inf
+        self._time = 0.0
+
+    @property
+    def steps(self) -> int:
+        """Number of accepted steps recorded."""
+        return len(self._rows) - 1
+
+    @property
+    def covers_event(self) -> bool:
+        """Whether the event has begun and the time asked for after it has passed."""
+        return self._time >= self._event_time + self.parameters.stepping.time_after_event
+
+    def record(self, state: State, report: StepReport) -> None:
+        """Take in the initial state or one accepted step."""
+        interface = report.interface
+        fastest = float(np.abs(interface.slip_rate).max())
+        self._time = state.time
+        self._rows.append(
+            (state.time, state.last_step, report.driving_force, fastest, interface.iterations)
+        )
+        if self._watch.dropped(state.time, abs(report.driving_force)):
+            self._event_time = min(self._event_time, self._time)
+        self._maybe_frame(state, report)
+        self._maybe_snapshot(state, fastest)
+
+    def _maybe_frame(self, state: State, report: StepReport) -> None:
+        scaled = np.arcsinh(report.interface.slip_rate / self._velocity)
+        due = (
+            not self._frames
+            or state.time - self._frames[-1][0] >= self._longest_pause
+            or len(self._rows) - self._last_frame_step >= FRAME_STEPS
+            or np.abs(scaled - self._last_scaled).max() >= FRAME_CHANGE
+        )
+        if not due:
+            return
+        self._last_scaled, self._last_frame_step = scaled, len(self._rows)
+        interface, lengths = report.interface, self.grid.nodal_lengths
+        slip = self._velocity * state.time + np.append(0.0, interface.w)
+        fields = (
+            interface.slip_rate, np.exp(interface.log_state), slip,
+            -interface.tangential / lengths, -interface.normal / lengths,
+        )  # fmt: skip
+        self._frames.append((state.time, np.array(fields)))
+
+    def _maybe_snapshot(self, state: State, fastest: float) -> None:
+        rates = SNAPSHOT_RATES[self._next_snapshot_rate :]
+        exceeded = sum(fastest > rate * self._velocity for rate in rates)
+        if not self._snapshots or exceeded:
+            self._next_snapshot_rate += exceeded
+            self._snapshots.append((state.time, self._bulk(state)))
+
+    def _bulk(self, state: State) -> Array:
+        """Displacement and velocity at the nodes, shape (4, n_y + 1, n_x + 1)."""
+        fields: list[Array] = []
+        values: tuple[Field, Field] = (state.displacement, state.velocity)
+        for value, uniform in zip(
+            values, (self._velocity * state.time, self._velocity), strict=True
+        ):
+            x, y = self._body.nodal_values(value)
+            fields += [x + uniform, y]
+        return np.array(fields)
+
+    def to_arrays(self) -> dict[str, NDArray]:
+        """Everything recorded, as plain arrays by name, to be stored; exact."""
+        return {
+            "rows": np.array(self._rows),
+            "frame_times": np.array([t for t, _ in self._frames]),
+            "frames": np.array([fields for _, fields in self._frames]),
+            "last_frame_step": np.array(self._last_frame_step),
+            "snapshot_times": np.array([t for t, _ in self._snapshots]),
+            "snapshots": np.array([fields for _, fields in self._snapshots]),
+            "next_snapshot_rate": np.array(self._next_snapshot_rate),
+            "watched": self._watch.maxima,
+            "event_time": np.array(self._event_time),
+        }
+
+    def restore(self, arrays: Mapping[str, NDArray]) -> None:
+        """The inverse of :meth:`to_arrays`, on a recorder of the same parameters."""
+        self._rows = [(*row[:4], int(row[4])) for row in arrays["rows"].tolist()]
+        self._frames = list(zip(arrays["frame_times"].tolist(), arrays["frames"], strict=True))
+        self._last_scaled = np.arcsinh(self._frames[-1][1][0] / self._velocity)
+        self._last_frame_step = int(arrays["last_frame_step"])
+        times = arrays["snapshot_times"].tolist()
+        self._snapshots = list(zip(times, arrays["snapshots"], strict=True))
+        self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
+        self._watch.maxima = arrays["watched"]
+        self._event_time = float(arrays["event_time"])
+        self._time = self._rows[-1][0]
+
+    def dataset(self) -> xr.Dataset:
+        """Everything recorded, without metadata of the variables."""
+        frame_names = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
+        bulk_names = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
+        row_names = (
+            "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
+        )  # fmt: skip
+        frames = np.array([fields for _, fields in self._frames])
+        bulk = np.array([fields for _, fields in self._snapshots])
+        rows = [np.array(column) for column in zip(*self._rows, strict=True)]
+        data = {name: (("time", "x"), frames[:, i]) for i, name in enumerate(frame_names)}
+        data |= {name: (("step",), row) for name, row in zip(row_names, rows, strict=True)}  # type: ignore[misc]
+        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(bulk_names)}  # type: ignore[misc]
+        data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))  # type: ignore[assignment]
+        coords = {"time": [t for t, _ in self._frames], "x": self.grid.x, "y": self.grid.y}
+        return xr.Dataset(data, coords=coords, attrs={"parameters": self.parameters.to_json()})

@@ -1,0 +1,145 @@
+"""The simulation: physics, finite elements and stepping put together.
+
+:func:`run` yields one state after another; :func:`simulate` records them into a dataset. Both can
+go on from arrays stored earlier, to the last bit as if they had never stopped.
+"""
+
+from __future__ import annotations
+
+import resource
+import sys
+import time
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..model.parameters import (
+    FIRST_STEP,
+    Parameters,
+)
+from ..stepping.ladder import beta_of_step
+from .control import (
+    Control,
+    Instant,
+    Outcome,
+    SimulationFailure,
+    _accepted_step,
+)
+from .recording import Recorder
+from .state import State
+from .step import Dynamics
+
+Array = NDArray[np.float64]
+Arrays = dict[str, NDArray]
+
+
+def run(parameters: Parameters, start: tuple[State, Control] | None = None) -> Iterator[Instant]:
+    """Integrate in time, yielding the initial state and then every accepted step, without end.
+
+    Parameters
+    ----------
+    parameters : everything the result depends on.
+    start : state and control of an instant of an earlier run with the same parameters: yields
+        what follows it there, to the last bit.
+
+    Raises
+    ------
+    SimulationFailure
+        The step size fell below ``stepping.shortest_step``, for its own sake or because every
+        longer step ends in tension.
+    """
+    dynamics = Dynamics(parameters)
+    longest_step = parameters.stepping.longest_step * parameters.memory_time
+    longest = beta_of_step(longest_step, longest_step)
+    if start is None:
+        state, report = dynamics.initial_state()
+        start = state, Control(min(FIRST_STEP * parameters.memory_time, longest))
+        yield Instant(state, report, start[1])
+    state, control = start
+    while True:
+        instant = _accepted_step(dynamics, parameters.stepping, state, control, longest)
+        state, control = instant.state, instant.control
+        yield instant
+
+
+def simulate(
+    parameters: Parameters,
+    *,
+    progress: Callable[[Instant], None] | None = None,
+    start: Arrays | None = None,
+    keep: Callable[[Callable[[], Arrays]], None] | None = None,
+) -> xr.Dataset:
+    """Run one simulation to its end and return its record.
+
+    Parameters
+    ----------
+    parameters : everything the result depends on.
+    progress : called with every accepted step.
+    start : arrays that `keep` was offered by an earlier run with the same parameters; the run goes
+        on from there, to the last bit as if it had never stopped.
+    keep : called after every step with a function that returns all that the run is made of at this
+        instant, to be stored for `start` (:class:`nucleation.simulation.checkpoints.Checkpoint`).
+
+    Returns
+    -------
+    Dataset with the interface's fields on (time, x), the driving force and the step sizes on
+    (step), some fields of the bulk on (snapshot, y, x), and the outcome as attributes; names and
+    units are listed in :mod:`nucleation.datasets.netcdf`. A run that fails numerically returns what it
+    recorded, with ``status`` telling so.
+    """
+    began = time.perf_counter()
+    recorder = Recorder(parameters)
+    control, position, earlier = Control(0.0), None, 0.0
+    if start is not None:
+        recorder.restore(start)
+        control = Control(float(start["wanted"]), recorder.steps, int(start["rejected"]))
+        position = State.from_arrays(start), control
+        earlier = float(start["wall_seconds"])
+    outcome = Outcome.END_TIME
+    try:
+        for instant in run(parameters, position):
+            control = instant.control
+            recorder.record(instant.state, instant.report)
+            if progress is not None:
+                progress(instant)
+            if recorder.covers_event:
+                outcome = Outcome.AFTER_EVENT
+                break
+            if instant.state.time >= parameters.stepping.end_time:
+                break
+            if keep is not None:
+                seconds = earlier + time.perf_counter() - began
+                keep(partial(_arrays, instant, recorder, seconds))
+    except SimulationFailure as failure:
+        outcome = failure.outcome
+    dataset = recorder.dataset()
+    if not all(np.isfinite(values).all() for values in dataset.variables.values()):
+        outcome = Outcome.NOT_FINITE
+    dataset.attrs |= {
+        "status": outcome.value,
+        "completed": int(outcome.completed),
+        "steps": recorder.steps,
+        "rejected_steps": control.rejected,
+        "wall_seconds": earlier + time.perf_counter() - began,
+        "peak_megabytes": peak_megabytes(),
+    }
+    return dataset
+
+
+def _arrays(instant: Instant, recorder: Recorder, seconds: float) -> Arrays:
+    """All that a run is made of after a step, from which it can go on."""
+    control = {
+        "wanted": np.array(instant.control.wanted),
+        "rejected": np.array(instant.control.rejected),
+        "wall_seconds": np.array(seconds),
+    }
+    return control | instant.state.to_arrays() | recorder.to_arrays()
+
+
+def peak_megabytes() -> float:
+    """Largest resident memory of this process so far (MB)."""
+    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return kilobytes / (1e6 if sys.platform == "darwin" else 1e3)

@@ -1,0 +1,112 @@
+"""The dataset of the linear theory: all curves of Figures 2, 3 and S1."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import xarray as xr
+
+from ..model.friction.law import Friction
+from ..model.linearised import InterfaceState
+from ..model.material import Material
+from ..model.quantities import Checked, quantity
+from .closed_forms import bimaterial_length_ratio, thin_limit_length
+from .critical import critical_wavenumber
+from .transfer import RIGID, Body
+
+
+def _spaced(low: float, high: float, number: int) -> tuple[float, ...]:
+    return tuple(float(f"{x:.6g}") for x in np.geomspace(low, high, number))
+
+
+@dataclasses.dataclass(frozen=True)
+class Curves(Checked):
+    """Where the theory's curves are computed."""
+
+    heights: tuple[float, ...] = quantity(
+        "block heights of the theory's curve in Figure 3", unit="m", low=0.0, high=1e6,
+        symbol="H", default=_spaced(0.003, 0.15, 80),
+    )  # fmt: skip
+    f_beta: tuple[float, ...] = quantity(
+        "friction coefficient times bimaterial contrast in Figure 2", low=-10.0, high=10.0,
+        symbol="f beta", default=tuple(float(f"{x:.6g}") for x in np.linspace(0.0, 0.5, 101)),
+    )  # fmt: skip
+    zeta_over_a: tuple[float, ...] = quantity(
+        "velocity weakening over direct effect in Figure 2", low=0.0, high=1e6,
+        symbol="zeta/a", default=(0.1, 0.3, 1.0, 3.0, 10.0),
+    )  # fmt: skip
+    slip_rates: tuple[float, ...] = quantity(
+        "slip rates of steady sliding in Figure S1", unit="m/s", low=0.0, high=1e4,
+        symbol="v", default=_spaced(1e-11, 1e1, 241),
+    )  # fmt: skip
+
+
+def theory_dataset(
+    material: Material,
+    friction: Friction,
+    interface: InterfaceState,
+    curves: Curves,
+) -> xr.Dataset:
+    """All curves of the linear theory.
+
+    Parameters
+    ----------
+    material : Material
+        Of the block.
+    friction : Friction
+        The full law with the parameters of Table S1.
+    interface : InterfaceState
+        The main text's rounded friction, on which the curve of Figure 3 stands; at its velocity
+        the full law is expanded.
+    curves : Curves
+        Where to compute.
+    """
+    return xr.merge(
+        [
+            length_curve(material, interface, np.array(curves.heights)),
+            bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
+            friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
+        ]
+    )
+
+
+def length_curve(material: Material, interface: InterfaceState, height: np.ndarray) -> xr.Dataset:
+    """Critical length, wavenumber and frequency against the height (m) (Figure 3)."""
+    points = [critical_wavenumber(Body(material, h, "traction"), RIGID, interface) for h in height]
+    values = {
+        "critical_length": [point.length for point in points],
+        "critical_wavenumber": [point.wavenumber for point in points],
+        "critical_frequency": [point.angular_frequency for point in points],
+        "thin_limit_length": thin_limit_length(height, material, interface),
+    }
+    return xr.Dataset({k: ("height", v) for k, v in values.items()}, {"height": height})
+
+
+def bimaterial_curves(f_beta: np.ndarray, zeta_over_a: np.ndarray) -> xr.Dataset:
+    """Critical length of bimaterial half-spaces over that without contrast (Figure 2)."""
+    ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
+    return xr.Dataset(
+        {"bimaterial_length_ratio": (("zeta_over_a", "f_beta"), ratio)},
+        {"zeta_over_a": zeta_over_a, "f_beta": f_beta},
+    )
+
+
+def friction_curves(friction: Friction, velocity: float, slip_rate: np.ndarray) -> xr.Dataset:
+    """Steady-state friction, full law and logarithmic expansion about `velocity` (Figure S1)."""
+    state = friction.characteristic_slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
+    expansion = friction.expansion(velocity)
+    return xr.Dataset(
+        {
+            "steady_friction": ("slip_rate", friction.steady_coefficient(slip_rate)),
+            "steady_friction_logarithmic": (
+                "slip_rate",
+                friction.logarithmic(slip_rate, state, velocity),
+            ),
+            "friction_reference": expansion.f0,
+            "direct_effect": expansion.a,
+            "velocity_weakening": expansion.zeta,
+            "velocity": velocity,
+        },
+        {"slip_rate": slip_rate},
+    )

@@ -1,0 +1,105 @@
+"""Two independent solvers on the same runs: which runs, and by how much their results differ.
+
+Both solvers get the same parameters and the same nodes along x. Differences are relative to the
+project's own solver. They are measured over the creep before the event: from the time when the
+patch is some elements long until the growing oscillation of the patch, which every hop of the
+front from node to node shakes, begins to tell the two apart.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...analysis.extraction import ExtractionSettings, extract, patch_lengths
+from ...model.parameters import Parameters
+from ...simulation.run import simulate
+
+Array = NDArray[np.float64]
+SETTLED = 20.0  # start of the comparison, in units of D/V
+BEFORE_ONSET = 0.9  # end of the comparison, as a part of the earlier onset
+INSTANTS = 2000  # at which two records are compared
+COLUMNS = (
+    "id", "height", "n_x", "n_y", "onset_time", "onset_time_freefem", "length", "length_freefem",
+    "patch_length_rms", "patch_length_largest", "patch_length_elements", "driving_force_rms",
+    "driving_force_largest", "step_seconds", "step_seconds_freefem", "steps", "steps_freefem",
+)  # fmt: skip
+
+
+def compare(
+    own: xr.Dataset, theirs: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+) -> dict[str, float]:
+    """The numbers of one row of the table: onset, critical length, differences, cost.
+
+    Parameters
+    ----------
+    own, theirs : records of the same run by :func:`simulate_timed` and
+        :func:`nucleation.verification.crosscheck.freefem.run`.
+    settings : edge of the patch and drop of the force.
+
+    Returns
+    -------
+    All of :data:`COLUMNS` but ``id``. Times in s, lengths in m; the time of a step is the median
+    processor time of the run's steps. Root mean squares and largest differences of L(t) and f_d(t)
+    are relative; the largest difference of L(t) is given in elements as well. NaN where a run has
+    no event or is too short.
+    """
+    parameters = Parameters.from_json(own.attrs["parameters"])
+    measured, measured_freefem = extract(own, settings), extract(theirs, settings)
+    ends = (measured["onset_time"], measured_freefem["onset_time"])
+    instants = np.linspace(SETTLED * parameters.memory_time, BEFORE_ONSET * np.min(ends), INSTANTS)
+    threshold = settings.edge_threshold * parameters.loading.velocity
+    patch, patch_freefem = (
+        np.interp(instants, run["time"].values, patch_lengths(run, threshold))
+        for run in (own, theirs)
+    )
+    force, force_freefem = (
+        np.interp(instants, run["step_time"].values, run["driving_force"].values)
+        for run in (own, theirs)
+    )
+    dx = parameters.geometry.length / parameters.mesh.n_x
+    difference, force_difference = patch_freefem / patch - 1.0, force_freefem / force - 1.0
+    return {
+        "height": parameters.geometry.height,
+        "n_x": parameters.mesh.n_x,
+        "n_y": parameters.mesh.n_y,
+        "onset_time": measured["onset_time"],
+        "onset_time_freefem": measured_freefem["onset_time"],
+        "length": measured["length"],
+        "length_freefem": measured_freefem["length"],
+        "patch_length_rms": _rms(difference),
+        "patch_length_largest": float(np.abs(difference).max()),
+        "patch_length_elements": float(np.abs(patch_freefem - patch).max() / dx),
+        "driving_force_rms": _rms(force_difference),
+        "driving_force_largest": float(np.abs(force_difference).max()),
+        "step_seconds": _seconds_per_step(own),
+        "step_seconds_freefem": _seconds_per_step(theirs),
+        "steps": own.attrs["steps"],
+        "steps_freefem": theirs.attrs["steps"],
+    }
+
+
+def simulate_timed(parameters: Parameters) -> xr.Dataset:
+    """The record of the project's own solver, with the processor's ``elapsed_time`` (s)."""
+    elapsed: list[float] = []
+    began = time.process_time()
+    record = simulate(parameters, progress=lambda _: elapsed.append(time.process_time() - began))
+    return record.assign(elapsed_time=("step", elapsed))
+
+
+def _seconds_per_step(record: xr.Dataset) -> float:
+    return float(np.median(np.diff(record["elapsed_time"].values)))
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:
+    """The table of all rows, by the runs' names, on the dimension ``run``."""
+    listed: Sequence[dict[str, object]] = [{"id": name, **row} for name, row in rows.items()]
+    return xr.Dataset({name: ("run", [row[name] for row in listed]) for name in COLUMNS})

@@ -1,0 +1,142 @@
+"""The block solved by FreeFem++: its command line, and its records as a dataset.
+
+FreeFem++ (Hecht, 2012) is the program the paper used. The script ``workflow/crosscheck/block.edp``
+solves the same problem as :mod:`nucleation.simulation.run` with triangles and a time integration of
+its own; it takes all numbers from its command line.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ...analysis.extraction import ExtractionSettings
+from ...model.parameters import Parameters
+from .plan import (
+    FIXED,
+    CrosscheckSettings,
+)
+
+PROGRAM = "FreeFem++-nw"
+PLUGINS = "/usr/lib/freefem++"  # where Debian has them; the program looks elsewhere
+MISSING = (
+    f"the crosscheck needs {PROGRAM}, which is not installed: "
+    "run workflow/install-debian.sh crosscheck"
+)
+MOST_STEPS = 200_000  # a run that needs more has failed
+UNUSED = ("initial_shear_stress", "tolerance", "shortest_step")
+"""Parameters without meaning for the script."""
+FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
+COLUMNS = (
+    "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
+    "factorisations", "elapsed_time",
+)  # fmt: skip
+
+
+class FreeFemError(RuntimeError):
+    """FreeFem++ is missing, failed, or left a record that can't be read."""
+
+
+def installed() -> bool:
+    """Whether FreeFem++ can be called."""
+    return shutil.which(PROGRAM) is not None
+
+
+def arguments(
+    parameters: Parameters, settings: CrosscheckSettings, extraction: ExtractionSettings
+) -> dict[str, str]:
+    """The script's arguments, by name: those of the simulation and the script's own stepping.
+
+    Raises
+    ------
+    FreeFemError
+        The script can't do what a parameter asks for, see :data:`FIXED`.
+    """
+    groups = parameters.to_dict().values()
+    values = {name: value for group in groups for name, value in group.items()}
+    for name, only in FIXED.items():
+        if values.pop(name) != only:
+            raise FreeFemError(f"the script for FreeFem++ has {name} = {only} only")
+    for name in UNUSED:
+        del values[name]
+    values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
+    values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
+    return {name: repr(value) for name, value in values.items()}
+
+
+def run(
+    script: Path,
+    directory: Path,
+    parameters: Parameters,
+    settings: CrosscheckSettings,
+    extraction: ExtractionSettings = ExtractionSettings(),
+) -> xr.Dataset:
+    """Solve the block with FreeFem++ and return its record.
+
+    Parameters
+    ----------
+    script : the FreeFem++ script.
+    directory : an existing directory for its plain-text records.
+    parameters : the simulation; of its stepping, the end is used.
+    settings : the time steps of the script.
+    extraction : the drop of the force that makes an event.
+
+    Returns
+    -------
+    Dataset with the interface's fields on (time, x) and the driving force on (step), of the
+    layout of :func:`nucleation.simulation.run.simulate`; without fields of the bulk.
+
+    Raises
+    ------
+    FreeFemError
+        FreeFem++ is missing or failed.
+    """
+    if not installed():
+        raise FreeFemError(MISSING)
+    given = arguments(parameters, settings, extraction) | {"directory": str(directory)}
+    command = [PROGRAM, "-nw", "-v", "0", str(script)]
+    command += [f"{name}={value}" for name, value in given.items()]
+    environment = os.environ | {"FF_LOADPATH": os.environ.get("FF_LOADPATH", PLUGINS)}
+    done = subprocess.run(
+        command, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT, text=True, errors="replace", check=False,
+    )  # fmt: skip
+    if done.returncode:
+        raise FreeFemError(f"FreeFem++ failed (code {done.returncode}):\n{done.stdout[-2000:]}")
+    return read(directory, parameters)
+
+
+def read(directory: Path, parameters: Parameters) -> xr.Dataset:
+    """The records of the FreeFem++ script in a directory as a dataset.
+
+    ``steps.txt`` has one line of :data:`COLUMNS` per step. ``frames.txt`` has for each frame a
+    line with its time (s) and then one line for each of :data:`FIELDS` at the nodes 0..n_x.
+
+    Raises
+    ------
+    FreeFemError
+        A record is missing or incomplete.
+    """
+    geometry, nodes = parameters.geometry, parameters.mesh.n_x + 1
+    try:
+        steps = np.loadtxt(directory / "steps.txt", ndmin=2)
+        words = (directory / "frames.txt").read_text(encoding="ascii").split()
+        frames = np.array(words, dtype=float).reshape(-1, 1 + len(FIELDS) * nodes)
+        rows = dict(zip(COLUMNS, steps.T, strict=True))
+    except (OSError, ValueError) as error:
+        raise FreeFemError(f"the records in {directory} can't be read: {error}") from error
+    fields = frames[:, 1:].reshape(-1, len(FIELDS), nodes)
+    data = {name: (("time", "x"), fields[:, i]) for i, name in enumerate(FIELDS)}
+    data |= {name: (("step",), row) for name, row in rows.items()}  # type: ignore[misc]
+    coords = {"time": frames[:, 0], "x": np.linspace(0.0, geometry.length, nodes)}
+    attributes = {
+        "parameters": parameters.to_json(),
+        "steps": steps.shape[0],
+        "processor_seconds": float(rows["elapsed_time"][-1]),
+    }
+    return xr.Dataset(data, coords=coords, attrs=attributes)

@@ -1,0 +1,85 @@
+"""Which runs are made by both solvers, and on which meshes and steps."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from ...model.linearised import InterfaceState
+from ...model.material import Material
+from ...model.parameters import Parameters
+from ...model.quantities import Checked, quantity
+from ...theory.critical import theory_length
+
+FIXED = {"evolution": "aging", "grading": 1.0, "initial_stress": "no_slip"}
+"""Parameters for which the script has this one value."""
+
+TIMING = "timing"  # name of the run that times steps on the paper's mesh
+
+
+@dataclasses.dataclass(frozen=True)
+class CrosscheckSettings(Checked):
+    """The runs made with the independent solver as well, and its time steps."""
+
+    heights: tuple[float, ...] = quantity(
+        "block heights of the runs made with both solvers", unit="m", low=0.0, high=1e6,
+        symbol="H", default=(0.005, 0.05),
+    )  # fmt: skip
+    length_over_critical: float = quantity(
+        "block length over the theory's critical length", low=1.0, high=1000.0, symbol="L/L_c",
+        default=6.0,
+    )  # fmt: skip
+    n_x: int = quantity("number of elements along x of both solvers", low=8, high=100000,
+                        closed="both", symbol="N_x", default=400)  # fmt: skip
+    n_y: int = quantity("number of elements along y of both solvers", low=2, high=10000,
+                        closed="both", symbol="N_y", default=8)  # fmt: skip
+    longest_step: float = quantity(
+        "longest time step of the independent solver over the memory time D/V", low=0.0, high=1.0,
+        closed="high", default=0.04,
+    )  # fmt: skip
+    slip_per_step: float = quantity(
+        "largest slip within a step of the independent solver over D", low=0.0, high=1.0,
+        closed="high", default=0.2,
+    )  # fmt: skip
+    time_after_event: float = quantity(
+        "time simulated by both solvers after the onset of the event", unit="s", low=0.0,
+        high=1e12, closed="low", default=0.05,
+    )  # fmt: skip
+    timing_n_x: int = quantity("number of elements along x of the mesh on which steps are timed",
+                               low=8, high=100000, closed="both", default=400)  # fmt: skip
+    timing_n_y: int = quantity("number of elements along y of the mesh on which steps are timed",
+                               low=2, high=10000, closed="both", default=150)  # fmt: skip
+    timing_end: float = quantity(
+        "simulated time of the run that times steps", unit="s", low=0.0, high=1e12, default=0.1
+    )
+
+
+def runs(
+    base: Parameters, settings: CrosscheckSettings, interface: InterfaceState
+) -> dict[str, Parameters]:
+    """The simulations to make with both solvers, by name.
+
+    Parameters
+    ----------
+    base : material, friction, loading and stepping.
+    settings : heights, meshes and time after the event.
+    interface : of the linear theory, in whose critical length the block's length is measured.
+    """
+    common = FIXED | {"time_after_event": settings.time_after_event}
+    found = {}
+    for height in settings.heights:
+        length = _block_length(height, base.material, interface, settings)
+        mesh = {"n_x": settings.n_x, "n_y": settings.n_y}
+        found[f"H{height:g}"] = base.replaced(common | mesh | {"height": height, "length": length})
+    height = settings.heights[0]
+    timing = {
+        "height": height, "length": _block_length(height, base.material, interface, settings),
+        "n_x": settings.timing_n_x, "n_y": settings.timing_n_y, "end_time": settings.timing_end,
+    }  # fmt: skip
+    return found | {TIMING: base.replaced(common | timing)}
+
+
+def _block_length(
+    height: float, material: Material, interface: InterfaceState, settings: CrosscheckSettings
+) -> float:
+    critical = theory_length(height, material, interface)
+    return float(f"{settings.length_over_critical * critical:.4g}")

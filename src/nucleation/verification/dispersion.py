@@ -1,0 +1,188 @@
+"""The bridge between simulation and theory: growth of one wavenumber on homogeneous sliding.
+
+The time-dependent, nonlinear solver starts from homogeneous sliding on a periodic block
+(:mod:`nucleation.fem.periodic`) with a small perturbation of the state variable at one
+wavenumber. The amplitude that multiplies ``exp(-i k x)`` in log(v) then follows
+``C1 exp(Lambda1 t) + C2 exp(Lambda2 t)``, with both roots of Eq. (5): its samples at equal
+intervals obey a linear recurrence, which gives the roots without any guess.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ..model.linearised import (
+    interface_state,
+)
+from ..model.parameters import Geometry, Mesh, Parameters
+from ..simulation.periodic import PeriodicDynamics
+from ..stepping.ladder import rung_below, rung_value
+from ..theory.critical import critical_wavenumber
+from ..theory.spectrum import growth_rates
+from ..theory.transfer import RIGID, Body
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m
+MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c
+CURVE = np.linspace(0.4, 2.1, 171)  # k / k_c of the theory's curves
+NODES = 65  # per wavelength, odd
+ROWS = (10, 40)  # fewest and most elements along y
+GRADED = 0.25  # blocks higher than this part of the wavelength have a graded mesh,
+GRADING = 4.0  # the deformation being near the interface
+SEED = 1e-6  # of log(phi)
+NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: far below the seed
+STEP = 0.008  # in units of D/V
+DURATION = 3.0  # in units of D/V
+SKIPPED = 30  # steps, until they are equal and the start's elastic waves are gone
+INTERVAL = 10  # steps between samples
+
+
+def one_wavelength(
+    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
+) -> Parameters:
+    """The parameters with a block of one wavelength ``2 pi / k`` and a mesh that resolves it.
+
+    Parameters
+    ----------
+    parameters : material, friction and loading are taken from it.
+    height : H (m).
+    wavenumber : k (1/m).
+    nodes : per wavelength; elements along y are about as high as long, within :data:`ROWS`.
+    """
+    length = 2.0 * math.pi / wavenumber
+    rows = round(min(max(height * nodes / length, ROWS[0]), ROWS[1]))
+    grading = GRADING if height > GRADED * length else 1.0
+    return dataclasses.replace(
+        parameters, geometry=Geometry(height, length), mesh=Mesh(nodes, rows, grading)
+    )
+
+
+def follow_mode(parameters: Parameters, seed: float = SEED) -> tuple[float, ComplexArray]:
+    """Integrate homogeneous sliding with the period's first mode seeded.
+
+    Parameters
+    ----------
+    parameters : of one period (:func:`one_wavelength`).
+    seed : amplitude of the perturbation of log(phi), dimensionless.
+
+    Returns
+    -------
+    interval : float
+        Time between samples (s).
+    amplitude : ndarray
+        Complex amplitude of ``exp(-i k x)`` in log(v), shape (samples,).
+    """
+    dynamics = PeriodicDynamics(parameters)
+    dynamics.interface = dataclasses.replace(dynamics.interface, tolerance=NEWTON_TOLERANCE)
+    n = parameters.mesh.n_x
+    state = dynamics.sliding_state(seed * np.cos(2.0 * np.pi / n * np.arange(n)))
+    rung = rung_below(STEP * parameters.memory_time / 1.5)
+    amplitudes = []
+    while state.time < DURATION * parameters.memory_time:
+        state, report = dynamics.advance(state, rung)
+        log_rate = np.log(report.interface.slip_rate[1:])
+        amplitudes.append(np.conj(np.fft.rfft(log_rate)[1]) * 2.0 / n)
+    # a constant beta makes BDF2 steps of 1.5 beta
+    return 1.5 * rung_value(rung) * INTERVAL, np.array(amplitudes[SKIPPED::INTERVAL])
+
+
+def fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:
+    """The two growth rates (1/s) in equidistant samples of a sum of two exponentials.
+
+    Such samples obey ``A[n+2] = p A[n+1] + q A[n]`` (Prony); p and q follow by least squares
+    and the rates from the roots of ``z^2 = p z + q``. The faster growing rate comes first.
+    """
+    past = np.stack([amplitude[1:-1], amplitude[:-2]], axis=1)
+    (p, q), *_ = np.linalg.lstsq(past, amplitude[2:], rcond=None)
+    rates = np.log(np.roots([1.0, -p, -q])) / interval
+    return rates[np.argsort(-rates.real)]
+
+
+def measured_rates(
+    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
+) -> ComplexArray:
+    """Both growth rates (1/s) of a wavenumber (1/m) as the time integration shows them."""
+    return fitted_rates(*follow_mode(one_wavelength(parameters, height, wavenumber, nodes)))
+
+
+def by_direction(rates: ArrayLike) -> ComplexArray:
+    """Rates ordered along the last axis by falling frequency."""
+    rates = np.asarray(rates, dtype=complex)
+    return np.take_along_axis(rates, np.argsort(-rates.imag, axis=-1), axis=-1)
+
+
+def dispersion_dataset(
+    parameters: Parameters, heights: ArrayLike = HEIGHTS, modes: ArrayLike = MODES
+) -> xr.Dataset:
+    """Growth rates and frequencies of Eq. (5) and of the time integration.
+
+    Parameters
+    ----------
+    parameters : material, friction and loading of the block.
+    heights : block heights (m), shape (height,).
+    modes : wavenumbers over the critical one of each height, shape (mode,).
+
+    Returns
+    -------
+    Dataset with ``measured_growth``, ``measured_frequency``, ``theory_growth`` and
+    ``theory_frequency`` (1/s) on (height, mode, branch), the theory's curves ``curve_growth`` and
+    ``curve_frequency`` on (height, curve, branch), and the wavenumbers ``mode_wavenumber`` and
+    ``curve_wavenumber`` (1/m). The branch of the larger frequency, which travels along +x (the
+    direction of sliding), comes first.
+    """
+    heights = np.asarray(heights, dtype=float)
+    interface = interface_state(parameters)
+    bodies = [Body(parameters.material, float(h), "traction") for h in heights]
+    critical = np.array([critical_wavenumber(b, RIGID, interface).wavenumber for b in bodies])
+    mode_k, curve_k = critical[:, None] * np.asarray(modes, float), critical[:, None] * CURVE
+    measured = by_direction(
+        [[measured_rates(parameters, h, k) for k in ks]
+         for h, ks in zip(heights, mode_k, strict=True)]
+    )  # fmt: skip
+    pairs = list(zip(bodies, mode_k, curve_k, strict=True))
+    theory = by_direction([growth_rates(k, b, RIGID, interface).T for b, k, _ in pairs])
+    curves = by_direction([growth_rates(k, b, RIGID, interface).T for b, _, k in pairs])
+    at_modes, along = ("height", "mode", "branch"), ("height", "curve", "branch")
+    return xr.Dataset(
+        {
+            "mode_wavenumber": (("height", "mode"), mode_k),
+            "measured_growth": (at_modes, measured.real),
+            "measured_frequency": (at_modes, measured.imag),
+            "theory_growth": (at_modes, theory.real),
+            "theory_frequency": (at_modes, theory.imag),
+            "curve_wavenumber": (("height", "curve"), curve_k),
+            "curve_growth": (along, curves.real),
+            "curve_frequency": (along, curves.imag),
+            "critical_wavenumber": ("height", critical),
+            "memory_time": parameters.memory_time,
+        },
+        {"height": heights},
+    )
+
+
+def disagreement(dataset: xr.Dataset) -> xr.DataArray:
+    """``|Lambda - Lambda_theory| / |Lambda_theory|`` on (height, mode, branch)."""
+    growth = dataset["measured_growth"] - dataset["theory_growth"]
+    frequency = dataset["measured_frequency"] - dataset["theory_frequency"]
+    return np.hypot(growth, frequency) / np.hypot(  # type: ignore[return-value]
+        dataset["theory_growth"], dataset["theory_frequency"]
+    )
+
+
+def to_csv(dataset: xr.Dataset) -> str:
+    """Measured and theoretical rates of every mode as comma-separated text."""
+    rates = [
+        f"{kind}_{part}" for kind in ("measured", "theory") for part in ("growth", "frequency")
+    ]
+    ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
+    columns = dataset[["mode_wavenumber", *rates]].assign(wavenumber_over_critical=ratio)
+    table = columns.assign(disagreement=disagreement(dataset)).to_dataframe().reset_index()
+    order = ["height", "wavenumber_over_critical", "branch", "mode_wavenumber", *rates]
+    return table[[*order, "disagreement"]].to_csv(index=False, float_format="%.8g")

@@ -1,0 +1,212 @@
+"""The solver's own steps under the loads of a manufactured solution.
+
+Two kinds of interface: displacement prescribed (elastodynamics alone), or the solver's frictional
+one. There the slip rate follows from the displacement, the state variable is chosen freely, and
+two loads make both of them a solution:
+
+- the state equation has a source, ``dpsi/dt = g(omega)/phi + S``, ``S = psi_t - g(omega)/phi``;
+- an applied traction carries the difference between friction and shear stress,
+  ``-sigma_xy - f(v, phi) sigma_yy`` on the body. It cannot be avoided: at the driven edge's foot
+  the shear stress of any smooth field vanishes, friction does not.
+
+The solver needs no hooks: a load and the interface's equations are all that is replaced.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from ...fem.block import Field
+from ...fem.operator import BlockOperator, LinearResponse
+from ...model.friction.law import Friction
+from ...model.parameters import Parameters
+from ...simulation.interface import Interface, InterfaceSolution
+from ...simulation.state import State
+from ...simulation.step import Dynamics, StepReport
+from ...stepping.bdf import Formula
+from ...stepping.ladder import rung_value
+from .fields import Displacement, Term
+from .loads import Loads
+
+Array = NDArray[np.float64]
+
+NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
+
+
+@dataclasses.dataclass(frozen=True)
+class GivenDisplacement:
+    """In place of the frictional interface: its displacement ``w`` (m) is prescribed."""
+
+    friction: Friction
+    w: Array
+
+    def solve(
+        self, operator: BlockOperator, response: LinearResponse, w_history: Array,
+        log_state_history: Array, beta: float, guess: Array,
+    ) -> InterfaceSolution:  # fmt: skip
+        """The forces that hold the interface there; arguments of :meth:`Interface.solve`."""
+        dp, dnormal, dedge = operator.apply(self.w - response.w)
+        v = np.append(guess[:1], (self.w - w_history) / beta)
+        return InterfaceSolution(
+            v, np.zeros_like(v), np.append(0.0, response.tangential + dp),
+            response.normal + dnormal, self.w, response.edge + dedge, 0,
+        )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class SourcedInterface(Interface):
+    """The frictional interface with a source (1/s) in ``dpsi/dt``, given at the new time."""
+
+    source: Array = dataclasses.field(default_factory=lambda: np.zeros(1))
+
+    def solve(
+        self, operator: BlockOperator, response: LinearResponse, w_history: Array,
+        log_state_history: Array, beta: float, guess: Array,
+    ) -> InterfaceSolution:  # fmt: skip
+        """Solve with the source, which the implicit step counts like the rest of dpsi/dt."""
+        history = log_state_history + beta * self.source
+        return super().solve(operator, response, w_history, history, beta, guess)
+
+
+class ManufacturedDynamics(Dynamics):
+    """The solver's own step under the loads of a displacement, with its interface prescribed."""
+
+    def __init__(self, parameters: Parameters, exact: Displacement) -> None:
+        super().__init__(parameters)
+        self.exact, self.loads = exact, Loads(self.grid, exact)
+
+    def prescribe(self, time: float) -> None:
+        """Set the load and the interface of the step that ends at `time` (s)."""
+        self._load = self.loads.field(self.loads.nodal(time))
+        self.interface = GivenDisplacement(self.interface.friction, self.exact_w(time))  # type: ignore[assignment]
+
+    def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
+        """One step of the solver, its loads being those at the new time."""
+        self.prescribe(state.time + Formula.bdf2(rung_value(rung), state.last_step).step)
+        return super().advance(state, rung)
+
+    def run(self, *rungs: int) -> tuple[State, StepReport]:
+        """Integrate from the exact start, a step per rung; return the last state and report."""
+        state = self.exact_state(1.5 * rung_value(rungs[0]))
+        for rung in rungs:
+            state, report = self.advance(state, rung)
+        return state, report
+
+    # -- exact values ---------------------------------------------------------------------------
+
+    def nodal_exact(self, time: float, **orders: int) -> Array:
+        """Exact w_x and u_y (m) at the nodes, or a derivative, (2, n_y + 1, n_x + 1)."""
+        x, y = self.grid.x[None], self.grid.y[:, None]
+        return np.array([self.exact.value(c, x, y, time, **orders) for c in (0, 1)])
+
+    def exact_w(self, time: float) -> Array:
+        """Exact w_x (m) at the interface's nodes 1..n_x."""
+        return self.exact.value(0, self.grid.x[1:], np.zeros(self.grid.n_x), time)
+
+    def exact_slip_rate(self, x: Array, time: float, by_t: int = 0) -> Array:
+        """Exact slip rate (m/s) at x (m), or its derivative in time."""
+        own = self.exact.value(0, x, np.zeros_like(x), time, by_t=1 + by_t)
+        return own if by_t else self.velocity + own
+
+    def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
+        """Exact psi = log(phi) at x (m), or its derivative in time: without friction, none."""
+        return np.zeros_like(x)
+
+    def as_field(self, values: Array) -> Field:
+        """Nodal values (2, n_y + 1, n_x + 1) as a field of the solver."""
+        modes = np.empty((self.grid.n_y + 1, 2, self.grid.n_x))
+        modes[:, 0] = self.body.sine_amplitudes(values[0, :, 1:])
+        modes[:, 1] = fft.dct(values[1, :, :-1], type=3) / self.grid.n_x
+        return Field(modes, values[1, :, -1].copy())
+
+    def exact_state(self, step: float) -> State:
+        """The state at t = 0 with exact values at 0, -step and -2 step (s)."""
+        times = np.array([0.0, -step, -2 * step])
+        rates = [self.exact_slip_rate(self.grid.x, t) for t in times]
+        fields = [
+            self.as_field(self.nodal_exact(t, by_t=order)) for t in times[:2] for order in (0, 1)
+        ]
+        states = [self.exact_log_state(self.grid.x, t) for t in times]
+        w = [self.exact_w(t) for t in times]
+        momenta = [self.body.momentum_x(fields[i]) for i in (1, 3)]
+        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta, np.inf)  # type: ignore[arg-type, call-arg]
+
+    # -- errors ---------------------------------------------------------------------------------
+
+    def displacement_error(self, state: State) -> float:
+        """Root mean square over the area of the nodal error (m)."""
+        error = np.array(self.body.nodal_values(state.displacement)) - self.nodal_exact(state.time)
+        area = np.outer(self.loads.along_y.sum(axis=1), self.loads.along_x.sum(axis=1))
+        return float(np.sqrt((error**2).sum(axis=0).ravel() @ area.ravel() / area.sum()))
+
+    def slip_rate_error(self, state: State) -> float:
+        """Root mean square over the interface of the nodal error (m/s)."""
+        exact = self.exact_slip_rate(self.grid.x, state.time)
+        return self._interface_mean(state.past_slip_rates[0] - exact)
+
+    def log_state_error(self, state: State) -> float:
+        """Root mean square over the interface of the nodal error of psi."""
+        exact = self.exact_log_state(self.grid.x, state.time)
+        return self._interface_mean(state.past_log_states[0] - exact)
+
+    def _interface_mean(self, error: Array) -> float:
+        return float(np.sqrt(error**2 @ self.grid.nodal_lengths / self.grid.length))
+
+
+class ManufacturedFriction(ManufacturedDynamics):
+    """The same with rate-and-state friction and a chosen state variable.
+
+    Parameters
+    ----------
+    parameters, exact : of the block, and its displacement, with a compressive sigma_yy at y = 0.
+    log_state : psi = log(phi) as a sum of terms, in which y = 0.
+    lumped : whether the applied traction counts friction node by node as the solver does. Then
+        the nodal values of fields bilinear in space solve the solver's equations exactly. If not,
+        friction is integrated along x, and the solver's lumping shows as an error of order h^2.
+    """
+
+    def __init__(
+        self, parameters: Parameters, exact: Displacement, log_state: tuple[Term, ...],
+        lumped: bool,
+    ) -> None:  # fmt: skip
+        super().__init__(parameters, exact)
+        self.log_state, self.lumped = log_state, lumped
+
+    def prescribe(self, time: float) -> None:
+        """Set load, applied traction and source of the step that ends at `time` (s)."""
+        forces = self.loads.nodal(time)
+        forces[0, 0] += self.applied_force(time)
+        self._load = self.loads.field(forces)
+        self.interface = SourcedInterface(
+            self.interface.friction, self.velocity, NEWTON_TOLERANCE, source=self.source(time)
+        )
+
+    def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
+        """Exact psi = log(phi) at x (m), or its derivative in time (1/s)."""
+        return sum(term(x, np.zeros_like(x), time, by_t=by_t) for term in self.log_state)  # type: ignore[return-value]
+
+    def friction_coefficient(self, x: Array, time: float) -> Array:
+        """f(v, phi) of the exact slip rate and state at x (m)."""
+        state = np.exp(self.exact_log_state(x, time))
+        return self.interface.friction.coefficient(self.exact_slip_rate(x, time), state)
+
+    def applied_force(self, time: float) -> Array:
+        """Nodal force (N/m) of the applied traction along x, at the nodes 0..n_x."""
+        loads = self.loads
+        shear, normal = loads.interface_stress(time)
+        if self.lumped:
+            friction = self.friction_coefficient(self.grid.x, time) * (loads.along_x @ normal)
+        else:
+            friction = loads.along_x @ (self.friction_coefficient(loads.x, time) * normal)
+        return -loads.along_x @ shear - friction
+
+    def source(self, time: float) -> Array:
+        """Source (1/s) of the state equation in psi, at the nodes 0..n_x."""
+        x = self.grid.x
+        state = np.exp(self.exact_log_state(x, time))
+        own = self.interface.friction.state_rate(self.exact_slip_rate(x, time), state) / state
+        return self.exact_log_state(x, time, by_t=1) - own

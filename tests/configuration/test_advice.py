@@ -1,0 +1,100 @@
+"""Warnings about allowed values that will hardly give what is wanted."""
+
+import math
+
+import pytest
+from configurations import CONFIG, study
+
+from nucleation.configuration.advice import advise, element_sizes
+from nucleation.configuration.load import configure, load
+from nucleation.fem.grid import Grid
+from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.theory.estimates import growth_time, process_zone
+
+GOOD = {"height": 0.005, "n_x": 400}
+
+
+def advice(*runs, **settings):
+    return advise(configure(study(*runs, **settings)).runs)
+
+
+def test_the_papers_configuration_needs_no_warning():
+    assert advise(load(CONFIG / "config.yaml").runs) == []
+
+
+def test_process_zone_of_the_paper():
+    """By hand, from the constants f, a, zeta of science: b = 0.00682 + 0.0156, nu = 1/3."""
+    thick = 3.1e9 * 5e-7 / (2.0 / 3.0 * (0.00682 + 0.0156) * 1e6)
+    tall = Parameters(geometry=Geometry(height=10.0))
+    assert process_zone(tall) == pytest.approx(thick, rel=2e-3)
+    thin = Parameters(geometry=Geometry(height=0.005))
+    assert process_zone(thin) == pytest.approx(math.sqrt(2 * 0.005 * thick), rel=2e-3)
+
+
+def test_growth_time_by_force_balance():
+    """The edge's displacement that lets a thin bar slip over a length against f sigma0."""
+    parameters = Parameters(geometry=Geometry(height=1e-6))
+    modulus = 2.0 * 3.1e9 / (1.0 - 1.0 / 3.0)
+    displacement = 0.4143 * 1e6 * 0.2**2 / (2.0 * modulus * 1e-6)
+    assert growth_time(parameters, 0.2) == pytest.approx(displacement / 1e-5, rel=1e-3)
+
+
+@pytest.mark.parametrize("mesh", [Mesh(60, 10), Mesh(100, 2, 5.0), Mesh(80, 20, 20.0)])
+def test_element_sizes_are_the_grids(mesh):
+    parameters = Parameters(geometry=Geometry(0.02, 2.0), mesh=mesh)
+    grid = Grid(2.0, 0.02, mesh.n_x, mesh.n_y, mesh.grading)
+    x, y = grid.x, grid.y
+    assert element_sizes(parameters) == pytest.approx((x[1] - x[0], y[1] - y[0]), rel=1e-9)
+
+
+WARNED = {
+    "along x": (
+        GOOD | {"n_x": 100},
+        "mesh too coarse along x (s-aging-H0.005-phi1-n_x100): n_x = 100 makes elements of 0.0141 m"
+        ", 2.3 to a process zone of 0.0322 m; recommended is n_x = 132 or more, and about 1533",
+    ),
+    "along y": (
+        {"height": 1.0, "n_x": 400, "n_y": 10},
+        "mesh too coarse along y (s-aging-H1-phi1-n_x400-n_y10): n_y = 10 and grading = 1 make "
+        "elements of 0.1 m at the interface, 1 to a process zone of 0.104 m; recommended are "
+        "0.0346 m or less",
+    ),
+    "steps": (
+        GOOD | {"longest_step": 0.8},
+        "time steps too long (s-aging-H0.005-phi1-n_x400-longest_step0.8)",
+    ),
+    "span": (
+        GOOD | {"end_time": 5.0},
+        "simulated time too short (s-aging-H0.005-phi1-n_x400-end_time5): end_time = 5 s, but the "
+        "patch needs about 8.59 s to become unstable",
+    ),
+    "block": (GOOD | {"length": 0.4}, "block short (s-aging-H0.005-phi1-length0.4-n_x400)"),
+    "strengthening": (
+        GOOD | {"aging_coefficient": 0.0},
+        "nothing will nucleate (s-aging-H0.005-phi1-aging_coefficient0-n_x400): zeta = -0.0049",
+    ),
+    "start": (
+        GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
+        "start above the strength (",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("run", "text"), WARNED.values(), ids=WARNED.keys())
+def test_warning_names_study_run_and_numbers(run, text):
+    (warning,) = advice(run, interface="main_text")
+    assert warning.startswith("studies.s: ")
+    assert text in warning
+
+
+def test_recommended_mesh_ends_the_warning():
+    run = GOOD | {"n_x": 100}
+    (warning,) = advice(run)
+    need = int(warning.split("recommended is n_x = ")[1].split()[0])
+    assert advice(run | {"n_x": need}) == []
+    assert advice(run | {"n_x": need - 1}) != []
+
+
+def test_one_warning_for_a_study_with_its_worst_run():
+    (warning,) = advice({"height": 0.005, "n_x": [60, 40, 50, 400]})
+    assert "(3 runs, the worst s-aging-H0.005-phi1-n_x40)" in warning

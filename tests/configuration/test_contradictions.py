@@ -1,0 +1,192 @@
+"""Bad input that has the right types: contradictions, sizes, names, places, and odd YAML."""
+
+import math
+import os
+
+import pytest
+from configurations import changed, messages, study, with_run
+
+from nucleation.configuration.contradictions import directory_problem
+from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.model.quantities import ParameterError
+
+RUN = "studies.s.runs[0]"
+TALL = {"height": 0.1}
+
+BAD = {
+    # beyond what a number can be, or a list
+    "integer beyond any float": (
+        changed("material.density", 10**400), ["density = 1000", "[0, 1e+06) kg/m^3"],
+    ),
+    "integer beyond any mesh": (study({**TALL, "n_x": 10**400}), ["integer in [8, 100000]"]),
+    "nan in a list": (
+        study({**TALL, "density": [1.0, math.nan]}), [f"{RUN}.density[1] = nan kg/m^3"],
+    ),
+    "nothing in a list": (
+        study({**TALL, "density": [1.0, None]}), [f"{RUN}.density[1] = None kg/m^3"],
+    ),
+    "list in a list": (
+        study({**TALL, "velocity": [[1e-5]]}), [f"{RUN}.velocity[0] = [1e-05] m/s", "(0, 1) m/s"],
+    ),
+    "unit in the value": (
+        changed("loading.normal_stress", "5 MPa"), ["normal_stress = '5 MPa' Pa", "(0, 1e+10) Pa"],
+    ),
+    "decimal comma": (changed("loading.velocity", "1,5e-5"), ["velocity = '1,5e-5' m/s"]),
+    "range of integers": (
+        study({**TALL, "n_x": {"start": 100, "stop": 200, "num": 3}}), [f"{RUN}.n_x", "integer"],
+    ),
+    "range that stands still": (
+        changed("curves.heights", {"start": 0.1, "stop": 0.1 + 1e-9, "num": 50}),
+        ["curves.heights: its 50 values from 0.1 on are not all different"],
+    ),
+    "equal to six digits in a range": (
+        study({"height": {"start": 0.1, "stop": 0.1000003, "num": 9}}),
+        [f"{RUN}.height: its 9 values from 0.1 on are not all different"],
+    ),
+    "numbers equal in identifiers": (
+        study({"height": [0.3, 0.1 + 0.2]}), ["gives the simulation s-aging-H0.3-phi1 again"],
+    ),
+    "defaults with a list": (
+        study(TALL, defaults={"n_x": [100, 200]}), ["studies.s.defaults.n_x = [100, 200]"],
+    ),
+    "defaults are nothing": (study(TALL, defaults=None), ["studies.s.defaults = None must be"]),
+    "a run is nothing": (study(None), [f"{RUN} = None must be a mapping"]),
+    "a study is nothing": ({"studies": {"s": None}}, ["studies.s = None must be a mapping"]),
+    "studies are nothing": ({"studies": None}, ["studies = None must be a mapping"]),
+    "description is nothing": (study(TALL, description=None), ["description = None"]),
+    # names and places
+    "truth as a name": ({"studies": {True: {"runs": [TALL]}}}, ["studies: True", "as a name"]),
+    "number as a name": ({"studies": {2017: {"runs": [TALL]}}}, ["studies: 2017", "as a name"]),
+    "endless name": ({"studies": {"s" * 61: {"runs": [TALL]}}}, ["at most 60", "as a name"]),
+    "endless identifier": (
+        study(
+            TALL | {"characteristic_slip_distance": 5e-7, "regularisation_slip_rate": 1e-9,
+                    "initial_stress": "uniform_shear", "initial_shear_stress": 1.0,
+                    "rate_coefficient": 0.005, "aging_coefficient": 0.075, "slip_rate_scale": 1e-7,
+                    "time_after_event": 0.0}
+        ),
+        [f"{RUN}: s-aging-H0.1", "characters, more than 200"],
+    ),
+    "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "without braces"]),
+    "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
+    "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
+    "blank": (changed("results", " "), ["results = ' '", "spaces at its ends"]),
+    "home": (changed("results", "~/out"), ["results = '~/out'", "write the home directory out"]),
+    # contradictions
+    "low edge above the edge": (
+        changed("extraction.edge_threshold_low", 0.1),
+        ["edge_threshold_low = 0.1, edge_threshold = 0.01", "must ascend, each in (0, 1]"],
+    ),
+    "high edge below the edge": (
+        changed("extraction.edge_threshold_high", 0.001), ["edge_threshold_high = 0.001"],
+    ),
+    "shortest step above the longest": (
+        study(TALL, defaults={"shortest_step": 0.5}),
+        [f"{RUN}: shortest_step = 0.5 s", "than the first step, 1e-07 s", "D/V = 0.005 s"],
+    ),
+    "stress without the start that has it": (
+        study({**TALL, "initial_shear_stress": 5e4}),
+        [f"{RUN}: initial_shear_stress = 50000 Pa", "no_slip", "must be 0 Pa"],
+    ),
+    "block shorter than its nucleation length": (
+        study({**TALL, "length": 0.5}),
+        [f"{RUN}: length = 0.5 m", "critical nucleation length of the theory, 0.81 m"],
+    ),
+    "block longer than any": (
+        study({**TALL, "shear_modulus": 9e12, "characteristic_slip_distance": 900.0}),
+        [f"{RUN}: Geometry.length = ", "(0, 1e+07) m"],
+    ),
+    "a theory without instability": (
+        {"main_text_interface": {"zeta": -0.005}, **study(TALL)},
+        ["main_text_interface: zeta = -0.005 with a = 0.0068", "stable at every wavenumber"],
+    ),
+    "crosscheck beyond the memory": (
+        changed("crosscheck.n_x", 100000),
+        ["crosscheck: n_x = 100000, n_y = 8", "MB, more than limits.memory = 2000 MB"],
+    ),
+    "crosscheck beyond any length": (
+        {"crosscheck": {"heights": 1e5, "length_over_critical": 999.0},
+         "main_text_interface": {"slip_length": 1.0}, **study(TALL)},
+        ["crosscheck: Geometry.length = ", "(0, 1e+07) m"],
+    ),
+    "constants without a law": (
+        study({**TALL, "zeta_over_a": 900.0}), [f"{RUN}: no friction law has f = 0.41", "[0, 1)"],
+    ),
+    "constants that need a negative friction": (
+        study({**TALL, "direct_effect": 0.2, "friction_coefficient": 0.3}),
+        [f"{RUN}: no friction law has f = 0.3, a = 0.2"],
+    ),
+    "a constant and what it sets": (
+        study({**TALL, "zeta_over_a": 2.0, "aging_coefficient": 0.1}),
+        [f"{RUN}: aging_coefficient is not allowed together with zeta_over_a, which sets it"],
+    ),
+    "constant as text": (
+        with_run(height=0.1, zeta_over_a="2e0"), ["zeta_over_a = '2e0'", "write 2.0e+0"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("config", "fragments"), BAD.values(), ids=BAD.keys())
+def test_bad_configuration_is_named(config, fragments):
+    text = messages(config)
+    for fragment in fragments:
+        assert fragment in text
+    assert text.startswith("the configuration has one problem:\n")
+
+
+YAML = {
+    "a list as a key": (b"? [a, b]\n: 1\n", "line 1: a key must be a word"),
+    "octal": (b"n_x: 0400\n", "line 1: YAML takes 0400 for 256"),
+    "sexagesimal": (b"a: 1\nend_time: 1:30\n", "line 2: YAML takes 1:30 for 90"),
+    "sexagesimal with a fraction": (b"end_time: 1:30.5\n", "YAML takes 1:30.5 for 90.5"),
+    "no such date": (b"a: 2001-99-99\n", "is not valid YAML"),
+    "integer without end": (b"a: " + b"9" * 5000, "is not valid YAML"),
+    "not the integer it says": (b"a: !!int abc\n", "is not valid YAML"),
+    "unknown alias": (b"a: *b\n", "undefined alias"),
+    "two documents": (b"a: 1\n---\nb: 2\n", "expected a single document"),
+    "tabs": (b"a:\n\tb: 1\n", "is not valid YAML"),
+    "binary": (b"\x00\x01\xff\xfe", "is not valid YAML"),
+    "latin 1": (b"a: caf\xe9\n", "is not valid YAML"),
+    "a zero byte": (b"a: \0\n", "is not valid YAML"),
+    "endless nesting": (b"[" * 5000, "is not valid YAML"),
+}
+
+
+@pytest.mark.parametrize(("content", "fragment"), YAML.values(), ids=YAML.keys())
+def test_bad_file_is_named(tmp_path, content, fragment):
+    path = tmp_path / "config.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ParameterError, match=r"config\.yaml") as caught:
+        read_yaml(path)
+    assert fragment in str(caught.value)
+
+
+def test_directory_in_place_of_a_file_is_named(tmp_path):
+    with pytest.raises(ParameterError, match="can't be read: Is a directory"):
+        read_yaml(tmp_path)
+
+
+def test_ordinary_numbers_are_read(tmp_path):
+    path = tmp_path / "config.yaml"
+    path.write_text("[0, 10, -7, 1_000, 0x10, 0.05, 1.0e-8, .5, 00.5]")
+    assert read_yaml(path) == [0, 10, -7, 1000, 16, 0.05, 1e-8, 0.5, 0.5]
+
+
+def test_results_need_a_directory(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("kept")
+    (tmp_path / "nowhere").symlink_to("missing")
+    assert directory_problem("new/below") is None
+    assert directory_problem(str(tmp_path)) is None
+    for name in ("file", "file/below", "nowhere", "nowhere/below"):
+        text = directory_problem(name)
+        assert f"results = '{name}' is not allowed" in text
+        assert "is no directory" in text
+    assert (tmp_path / "file").read_text() == "kept"
+
+
+def test_results_need_a_writable_directory(tmp_path, monkeypatch):
+    """The privileged may write anywhere: whether one may is what the system says."""
+    monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)
+    assert "is not writable" in directory_problem(tmp_path / "new")
+    assert directory_problem(tmp_path / "new", write=False) is None

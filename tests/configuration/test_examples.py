@@ -1,0 +1,47 @@
+"""The example configurations: valid, planned without warnings, their smallest runs nucleate."""
+
+import dataclasses
+import math
+
+import pytest
+from configurations import CONFIG
+
+from nucleation.analysis.extraction import extract
+from nucleation.configuration.advice import advise
+from nucleation.configuration.load import load
+from nucleation.model.parameters import Mesh
+from nucleation.simulation.run import simulate
+
+EXAMPLES = sorted((CONFIG / "examples").glob("*.yaml"))
+NAMES = [path.stem for path in EXAMPLES]
+
+
+def test_examples_are_there():
+    assert {"crustal_fault", "granite_laboratory", "length_map"} <= set(NAMES)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=NAMES)
+def test_example_is_valid_and_needs_no_warning(path):
+    config = load(path)
+    assert config.results == f"results/{path.stem}"
+    assert advise(config.runs) == []
+    assert f"config/examples/{path.name}" in path.read_text(), "how to run it"
+
+
+def test_map_is_a_hundred_runs():
+    config = load(CONFIG / "examples" / "length_map.yaml")
+    assert len(config.runs) == 100
+    for run in config.runs:
+        friction = run.parameters.friction.expansion(run.parameters.loading.velocity)
+        assert friction.zeta / friction.a == pytest.approx(run.given["zeta_over_a"], rel=1e-9)
+        assert (friction.f0, friction.a) == pytest.approx((0.41, 0.0068), rel=1e-9)
+
+
+def test_shortest_run_of_the_map_nucleates():
+    """The run with the fewest steps, on a still coarser mesh than the example's."""
+    config = load(CONFIG / "examples" / "length_map.yaml")
+    run = min(config.runs, key=lambda run: run.theory_length**2 / run.parameters.geometry.height)
+    parameters = dataclasses.replace(run.parameters, mesh=Mesh(60, 4, 4.0))
+    found = extract(simulate(parameters), config.extraction)
+    assert math.isfinite(found["onset_time"])
+    assert 0.4 < found["length"] / run.theory_length < 1.3

@@ -1,0 +1,183 @@
+"""Datasets on disk: complete metadata, whole or not at all, damage noticed; where they are from."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.analysis import lengths
+from nucleation.datasets import netcdf, provenance
+from nucleation.datasets.variables import VARIABLES, DatasetError
+
+
+@pytest.fixture
+def record() -> xr.Dataset:
+    rate = np.random.default_rng(1).random((40, 30))
+    return xr.Dataset(
+        {"slip_rate": (("time", "x"), rate), "id": ("run", ["a", "b"]), "velocity": 1e-5},
+        {"time": np.arange(40.0), "x": np.linspace(0.0, 1.0, 30)},
+    )
+
+
+TEXTS = ("id", "study", "law", "status", "problem", "refinement", "varied", "variation")
+
+
+def test_every_variable_of_the_table_is_described():
+    for name, entry in VARIABLES.items():
+        assert entry.long_name, name
+        assert entry.units or name in TEXTS, name
+
+
+def test_written_dataset_is_read_again_with_metadata(record, tmp_path):
+    path = tmp_path / "deep" / "record.nc"
+    netcdf.write(record, path, parameters="{}", code_digest="1")
+    again = netcdf.read(path, requires=["slip_rate", "x"])
+    xr.testing.assert_equal(again, record)
+    assert again.attrs.pop("content")
+    assert again.attrs == {"parameters": "{}", "code_digest": "1"}
+    assert again["slip_rate"].attrs["units"] == "m/s"
+    assert again["time"].attrs == {"units": "s", "long_name": "time", "symbol": "t"}
+    assert [file.name for file in path.parent.iterdir()] == ["record.nc"]
+    assert record["slip_rate"].attrs == {}, "the original is left alone"
+
+
+def test_unknown_variable_is_refused(record, tmp_path):
+    with pytest.raises(DatasetError, match="slip_ratio"):
+        netcdf.write(record.rename(slip_rate="slip_ratio"), tmp_path / "record.nc")
+    assert not list(tmp_path.iterdir())
+
+
+def test_failed_write_leaves_the_old_file(record, tmp_path, monkeypatch):
+    path = tmp_path / "record.nc"
+    netcdf.write(record, path)
+    old = path.read_bytes()
+
+    def half(self, target, **_):
+        target.write_bytes(b"half a file")
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", half)
+    with pytest.raises(OSError, match="no space"):
+        netcdf.write(record, path)
+    assert path.read_bytes() == old
+    assert [file.name for file in tmp_path.iterdir()] == ["record.nc"]
+
+
+def test_text_is_replaced_whole(tmp_path):
+    path = tmp_path / "table.csv"
+    netcdf.write_text("a\n", path)
+    netcdf.write_text("φ\n", path)
+    assert path.read_text("utf-8") == "φ\n"
+    assert [file.name for file in tmp_path.iterdir()] == ["table.csv"]
+
+
+def test_damage_is_noticed(record, tmp_path):
+    """Any flipped bit is either noticed or does not change what is read."""
+    good, bad = tmp_path / "good.nc", tmp_path / "bad.nc"
+    netcdf.write(record, good)
+    content, random = good.read_bytes(), np.random.default_rng(2)
+    noticed = 0
+    for place in random.integers(len(content), size=60):
+        flipped = bytearray(content)
+        flipped[place] ^= 1 << int(random.integers(8))
+        bad.write_bytes(flipped)
+        try:
+            read = netcdf.read(bad)
+        except DatasetError:
+            noticed += 1
+        else:
+            np.testing.assert_array_equal(read["slip_rate"], record["slip_rate"])
+    assert noticed > 5
+
+
+@pytest.mark.parametrize("part", [0.0, 0.01, 0.5, 0.99])
+def test_truncated_file_is_refused(record, tmp_path, part):
+    path = tmp_path / "record.nc"
+    netcdf.write(record, path)
+    path.write_bytes(path.read_bytes()[: int(part * path.stat().st_size)])
+    with pytest.raises(DatasetError, match=r"record\.nc is damaged or not a netCDF file"):
+        netcdf.read(path)
+
+
+def test_foreign_missing_and_incomplete_files_are_refused(record, tmp_path):
+    path = tmp_path / "record.nc"
+    with pytest.raises(DatasetError, match="does not exist"):
+        netcdf.read(path)
+    record.to_netcdf(path)
+    with pytest.raises(DatasetError, match="not of this project"):
+        netcdf.read(path)
+    netcdf.write(record, path)
+    with pytest.raises(DatasetError, match=r"lacks the variables \['state'\]"):
+        netcdf.read(path, requires=["state", "slip_rate"])
+
+
+def test_digest_ignores_words_and_sees_code():
+    code = "x = 1\n\n\ndef f(a):\n    return a + x\n"
+    words = '"""Module."""\n# remark\nx = 1\ndef f(a):\n    """Doc."""\n    return (a + x)  # sum\n'
+    assert provenance.normalised(words) == provenance.normalised(code)
+    assert provenance.normalised(code.replace("+", "-")) != provenance.normalised(code)
+    assert provenance.normalised('def f():\n    """Doc."""\n') == "def f():\n    pass"
+
+
+def test_closure_of_the_simulation():
+    """It holds the physics, and nothing whose change could not change a result."""
+    modules = provenance.closure("nucleation.simulation.run")
+    assert {
+        f"nucleation.{name}" for name in ("friction", "elasticity", "fem", "fem.body")
+    } <= modules
+    others = (
+        "datasets",
+        "provenance",
+        "configuration",
+        "studies",
+        "theory",
+        "extraction",
+        "figures",
+    )
+    assert not modules & {f"nucleation.{name}" for name in others}
+
+
+def test_digest_depends_on_modules_and_libraries():
+    one = provenance.digest("nucleation.model.material")
+    assert one == provenance.digest("nucleation.model.material")
+    assert len({one, provenance.digest("nucleation.model.friction.law")}) == 2
+    assert one != provenance.digest("nucleation.model.material", libraries=("numpy",))
+
+
+def test_attributes_are_text(monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
+    attributes = provenance.attributes({"b": 1e-9, "a": [1]}, "digest", "make it")
+    assert attributes["created"] == "1970-01-01T00:00:00+00:00"
+    assert attributes["parameters"] == '{"a": [1], "b": 1e-09}'
+    assert json.loads(attributes["versions"])["numpy"] == np.__version__
+
+
+def test_joined_tables_keep_their_longest_text(tmp_path):
+    """The text length of the file that was read first must not cut the others."""
+    for name in ("short", "a longer one"):
+        netcdf.write(xr.Dataset({"id": ("run", [name])}), tmp_path / f"{len(name)}.nc")
+    tables = [netcdf.read(path) for path in sorted(tmp_path.iterdir(), reverse=True)]
+    netcdf.write(lengths.join(tables), tmp_path / "all.nc")
+    joined = netcdf.read(tmp_path / "all.nc")
+    assert list(joined["id"].values) == ["short", "a longer one"]
+
+
+def test_no_flipped_bit_goes_unnoticed(tmp_path):
+    """Anywhere in the file, attributes and scalars included: refused, or without effect."""
+    small = xr.Dataset({"slip_rate": ("x", np.arange(40.0)), "velocity": 1e-5}, {"x": np.ones(40)})
+    path = tmp_path / "record.nc"
+    netcdf.write(small, path, parameters="{}")
+    whole, original = path.read_bytes(), netcdf.read(path)
+    refused = 0
+    for place in range(0, len(whole), 37):
+        flipped = bytearray(whole)
+        flipped[place] ^= 1 << (place % 8)
+        path.write_bytes(flipped)
+        try:
+            again = netcdf.read(path)
+        except DatasetError:
+            refused += 1
+        else:
+            xr.testing.assert_identical(again, original)
+    assert refused > 10

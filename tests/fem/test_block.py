@@ -1,0 +1,164 @@
+"""The separable solver against the assembled matrix, and exact solutions."""
+
+import numpy as np
+import pytest
+from fem.assembled_problem import AssembledBlock
+
+from nucleation.fem.block import Block, Field
+from nucleation.fem.grid import Grid
+from nucleation.fem.operator import BlockOperator
+from nucleation.model.material import Material
+
+MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
+GRIDS = [Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.3, 9, 6, grading=4.0), Grid(0.7, 0.1, 15, 2)]
+STATIC, SLOW, FAST = 0.0, 1e6, 1e13  # s in 1/s^2: statics, elasticity and inertia alike, inertia
+
+
+@pytest.fixture(params=GRIDS, ids=["uniform", "graded", "thin"])
+def grid(request):
+    return request.param
+
+
+def random_load(body, rng):
+    load = body.zero_field()
+    load.modes[:] = rng.normal(size=load.modes.shape)
+    load.edge[:] = rng.normal(size=load.edge.shape)
+    return load
+
+
+def assembled_load(block, body, load):
+    """The nodal forces whose generalised forces per mode are those of `load`."""
+    forces = np.zeros(block.stiffness.shape[0])
+    tangential, normal = body.interface_forces(load.modes.transpose(1, 0, 2))
+    forces[block.x[:, 1:]], forces[block.y[:, :-1]] = tangential, normal
+    forces[block.y[:, -1]] = load.edge
+    return forces
+
+
+def balanced(operator, load, w):
+    """Field, tangential and normal nodal forces with the right edge in balance."""
+    response = operator.respond(load, w)
+    modes, _ = operator.solve(load, operator.body.sine_amplitudes(w), response.edge)
+    return Field(modes, response.edge), response.tangential, response.normal
+
+
+def relative(value, reference):
+    return np.abs(value - reference).max() / np.abs(reference).max()
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW, FAST])
+def test_equals_assembled_matrix(grid, s):
+    rng = np.random.default_rng(1)
+    body, block = Block(grid, MATERIAL), AssembledBlock(grid, MATERIAL)
+    operator = BlockOperator(body, s)
+    load, w = random_load(body, rng), 1e-9 * rng.normal(size=grid.n_x)
+    field, tangential, normal = balanced(operator, load, w)
+    prescribed = np.zeros(block.stiffness.shape[0])
+    prescribed[block.x[0, 1:]] = w
+    u, reaction = block.solve(s, assembled_load(block, body, load), prescribed)
+    u_x, u_y = body.nodal_values(field)
+    assert relative(u_x, u[block.x]) < 1e-12
+    assert relative(u_y, u[block.y]) < 1e-12
+    assert relative(tangential, reaction[block.x[0, 1:]]) < 1e-12
+    assert relative(normal, reaction[block.y[0]]) < 1e-12
+
+
+def test_inertia_and_top_load_equal_assembled(grid):
+    rng = np.random.default_rng(2)
+    body, block = Block(grid, MATERIAL), AssembledBlock(grid, MATERIAL)
+    field = random_load(body, rng)
+    field.edge[0] = 0.0
+    values = np.zeros(block.stiffness.shape[0])
+    values[block.x], values[block.y] = body.nodal_values(field)
+    ours = assembled_load(block, body, body.inertia_load(7.0, [(1.0, field)]))
+    theirs = 7.0 * block.mass @ values
+    theirs[block.x[:, 0]] = 0.0  # the driven edge moves by itself
+    assert relative(ours, theirs) < 1e-12
+    top = assembled_load(block, body, body.top_load(3.0))
+    np.testing.assert_allclose(top, block.top_load(3.0), atol=1e-14)
+
+
+def test_momentum_is_mass_times_velocity(grid):
+    body, block = Block(grid, MATERIAL), AssembledBlock(grid, MATERIAL)
+    velocity = random_load(body, np.random.default_rng(3))
+    values = np.zeros(block.stiffness.shape[0])
+    values[block.x] = body.nodal_values(velocity)[0]
+    assert body.momentum_x(velocity) == pytest.approx((block.mass @ values)[block.x].sum())
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW, FAST])
+def test_condensed_operator(grid, s):
+    """apply() is the response of solve(), tangent() and diagonal are its matrix, D is SPD."""
+    rng = np.random.default_rng(4)
+    operator = BlockOperator(Block(grid, MATERIAL), s)
+    w = rng.normal(size=grid.n_x)
+    field, tangential, normal = balanced(operator, operator.body.zero_field(), w)
+    p, reaction, edge = operator.apply(w)
+    assert relative(p, tangential) < 1e-12
+    assert relative(reaction, normal) < 1e-12
+    assert relative(edge, field.edge) < 1e-11
+    columns = [operator.apply(unit) for unit in np.eye(grid.n_x)]
+    d = np.array([c[0] for c in columns]).T
+    n = np.array([c[1] for c in columns]).T
+    nodes = np.array([1, 2, 5, grid.n_x - 1, grid.n_x])
+    stiffness, coupling = operator.tangent(nodes)
+    assert relative(stiffness, d[np.ix_(nodes - 1, nodes - 1)]) < 1e-7  # EDGE_FELT is left out
+    assert relative(coupling, n[np.ix_(nodes, nodes - 1)]) < 1e-7
+    assert relative(operator.diagonal, np.diag(d)) < 1e-12
+    assert relative(d, d.T) < 1e-12
+    assert np.linalg.eigvalsh(d).min() > 0.0
+
+
+def test_transforms_are_inverse_and_dual(grid):
+    rng = np.random.default_rng(5)
+    body = Block(grid, MATERIAL)
+    values, amplitudes = rng.normal(size=(2, grid.n_x))
+    np.testing.assert_allclose(body.sine_values(body.sine_amplitudes(values)), values, rtol=1e-12)
+    # nodal forces do the same work as modal ones
+    tangential, normal = body.interface_forces(np.array([amplitudes, amplitudes]))
+    modal = 0.5 * grid.n_x * amplitudes
+    assert tangential @ values == pytest.approx(modal @ body.sine_amplitudes(values))
+    cosines = np.linalg.inv(body.cosine_values(np.eye(grid.n_x)))  # nodal unit values in modes
+    np.testing.assert_allclose(normal, cosines @ modal, atol=1e-12 * abs(modal).max())
+
+
+def test_uniform_extension_is_exact(grid):
+    """With no friction it is free of stress but sigma_xx: only the left edge holds it back."""
+    operator = BlockOperator(Block(grid, MATERIAL), STATIC)
+    body = operator.body
+    strain, nu = 1e-5, MATERIAL.poisson_ratio
+    u_x = np.tile(strain * grid.x, (grid.n_y + 1, 1))
+    u_y = np.tile((-nu / (1 - nu) * strain * grid.y)[:, None], (1, grid.n_x + 1))
+    stress = 2 * MATERIAL.shear_modulus / (1 - nu) * strain  # plane strain, sigma_yy = 0
+    block = AssembledBlock(grid, MATERIAL)
+    values = np.zeros(block.stiffness.shape[0])
+    values[block.x], values[block.y] = u_x, u_y
+    forces = block.stiffness @ values
+    load = body.zero_field()
+    load.modes[:, 0] = _sine_load(body, forces[block.x[:, 1:]])
+    load.modes[0, 0] = 0.0
+    field, tangential, normal = balanced(operator, load, u_x[0, 1:])
+    ours_x, ours_y = body.nodal_values(field)
+    assert relative(ours_x, u_x) < 1e-10
+    assert relative(ours_y, u_y) < 1e-10
+    assert np.abs(normal).max() < 1e-9 * stress * grid.dx
+    assert np.abs(tangential[:-1]).max() < 1e-9 * stress * grid.dx
+
+
+def _sine_load(body, forces):
+    """Generalised forces per mode, times 2/n_x, of nodal forces at i = 1..n_x."""
+    n = body.grid.n_x
+    i, theta = np.arange(1, n + 1), (np.arange(n) + 0.5) * np.pi / n
+    return 2.0 / n * forces @ np.sin(np.outer(i, theta))
+
+
+def test_uniaxial_strain_is_exact():
+    """Under sigma0 without slip the block is in uniaxial strain away from the right edge."""
+    grid = Grid(1.0, 0.02, 60, 7, grading=2.0)
+    body = Block(grid, MATERIAL)
+    field, _, normal = balanced(BlockOperator(body, STATIC), body.top_load(1e6), np.zeros(60))
+    u_x, u_y = body.nodal_values(field)
+    expected = -1e6 / MATERIAL.p_wave_modulus * grid.y
+    assert np.abs(u_y[:, :20] - expected[:, None]).max() < 1e-12 * np.abs(expected).max()
+    assert np.abs(u_x[:, :20]).max() < 1e-12 * np.abs(u_y).max()
+    np.testing.assert_allclose(normal[:20], 1e6 * grid.nodal_lengths[:20], rtol=1e-12)

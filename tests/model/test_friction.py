@@ -1,0 +1,138 @@
+"""The friction law against finite differences, root finding and the numbers of the paper."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from scipy.special import wrightomega
+
+from nucleation.model.friction.evolution import EVOLUTION_LAWS, wright_omega
+from nucleation.model.friction.law import Friction
+from nucleation.model.quantities import ParameterError
+
+LAW = Friction()
+RATES = np.array([1e-13, 1e-9, 1e-7, 1e-5, 1e-3, 1.0])
+STATES = np.array([1e-6, 3.3e-4, 0.05, 1.0, 500.0])
+
+
+def written_out(v, phi):
+    """Eq. (S-f) with Table S1, typed in once more."""
+    aging = 1 + 0.075 * np.log(1 + phi / 3.3e-4)
+    return aging * ((5 / 18) / np.sqrt(1 + (1e-9 / v) ** 2) + 0.005 * np.log(1 + v / 1e-7))
+
+
+def test_coefficient_is_the_papers():
+    v, phi = np.meshgrid(RATES, STATES)
+    np.testing.assert_allclose(LAW.coefficient(v, phi), written_out(v, phi), rtol=1e-12)
+
+
+def test_coefficient_is_odd_and_vanishes_at_rest():
+    np.testing.assert_allclose(LAW.coefficient(-RATES, 1.0), -LAW.coefficient(RATES, 1.0))
+    assert LAW.coefficient(0.0, 1.0) == 0.0
+
+
+@pytest.mark.parametrize("v", [-1e-4, 3e-10, 1e-7, 1e-5, 0.1])
+@pytest.mark.parametrize("phi", STATES)
+def test_derivatives(v, phi):
+    by_rate, by_state = LAW.derivatives(v, phi)
+    h = 1e-4
+    numeric = (LAW.coefficient(v * (1 + h), phi) - LAW.coefficient(v * (1 - h), phi)) / (2 * v * h)
+    assert by_rate == pytest.approx(numeric, rel=1e-6)
+    numeric = (LAW.coefficient(v, phi * (1 + h)) - LAW.coefficient(v, phi * (1 - h))) / (
+        2 * phi * h
+    )
+    assert by_state == pytest.approx(numeric, rel=1e-6)
+
+
+def test_state_rate_is_the_papers():
+    v, phi = np.meshgrid(RATES, STATES)
+    omega = phi * np.sqrt(v**2 + 1e-18) / 5e-7
+    np.testing.assert_allclose(Friction(evolution="aging").state_rate(v, phi), 1 - omega)
+    np.testing.assert_allclose(
+        Friction(evolution="slip").state_rate(v, phi), -omega * np.log(omega)
+    )
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_steady_state_is_where_the_state_rests(law):
+    friction = Friction(evolution=law)
+    np.testing.assert_allclose(
+        friction.state_rate(RATES, friction.steady_state(RATES)), 0.0, atol=1e-12
+    )
+    # phi saturates at D/v0 at rest
+    assert friction.steady_state(0.0) == pytest.approx(500.0)
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+@pytest.mark.parametrize("step", [1e-7, 1e-3, 1.0])
+def test_implicit_log_state(law, step):
+    """The closed forms against bracketing, and their derivative against differences."""
+    evolution = EVOLUTION_LAWS[law]
+    for history in (-12.0, -3.0, 0.0, 6.0):
+        for rate in (2e-3, 0.5, 20.0, 1e5):
+
+            def residual(psi, history=history, rate=rate):
+                omega = np.exp(psi) * rate
+                return psi - history - step * float(evolution.growth(omega)) * np.exp(-psi)
+
+            expected = brentq(residual, -60, 60, xtol=1e-13, rtol=1e-14)
+            psi, slope = evolution.implicit_log_state(np.array(history), step, np.array(rate))
+            assert psi == pytest.approx(expected, rel=1e-10, abs=1e-10)
+            near = [
+                evolution.implicit_log_state(np.array(history), step, np.array(rate * (1 + e)))[0]
+                for e in (1e-3, -1e-3)
+            ]
+            numeric = (near[0] - near[1]) / (2e-3 * rate)
+            assert slope == pytest.approx(numeric, rel=1e-4, abs=2e-12 / rate)
+
+
+@pytest.mark.parametrize("ends", [(-690, -30), (-30, -1), (-1, 2), (2, 100), (1e2, 1e6)])
+def test_wright_omega_is_scipys(ends):
+    z = np.linspace(*ends, 1001)
+    np.testing.assert_allclose(wright_omega(z), wrightomega(z), rtol=1e-14)
+
+
+def test_wright_omega_of_what_has_none():
+    """Far below, w = exp(z) vanishes; what is not finite ends the iteration and stays so."""
+    assert 0.0 < wright_omega(-1e6) < 1e-300
+    assert np.isnan(wright_omega(np.array([np.nan, 1.0]))[0])
+
+
+def test_expansion_gives_the_papers_numbers():
+    """f0 = 0.414, a = 0.00682, zeta = 0.0156 (Text S2.1), from Table S1 alone."""
+    f0, a, zeta = LAW.expansion(1e-5)
+    assert round(f0, 3) == 0.414
+    assert round(a, 5) == 0.00682
+    assert round(zeta, 4) == 0.0156
+
+
+def test_expansion_is_the_slope_of_steady_friction():
+    _, _, zeta = LAW.expansion(1e-5)
+    h = 1e-4
+    numeric = (LAW.steady_coefficient(1e-5 * (1 + h)) - LAW.steady_coefficient(1e-5 * (1 - h))) / (
+        2 * h
+    )
+    assert zeta == pytest.approx(-numeric, rel=1e-6)
+
+
+def test_logarithmic_law_touches_the_full_one():
+    """Value and first derivatives agree at the point of expansion (Eq. S-log)."""
+    v, phi, h = 1e-5, 0.05, 1e-4
+    assert LAW.logarithmic(v, phi, v) == pytest.approx(LAW.coefficient(v, phi), rel=1e-9)
+    for dv, dphi in ((h, 0.0), (0.0, h)):
+        full = LAW.coefficient(v * (1 + dv), phi * (1 + dphi)) - LAW.coefficient(
+            v * (1 - dv), phi * (1 - dphi)
+        )
+        log = LAW.logarithmic(v * (1 + dv), phi * (1 + dphi), v) - LAW.logarithmic(
+            v * (1 - dv), phi * (1 - dphi), v
+        )
+        assert log == pytest.approx(full, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("characteristic_slip_distance", 0.0), ("evolution", "ageing"), ("base_friction", "0.3"),
+     ("state_scale", float("nan")), ("rate_coefficient", True)],
+)  # fmt: skip
+def test_bad_values_are_named(key, value):
+    with pytest.raises(ParameterError, match=key):
+        Friction(**{key: value})

@@ -1,0 +1,125 @@
+"""Where growth of the patch begins: few frames instead of all, and the fit at the crossing."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.patch import growth
+from nucleation.patch.growth import (
+    FITTED,
+    evenly,
+    fitted_crossing,
+    follow_patch,
+    gather,
+    rough_crossing,
+)
+from nucleation.simulation.run import simulate
+
+PARAMETERS = Parameters(
+    geometry=Geometry(height=0.02, length=1.8),
+    mesh=Mesh(n_x=120, n_y=6),
+    stepping=Stepping(end_time=11.0, tolerance=5e-2),
+)
+THEORY = 0.451  # m
+
+
+@pytest.fixture(scope="module")
+def simulation():
+    return simulate(PARAMETERS)
+
+
+@pytest.fixture(scope="module")
+def followed(simulation):
+    return follow_patch(simulation, ExtractionSettings())
+
+
+def test_growth_begins_at_half_of_the_theory_in_a_mode_of_half_a_wave(followed):
+    length = float(followed["stability_length"])
+    assert 0.5 < length / THEORY < 0.62
+    assert followed["stability_length_low"] < length < followed["stability_length_high"]
+    assert 5.0 < followed["stability_frequency"] < 20.0
+    mode = np.hypot(followed["mode_real"].values, followed["mode_imaginary"].values)
+    assert mode.max() == pytest.approx(1.0)
+    assert 0.3 * length < followed["x"].values[mode.argmax()] < 0.9 * length
+    assert mode[0] == 0.0
+    assert (mode[followed["x"].values > length + 0.04] == 0.0).all()
+    changes = np.diff(mode[: int(length / 0.015)])
+    assert (np.diff(np.sign(changes)) != 0).sum() == 1  # one maximum
+
+
+def test_few_frames_equal_all_frames(simulation, followed, monkeypatch):
+    monkeypatch.setattr(growth, "SCANNED", 10**6)
+    monkeypatch.setattr(growth, "NEAR", 10**6)
+    every = follow_patch(simulation, ExtractionSettings())
+    assert followed.sizes["instant"] <= 100 < every.sizes["instant"]
+    for name in ("oscillation_growth", "growth_rate"):
+        known = dict(zip(every["instant_time"].values, every[name].values, strict=True))
+        again = [known[time] for time in followed["instant_time"].values]
+        np.testing.assert_array_equal(followed[name], again)
+    expected = float(every["stability_length"])
+    assert float(followed["stability_length"]) == pytest.approx(expected, rel=0.015)
+
+
+def test_length_is_the_furthest_that_the_edge_has_come(followed):
+    assert (np.diff(followed["patch_length"].values) >= 0.0).all()
+
+
+def test_run_that_ends_before_growth_has_no_length(simulation):
+    early = simulation.isel(time=slice(0, 60))
+    patch = follow_patch(early, ExtractionSettings())
+    assert all(np.isnan(patch[name]) for name in FITTED)
+    assert (patch["mode_real"] == 0.0).all()
+
+
+def test_evenly_spaced_in_length():
+    length = np.linspace(0.0, 1.0, 1001) ** 0.5
+    frames = evenly(np.arange(100, 1001), length, 20)
+    assert frames[0] == 100 and frames[-1] == 1000 and frames.size == 20
+    np.testing.assert_allclose(np.diff(length[frames]), np.diff(length[frames]).mean(), atol=2e-3)
+    assert evenly(np.arange(5), length, 20).size == 5
+
+
+def test_rough_crossing_ignores_single_instants_and_gaps():
+    growth = np.array([-3.0, np.nan, 0.5, -1.0, -0.5, 0.1, 0.7, -5.0, 2.0, 3.0])
+    assert rough_crossing(np.arange(10.0), growth) == 5.0
+    assert np.isnan(rough_crossing(np.arange(7.0), -np.ones(7)))
+    assert np.isnan(rough_crossing(np.arange(7.0), np.ones(7)))
+    assert np.isnan(rough_crossing(np.arange(7.0), np.full(7, np.nan)))
+
+
+def test_line_through_the_crossing():
+    length = np.linspace(0.17, 0.23, 601)
+    exact = 3.0 * (length - 0.2) + 1j * (12.0 - 20.0 * (length - 0.2))
+    fit = fitted_crossing(length, exact)
+    expected = (0.2, 0.2, 0.2, 0.0, 12.0)
+    np.testing.assert_allclose([fit[name] for name in FITTED], expected, atol=1e-12)
+    # growth that varies within each hop widens the range by its standard deviation over the slope
+    shaken = exact + 0.06 * np.sin(2 * np.pi * length / 0.002)
+    fit = fitted_crossing(length, shaken)
+    assert fit["stability_length"] == pytest.approx(0.2, abs=2e-3)
+    width = fit["stability_length_high"] - fit["stability_length"]
+    assert width == pytest.approx(0.06 / np.sqrt(2.0) / 3.0, rel=0.05)
+    assert fit["stability_length_error"] < 0.3 * width
+    for few in (length < 0.1702, length < 0.19):  # too few, and none beyond the crossing
+        assert np.isnan(fitted_crossing(length[few], exact[few])["stability_length"])
+    assert np.isnan(fitted_crossing(length, -exact)["stability_length"])
+
+
+def test_table_compares_with_the_reference_study():
+    def run(study, height):
+        values = dataclasses.replace(PARAMETERS, geometry=Geometry(height, 1.8)).to_dict()
+        return {"id": study, "study": study, "parameters": values, "theory_length": 0.4}
+
+    runs = [run("paper", 0.02), run("converged", 0.02), run("paper", 0.1)]
+    patches = [
+        xr.Dataset(dict.fromkeys(FITTED, 1.0) | {"stability_length": length})
+        for length in (0.22, 0.2, 0.5)
+    ]
+    table = gather(runs, patches)
+    assert set(table.data_vars) == set(growth.COLUMNS)
+    np.testing.assert_allclose(table["stability_ratio"], [0.55, 0.5, 1.25])
+    np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, np.nan], atol=1e-12)

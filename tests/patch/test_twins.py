@@ -1,0 +1,98 @@
+"""Twin runs: the same steps, a small kick, and its growth."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.patch import twins
+from nucleation.patch.twins import difference, fitted_rate, follow_twins, gather, kicked
+from nucleation.simulation.run import run
+
+PARAMETERS = Parameters(
+    geometry=Geometry(height=0.1, length=3.2),
+    mesh=Mesh(n_x=120, n_y=8, grading=4.0),
+    stepping=Stepping(end_time=12.0, tolerance=5e-2, longest_step=0.1),
+)
+THEORY = 0.7949  # m
+
+
+@pytest.fixture(scope="module")
+def twins():
+    return follow_twins(PARAMETERS, THEORY, ExtractionSettings(), shares=(0.43, 0.62))
+
+
+def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(twins):
+    assert twins.sizes["twin"] == 2
+    growth, frozen = twins["twin_growth"].values, twins["frozen_growth"].values
+    assert growth[0] < -0.5 and frozen[0] < -0.5
+    assert growth[1] > 0.5 and frozen[1] > 0.5
+    np.testing.assert_allclose(growth, frozen, atol=0.6)
+    np.testing.assert_allclose(twins["twin_frequency"], twins["frozen_frequency"], rtol=0.06)
+
+
+def test_lengths_are_those_asked_for(twins):
+    first, last = twins["twin_length_first"].values, twins["twin_length_last"].values
+    np.testing.assert_allclose(first, np.array([0.43, 0.62]) * THEORY, rtol=0.05)
+    mean = twins["twin_length"].values
+    assert ((first < mean) & (mean < last)).all()
+
+
+def test_growth_does_not_depend_on_the_size_of_the_kick(twins, monkeypatch):
+    monkeypatch.setattr(twins, "KICK", 3e-4)
+    other = follow_twins(PARAMETERS, THEORY, ExtractionSettings(), shares=(0.43,))
+    assert float(other["twin_growth"][0]) == pytest.approx(float(twins["twin_growth"][0]), rel=0.01)
+
+
+def test_twin_without_a_kick_is_the_run(monkeypatch):
+    """It takes the very steps of the run, and the restarted state loses nothing."""
+    monkeypatch.setattr(twins, "KICK", 0.0)
+    settings = ExtractionSettings()
+    patches, dynamics = twins.Patches(PARAMETERS, settings), twins.Dynamics(PARAMETERS)
+    twin = None
+    for instant in run(PARAMETERS):
+        if twin is not None:
+            twin.advance(instant)
+        elif patches.length(instant.report) > 0.3 * THEORY:
+            twin = twins.Twin(patches, dynamics, instant)
+            until = instant.state.time + 0.1
+        if twin is not None and instant.state.time > until:
+            break
+    assert twin.state.time == pytest.approx(instant.state.time, rel=1e-12)
+    nodes = np.arange(1, PARAMETERS.mesh.n_x + 1)
+    change = difference(instant.state, twin.state, nodes)
+    assert np.abs(change[: nodes.size]).max() < 1e-12 * PARAMETERS.geometry.length
+    assert np.abs(change[nodes.size :]).max() < 1e-7
+
+
+def test_kick_changes_the_log_state_alone():
+    state = next(run(PARAMETERS)).state
+    shape = np.sin(np.arange(state.past_log_states.shape[1]))
+    other = kicked(state, shape, 1e-3)
+    change = other.past_log_states - state.past_log_states
+    assert np.abs(change).max() == pytest.approx(1e-3)
+    for field in dataclasses.fields(state):
+        if field.name != "past_log_states":
+            assert getattr(other, field.name) is getattr(state, field.name)
+
+
+def test_rate_of_a_known_amplitude():
+    time = np.sort(np.random.default_rng(1).random(200)) * 2.0
+    rate = -0.7 + 11.0j
+    fitted = fitted_rate(time, (0.3 - 2.0j) * np.exp(rate * time))
+    assert fitted == pytest.approx(rate, rel=1e-10)
+
+
+def test_table_has_a_row_for_each_twin(twins):
+    description = {
+        "id": "a", "study": "twin_runs", "parameters": PARAMETERS.to_dict(),
+        "theory_length": THEORY,
+    }  # fmt: skip
+    table = gather([description, description], [twins, twins])
+    assert table.sizes["twin"] == 4
+    assert set(table.data_vars) == set(twins.COLUMNS)
+    np.testing.assert_array_equal(table["twin_growth"], np.tile(twins["twin_growth"], 2))
+    empty = gather([], [])
+    assert empty.sizes["twin"] == 0

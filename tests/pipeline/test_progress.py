@@ -1,0 +1,76 @@
+"""What a run shows of itself while it works."""
+
+import dataclasses
+import io
+import itertools
+import re
+from types import SimpleNamespace
+
+import numpy as np
+
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.pipeline import progress
+from nucleation.pipeline.progress import Progress
+from nucleation.simulation.run import simulate
+
+COARSE = Parameters(
+    geometry=Geometry(height=0.005, length=0.9),
+    mesh=Mesh(n_x=60, n_y=6, grading=2.0),
+    stepping=Stepping(end_time=30.0, time_after_event=0.0, tolerance=5e-2, longest_step=0.1),
+)
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_log_gets_lines_with_what_one_wants_to_know(monkeypatch):
+    monkeypatch.setattr(progress, "PAUSE", 0.0)
+    log = io.StringIO()
+    record = simulate(COARSE, progress=Progress(COARSE, log))
+    lines = log.getvalue().splitlines()
+    assert len(lines) == record.sizes["step"]
+    pattern = (
+        r"step (\d+): t = ([\d.e-]+) s, dt = ([\d.e-]+) s, max v = ([\d.e-]+) m/s, "
+        r"patch ([\d.e-]+) m, rejected (\d+), (\d+) % done, "
+        r"(time left not known yet|about [\d.]+ (s|min|h) left|in the event)"
+    )
+    found = [re.fullmatch(pattern, line) for line in lines]
+    assert all(found)
+    assert [int(m[1]) for m in found] == list(range(record.sizes["step"]))
+    np.testing.assert_allclose([float(m[2]) for m in found], record["step_time"], rtol=1e-4)
+    last = found[-1]
+    assert int(last[7]) >= 60  # the event comes at two thirds of the theory's length or later
+    done = [int(m[7]) for m in found]
+    assert max(np.diff(done)) <= 10
+
+
+def test_log_is_not_flooded(monkeypatch):
+    """A line in PAUSE seconds, by a clock that goes on by one with every step."""
+    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=itertools.count(1.0).__next__))
+    log, short = io.StringIO(), dataclasses.replace(COARSE, stepping=Stepping(end_time=0.5))
+    record = simulate(short, progress=Progress(COARSE, log))
+    steps = [int(re.match(r"step (\d+):", line)[1]) for line in log.getvalue().splitlines()]
+    assert record.sizes["step"] > 5 * progress.PAUSE
+    assert steps == list(range(0, record.sizes["step"], int(progress.PAUSE)))
+
+
+def test_terminal_gets_a_bar_that_goes_away(monkeypatch):
+    monkeypatch.setattr(progress, "PAUSE_ON_TERMINAL", 0.0)
+    terminal = Terminal()
+    short = dataclasses.replace(COARSE, stepping=Stepping(end_time=0.5))
+    bar = Progress(short, terminal)
+    simulate(short, progress=bar)
+    bar.close()
+    shown = terminal.getvalue()
+    assert "\n" not in shown.rstrip("\n")
+    assert "%|" in shown and "max v = " in shown and "patch " in shown
+    assert shown.endswith("\r") and shown.split("\r")[-2].strip() == ""
+
+
+def test_part_done_is_by_the_patch_or_the_end_time():
+    bar = Progress(COARSE, io.StringIO())
+    assert bar.part_done(15.0, 0.0) == 0.5
+    assert 0.3 < bar.part_done(1.0, 0.1) < 0.6
+    assert bar.part_done(15.0, 10.0) == 1.0

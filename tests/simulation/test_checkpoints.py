@@ -1,0 +1,185 @@
+"""Exact restart: a run that goes on from a checkpoint ends like one that never stopped."""
+
+import dataclasses
+import io
+import os
+import signal
+
+import numpy as np
+import pytest
+
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.quantities import ParameterError
+from nucleation.simulation.checkpoints import (
+    EVERY,
+    SIGNALS,
+    VARIABLE,
+    Checkpoint,
+    Stopped,
+    interval,
+)
+from nucleation.simulation.run import simulate
+
+COARSE = Parameters(
+    geometry=Geometry(height=0.005, length=0.9),
+    mesh=Mesh(n_x=60, n_y=6, grading=2.0),
+    stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.1),
+)
+SLIP = dataclasses.replace(
+    COARSE,
+    friction=Friction(evolution="slip"),
+    stepping=dataclasses.replace(COARSE.stepping, end_time=2.0),
+)
+
+
+def checkpoint(path, fingerprint="this run", every=0.0):
+    log = io.StringIO()
+    return Checkpoint(path, fingerprint, every=every, log=log), log
+
+
+def kept_at(parameters, steps):
+    """The undisturbed record, and the arrays offered after some of its steps (negative: from the
+    last)."""
+    offered, wanted = [], set(steps)
+
+    def keep(arrays):
+        number = len(offered)
+        offered.append(arrays() if number in wanted else None)
+
+    return simulate(parameters, keep=keep), offered
+
+
+def assert_same(one, other):
+    assert one.sizes == other.sizes
+    for name in one.variables:
+        np.testing.assert_array_equal(one[name].values, other[name].values, err_msg=name)
+    for name in ("status", "completed", "steps", "rejected_steps", "parameters"):
+        assert one.attrs[name] == other.attrs[name], name
+
+
+@pytest.fixture(scope="module")
+def whole():
+    """A run through its event; stored before the first step, creeping and in the event."""
+    steps = (0, 1, 2, 57, 400)
+    record, offered = kept_at(COARSE, steps)
+    in_event = int(np.argmax(record["maximal_slip_rate"].values))
+    again, more = kept_at(COARSE, (in_event, record.sizes["step"] - 3))
+    assert_same(record, again)
+    return record, [arrays for arrays in offered + more if arrays is not None]
+
+
+def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
+    record, stored = whole
+    assert len(stored) == 7
+    for number, arrays in enumerate(stored):
+        one, _ = checkpoint(tmp_path / f"{number}.npz")
+        one.keep(lambda arrays=arrays: arrays)
+        assert_same(simulate(COARSE, start=one.load()), record)
+
+
+def test_restart_is_exact_with_the_slip_law(tmp_path):
+    record, offered = kept_at(SLIP, (150,))
+    assert_same(simulate(SLIP, start=offered[150]), record)
+
+
+def test_wall_time_is_that_of_all_parts(whole):
+    record, stored = whole
+    late = dict(stored[-1], wall_seconds=np.array(1e4))
+    assert simulate(COARSE, start=late).attrs["wall_seconds"] > 1e4
+    assert record.attrs["wall_seconds"] < 1e4
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_signal_leaves_a_checkpoint_to_go_on_from(whole, tmp_path, number):
+    record, _ = whole
+    path = tmp_path / "run.npz"
+    before = {n: signal.getsignal(n) for n in SIGNALS}
+    steps = []
+
+    def interrupt(instant):
+        steps.append(instant)
+        if len(steps) == 321:
+            os.kill(os.getpid(), number)
+
+    try:
+        one, _ = checkpoint(path, every=1e9)
+        one.listen()
+        with pytest.raises(Stopped, match=f"stopped by {number.name}; a further run goes on"):
+            simulate(COARSE, progress=interrupt, keep=one.keep)
+    finally:
+        for n, handler in before.items():
+            signal.signal(n, handler)
+    assert len(steps) == 321
+    two, log = checkpoint(path)
+    assert_same(simulate(COARSE, start=two.load()), record)
+    assert f"goes on from {path}" in log.getvalue()
+    two.remove()
+    assert not list(tmp_path.iterdir())
+
+
+def test_checkpoints_are_written_every_so_often(tmp_path):
+    one, _ = checkpoint(tmp_path / "run.npz", every=1e9)
+    one.keep(lambda: pytest.fail("it is not yet time"))
+    assert not list(tmp_path.iterdir())
+    two, _ = checkpoint(tmp_path / "run.npz", every=0.0)
+    for value in (1.0, 2.0):
+        two.keep(lambda value=value: {"value": np.array(value)})
+        assert float(two.load()["value"]) == value
+
+
+def test_environment_tells_how_often(tmp_path, monkeypatch):
+    """Only how often: what a run is does not depend on it."""
+    monkeypatch.delenv(VARIABLE, raising=False)
+    assert interval() == EVERY == 60.0
+    Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: pytest.fail("it is not yet time"))
+    monkeypatch.setenv(VARIABLE, "0")
+    Checkpoint(tmp_path / "a.npz", "this run").keep(lambda: {"value": np.array(1.0)})
+    assert (tmp_path / "a.npz").exists()
+    for text in ("-1", "nan", "a minute"):
+        monkeypatch.setenv(VARIABLE, text)
+        with pytest.raises(ParameterError, match=f"{VARIABLE} = '{text}' is not allowed: a time"):
+            Checkpoint(tmp_path / "a.npz", "this run")
+
+
+def test_checkpoint_of_another_run_is_refused(tmp_path):
+    path = tmp_path / "run.npz"
+    checkpoint(path, "another run")[0].keep(lambda: {"value": np.array(1.0)})
+    mine, log = checkpoint(path)
+    assert mine.load() is None
+    assert "of other code or parameters: the run starts at the beginning" in log.getvalue()
+    assert checkpoint(tmp_path / "none.npz")[0].load() is None
+
+
+def test_no_damage_goes_unnoticed(tmp_path):
+    """Bits flipped and ends cut off anywhere: refused with a message, or without effect."""
+    path = tmp_path / "run.npz"
+    arrays = {"numbers": np.random.default_rng(2).random(60), "count": np.array(3)}
+    checkpoint(path)[0].keep(lambda: arrays)
+    whole = path.read_bytes()
+    damaged = [whole[:length] for length in range(0, len(whole), 7)]
+    for place in range(len(whole)):
+        flipped = bytearray(whole)
+        flipped[place] ^= 1 << (place % 8)
+        damaged.append(bytes(flipped))
+    refused = 0
+    for content in damaged:
+        path.write_bytes(content)
+        one, log = checkpoint(path)
+        loaded = one.load()
+        if loaded is None:
+            refused += 1
+            assert "the run starts at the beginning" in log.getvalue()
+        else:
+            assert loaded.keys() == arrays.keys()
+            for name, values in arrays.items():
+                np.testing.assert_array_equal(loaded[name], values)
+    assert refused > 0.5 * len(damaged)  # the rest hit what carries no meaning, such as dates
+
+
+def test_pickled_checkpoint_is_not_executed(tmp_path):
+    path = tmp_path / "run.npz"
+    np.savez(path, fingerprint=np.array("this run"), value=np.array([{"a": 1}], dtype=object))
+    one, log = checkpoint(path)
+    assert one.load() is None
+    assert "damaged" in log.getvalue()

@@ -1,0 +1,158 @@
+"""Whole runs on coarse grids: outcome, records, and what must not matter."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.extraction import extract
+from nucleation.datasets.variables import VARIABLES
+from nucleation.model.material import Material
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation.control import Outcome, SimulationFailure
+from nucleation.simulation.interface import Interface, Tension
+from nucleation.simulation.run import run, simulate
+from nucleation.simulation.step import Dynamics
+
+COARSE = Parameters(
+    geometry=Geometry(height=0.005, length=0.9),
+    mesh=Mesh(n_x=60, n_y=6, grading=2.0),
+    stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.1),
+)
+
+
+@pytest.fixture(scope="module")
+def coarse_run():
+    return simulate(COARSE)
+
+
+def test_run_ends_after_its_event(coarse_run):
+    assert coarse_run.attrs["status"] == Outcome.AFTER_EVENT.value
+    assert coarse_run.attrs["completed"] == 1
+    measured = extract(coarse_run)
+    after = float(coarse_run["step_time"][-1]) - measured["onset_time_high"]
+    assert after == pytest.approx(0.1, abs=0.02)
+
+
+def test_records_are_whole(coarse_run):
+    assert set(coarse_run.variables) <= set(VARIABLES)
+    assert all(np.isfinite(coarse_run[name]).all() for name in coarse_run.variables)
+    assert coarse_run.attrs["steps"] == coarse_run.sizes["step"] - 1
+    assert (np.diff(coarse_run["time"]) > 0).all()
+    np.testing.assert_allclose(
+        np.diff(coarse_run["step_time"]), coarse_run["step_size"][1:], rtol=1e-6, atol=1e-15
+    )
+    assert Parameters.from_json(coarse_run.attrs["parameters"]) == COARSE
+
+
+def test_frames_are_dense_through_the_event(coarse_run):
+    """Between frames the slip rate changes by little even where it changes within microseconds."""
+    scaled = np.arcsinh(coarse_run["slip_rate"].values / 1e-5)
+    assert np.abs(np.diff(scaled, axis=0)).max() < 1.5
+    assert float(coarse_run["maximal_slip_rate"].max()) > 1e-2
+    assert float(coarse_run["time"].diff("time").min()) < 1e-4
+
+
+def test_interface_obeys_friction_in_every_frame(coarse_run):
+    law = COARSE.friction
+    f = law.coefficient(coarse_run["slip_rate"].values[1:], coarse_run["state"].values[1:])
+    ratio = -coarse_run["shear_stress"] / coarse_run["normal_stress"]
+    np.testing.assert_allclose(ratio.values[1:], f, atol=1e-6)
+    assert (coarse_run["normal_stress"] < 0).all()
+
+
+def test_slip_is_the_integral_of_slip_rate(coarse_run):
+    """By the trapezoidal rule over the frames up to the event, to its own accuracy."""
+    before = coarse_run["time"] < extract(coarse_run)["onset_time"]
+    frames = coarse_run.isel(time=np.flatnonzero(before))
+    integral = np.trapezoid(frames["slip_rate"], frames["time"], axis=0)
+    slip = frames["slip"].values[-1] - frames["slip"].values[0]
+    np.testing.assert_allclose(integral, slip, rtol=0.02, atol=1e-9)
+
+
+def test_bulk_snapshots_meet_the_boundary_conditions(coarse_run):
+    time = coarse_run["snapshot_time"].values
+    assert coarse_run.sizes["snapshot"] >= 3
+    edge = coarse_run["displacement_x"].isel(x=0).values
+    np.testing.assert_allclose(edge, np.tile(1e-5 * time[:, None], edge.shape[1]), atol=1e-18)
+    assert (coarse_run["displacement_y"].isel(y=0) == 0).all()
+
+
+def test_runs_repeat_to_the_last_bit():
+    short = dataclasses.replace(COARSE, stepping=Stepping(end_time=0.2))
+    first, second = simulate(short), simulate(short)
+    for name in first.variables:
+        np.testing.assert_array_equal(first[name], second[name], err_msg=name)
+    assert first.attrs["status"] == Outcome.END_TIME.value
+
+
+def test_block_length_plays_no_role():
+    """L >> L_c: the same nodes near the loaded edge slip the same (Text S2)."""
+    short = dataclasses.replace(COARSE, stepping=Stepping(end_time=3.0))
+    longer = dataclasses.replace(
+        short, geometry=Geometry(0.005, 1.35), mesh=Mesh(n_x=90, n_y=6, grading=2.0)
+    )
+    one, two = simulate(short), simulate(longer)
+    assert float(one["driving_force"][-1]) == pytest.approx(
+        float(np.interp(one["step_time"][-1], two["step_time"], two["driving_force"])), rel=1e-6
+    )
+
+
+def test_quasi_static_run_covers_its_event(coarse_run):
+    """Friction strengthens at high rates and bounds the slip rate in place of inertia."""
+    stepping = dataclasses.replace(COARSE.stepping, time_after_event=0.0)
+    quasi_static = simulate(
+        dataclasses.replace(COARSE, stepping=stepping, material=Material(density=0.0))
+    )
+    assert quasi_static.attrs["status"] == Outcome.AFTER_EVENT.value
+    one, other = extract(coarse_run), extract(quasi_static)
+    assert other["onset_time"] == pytest.approx(one["onset_time"], rel=0.01)
+    assert other["length"] == pytest.approx(one["length"], rel=0.02)
+
+
+def test_step_underflow_is_a_named_failure():
+    parameters = dataclasses.replace(COARSE, stepping=Stepping(shortest_step=0.5))
+    with pytest.raises(SimulationFailure, match="fell below the shortest step"):
+        list(run(parameters))
+    dataset = simulate(parameters)
+    assert dataset.attrs["completed"] == 0
+    assert dataset.attrs["status"] == Outcome.STEP_UNDERFLOW.value
+
+
+def test_progress_sees_every_step():
+    seen = []
+    dataset = simulate(
+        dataclasses.replace(COARSE, stepping=Stepping(end_time=1e-5)),
+        progress=lambda instant: seen.append(instant.state.time),
+    )
+    np.testing.assert_array_equal(seen, dataset["step_time"])
+
+
+def test_tension_is_a_named_failure(monkeypatch):
+    """However short the step: as in the slip law's event on fine meshes."""
+    solved = Interface.solve
+
+    def solve(self, operator, *arguments):
+        if arguments[0].w[0] < -1e-6:  # the foot of the pushed edge lags behind by 1 um
+            raise Tension("the interface is in tension")
+        return solved(self, operator, *arguments)
+
+    monkeypatch.setattr(Interface, "solve", solve)
+    dataset = simulate(COARSE)
+    assert dataset.attrs["status"] == Outcome.TENSION.value
+    assert not dataset.attrs["completed"]
+    assert 0.0 < float(dataset["step_time"][-1]) < COARSE.stepping.end_time
+
+
+def test_nothing_but_numbers_in_a_completed_run(monkeypatch):
+    """Should a value ever not be finite, the run has failed and says so."""
+    advance = Dynamics.advance
+
+    def spoilt(self, state, rung):
+        new, report = advance(self, state, rung)
+        return new, dataclasses.replace(report, driving_force=np.nan)
+
+    monkeypatch.setattr(Dynamics, "advance", spoilt)
+    dataset = simulate(dataclasses.replace(COARSE, stepping=Stepping(end_time=1e-5)))
+    assert dataset.attrs["status"] == Outcome.NOT_FINITE.value
+    assert not dataset.attrs["completed"]

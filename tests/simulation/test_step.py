@@ -1,0 +1,271 @@
+"""Steps of the coupled problem against the assembled matrix and a general root finder."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from fem.assembled_problem import AssembledBlock
+from scipy.optimize import brentq, root
+
+from nucleation.fem.operator import BlockOperator
+from nucleation.model.friction.law import Friction
+from nucleation.model.material import Material
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.simulation.step import Dynamics
+from nucleation.stepping.bdf import Formula
+from nucleation.stepping.ladder import rung_value
+
+
+def small(law="aging", **mesh):
+    return Parameters(
+        geometry=Geometry(height=0.02, length=0.4),
+        mesh=Mesh(**({"n_x": 16, "n_y": 4, "grading": 2.0} | mesh)),
+        friction=Friction(evolution=law),
+        loading=Loading(normal_stress=2e5, velocity=1e-3),  # a patch forms within some steps
+    )
+
+
+# growing steps, then many of 3e-5 s (D/V is 5e-4 s) while the first nodes break loose
+LADDER = (*range(-92, -60, 4), *[-60] * 100)
+
+
+class Reference:
+    """The same time steps, every unknown in one assembled matrix, solved by MINPACK."""
+
+    def __init__(self, parameters):
+        self.p, self.dynamics = parameters, Dynamics(parameters)
+        grid = self.dynamics.grid
+        self.block = AssembledBlock(grid, parameters.material)
+        self.load = self.block.top_load(parameters.loading.normal_stress)
+        u, _ = self.block.solve(0.0, self.load, np.zeros_like(self.load))
+        at_rest = np.zeros_like(u)
+        at_rest[self.block.x[:, 0]] = parameters.loading.velocity
+        self.u, self.v = [u], [at_rest]
+        self.psi = [np.full(grid.n_x + 1, np.log(parameters.loading.initial_state))]
+        self.time, self.steps = 0.0, []
+
+    def state(self, history, beta, v):
+        """psi by bracketing the implicit equation of the chosen law, node by node."""
+        law, out = self.p.friction, []
+        speed = np.hypot(v, law.regularisation_slip_rate)
+        for h, w in zip(history, speed, strict=True):
+
+            def residual(psi, h=h, w=w):
+                omega = np.exp(psi) * w / law.characteristic_slip_distance
+                rate = (
+                    (1 - omega) * np.exp(-psi)
+                    if law.evolution == "aging"
+                    else -w / law.characteristic_slip_distance * np.log(omega)
+                )
+                return psi - h - beta * rate
+
+            out.append(brentq(residual, h - 60, h + 60, xtol=1e-14, rtol=1e-14))
+        return np.array(out)
+
+    def step(self, beta, near):
+        """One step; the root finder starts in the neighbourhood of the slip rates `near`."""
+        f = Formula.bdf2(beta, self.steps[-1]) if self.steps else Formula.backward_euler(beta)
+        past = [f.from_past(np.array(q[:-3:-1])) for q in (self.u, self.v)]
+        history = f.from_past(np.array(self.psi[:-3:-1]))
+        self.time += f.step
+        velocity = self.p.loading.velocity
+        s = 1 / beta**2
+        load = self.load + s * self.block.mass @ (past[0] + beta * past[1])
+        bottom_x, bottom_y = self.block.x[0], self.block.y[0]
+
+        def solve(slip_rate):
+            prescribed = np.zeros_like(load)
+            prescribed[self.block.x[:, 0]] = velocity * self.time
+            prescribed[bottom_x[1:]] = past[0][bottom_x[1:]] + beta * slip_rate
+            return self.block.solve(s, load, prescribed)
+
+        def residual(z):
+            v = np.append(velocity, 1e-9 * np.sinh(z))
+            _, reaction = solve(v[1:])
+            psi = self.state(history, beta, v)
+            f_ = self.p.friction.coefficient(v, np.exp(psi))
+            return (reaction[bottom_x] + f_ * reaction[bottom_y])[1:] / (2e5 * 0.025)
+
+        guess = np.arcsinh(near[1:] / 1e-9) * 1.01
+        found = root(residual, guess, tol=1e-13)
+        assert np.abs(found.fun).max() < 1e-8, found.message
+        v = np.append(velocity, 1e-9 * np.sinh(found.x))
+        u, reaction = solve(v[1:])
+        psi = self.state(history, beta, v)
+        rate = (u - past[0]) / beta
+        # force of the driving wall: reactions of the left edge less friction at its own node
+        friction = -self.p.friction.coefficient(velocity, np.exp(psi[0])) * reaction[bottom_y[0]]
+        self.drive = -(reaction[self.block.x[:, 0]].sum() - friction)
+        for store, value in ((self.u, u), (self.v, rate), (self.psi, psi), (self.steps, f.step)):
+            store.append(value)
+        return v, psi, reaction
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_steps_equal_the_assembled_problem(law):
+    parameters = small(law)
+    reference, dynamics = Reference(parameters), Dynamics(parameters)
+    state, report = dynamics.initial_state()
+    block = reference.block
+    for rung in LADDER:
+        state, report = dynamics.advance(state, rung)
+        v, psi, reaction = reference.step(rung_value(rung), report.interface.slip_rate)
+        assert state.time == pytest.approx(reference.time, rel=1e-13)
+        interface = report.interface
+        np.testing.assert_allclose(interface.slip_rate, v, rtol=2e-6, atol=1e-14)
+        np.testing.assert_allclose(interface.log_state, psi, rtol=1e-7, atol=1e-9)
+        np.testing.assert_allclose(interface.normal, reaction[block.y[0]], rtol=1e-7)
+        np.testing.assert_allclose(
+            interface.tangential[1:],
+            reaction[block.x[0, 1:]],
+            rtol=1e-6,
+            atol=1e-6 * np.abs(interface.tangential).max(),
+        )
+        u_x, u_y = dynamics.body.nodal_values(state.displacement)
+        scale = np.abs(reference.u[-1]).max()
+        u_x = u_x + parameters.loading.velocity * state.time
+        np.testing.assert_allclose(u_x, reference.u[-1][block.x], atol=1e-8 * scale)
+        np.testing.assert_allclose(u_y, reference.u[-1][block.y], atol=1e-8 * scale)
+        # f_d by discrete balance is the reaction of the driven edge
+        assert report.driving_force == pytest.approx(reference.drive, rel=1e-6)
+    assert np.count_nonzero(interface.slip_rate > 1e-5) >= 3  # a patch has formed
+
+
+def test_initial_force_is_that_of_uniaxial_strain():
+    parameters = Parameters(geometry=Geometry(0.01, 0.4), mesh=Mesh(60, 8))
+    _, report = Dynamics(parameters).initial_state()
+    nu = parameters.material.poisson_ratio
+    expected = -nu / (1 - nu) * parameters.loading.normal_stress * parameters.geometry.height
+    assert report.driving_force == pytest.approx(expected, rel=1e-9)
+
+
+def test_start_in_uniform_shear_carries_it_at_every_node():
+    shear = 5e4
+    loading = Loading(initial_stress="uniform_shear", initial_shear_stress=shear)
+    dynamics = Dynamics(dataclasses.replace(small(), loading=loading))
+    state, report = dynamics.initial_state()
+    forces = shear * dynamics.grid.nodal_lengths[1:]
+    # the tangent leaves out couplings through the right edge below 1e-8
+    np.testing.assert_allclose(report.interface.tangential[1:], -forces, rtol=3e-8)
+    assert report.driving_force == pytest.approx(-forces.sum(), rel=1e-8)
+    np.testing.assert_array_equal(state.past_w[0], report.interface.w)
+
+
+def test_start_without_shear_is_uniaxial_stress():
+    """The relaxed start: sigma_xx = sigma_xy = 0 everywhere, which bilinear elements hold."""
+    parameters = dataclasses.replace(small(), loading=Loading(initial_stress="uniform_shear"))
+    dynamics = Dynamics(parameters)
+    state, report = dynamics.initial_state()
+    u_x, u_y = dynamics.body.nodal_values(state.displacement)
+    material, stress = parameters.material, parameters.loading.normal_stress
+    x, y = np.meshgrid(dynamics.grid.x, dynamics.grid.y)
+    nu, scale = material.poisson_ratio, stress / (2.0 * material.shear_modulus)
+    np.testing.assert_allclose(u_x, nu * scale * x, atol=1e-9 * scale)
+    np.testing.assert_allclose(u_y, -(1.0 - nu) * scale * y, atol=1e-9 * scale)
+    assert abs(report.driving_force) < 1e-8 * stress * parameters.geometry.height
+    np.testing.assert_allclose(
+        report.interface.normal, stress * dynamics.grid.nodal_lengths, rtol=1e-8
+    )
+
+
+def test_without_density_every_step_is_a_static_field():
+    parameters = dataclasses.replace(small(), material=Material(density=0.0))
+    dynamics = Dynamics(parameters)
+    static = BlockOperator(dynamics.body, 0.0)
+    load = dynamics.body.top_load(parameters.loading.normal_stress)
+    state, _ = dynamics.initial_state()
+    for rung in LADDER[:40]:
+        state, report = dynamics.advance(state, rung)
+        expected = static.respond(load, report.interface.w)
+        p, scale = report.interface.tangential[1:], np.abs(expected.tangential).max()
+        np.testing.assert_allclose(p, expected.tangential, rtol=1e-7, atol=1e-7 * scale)
+        np.testing.assert_allclose(report.interface.normal, expected.normal, rtol=1e-7)
+        assert report.driving_force == report.interface.tangential.sum()
+        assert state.momentum == 0.0
+
+
+def test_a_step_changes_nothing_and_repeats_exactly():
+    dynamics = Dynamics(small())
+    state, _ = dynamics.initial_state()
+    for rung in LADDER[:20]:
+        state, _ = dynamics.advance(state, rung)
+    before = state.displacement.modes.copy()
+    first, _ = dynamics.advance(state, -58)
+    np.testing.assert_array_equal(before, state.displacement.modes)
+    again, _ = Dynamics(small()).advance(state, -58)
+    np.testing.assert_array_equal(first.past_slip_rates, again.past_slip_rates)
+    np.testing.assert_array_equal(first.displacement.modes, again.displacement.modes)
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
+    """One sweep with the predicted edge gives what two sweeps give, and says when it does not."""
+    parameters = dataclasses.replace(
+        small(law, n_x=48, n_y=24), geometry=Geometry(height=0.02, length=0.8)
+    )
+
+    def swept(round_off):
+        monkeypatch.setattr("nucleation.simulation.step.EDGE_ROUND_OFF", round_off)
+        sweeps = []
+        monkeypatch.setattr(
+            "nucleation.fem.operator.BlockOperator._swept",
+            lambda self, load, edge: sweeps.append(0) or sweep(self, load, edge),
+        )
+        dynamics = Dynamics(parameters)
+        state, report = dynamics.initial_state()
+        reports = []
+        for rung in LADDER:
+            state, report = dynamics.advance(state, rung)
+            reports.append(report)
+        return state, reports, len(sweeps) / len(LADDER)
+
+    sweep = BlockOperator._swept
+    (state, found, sweeps), (expected_state, expected, all_sweeps) = swept(4.0), swept(0.0)
+    assert all_sweeps > 2.0 > 1.5 > sweeps
+    for one, two in zip(found, expected, strict=True):
+        for name in ("tangential", "normal"):
+            p, q = getattr(one.interface, name), getattr(two.interface, name)
+            assert np.abs(p - q).max() < 1e-10 * np.abs(q).max()
+        assert one.driving_force == pytest.approx(two.driving_force, rel=1e-9)
+    u, v = state.displacement, expected_state.displacement
+    assert np.abs(u.modes - v.modes).max() < 1e-11 * np.abs(v.modes).max()
+    assert np.abs(u.edge - v.edge).max() < 1e-11 * np.abs(v.edge).max()
+
+
+def test_newton_converges_quadratically():
+    """Residuals of successive iterations: the exponent of their decay is two."""
+    parameters = small()
+    dynamics = Dynamics(parameters)
+    state, _ = dynamics.initial_state()
+    for rung in LADDER:
+        state, _ = dynamics.advance(state, rung)
+    interface = dataclasses.replace(dynamics.interface, most_iterations=20)
+    operator = dynamics._operator(-58)
+    errors, updated = [], type(interface)._updated
+
+    def spy(self, v, change):
+        errors.append(np.max(np.abs(change) / (np.abs(v) + 1e-9)))
+        return updated(self, v, change)
+
+    formula = Formula.bdf2(rung_value(-58), state.last_step)
+    load = dynamics._load_with_past(state, formula, operator.s)
+    w_history = formula.from_past(state.past_w)
+    guess = state.past_slip_rates[0][1:] * 1.05
+    response = operator.respond(load, w_history + formula.beta * (guess - 1e-3))
+    psi = formula.from_past(state.past_log_states)
+    type(interface)._updated = spy
+    try:
+        interface.solve(operator, response, w_history, psi, formula.beta, guess)
+    finally:
+        type(interface)._updated = updated
+    errors = [e for e in errors if e > 1e-13]
+    assert len(errors) >= 3
+    rates = [np.log(b) / np.log(a) for a, b in zip(errors[-3:-1], errors[-2:], strict=True)]
+    assert max(rates) > 1.8, errors
+
+
+def test_first_step_from_rest_on_a_fine_mesh():
+    """The singular corner breaks loose at once; Newton's method gets there from rest."""
+    dynamics = Dynamics(Parameters(geometry=Geometry(0.005, 1.0), mesh=Mesh(3200, 20)))
+    _, report = dynamics.advance(dynamics.initial_state()[0], -92)
+    assert report.interface.iterations > 8

@@ -1,0 +1,164 @@
+import dataclasses
+
+import numpy as np
+import pytest
+from layer_problem import reference_transfer
+
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.theory.closed_forms import (
+    bimaterial_contrast,
+    bimaterial_half_spaces,
+    bimaterial_length,
+    bimaterial_length_ratio,
+    bimaterial_modulus,
+    block_on_rigid_base,
+    half_spaces_length,
+    identical_half_spaces,
+    thin_limit_length,
+    uncoupled_angular_frequency,
+    velocity_strengthening_threshold,
+)
+from nucleation.theory.critical import NoInstability
+from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.transfer import Body
+
+SOFT, STIFF = Material(3.1e9, 1 / 3), Material(9.3e9, 0.2)
+INTERFACE = InterfaceState()
+
+
+def largest_crossing(coupling, a, zeta):
+    """Largest load g at which a root of Eq. (5) is marginal, for ``G2/G1 f = coupling``.
+
+    Eq. (5) is ``a x^2 + [g (1 - i coupling) - zeta] x + g (1 - i coupling) = 0``, solved by
+    numpy.roots on a grid of g that is refined around the topmost change of sign.
+    """
+    low, high = 1e-9, 2.0 * (a + abs(zeta))
+    for _ in range(6):
+        loads = np.geomspace(low, high, 400)
+        growth = [
+            np.roots([a, g * (1 - 1j * coupling) - zeta, g * (1 - 1j * coupling)]).real.max()
+            for g in loads
+        ]
+        unstable = np.flatnonzero(np.array(growth) > 0.0)
+        if unstable.size == 0:
+            return np.nan
+        low, high = loads[unstable[-1]], loads[unstable[-1] + 1]
+    return high
+
+
+@pytest.mark.parametrize("k", [2.0, -5e3])
+def test_half_space_transfer_functions(k):
+    expected = reference_transfer(k, Body(SOFT), Body(SOFT), SOFT.shear_modulus)
+    computed = identical_half_spaces(k, SOFT.poisson_ratio)
+    np.testing.assert_allclose(computed, expected, rtol=1e-14, atol=1e-30)
+    for upper, lower in [(SOFT, STIFF), (STIFF, SOFT)]:
+        expected = reference_transfer(k, Body(upper), Body(lower), upper.shear_modulus)
+        computed = bimaterial_half_spaces(k, upper, lower)
+        np.testing.assert_allclose(computed, expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("q", [1e-8, 0.3, 2.0, 30.0, 1e6])
+def test_block_on_rigid_base(q):
+    body, nu = Body(SOFT, 0.04, "traction"), SOFT.poisson_ratio
+    g1, g2 = block_on_rigid_base(q / 0.04, 0.04, nu)
+    if q < 1e3:
+        expected = reference_transfer(q / 0.04, body, None, SOFT.shear_modulus)
+    else:
+        expected = np.array([4 - 4 * nu, 2 - 4 * nu]) / (3 - 4 * nu)
+    np.testing.assert_allclose([g1, g2], expected, rtol=1e-14)
+
+
+def test_bimaterial_constants():
+    """Identical materials, a rigid lower body and the exchange of the bodies."""
+    assert bimaterial_contrast(SOFT, SOFT) == 0.0
+    assert bimaterial_modulus(SOFT, SOFT) == pytest.approx(3.1e9 / (1 - 1 / 3))
+    assert bimaterial_contrast(SOFT, STIFF) == pytest.approx(-bimaterial_contrast(STIFF, SOFT))
+    assert bimaterial_modulus(SOFT, STIFF) == pytest.approx(bimaterial_modulus(STIFF, SOFT))
+    rigid = Material(9.99e12, 0.3)
+    assert bimaterial_contrast(Material(1e4, 1 / 3), rigid) == pytest.approx(0.25, rel=1e-8)
+
+
+@pytest.mark.parametrize("f_beta", [0.0, 1e-6, 0.1025, -0.1025, 0.6, 3.0])
+@pytest.mark.parametrize("zeta_over_a", [1e-3, 0.1, 2.35, 50.0, -1e-4, -1e-2])
+def test_bimaterial_ratio_against_the_roots_of_the_spectrum(f_beta, zeta_over_a):
+    a = 0.0068
+    load = largest_crossing(f_beta, a, zeta_over_a * a)
+    # k_c = 2 g sigma0/(M ell), hence L_c/L_c^M = zeta/g
+    expected = zeta_over_a * a / load
+    computed = bimaterial_length_ratio(f_beta, zeta_over_a)
+    np.testing.assert_allclose(computed, expected, rtol=1e-9)
+
+
+def test_bimaterial_ratio_is_the_printed_bracket():
+    f_beta, z = np.meshgrid(np.linspace(-0.5, 0.5, 8), [0.05, 0.5, 2.0, 10.0])
+    square = f_beta**2
+    bracket = square * (1 + z - np.sqrt((1 + z) ** 2 + 4 * z / square)) + 2 * z
+    np.testing.assert_allclose(bimaterial_length_ratio(f_beta, z), bracket / (2 * z), rtol=1e-12)
+
+
+def test_bimaterial_ratio_limits():
+    assert bimaterial_length_ratio(0.0, 0.5) == 1.0
+    assert bimaterial_length_ratio(0.2, 0.0) == 0.0
+    assert bimaterial_length_ratio(0.2, 1e-14) == pytest.approx(1e-14 * 1.04 / 0.04, rel=1e-9)
+    assert np.isnan(bimaterial_length_ratio(0.0, 0.0))
+    assert np.isnan(bimaterial_length_ratio(0.5, -1.5))
+    assert bimaterial_length_ratio(np.zeros((2, 1)), np.ones(3)).shape == (2, 3)
+
+
+def test_velocity_strengthening_threshold():
+    a, zeta = 0.0068, -5e-5
+    threshold = float(velocity_strengthening_threshold(a, zeta))
+    assert np.isnan(largest_crossing(threshold * 0.999, a, zeta))
+    assert np.isfinite(largest_crossing(threshold * 1.01, a, zeta))
+    assert np.isnan(bimaterial_length_ratio(threshold * (1 - 1e-9), zeta / a))
+    assert np.isfinite(bimaterial_length_ratio(threshold * (1 + 1e-9), zeta / a))
+    np.testing.assert_array_equal(
+        velocity_strengthening_threshold(a, [0.01, 0.0, -a, -1.0]), [0.0, 0.0, np.inf, np.inf]
+    )
+
+
+@pytest.mark.parametrize("zeta", [0.016, 1e-4, -1e-5])
+def test_bimaterial_length_is_marginal(zeta):
+    interface = dataclasses.replace(INTERFACE, friction=1.5, zeta=zeta)
+    k = 2 * np.pi / bimaterial_length(SOFT, STIFF, interface)
+    fastest = growth_rates(k * np.array([1 - 1e-6, 1.0, 1 + 1e-6]), Body(SOFT), Body(STIFF),
+                           interface)[0]  # fmt: skip
+    assert fastest[0].real > 0.0 > fastest[2].real
+    assert abs(fastest[1].real) < 1e-12 * abs(fastest[1])
+
+
+def test_half_spaces_length_and_frequency():
+    k = 2 * np.pi / half_spaces_length(SOFT, INTERFACE)
+    assert half_spaces_length(SOFT, INTERFACE) == pytest.approx(
+        np.pi * 3.1e9 * 5e-7 / (0.016 * 2 / 3 * 1e6)
+    )
+    assert bimaterial_length(SOFT, SOFT, INTERFACE) == pytest.approx(2 * np.pi / k, rel=1e-14)
+    rates = growth_rates(k, Body(SOFT), Body(SOFT), INTERFACE)
+    omega = uncoupled_angular_frequency(INTERFACE)
+    np.testing.assert_allclose(np.sort(rates.imag), [-omega, omega], rtol=1e-12)
+    assert np.all(np.abs(rates.real) < 1e-12 * omega)
+
+
+def test_thin_limit():
+    """With G1 = 2 Hk/(1 - nu) and G2 = 0 in Eq. (5) both roots are marginal."""
+    heights, s, mu = np.array([1e-4, 5e-3]), INTERFACE, SOFT.shear_modulus
+    lengths = thin_limit_length(heights, SOFT, s)
+    for height, length in zip(heights, lengths, strict=True):
+        k = 2 * np.pi / length
+        gamma = mu * k * 2 * height * k / (1 - SOFT.poisson_ratio) * s.slip_length
+        gamma /= s.normal_stress
+        roots = np.roots([s.a, gamma - s.zeta, gamma])
+        assert np.all(np.abs(roots.real) < 1e-12 * np.abs(roots))
+
+
+def test_velocity_strengthening_is_refused():
+    strengthening = dataclasses.replace(INTERFACE, zeta=-0.001)
+    for call in (
+        lambda: half_spaces_length(SOFT, strengthening),
+        lambda: thin_limit_length(0.1, SOFT, strengthening),
+        lambda: uncoupled_angular_frequency(strengthening),
+        lambda: bimaterial_length(SOFT, STIFF, strengthening),
+    ):
+        with pytest.raises(NoInstability, match="zeta"):
+            call()

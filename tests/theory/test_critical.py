@@ -1,0 +1,271 @@
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq, fsolve
+
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.model.quantities import ParameterError
+from nucleation.theory.critical import (
+    NoInstability,
+    _certainly_stable,
+    critical_length,
+    critical_wavenumber,
+    marginal_stiffness,
+)
+from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.transfer import RIGID, Body, transfer_functions
+
+pytestmark = pytest.mark.filterwarnings("error")
+MATERIAL = Material(3.1e9, 1 / 3)
+MAIN_TEXT = InterfaceState(
+    friction=0.41, a=0.0068, zeta=0.016, slip_length=0.5e-6, velocity=1e-5, normal_stress=1e6
+)
+TABLE_S1 = dataclasses.replace(MAIN_TEXT, friction=0.414, a=0.00682, zeta=0.0156)
+HEIGHTS = np.array([0.005, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1])
+
+
+def crossings(upper, lower, interface, k):
+    """Indices before which the fastest root of Eq. (5) changes the sign of its real part."""
+    return np.flatnonzero(np.diff(growth_rates(k, upper, lower, interface)[0].real > 0.0))
+
+
+def printed_equations(unknowns, height, s):
+    """Eq. (S-ReIm) with Eq. (10), as printed; unknowns log(k) and omega ell / V."""
+    k, omega = np.exp(unknowns[0]), unknowns[1] * s.velocity / s.slip_length
+    mu, nu = MATERIAL.shear_modulus, MATERIAL.poisson_ratio
+    q, v, ell = height * k, s.velocity, s.slip_length
+    denominator = 2 * q**2 + (3 - 4 * nu) * np.cosh(2 * q) - 4 * nu * (3 - 2 * nu) + 5
+    g1 = 4 * (1 - nu) * (2 * q + np.sinh(2 * q)) / denominator
+    g2 = 4 * (q**2 + (1 - 2 * nu) * np.sinh(q) ** 2) / denominator
+    square = v**2 + omega**2 * ell**2
+    real = s.normal_stress * omega**2 * ell * (s.a + s.zeta) / square
+    imaginary = s.normal_stress * omega * (s.a * omega**2 * ell**2 - s.zeta * v**2) / (v * square)
+    scale = s.normal_stress / ell
+    return [(mu * k * g1 - real) / scale, (s.friction * g2 * mu * k - imaginary) / scale]
+
+
+@pytest.mark.parametrize("interface", [MAIN_TEXT, TABLE_S1])
+@pytest.mark.parametrize("height", HEIGHTS)
+def test_block_on_a_rigid_base_solves_the_printed_equations(interface, height):
+    guess = [np.log(2 * np.pi / 0.5), 1.5]
+    solution, _, status, _ = fsolve(
+        printed_equations, guess, args=(height, interface), full_output=True, xtol=1e-13
+    )
+    assert status == 1
+    point = critical_wavenumber(Body(MATERIAL, height, "traction"), RIGID, interface)
+    assert point.wavenumber == pytest.approx(np.exp(solution[0]), rel=1e-10)
+    assert point.angular_frequency == pytest.approx(solution[1] * 20.0, rel=1e-10)
+    assert point.length == pytest.approx(2 * np.pi / point.wavenumber)
+
+
+def test_numbers_of_figure_3():
+    """The theory line at the heights of the simulations (m), to the digits given."""
+    expected = [0.23501, 0.32765, 0.45093, 0.53747, 0.65605, 0.73155, 0.79491]
+    np.testing.assert_allclose(critical_length(HEIGHTS, MATERIAL, MAIN_TEXT), expected, atol=6e-6)
+    ratio = critical_length(HEIGHTS, MATERIAL, TABLE_S1) / expected
+    assert np.all((ratio > 1.0125) & (ratio < 1.0245))
+
+
+def test_length_grows_with_height_between_its_limits():
+    heights = np.geomspace(1e-14, 1e8, 45).reshape(9, 5)
+    lengths = critical_length(heights, MATERIAL, MAIN_TEXT)
+    assert lengths.shape == heights.shape
+    assert np.all(np.diff(lengths.ravel()) >= -1e-13 * lengths.ravel()[1:])
+    modulus = MATERIAL.shear_modulus / (1 - MATERIAL.poisson_ratio)
+    stiffness = 2 * modulus * MAIN_TEXT.slip_length / (MAIN_TEXT.zeta * MAIN_TEXT.normal_stress)
+    thin = 2 * np.pi * np.sqrt(stiffness * heights[0, 0])
+    assert lengths[0, 0] == pytest.approx(thin, rel=1e-7)
+    beta, z = 0.25, MAIN_TEXT.zeta / MAIN_TEXT.a
+    fb2 = (MAIN_TEXT.friction * beta) ** 2
+    bracket = fb2 * (1 + z - np.sqrt((1 + z) ** 2 + 4 * z / fb2)) + 2 * z
+    bimaterial = modulus / (1 - beta**2) * 2  # Eq. (8) for a rigid lower body
+    tall = np.pi * bimaterial * stiffness / (2 * modulus) * bracket / (2 * z)
+    assert lengths[-1, -1] == pytest.approx(tall, rel=1e-12)
+    assert critical_length(np.inf, MATERIAL, MAIN_TEXT) == pytest.approx(tall, rel=1e-12)
+
+
+def random_system(rng):
+    """Two bodies of any kind, at most one rigid, and an interface."""
+
+    def body():
+        height = rng.choice([np.inf, 10 ** rng.uniform(-3, 1)])
+        material = Material(10 ** rng.uniform(9, 10.5), rng.uniform(-0.3, 0.49))
+        return Body(material, float(height), str(rng.choice(["velocity", "traction"])))
+
+    pair = [body(), body()]
+    if (rigid := rng.integers(4)) < 2:
+        pair[rigid] = RIGID
+    a = 10 ** rng.uniform(-3, -1.5)
+    zeta = a * rng.choice([-0.02, -0.001, 0.01, 0.1, 1.0, 5.0]) * rng.uniform(0.2, 2)
+    slip_length = 10 ** rng.uniform(-7, -4)
+    return *pair, InterfaceState(rng.uniform(0.1, 1.5), a, zeta, slip_length)
+
+
+def test_largest_crossing_of_random_systems():
+    """Against a scan of the roots of Eq. (5) over 14 decades; some have two or three crossings."""
+    rng = np.random.default_rng(7)
+    k = np.geomspace(1e-7, 1e7, 3000)
+    counts = []
+    for _ in range(400):
+        upper, lower, interface = random_system(rng)
+        scan = crossings(upper, lower, interface, k)
+        counts.append((scan.size, interface.zeta > 0.0))
+        if scan.size == 0:
+            with pytest.raises(NoInstability):
+                critical_wavenumber(upper, lower, interface)
+            continue
+        point = critical_wavenumber(upper, lower, interface)
+        assert k[scan[-1]] <= point.wavenumber <= k[scan[-1] + 1]
+        roots = growth_rates(point.wavenumber, upper, lower, interface)
+        nearest = np.abs(roots - 1j * point.angular_frequency).min()
+        assert nearest < 1e-9 * abs(point.angular_frequency)
+    assert {(0, False), (0, True), (1, True), (2, False)} <= set(counts)
+    assert max(counts)[0] > 2
+
+
+@pytest.mark.parametrize("zeta", [0.016, 1e-5, -5e-6, -4e-4])
+@pytest.mark.parametrize("rho", [0.03, -0.2, 0.9])
+def test_marginal_stiffness_solves_its_quadratic(zeta, rho):
+    a, b = 0.0068, 0.0068 + zeta
+    expected = np.roots([1 + rho**2, -2 * zeta - rho**2 * b, zeta**2])
+    minus, plus = marginal_stiffness(rho, a, zeta)
+    if np.iscomplex(expected).any():
+        assert np.isnan(minus) and np.isnan(plus)
+    else:
+        np.testing.assert_allclose([minus, plus], np.sort(expected), rtol=1e-10)
+
+
+def test_marginal_stiffness_without_coupling():
+    assert marginal_stiffness(0.0, 0.0068, 0.016) == (pytest.approx(0.016),) * 2
+    assert marginal_stiffness(0.0, 0.0068, 0.0) == (0.0, 0.0)
+    assert np.all(np.isnan(marginal_stiffness(0.5, 0.0068, -0.01)))
+
+
+def test_certainly_stable_intervals_are_stable():
+    """No root grows in a certified interval, and a tight one with a margin is certified."""
+    rng = np.random.default_rng(3)
+    certified = {1e-5: 0, 0.03: 0, 1.0: 0}
+    for _ in range(120):
+        upper, lower, interface = random_system(rng)
+        for width in certified:
+            k_low = 10 ** rng.uniform(-4, 5, 60)
+            inside = k_low * np.exp(width * np.linspace(0, 1, 15))[:, None]
+            growth = growth_rates(inside, upper, lower, interface)[0].real.max(axis=0)
+            stable = _certainly_stable(k_low, k_low * np.exp(width), upper, lower, interface)
+            assert not np.any(growth[stable] > 0.0)
+            certified[width] += stable.sum()
+            weaker = dataclasses.replace(
+                interface,
+                a=interface.a * 0.9,
+                zeta=interface.zeta + 0.1 * interface.a,
+                friction=interface.friction * 1.05,
+            )
+            margin = growth_rates(k_low * np.exp(-0.05), upper, lower, weaker)[0].real
+            if width == 1e-5 and interface.zeta > 0.0:
+                assert np.all(stable[(margin < 0.0) & (growth < 0.0)])
+    assert min(certified.values()) > 500
+
+
+def test_onset_at_the_lower_root():
+    """The coupling fades at short waves; strengthening friction turns unstable at h_minus."""
+    material = Material(3e9, 0.0)
+    upper, lower = Body(material, 0.01, "traction"), Body(material)
+    interface = InterfaceState(friction=1.5, a=0.01, zeta=-1e-4, normal_stress=1.6e9)
+    k = np.geomspace(1.0, 1e4, 20000)
+    scan = crossings(upper, lower, interface, k)
+    point = critical_wavenumber(upper, lower, interface)
+    assert k[scan[-1]] <= point.wavenumber <= k[scan[-1] + 1]
+    roots = growth_rates(point.wavenumber, upper, lower, interface)
+    assert np.abs(roots - 1j * point.angular_frequency).min() < 1e-9 * abs(roots).max()
+    g1, g2 = transfer_functions(point.wavenumber, upper, lower)
+    load = 3e9 * point.wavenumber * interface.slip_length / interface.normal_stress * g1
+    minus, plus = marginal_stiffness(1.5 * g2 / g1, interface.a, interface.zeta)
+    assert load == pytest.approx(float(minus), rel=1e-9)
+    assert plus > 1.05 * minus
+
+
+def test_three_crossings():
+    """A held layer on a half-space, weak velocity weakening: unstable, stable, unstable bands."""
+    upper = Body(Material(5.86e9, -0.12), 3.37)
+    lower = Body(Material(1.12e10, 0.126))
+    interface = InterfaceState(0.952, 0.01067, 6.14e-5, 9.03e-7)
+    k = np.geomspace(1e-4, 1e3, 20000)
+    scan = crossings(upper, lower, interface, k)
+    assert scan.size == 3
+    point = critical_wavenumber(upper, lower, interface)
+    assert k[scan[-1]] <= point.wavenumber <= k[scan[-1] + 1]
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e5])
+@pytest.mark.parametrize("excess", [1e-5, 1e-3])
+def test_narrow_unstable_band_is_found(excess, scale):
+    """A held block that becomes unstable, as friction grows, in a band around one wavenumber."""
+    upper = Body(Material(2e9, -0.06), 1.3 * scale)
+    k = np.geomspace(1e-2, 1e2, 100_000) / scale
+
+    def interface(friction):
+        return InterfaceState(friction, 0.0064, 0.0006, 8.3e-7 * scale)
+
+    def fastest(friction):
+        return growth_rates(k, upper, RIGID, interface(friction))[0].real.max()
+
+    threshold = brentq(fastest, 0.3, 1.5, xtol=1e-9)
+    with pytest.raises(NoInstability):
+        critical_wavenumber(upper, RIGID, interface(threshold * (1 - excess)))
+    state = interface(threshold * (1 + excess))
+    scan = crossings(upper, RIGID, state, k)
+    assert scan.size == 2
+    assert k[scan[1]] / k[scan[0]] < 1.0 + 4.0 * excess**0.5
+    point = critical_wavenumber(upper, RIGID, state)
+    assert k[scan[1]] <= point.wavenumber <= k[scan[1] + 1]
+
+
+def test_waves_may_travel_either_way():
+    """Exchanging the bodies reverses omega and keeps k_c."""
+    soft, stiff = Body(MATERIAL, 0.03, "traction"), Body(Material(9e9, 0.2), 0.1)
+    point = critical_wavenumber(soft, stiff, MAIN_TEXT)
+    exchanged = critical_wavenumber(stiff, soft, MAIN_TEXT)
+    assert exchanged.wavenumber == pytest.approx(point.wavenumber, rel=1e-12)
+    assert exchanged.angular_frequency == pytest.approx(-point.angular_frequency, rel=1e-10)
+
+
+def test_symmetric_layers_have_the_uncoupled_frequency():
+    layer = Body(MATERIAL, 0.02, "traction")
+    point = critical_wavenumber(layer, layer, MAIN_TEXT)
+    assert point.angular_frequency == pytest.approx(20 * np.sqrt(0.016 / 0.0068), rel=1e-12)
+
+
+def test_held_block_is_a_spring_for_long_waves():
+    """Stiffness mu/H per area against Eq. (1): stable below ``H = mu ell / (zeta sigma0)``."""
+    height = MATERIAL.shear_modulus * 0.5e-6 / (0.016 * 1e6)
+    uncoupled = dataclasses.replace(MAIN_TEXT, friction=0.0)
+    with pytest.raises(NoInstability):
+        critical_wavenumber(Body(MATERIAL, height * 0.9999), RIGID, uncoupled)
+    point = critical_wavenumber(Body(MATERIAL, height * 1.0001), RIGID, uncoupled)
+    assert point.wavenumber * height < 0.1
+
+
+@pytest.mark.parametrize(
+    ("upper", "lower", "changes"),
+    [
+        (Body(), Body(), {"zeta": -0.001}),
+        (Body(), Body(), {"zeta": 0.0}),
+        (Body(), RIGID, {"zeta": -0.005}),
+        (Body(), RIGID, {"zeta": -0.0068}),
+        (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.01}),
+        (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.003}),
+        (Body(height=0.01), RIGID, {}),
+    ],
+)
+def test_no_instability(upper, lower, changes):
+    with pytest.raises(NoInstability, match="zeta"):
+        critical_wavenumber(upper, lower, dataclasses.replace(MAIN_TEXT, **changes))
+
+
+def test_bad_arguments():
+    with pytest.raises(ParameterError, match=r"height = -0.1 m"):
+        critical_length([0.1, -0.1], MATERIAL, MAIN_TEXT)
+    with pytest.raises(ValueError, match="at least one"):
+        critical_wavenumber(RIGID, RIGID, MAIN_TEXT)

@@ -1,0 +1,228 @@
+"""Lengths of the literature against independent mechanics, limits and relations among them."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.model.quantities import ParameterError
+from nucleation.theory import closed_forms, conventional, literature
+from nucleation.theory.arrays import critical_length
+from nucleation.theory.fault import Fault
+from nucleation.theory.literature_table import LENGTHS, lengths_in_use, lengths_of
+
+ROCK = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3}
+LOAD = {"normal_stress": 1e6, "slip_distance": 5e-7}
+WEAKENING = {"a": 0.0068, "zeta": 0.016}  # a/b = 0.298
+NEUTRAL = {"a": 0.02, "zeta": 0.005}  # a/b = 0.8
+STRENGTHENING = {"a": 0.01, "zeta": -0.001}
+PLANE_MODULUS = 3.1e9 / (1 - 1 / 3)
+STATE_LENGTH = PLANE_MODULUS * 5e-7 / (0.0228 * 1e6)
+
+
+def one(key, **changes):
+    """One length (m) of the usual fault with other values."""
+    fault = ROCK | LOAD | WEAKENING | changes
+    return lengths_in_use(**fault)[key].values
+
+
+@pytest.mark.parametrize("eta", [2 / math.pi, 1.0, 4 / 3])
+def test_conventional_length_balances_the_stiffnesses(eta):
+    area = 0.2
+    length = literature.conventional_length(eta, 3.1e9, 1e6, 0.016, 5e-7)
+    patch = conventional.effective_stiffness(length, area, Material(3.1e9, 1 / 3), eta)
+    critical = conventional.critical_spring_stiffness(1e6 * area, InterfaceState())
+    assert patch == pytest.approx(critical)
+    assert length == pytest.approx(eta * 3.1e9 * 5e-7 / (0.016 * 1e6))  # Eq. (3)
+
+
+def test_closed_forms_of_the_paper():
+    """Eqs. (6) and (11) as the theory has them, for one fault at a time."""
+    material, interface = Material(3.1e9, 1 / 3), InterfaceState()
+    expected = closed_forms.half_spaces_length(material, interface)
+    assert one("homogeneous_sliding") == pytest.approx(expected, rel=1e-14)
+    height = np.array([1e-4, 1e-3])
+    expected = closed_forms.thin_limit_length(height, material, interface)
+    assert_allclose(one("thin_limit", height=height), expected, rtol=1e-14)
+
+
+def test_relations():
+    """What the definitions imply between lengths of one fault."""
+    full = one("homogeneous_sliding")
+    assert full == pytest.approx(4 * one("rice_ruina"))
+    ratio = one("dieterich_longest") / one("dieterich_shortest")
+    assert ratio == pytest.approx(2 * math.pi / 3)
+    assert full / one("dieterich_longest") == pytest.approx(math.pi / (1 - 1 / 3) / (4 / 3))
+    assert one("state_evolution") == pytest.approx(STATE_LENGTH)
+    assert one("uenishi_rice") == pytest.approx(1.158 * STATE_LENGTH)
+    # without direct effect, a = 0, the theory is 2 pi times L_b / 2, and eta = pi/(1 - nu)
+    tiny = {"a": 1e-12, "zeta": 0.0228}
+    assert one("homogeneous_sliding", **tiny) == pytest.approx(math.pi * STATE_LENGTH)
+    # near a/b = 1 the expanding patch is larger than the linear one by (2/pi^2) b/(b - a)
+    near = {"a": 0.0999, "zeta": 0.0001}
+    ratio = one("rubin_ampuero_crack", **near) / one("homogeneous_sliding", **near)
+    assert ratio == pytest.approx(2 / math.pi**2 * 1000)
+    # thin layers: zeta in the place of b
+    thin = one("thin_layer", height=1e-3) / one("thin_limit", height=1e-3)
+    assert thin == pytest.approx(math.sqrt(0.016 / 0.0228))
+
+
+def crack_coefficients(weakening, terms=60):
+    """Slip-rate coefficients ``c_n`` of a patch ``|x| < 1`` under ``weakening * slip``.
+
+    ``slip = sum c_n sin(n theta)``, ``x = cos(theta)``, n odd, resisted elastically by
+    ``sum n c_n sin(n theta) / (2 sin theta)`` and loaded by the constant 1.
+    """
+    n = 2 * np.arange(terms) + 1
+    theta = (np.arange(terms) + 0.5) * np.pi / (2 * terms)
+    sines = np.sin(np.outer(theta, n))
+    elastic = n / 2 * sines / np.sin(theta)[:, None]
+    return n, np.linalg.solve(elastic - weakening * sines, np.ones(terms))
+
+
+def test_uenishi_rice_length():
+    """Smallest half-length at which the elastic resistance to some slip is used up by weakening."""
+
+    def inverse(weakening):
+        n, c = crack_coefficients(weakening)
+        return 1 / np.sum(c * np.sin(n * np.pi / 2))
+
+    half = brentq(inverse, 0.4, 0.7)  # in units of mu*/W
+    rate = 4e10
+    expected = 2 * half * PLANE_MODULUS / rate
+    assert one("uenishi_rice", weakening_rate=rate) == pytest.approx(expected, rel=5e-4)
+    with pytest.raises(ParameterError, match=r"weakening_rate = 0.0 Pa/m is not allowed"):
+        one("uenishi_rice", weakening_rate=0.0)
+
+
+def test_rubin_ampuero_localised_length():
+    """Self-similar acceleration ``dlog v/dt ~ v(0)`` without stress concentration at the tips.
+
+    Elastic stressing ``= sigma0 (a dlog v/dt - b v/D)``; ``a/b`` is the constant over the peak.
+    """
+
+    def tip(weakening):
+        n, c = crack_coefficients(weakening)
+        return np.sum(n * c)
+
+    half = brentq(tip, 1.0, 1.6, xtol=1e-12)  # in units of L_b
+    assert one("rubin_ampuero_localised") == pytest.approx(2 * half * STATE_LENGTH, rel=5e-5)
+    n, c = crack_coefficients(half)
+    peak = half * np.sum(c * np.sin(n * np.pi / 2))
+    assert pytest.approx(-1 / peak, abs=5e-5) == literature.LOCALISED_LIMIT
+
+
+def test_rubin_ampuero_crack_length():
+    """Energy release rate of a crack of stress drop ``zeta sigma0 log(r)`` against fracture energy.
+
+    ``K^2/(2 mu*) = pi (L/2) drop^2/(2 mu*)`` equals ``b sigma0 D log(r)^2 / 2``.
+    """
+    log_ratio = 7.0
+    drop = 0.005 * 1e6 * log_ratio
+    fracture_energy = 0.025 * 1e6 * 5e-7 * log_ratio**2 / 2
+    half = fracture_energy * 2 * PLANE_MODULUS / (math.pi * drop**2)
+    assert one("rubin_ampuero_crack", **NEUTRAL) == pytest.approx(2 * half, rel=1e-12)
+
+
+def test_thin_layer_length():
+    """``E H W'' = sigma0 (a - b W)``, slip rate ``v = D W/(t_end - t)``, from the edge inwards."""
+    height = 1e-3
+    modulus = 2 * PLANE_MODULUS * height * 5e-7
+
+    def bend(x, w):
+        return [w[1], 1e6 * (0.0068 - 0.0228 * w[0]) / modulus]
+
+    def edge(x, w):
+        return w[1]
+
+    edge.terminal, edge.direction = True, -1  # the peak: half the patch
+    solution = solve_ivp(bend, (0, 1.0), [0, 0], events=edge, rtol=1e-10, atol=1e-14)
+    half, (peak, _) = solution.t_events[0][0], solution.y_events[0][0]
+    computed = one("thin_layer", height=[height, 4 * height])
+    assert_allclose(computed, [2 * half, 4 * half], rtol=1e-7)
+    # below one, where the state still ages, if a/b < 1/2
+    assert peak == pytest.approx(2 * 0.0068 / 0.0228)
+
+
+@pytest.mark.parametrize(
+    ("key", "inside", "outside"),
+    [
+        ("rubin_ampuero_localised", [0.01, 0.378], [0.3782, 0.9, 1.2]),
+        ("rubin_ampuero_crack", [0.501, 0.999], [0.499, 0.1, 1.001]),
+        ("thin_layer", [0.01, 0.499], [0.501, 1.2]),
+        ("rice_ruina", [0.01, 0.999], [1.0, 1.2]),
+        ("homogeneous_sliding", [0.01, 0.999], [1.0, 1.2]),
+        ("dieterich_shortest", [0.999], [1.0]),
+        ("dieterich_longest", [0.999], [1.0]),
+        ("thin_limit", [0.01, 0.9], [1.0, 1.2]),
+        ("state_evolution", [0.01, 1.2], []),
+    ],
+)
+def test_ranges_of_validity_in_a_over_b(key, inside, outside):
+    def length(ratio):
+        return one(key, a=0.02 * ratio, zeta=0.02 * (1 - ratio), height=1e-5)
+
+    assert all(length(ratio) > 0.0 for ratio in inside)
+    assert all(np.isnan(length(ratio)) for ratio in outside)
+
+
+def test_friction_that_does_not_evolve_down():
+    found = lengths_in_use(**ROCK, **LOAD, a=0.01, zeta=-0.02, height=1e-3)
+    assert all(np.isnan(found[key]) for key in found)
+
+
+def test_layers_that_are_not_thin():
+    height = np.array([1e-3, 0.5])
+    for key in ("thin_limit", "thin_layer"):
+        assert np.isfinite(one(key, height=height)).tolist() == [True, False]
+        assert np.isnan(one(key))  # a half-space
+
+
+def test_how_thin_a_thin_layer_is():
+    """At the end of its validity Eq. (11) is 8 % above the theory with the paper's friction."""
+    height = (literature.THIN / (2 * math.pi)) ** 2 * one("thin_limit", height=1e-3) ** 2 / 1e-3
+    thin = one("thin_limit", height=0.999 * height)
+    paper = ROCK | LOAD | WEAKENING | {"friction": 0.41, "second_shear_modulus": math.inf}
+    theory = critical_length(**paper, height=0.999 * height)
+    assert thin / theory == pytest.approx(1.08, abs=0.005)
+    assert np.isnan(one("thin_limit", height=1.001 * height))
+
+
+def test_every_length_has_words():
+    for length in LENGTHS:
+        assert all(length.words().values())
+    found = lengths_in_use(**ROCK, **LOAD, **WEAKENING)
+    assert set(found) == {length.key for length in LENGTHS}
+    assert found["rice_ruina"].attrs["units"] == "m"
+
+
+def test_arrays_and_names():
+    a = xr.DataArray([0.004, 0.006, 0.02], dims="a")
+    stress = xr.DataArray([1e6, 2e6], dims="stress", coords={"stress": [1.0, 2.0]})
+    fault = ROCK | LOAD | {"a": a, "b": 0.015, "normal_stress": stress}
+    found = lengths_in_use(**fault)["rubin_ampuero_localised"]
+    assert found.dims == ("a", "stress") and found.coords["stress"].values.tolist() == [1.0, 2.0]
+    for i, j in np.ndindex(found.shape):
+        point = fault | {"a": float(a[i]), "normal_stress": float(stress[j])}
+        alone = lengths_in_use(**point)["rubin_ampuero_localised"]
+        assert_allclose(found[i, j], alone)
+    plain = lengths_in_use(**ROCK | LOAD | {"a": [[0.1], [0.2]], "b": [0.3, 0.4, 0.5]})
+    assert plain["rice_ruina"].dims == ("axis_0", "axis_1")
+    assert plain["rice_ruina"].shape == (2, 3)
+
+
+def test_what_depends_on_no_named_array():
+    a = xr.DataArray([0.004, 0.006], dims="a")
+    found = lengths_in_use(**ROCK, **LOAD, a=a, b=0.0228)
+    assert found["state_evolution"].dims == () and found["rice_ruina"].dims == ("a",)
+
+
+def test_one_fault_serves_all():
+    fault = Fault(**ROCK, **LOAD, **WEAKENING)
+    assert lengths_of(fault)["rice_ruina"] == one("rice_ruina")

@@ -1,0 +1,135 @@
+import warnings
+
+import numpy as np
+import pytest
+
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.model.quantities import ParameterError
+from nucleation.theory.spectrum import growth_rates, spectrum_branches
+from nucleation.theory.transfer import RIGID, Body, transfer_functions
+
+INTERFACE = InterfaceState(
+    friction=0.6, a=0.0068, zeta=0.016, slip_length=5e-7, velocity=3e-5, normal_stress=2e6
+)
+SOFT, STIFF = Material(3.1e9, 1 / 3), Material(2.4e10, 0.2)
+PAIRS = [
+    (Body(SOFT, 0.01, "traction"), RIGID),
+    (Body(SOFT, 0.02), Body(STIFF, 0.05, "traction")),
+    (RIGID, Body(STIFF)),
+    (Body(SOFT), Body(SOFT)),
+]
+
+
+def linear_dynamics(k, upper, lower, s):
+    """Matrix of ``d/dt (slip, state)`` for ``f = f0 + a log v + b log phi`` and the aging law."""
+    mu = (upper if isinstance(upper, Body) else lower).material.shear_modulus
+    g1, g2 = transfer_functions(k, upper, lower)
+    steady_state = s.slip_length / s.velocity
+    by_rate = s.normal_stress * s.a / s.velocity
+    by_state = s.normal_stress * (s.a + s.zeta) / steady_state
+    elastic = -mu * k * g1 + s.friction * 1j * mu * k * g2  # dsigma_xy + f dsigma_yy per slip
+    slip_rate = np.array([elastic / by_rate, -by_state / by_rate])
+    aging = np.array([0, -1 / steady_state]) - steady_state / s.slip_length * slip_rate
+    return np.array([slip_rate, aging])
+
+
+def distance(pairs, others):
+    """Relative distance of two arrays of root pairs, whatever the order within a pair."""
+    return np.minimum(
+        np.max(np.abs(pairs - others) / np.abs(others), axis=0),
+        np.max(np.abs(pairs[::-1] - others) / np.abs(others), axis=0),
+    )
+
+
+@pytest.mark.parametrize(("upper", "lower"), PAIRS)
+@pytest.mark.parametrize("zeta", [0.016, -0.003, -0.009])
+def test_growth_rates_are_eigenvalues_of_the_dynamics(upper, lower, zeta):
+    interface = InterfaceState(friction=0.6, a=0.0068, zeta=zeta, velocity=3e-5)
+    wavenumbers = np.concatenate([np.geomspace(0.3, 300, 20), -np.geomspace(0.3, 300, 5)])
+    computed = growth_rates(wavenumbers, upper, lower, interface)
+    assert np.all(computed[0].real >= computed[1].real)
+    for k, rates in zip(wavenumbers, computed.T, strict=True):
+        expected = np.linalg.eigvals(linear_dynamics(k, upper, lower, interface))
+        assert distance(rates, expected) < 1e-11
+
+
+@pytest.mark.parametrize(("upper", "lower"), PAIRS)
+def test_growth_rates_satisfy_the_spectrum_equation(upper, lower):
+    """Eq. (5) as printed, at wavenumbers where the two roots differ by many orders."""
+    s, k = INTERFACE, np.geomspace(1e-6, 1e6, 50)
+    mu = (upper if isinstance(upper, Body) else lower).material.shear_modulus
+    g1, g2 = transfer_functions(k, upper, lower)
+    elastic = mu * k * (g1 - 1j * s.friction * g2)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rates = growth_rates(k, upper, lower, s)
+    rate = s.velocity / s.slip_length
+    friction = s.normal_stress * rates * (s.a * rates / rate - s.zeta)
+    residual = elastic * (s.velocity + rates * s.slip_length) + friction
+    size = np.abs(elastic) * (s.velocity + np.abs(rates) * s.slip_length)
+    size += s.normal_stress * np.abs(rates) * (s.zeta + s.a * np.abs(rates) / rate)
+    assert np.all(np.abs(residual) < 1e-14 * size)
+
+
+def test_limits_of_the_spectrum():
+    """Long waves: ``zeta V/(a ell)`` and ``Gamma V/(zeta ell)``; short: ``-V/ell`` and ``-inf``."""
+    s, (upper, lower) = INTERFACE, PAIRS[0]
+    rate = s.velocity / s.slip_length
+    fast, slow = growth_rates(1e-7, upper, lower, s)
+    g1, g2 = transfer_functions(1e-7, upper, lower)
+    gamma = SOFT.shear_modulus * 1e-7 * s.slip_length / s.normal_stress * (g1 - 0.6j * g2)
+    assert fast == pytest.approx(s.zeta / s.a * rate, rel=1e-9)
+    assert slow == pytest.approx(gamma / s.zeta * rate, rel=1e-9)
+    assert growth_rates(1e9, upper, lower, s)[0] == pytest.approx(-rate, rel=1e-6)
+
+
+@pytest.mark.parametrize(("upper", "lower"), PAIRS)
+def test_reversed_wavenumber_conjugates(upper, lower):
+    k = np.geomspace(1e-3, 1e4, 60)
+    forward, backward = (growth_rates(sign * k, upper, lower, INTERFACE) for sign in (1, -1))
+    assert np.all(distance(backward, forward.conj()) < 1e-13)
+
+
+@pytest.mark.parametrize(("upper", "lower"), PAIRS)
+@pytest.mark.parametrize("order", [1, -1])
+def test_branches_are_continuous(upper, lower, order):
+    k = np.geomspace(1e-2, 1e4, 6000)[::order]
+    branches = spectrum_branches(k, upper, lower, INTERFACE)
+    pairs = growth_rates(k, upper, lower, INTERFACE)
+    assert np.all(distance(branches, pairs) == 0.0)
+    steps = np.abs(np.diff(branches, axis=1))
+    exchanged = np.abs(branches[::-1, 1:] - branches[:, :-1])
+    assert np.all(steps.sum(0) <= exchanged.sum(0))
+    smallest = np.argmin(k)
+    assert branches[0, smallest].real > branches[1, smallest].real
+    # refining the grid keeps the identity of a branch
+    coarse = spectrum_branches(k[::3], upper, lower, INTERFACE)
+    assert upper == lower or np.array_equal(coarse, branches[:, ::3])  # else a true double root
+
+
+def test_branches_cross_in_growth_rate():
+    """On a block on a rigid base the branches swap their order of growth."""
+    upper, lower = PAIRS[0]
+    interface = InterfaceState(friction=0.41, a=0.0068, zeta=-0.003)
+    k = np.geomspace(1e-2, 1e5, 4000)
+    branches = spectrum_branches(k, upper, lower, interface)
+    difference = np.sign((branches[0] - branches[1]).real)
+    assert np.any(difference != difference[0])
+    assert np.all(np.abs(np.diff(np.log(branches), axis=1)) < 0.05)
+
+
+@pytest.mark.parametrize("k", [[1.0, 3.0, 2.0], [-1.0, 1.0], [[1.0, 2.0]], [1.0, 1.0]])
+def test_branches_need_a_path_in_k(k):
+    with pytest.raises(ValueError, match="wavenumber"):
+        spectrum_branches(k, *PAIRS[0], INTERFACE)
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [{"a": 0.0}, {"slip_length": -1.0}, {"velocity": 0.0}, {"normal_stress": 0.0},
+     {"friction": -0.1}, {"zeta": np.nan}],
+)  # fmt: skip
+def test_interface_state_is_checked(bad):
+    with pytest.raises(ParameterError, match=next(iter(bad))):
+        InterfaceState(**bad)
