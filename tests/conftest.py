@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+pytest_plugins = ("coarse_run",)
+
 LONG = ("workflow/cluster", "faults", "workflow", "docs", "verification")
 """Directories by the time that their longest file takes; all others take less."""
 

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from reference_evidence import evidence
-from stability import layer_problem
+from theory import layer_problem
 
 from nucleation.claims.independent import marginal, printed
 from nucleation.claims.independent.elastic_layers import Layer, block_field, chebyshev, compliance

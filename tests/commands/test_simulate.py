@@ -170,7 +170,8 @@ def test_every_parameter_has_an_option(nucleation):
 STEPS = 10  # after which a run is stopped
 STOPPED = f"""
 import os, signal
-from nucleation import __main__, progress
+from nucleation import __main__
+from nucleation.pipeline import progress
 def stop(self, instant):
     if instant.control.steps == {STEPS}:
         os.kill(os.getpid(), signal.SIGINT)

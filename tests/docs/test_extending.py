@@ -26,9 +26,9 @@ def run(arguments, checkout):
 def checkout(tmp_path_factory):
     """A copy of the project with the page's additions."""
     copy = tmp_path_factory.mktemp("checkout")
-    parts = ("Snakefile", "pyproject.toml", "src", "workflow", "config", "tests/test_friction.py")
-    for part in parts:
-        (copy / part).parent.mkdir(exist_ok=True)
+    parts = ("Snakefile", "pyproject.toml", "src", "workflow", "config")
+    for part in (*parts, "tests/model/test_friction.py"):
+        (copy / part).parent.mkdir(parents=True, exist_ok=True)
         take = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
         take(ROOT / part, copy / part)
     added = {}
@@ -41,7 +41,7 @@ def checkout(tmp_path_factory):
             text = path.read_text()
             assert text.count(removed) == 1  # the page shows the line as it is
             path.write_text(text.replace(removed, added.pop(sample.file) + "\n\n" + new))
-        elif path.name == "friction.py":
+        elif path.name == "evolution.py":
             added[sample.file] = sample.code  # goes above the line that the next sample changes
         else:
             before = path.read_text() + "\n\n" if path.exists() else ""
@@ -51,14 +51,14 @@ def checkout(tmp_path_factory):
 
 
 def test_law_passes_its_test(checkout):
-    assert "3 passed" in run(
-        ["pytest", "tests/test_friction.py", "-k", "halfway", "-p", "no:cacheprovider"], checkout
-    )
+    command = ["pytest", "tests/model/test_friction.py", "-k", "halfway"]
+    assert "3 passed" in run([*command, "-p", "no:cacheprovider"], checkout)
 
 
 def test_additions_are_in_style(checkout):
-    paths = ["src/nucleation/friction.py", "src/nucleation/figures/figure_laws.py"]
-    paths += ["tests/test_friction.py", "workflow/scripts/figure_laws.py"]
+    paths = ["src/nucleation/model/friction/evolution.py"]
+    paths += ["src/nucleation/figures/beyond/figure_laws.py"]
+    paths += ["tests/model/test_friction.py", "workflow/scripts/figure_laws.py"]
     run(["ruff", "check", *paths], checkout)
     run(["ruff", "format", "--check", *paths], checkout)
 

@@ -40,7 +40,7 @@ def test_every_page_is_in_the_site(site):
 
 def test_reference_has_signatures_and_texts(site):
     api = (site / "generated" / "nucleation.api.html").read_text()
-    assert 'id="nucleation.theory.arrays.critical_length"' in api
+    assert 'id="nucleation.api.critical_length"' in api
     assert "broadcast shape; NaN where homogeneous sliding is stable" in api
     assert "Raises" in api
 

@@ -75,7 +75,8 @@ def test_legends_cover_no_data(draw, name):
 
 def test_bytes_depend_on_no_hash_seed(tmp_path):
     code = (
-        "import sys; from nucleation.figures import figure_1, style;"
+        "import sys; from nucleation.figures import style;"
+        "from nucleation.figures.paper import figure_1;"
         "style.save(figure_1.draw(), sys.argv[1])"
     )
     for seed in ("1", "2"):

@@ -20,30 +20,32 @@ THEORY = 0.7949  # m
 
 
 @pytest.fixture(scope="module")
-def twins():
+def followed():
     return follow_twins(PARAMETERS, THEORY, ExtractionSettings(), shares=(0.43, 0.62))
 
 
-def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(twins):
-    assert twins.sizes["twin"] == 2
-    growth, frozen = twins["twin_growth"].values, twins["frozen_growth"].values
+def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):
+    assert followed.sizes["twin"] == 2
+    growth, frozen = followed["twin_growth"].values, followed["frozen_growth"].values
     assert growth[0] < -0.5 and frozen[0] < -0.5
     assert growth[1] > 0.5 and frozen[1] > 0.5
     np.testing.assert_allclose(growth, frozen, atol=0.6)
-    np.testing.assert_allclose(twins["twin_frequency"], twins["frozen_frequency"], rtol=0.06)
+    np.testing.assert_allclose(followed["twin_frequency"], followed["frozen_frequency"], rtol=0.06)
 
 
-def test_lengths_are_those_asked_for(twins):
-    first, last = twins["twin_length_first"].values, twins["twin_length_last"].values
+def test_lengths_are_those_asked_for(followed):
+    first, last = followed["twin_length_first"].values, followed["twin_length_last"].values
     np.testing.assert_allclose(first, np.array([0.43, 0.62]) * THEORY, rtol=0.05)
-    mean = twins["twin_length"].values
+    mean = followed["twin_length"].values
     assert ((first < mean) & (mean < last)).all()
 
 
-def test_growth_does_not_depend_on_the_size_of_the_kick(twins, monkeypatch):
+def test_growth_does_not_depend_on_the_size_of_the_kick(followed, monkeypatch):
     monkeypatch.setattr(twins, "KICK", 3e-4)
     other = follow_twins(PARAMETERS, THEORY, ExtractionSettings(), shares=(0.43,))
-    assert float(other["twin_growth"][0]) == pytest.approx(float(twins["twin_growth"][0]), rel=0.01)
+    assert float(other["twin_growth"][0]) == pytest.approx(
+        float(followed["twin_growth"][0]), rel=0.01
+    )
 
 
 def test_twin_without_a_kick_is_the_run(monkeypatch):
@@ -85,14 +87,14 @@ def test_rate_of_a_known_amplitude():
     assert fitted == pytest.approx(rate, rel=1e-10)
 
 
-def test_table_has_a_row_for_each_twin(twins):
+def test_table_has_a_row_for_each_twin(followed):
     description = {
         "id": "a", "study": "twin_runs", "parameters": PARAMETERS.to_dict(),
         "theory_length": THEORY,
     }  # fmt: skip
-    table = gather([description, description], [twins, twins])
+    table = gather([description, description], [followed, followed])
     assert table.sizes["twin"] == 4
     assert set(table.data_vars) == set(twins.COLUMNS)
-    np.testing.assert_array_equal(table["twin_growth"], np.tile(twins["twin_growth"], 2))
+    np.testing.assert_array_equal(table["twin_growth"], np.tile(followed["twin_growth"], 2))
     empty = gather([], [])
     assert empty.sizes["twin"] == 0

@@ -8,27 +8,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from coarse_run import CONFIG
 from playwright.sync_api import sync_playwright
 
 from nucleation.analysis import lengths
 from nucleation.analysis.extraction import ExtractionSettings
-from nucleation.configuration.load import configure
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
 from nucleation.report import page
 from nucleation.report.player import player_dataset
-from nucleation.simulation.run import simulate
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
 MISSING = "chromium is missing: workflow/install-debian.sh browser"
-CONFIG = {
-    "stepping": {"end_time": 30.0, "time_after_event": 0.2, "tolerance": 0.05,
-                 "longest_step": 0.2},
-    "studies": {"paper": {"length_over_critical": 4.0, "interface": "main_text",
-                          "runs": [{"height": 0.005, "n_x": 60, "n_y": 6}]}},
-}  # fmt: skip
 CLAIMS = [
     {"id": "onset", "where": "Fig. S2", "statement": "It runs away after 13 s.", "paper": "13",
      "ours": 12.78, "uncertainty": [12.78, 12.87], "unit": "s", "verdict": "replicated",
@@ -44,22 +37,6 @@ CLAIMS = [
      "uncertainty": [8.0, 11.0], "unit": "m", "verdict": "not replicated", "reason": "Far off.",
      "quotation": "", "method": "A ruler."},
 ]  # fmt: skip
-
-
-@pytest.fixture(scope="session")
-def settings():
-    return configure(CONFIG)
-
-
-@pytest.fixture(scope="session")
-def simulation(settings):
-    """A run through nucleation on a coarse mesh."""
-    return simulate(settings.runs[0].parameters)
-
-
-@pytest.fixture(scope="session")
-def table(settings, simulation):
-    return lengths.gather([settings.runs[0].to_dict()], [simulation], ExtractionSettings())
 
 
 @pytest.fixture(scope="session")

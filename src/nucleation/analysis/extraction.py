@@ -60,7 +60,7 @@ def find_onset(time: Array, force: Array, window: float, drop: float) -> Onset |
     Parameters
     ----------
     time, force : of every step, shape (steps,).
-    window, drop : the drop of :class:`~nucleation.simulation.event.DropWatch`, in s and as a fraction.
+    window, drop : of :class:`~nucleation.simulation.event.DropWatch`, in s and as a fraction.
     """
     watch = DropWatch(window, drop)
     end = next(

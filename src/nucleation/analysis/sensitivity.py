@@ -96,7 +96,8 @@ def sensitivity_table(
     Parameters
     ----------
     runs : iterable of dict
-        From :meth:`nucleation.configuration.studies.Run.to_dict`; the first of each height is the base.
+        From :meth:`nucleation.configuration.studies.Run.to_dict`; the first of each height is the
+        base.
     simulations : iterable of Dataset
         Their simulations, in the same order.
     settings : ExtractionSettings

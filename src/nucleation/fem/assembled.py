@@ -8,7 +8,7 @@ bilinear elements on rectangles.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import sparse
 
 from ..model.material import Material
@@ -41,7 +41,7 @@ def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, 
     return stiffness, mass
 
 
-def unknown(grid: Grid, i: Array, j: Array, component: int) -> Array:
+def unknown(grid: Grid, i: ArrayLike, j: ArrayLike, component: int) -> Array:
     """Number of the unknown of node (i, j), component 0 (x) or 1 (y)."""
     return 2 * (np.asarray(j) * (grid.n_x + 1) + np.asarray(i)) + component
 
@@ -56,7 +56,7 @@ def assemble(grid: Grid, material: Material) -> tuple[sparse.csr_matrix, sparse.
         corners = ((0, 0), (1, 0), (0, 1), (1, 1))
         numbers = np.stack(
             [unknown(grid, columns + a, j + b, c) for a, b in corners for c in (0, 1)],
-            axis=1,  # type: ignore[arg-type]
+            axis=1,
         )
         rows = np.repeat(numbers, 8, axis=1).ravel()
         cols = np.tile(numbers, (1, 8)).ravel()

@@ -119,7 +119,8 @@ def save(figure: Figure, stem: str | os.PathLike[str], code: str = "") -> tuple[
     stem : path
         Path of the files without their suffix; missing directories are made.
     code : str
-        Digest of the code that drew it (:func:`nucleation.datasets.provenance.digest`), kept in the files.
+        Digest of the code that drew it (:func:`nucleation.datasets.provenance.digest`), kept in the
+        files.
 
     Returns
     -------

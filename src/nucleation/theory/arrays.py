@@ -121,8 +121,8 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; those of friction do not matter and
-        may be left out.
+        The parameters of :class:`~nucleation.theory.fault.Fault`; those of friction do not matter
+        and may be left out.
 
     Returns
     -------

@@ -62,7 +62,8 @@ LENGTHS = (
     Length(
         "rice_ruina", "Rice-Ruina h*", "(pi/4) mu* D/(zeta sigma0)",
         "Rice and Ruina (1983); Lapusta and Liu (2009)",
-        f"{_WEAKENING}; a spring block at K_c", HALF_SPACES, literature.rice_ruina_length, "zeta > 0",
+        f"{_WEAKENING}; a spring block at K_c", HALF_SPACES, literature.rice_ruina_length,
+        "zeta > 0",
     ),
     Length(
         "dieterich_shortest", "conventional, eta = 2/pi", "eta mu D/(zeta sigma0)",
@@ -85,7 +86,8 @@ LENGTHS = (
     Length(
         "rubin_ampuero_localised", "Rubin-Ampuero, fixed length", "2 x 1.3774 mu* D/(b sigma0)",
         "Rubin and Ampuero (2005), 2 L_nu", "aging law, far above steady state; a/b < 0.3781",
-        HALF_SPACES, literature.rubin_ampuero_localised_length, f"a/b < {literature.LOCALISED_LIMIT}",
+        HALF_SPACES, literature.rubin_ampuero_localised_length,
+        f"a/b < {literature.LOCALISED_LIMIT}",
     ),
     Length(
         "rubin_ampuero_crack", "Rubin-Ampuero, expanding", "(2/pi) mu* b D/[(b - a)^2 sigma0]",
@@ -120,8 +122,8 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     weakening_rate : array_like, optional
         Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; friction and the second body do not
-        matter: the system of each length is its attribute ``system``.
+        The parameters of :class:`~nucleation.theory.fault.Fault`; friction and the second body do
+        not matter: the system of each length is its attribute ``system``.
 
     Returns
     -------

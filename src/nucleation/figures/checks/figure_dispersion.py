@@ -21,8 +21,8 @@ def draw(dispersion: xr.Dataset) -> Figure:
     Parameters
     ----------
     dispersion : Dataset
-        From :func:`nucleation.verification.dispersion.dispersion_dataset`: rates (1/s) on (height, mode,
-        branch) and (height, curve, branch), wavenumbers (1/m), ``memory_time`` (s).
+        From :func:`nucleation.verification.dispersion.dispersion_dataset`: rates (1/s) on (height,
+        mode, branch) and (height, curve, branch), wavenumbers (1/m), ``memory_time`` (s).
 
     Returns
     -------

@@ -34,9 +34,9 @@ def draw(convergence: xr.Dataset) -> Figure:
     Parameters
     ----------
     convergence : Dataset
-        From :func:`nucleation.verification.orders.convergence_dataset`: dimensionless errors on (problem,
-        refinement, level); ``element_size`` (m), ``step_size`` and ``quasi_static_step_size``
-        (s) on level.
+        From :func:`nucleation.verification.orders.convergence_dataset`: dimensionless errors on
+        (problem, refinement, level); ``element_size`` (m), ``step_size`` and
+        ``quasi_static_step_size`` (s) on level.
 
     Returns
     -------

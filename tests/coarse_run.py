@@ -1,0 +1,32 @@
+"""A run through nucleation on a coarse mesh, simulated once for all tests that read one."""
+
+import pytest
+
+from nucleation.analysis import lengths
+from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.configuration.load import configure
+from nucleation.simulation.run import simulate
+
+CONFIG = {
+    "stepping": {"end_time": 30.0, "time_after_event": 0.2, "tolerance": 0.05,
+                 "longest_step": 0.2},
+    "studies": {"paper": {"length_over_critical": 4.0, "interface": "main_text",
+                          "runs": [{"height": 0.005, "n_x": 60, "n_y": 6}]}},
+}  # fmt: skip
+
+
+@pytest.fixture(scope="session")
+def settings():
+    return configure(CONFIG)
+
+
+@pytest.fixture(scope="session")
+def simulation(settings):
+    """The record of the run."""
+    return simulate(settings.runs[0].parameters)
+
+
+@pytest.fixture(scope="session")
+def table(settings, simulation):
+    """The table of its lengths."""
+    return lengths.gather([settings.runs[0].to_dict()], [simulation], ExtractionSettings())
