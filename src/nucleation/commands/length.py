@@ -12,6 +12,7 @@ import numpy as np
 from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
+from ..model.units import bounds, parse
 from ..theory.arrays import CriticalMode, critical_mode
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.literature_table import LENGTHS, WEAKENING_RATE, Length, lengths_of
@@ -88,10 +89,10 @@ def _second(text: str) -> dict[str, float]:
     if not 2 <= len(parts) <= 3:
         raise ParameterError(
             f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
-            f"in {units.bounds(QUANTITIES[keys[0]])}, Poisson's ratio in "
-            f"{units.bounds(QUANTITIES[keys[1]])} and perhaps a height, with commas between"
+            f"in {bounds(QUANTITIES[keys[0]])}, Poisson's ratio in "
+            f"{bounds(QUANTITIES[keys[1]])} and perhaps a height, with commas between"
         )
-    return {k: units.parse(k, part, QUANTITIES[k]) for k, part in zip(keys, parts, strict=False)}
+    return {k: parse(k, part, QUANTITIES[k]) for k, part in zip(keys, parts, strict=False)}
 
 
 def _unit_rate(fault: Fault) -> float:

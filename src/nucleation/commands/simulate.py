@@ -26,6 +26,7 @@ from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, check, declarations
+from ..model.units import parse
 from .text import event_lines, parameter_lines, with_unit
 
 KNOWN = 30  # names listed in a message
@@ -185,7 +186,7 @@ def _file_value(path: Path, key: str, value: Any) -> Any:
     entry = STUDY_PARAMETERS[key][1]
     try:
         if isinstance(value, str):
-            return units.parse(key, value, entry)
+            return parse(key, value, entry)
         check(key, value, entry)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None

@@ -1,15 +1,22 @@
-"""Values as people write them."""
+"""Values as people write them, and arrays that carry a unit."""
 
 import math
+from types import SimpleNamespace
 
+import numpy as np
+import pint
 import pytest
+import xarray as xr
 
-from nucleation.commands.units import parse, registry
 from nucleation.configuration.load import schema
 from nucleation.configuration.settings import Limits
 from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, Quantity, declarations
+from nucleation.model.units import magnitude, parse, registry
 from nucleation.theory.fault import QUANTITIES
+
+DENSITY = declarations(Material)["density"]
 
 
 @pytest.mark.parametrize(
@@ -39,6 +46,13 @@ from nucleation.theory.fault import QUANTITIES
         ("poisson_ratio", "0.25", 0.25),
         ("poisson_ratio", "25 %", 0.25),
         ("poisson_ratio", "-0.1", -0.1),
+        ("poisson_ratio", "1/3", 1 / 3),
+        ("height", "1 / 4 m", 0.25),
+        ("velocity", "1 m s-1", 1.0),
+        ("velocity", "1 m·s⁻¹", 1.0),
+        ("shear_modulus", "3e10 N/m²", 3e10),
+        ("shear_modulus", "3e10 N m-2", 3e10),
+        ("shear_modulus", "3e10 N/m2", 3e10),
         ("zeta", "5e-3", 0.005),
         ("far_side", "velocity", "velocity"),
     ],
@@ -59,6 +73,8 @@ def test_values_in_si_units(key, text, value):
         ("shear_modulus", "", "it is no number with a unit"),
         ("shear_modulus", "thirty", "it is no number with a unit"),
         ("shear_modulus", "3,1 GPa", "not a known unit"),
+        ("poisson_ratio", "1/0", "it is no number"),
+        ("poisson_ratio", "1/3/3", "not a known unit"),
         ("shear_modulus", "nan", "it is no number"),
         ("shear_modulus", "nan GPa", "it is no number"),
         ("shear_modulus", "inf", r"\(0, 1e\+13\) Pa"),
@@ -99,3 +115,65 @@ def test_every_declared_unit_is_known_to_the_units_library():
     for entry in entries:
         if entry.unit != "1":
             registry().parse_units("megabyte" if entry.unit == "MB" else entry.unit)
+
+
+@pytest.mark.parametrize("unit", ["kg/m^3", "kg/m3", "kg m-3", "kg·m⁻³", "kg m**-3", "mg/cm3"])
+def test_densities_as_people_write_them(unit):
+    assert parse("density", f"2700 {unit}", DENSITY) == 2700.0
+
+
+STRESS = QUANTITIES["normal_stress"]
+ROW = xr.DataArray([20.0, 30.0], dims="s", coords={"s": [1, 2]}, attrs={"units": "MPa"})
+Q = pint.UnitRegistry().Quantity
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (Q(20, "MPa"), 20e6),
+        (Q(np.array([20.0, 30.0]), "MPa"), [20e6, 30e6]),
+        (Q("0.2 kbar"), 20e6),
+        ([Q(20, "MPa"), Q(300, "bar")], [20e6, 30e6]),
+        (ROW, [20e6, 30e6]),
+        (ROW.assign_attrs(units="N mm-2"), [20e6, 30e6]),
+        (xr.DataArray(Q([20.0, 30.0], "MPa"), dims="s"), [20e6, 30e6]),
+        (20e6, 20e6),
+        ([1, 2], [1, 2]),
+        (xr.DataArray(5.0), 5.0),
+    ],
+)
+def test_arrays_that_carry_a_unit(value, expected):
+    found = magnitude("normal_stress", value, STRESS)
+    np.testing.assert_array_equal(found, expected)
+    if isinstance(value, xr.DataArray):
+        assert found.dims == value.dims and list(found.coords) == list(value.coords)
+        assert found.attrs.get("units", "Pa") == "Pa"
+
+
+def test_units_of_arrays_cost_one_rounding_at_most():
+    lengths = np.array([5.0, 0.3, 1.7, 4.45])
+    found = magnitude("height", Q(lengths, "um"), QUANTITIES["height"])
+    np.testing.assert_allclose(found, [5e-6, 3e-7, 1.7e-6, 4.45e-6], rtol=2.3e-16)
+    assert found.tolist()[:3] == [5e-6, 3e-7, 1.7e-6]
+    ratio = xr.DataArray(25.0, attrs={"units": "%"})
+    assert magnitude("poisson_ratio", ratio, QUANTITIES["poisson_ratio"]) == 0.25
+    for none in ("1", "", "dimensionless"):
+        alone = ratio.assign_attrs(units=none)
+        assert magnitude("a", alone, QUANTITIES["a"]) == 25.0
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        (ROW.assign_attrs(units="mm"), "mm is a unit of length, but Pa is needed"),
+        (ROW.assign_attrs(units="MPA"), "MPA is not a known unit"),
+        (ROW.assign_attrs(units=6), "6, which is no text"),
+        (Q(1, "m"), "meter is a unit of length, but Pa is needed"),
+        ([Q(1, "MPa"), Q(1, "m")], r"normal_stress\[1\].* unit of length"),
+        (SimpleNamespace(unit="MPa", value=3.0), "not known here"),
+    ],
+)
+def test_arrays_refused(value, words):
+    with pytest.raises(ParameterError, match=words) as refused:
+        magnitude("normal_stress", value, STRESS)
+    assert str(refused.value).startswith("normal_stress")
