@@ -55,7 +55,7 @@ def test_spectrum_equals_that_of_differences(friction, patch):
         w = np.zeros(GRID.n_x)
         w[nodes - 1] = z[:n]
         psi = np.log(STATE[nodes]) + z[n:]
-        p, normal, _ = OPERATOR.apply(w)
+        p, normal = OPERATOR.apply(w)
         p, normal = base + p[nodes - 1], FORCE[nodes] + normal[nodes]
         v = np.array(
             [

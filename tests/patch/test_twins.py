@@ -9,6 +9,7 @@ from nucleation.analysis.extraction import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import twins
 from nucleation.patch.twins import difference, fitted_rate, follow_twins, gather, kicked
+from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run
 
 PARAMETERS = Parameters(
@@ -52,7 +53,7 @@ def test_twin_without_a_kick_is_the_run(monkeypatch):
     """It takes the very steps of the run, and the restarted state loses nothing."""
     monkeypatch.setattr(twins, "KICK", 0.0)
     settings = ExtractionSettings()
-    patches, dynamics = twins.Patches(PARAMETERS, settings), twins.Dynamics(PARAMETERS)
+    patches, dynamics = twins.Patches(PARAMETERS, settings), composed(PARAMETERS)
     twin = None
     for instant in run(PARAMETERS):
         if twin is not None:

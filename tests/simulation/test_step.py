@@ -7,11 +7,14 @@ import pytest
 from fem.assembled_problem import AssembledBlock
 from scipy.optimize import brentq, root
 
+from nucleation.fem.grid import Grid
 from nucleation.fem.operator import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.step import Dynamics
+from nucleation.simulation.composition import composed
+from nucleation.simulation.interface import Past
+from nucleation.simulation.start import at_rest
 from nucleation.stepping.bdf import Formula
 from nucleation.stepping.ladder import rung_value
 
@@ -33,8 +36,7 @@ class Reference:
     """The same time steps, every unknown in one assembled matrix, solved by MINPACK."""
 
     def __init__(self, parameters):
-        self.p, self.dynamics = parameters, Dynamics(parameters)
-        grid = self.dynamics.grid
+        self.p, grid = parameters, Grid.of(parameters.geometry, parameters.mesh)
         self.block = AssembledBlock(grid, parameters.material)
         self.load = self.block.top_load(parameters.loading.normal_stress)
         u, _ = self.block.solve(0.0, self.load, np.zeros_like(self.load))
@@ -104,8 +106,8 @@ class Reference:
 @pytest.mark.parametrize("law", ["aging", "slip"])
 def test_steps_equal_the_assembled_problem(law):
     parameters = small(law)
-    reference, dynamics = Reference(parameters), Dynamics(parameters)
-    state, report = dynamics.initial_state()
+    reference, dynamics = Reference(parameters), composed(parameters)
+    state, report = at_rest(dynamics, parameters.loading)
     block = reference.block
     for rung in LADDER:
         state, report = dynamics.advance(state, rung)
@@ -133,7 +135,7 @@ def test_steps_equal_the_assembled_problem(law):
 
 def test_initial_force_is_that_of_uniaxial_strain():
     parameters = Parameters(geometry=Geometry(0.01, 0.4), mesh=Mesh(60, 8))
-    _, report = Dynamics(parameters).initial_state()
+    _, report = at_rest(composed(parameters), parameters.loading)
     nu = parameters.material.poisson_ratio
     expected = -nu / (1 - nu) * parameters.loading.normal_stress * parameters.geometry.height
     assert report.driving_force == pytest.approx(expected, rel=1e-9)
@@ -142,8 +144,8 @@ def test_initial_force_is_that_of_uniaxial_strain():
 def test_start_in_uniform_shear_carries_it_at_every_node():
     shear = 5e4
     loading = Loading(initial_stress="uniform_shear", initial_shear_stress=shear)
-    dynamics = Dynamics(dataclasses.replace(small(), loading=loading))
-    state, report = dynamics.initial_state()
+    dynamics = composed(dataclasses.replace(small(), loading=loading))
+    state, report = at_rest(dynamics, loading)
     forces = shear * dynamics.grid.nodal_lengths[1:]
     # the tangent leaves out couplings through the right edge below 1e-8
     np.testing.assert_allclose(report.interface.tangential[1:], -forces, rtol=3e-8)
@@ -154,8 +156,8 @@ def test_start_in_uniform_shear_carries_it_at_every_node():
 def test_start_without_shear_is_uniaxial_stress():
     """The relaxed start: sigma_xx = sigma_xy = 0 everywhere, which bilinear elements hold."""
     parameters = dataclasses.replace(small(), loading=Loading(initial_stress="uniform_shear"))
-    dynamics = Dynamics(parameters)
-    state, report = dynamics.initial_state()
+    dynamics = composed(parameters)
+    state, report = at_rest(dynamics, parameters.loading)
     u_x, u_y = dynamics.body.nodal_values(state.displacement)
     material, stress = parameters.material, parameters.loading.normal_stress
     x, y = np.meshgrid(dynamics.grid.x, dynamics.grid.y)
@@ -170,10 +172,10 @@ def test_start_without_shear_is_uniaxial_stress():
 
 def test_without_density_every_step_is_a_static_field():
     parameters = dataclasses.replace(small(), material=Material(density=0.0))
-    dynamics = Dynamics(parameters)
+    dynamics = composed(parameters)
     static = BlockOperator(dynamics.body, 0.0)
     load = dynamics.body.top_load(parameters.loading.normal_stress)
-    state, _ = dynamics.initial_state()
+    state, _ = at_rest(dynamics, parameters.loading)
     for rung in LADDER[:40]:
         state, report = dynamics.advance(state, rung)
         expected = static.respond(load, report.interface.w)
@@ -185,14 +187,14 @@ def test_without_density_every_step_is_a_static_field():
 
 
 def test_a_step_changes_nothing_and_repeats_exactly():
-    dynamics = Dynamics(small())
-    state, _ = dynamics.initial_state()
+    dynamics = composed(small())
+    state, _ = at_rest(dynamics, small().loading)
     for rung in LADDER[:20]:
         state, _ = dynamics.advance(state, rung)
     before = state.displacement.modes.copy()
     first, _ = dynamics.advance(state, -58)
     np.testing.assert_array_equal(before, state.displacement.modes)
-    again, _ = Dynamics(small()).advance(state, -58)
+    again, _ = composed(small()).advance(state, -58)
     np.testing.assert_array_equal(first.past_slip_rates, again.past_slip_rates)
     np.testing.assert_array_equal(first.displacement.modes, again.displacement.modes)
 
@@ -205,14 +207,14 @@ def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
     )
 
     def swept(round_off):
-        monkeypatch.setattr("nucleation.simulation.step.EDGE_ROUND_OFF", round_off)
+        monkeypatch.setattr("nucleation.fem.right_edge.ROUND_OFF", round_off)
         sweeps = []
         monkeypatch.setattr(
             "nucleation.fem.operator.BlockOperator._swept",
             lambda self, load, edge: sweeps.append(0) or sweep(self, load, edge),
         )
-        dynamics = Dynamics(parameters)
-        state, report = dynamics.initial_state()
+        dynamics = composed(parameters)
+        state, report = at_rest(dynamics, parameters.loading)
         reports = []
         for rung in LADDER:
             state, report = dynamics.advance(state, rung)
@@ -235,27 +237,27 @@ def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
 def test_newton_converges_quadratically():
     """Residuals of successive iterations: the exponent of their decay is two."""
     parameters = small()
-    dynamics = Dynamics(parameters)
-    state, _ = dynamics.initial_state()
+    dynamics = composed(parameters)
+    state, _ = at_rest(dynamics, parameters.loading)
     for rung in LADDER:
         state, _ = dynamics.advance(state, rung)
     interface = dataclasses.replace(dynamics.interface, most_iterations=20)
-    operator = dynamics._operator(-58)
+    step = dynamics.scheme.step(-58, state.past_times)
+    operator = dynamics.operator(step.s)
     errors, updated = [], type(interface)._updated
 
     def spy(self, v, change):
         errors.append(np.max(np.abs(change) / (np.abs(v) + 1e-9)))
         return updated(self, v, change)
 
-    formula = Formula.bdf2(rung_value(-58), state.last_step)
-    load = dynamics._load_with_past(state, formula, operator.s)
-    w_history = formula.from_past(state.past_w)
+    load = dynamics._load_with_past(state, step, state.time + step.length)
+    imposed = dynamics.drive.at(state.time + step.length)
+    past = Past.of(state, step.body, imposed, step.first)
     guess = state.past_slip_rates[0][1:] * 1.05
-    response = operator.respond(load, w_history + formula.beta * (guess - 1e-3))
-    psi = formula.from_past(state.past_log_states)
+    response = operator.respond(load, past.w + past.beta * (guess - 1e-3))
     type(interface)._updated = spy
     try:
-        interface.solve(operator, response, w_history, psi, formula.beta, guess)
+        interface.solve(operator, response, past, imposed, guess)
     finally:
         type(interface)._updated = updated
     errors = [e for e in errors if e > 1e-13]
@@ -266,6 +268,7 @@ def test_newton_converges_quadratically():
 
 def test_first_step_from_rest_on_a_fine_mesh():
     """The singular corner breaks loose at once; Newton's method gets there from rest."""
-    dynamics = Dynamics(Parameters(geometry=Geometry(0.005, 1.0), mesh=Mesh(3200, 20)))
-    _, report = dynamics.advance(dynamics.initial_state()[0], -92)
+    parameters = Parameters(geometry=Geometry(0.005, 1.0), mesh=Mesh(3200, 20))
+    dynamics = composed(parameters)
+    _, report = dynamics.advance(at_rest(dynamics, parameters.loading)[0], -92)
     assert report.interface.iterations > 8

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nucleation.stepping.bdf import Formula, error_factor, extrapolation_weights
-from nucleation.stepping.ladder import beta_of_step, rung_below, rung_value
+from nucleation.stepping.bdf import Formula, beta_of_step, error_factor, extrapolation_weights
+from nucleation.stepping.ladder import rung_below, rung_nearest, rung_value
 
 
 @pytest.mark.parametrize("ratio", [0.3, 1.0, 1.9])
@@ -39,7 +39,7 @@ def test_backward_euler():
 def test_ladder(beta):
     rung = rung_below(beta)
     assert rung_value(rung) <= beta * (1 + 1e-9) < rung_value(rung + 1) * (1 + 1e-9)
-    assert rung_below(rung_value(rung)) == rung
+    assert rung_below(rung_value(rung)) == rung_nearest(rung_value(rung)) == rung
 
 
 def test_extrapolation_is_exact_for_quadratics():

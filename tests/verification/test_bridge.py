@@ -16,7 +16,7 @@ from nucleation.model import linearised
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Parameters
-from nucleation.simulation.periodic import PeriodicDynamics
+from nucleation.simulation.periodic import sliding_period, sliding_state
 from nucleation.theory.critical import critical_wavenumber
 from nucleation.theory.spectrum import growth_rates
 from nucleation.theory.transfer import RIGID, transfer_functions
@@ -135,8 +135,8 @@ def test_a_periodic_body_needs_an_odd_number_of_nodes():
 
 def test_homogeneous_sliding_persists():
     parameters = dispersion.one_wavelength(PARAMETERS, 0.02, 20.0, nodes=17)
-    dynamics = PeriodicDynamics(parameters)
-    state = dynamics.sliding_state(np.zeros(17))
+    dynamics = sliding_period(parameters)
+    state = sliding_state(dynamics, np.zeros(17))
     for _ in range(40):
         state, report = dynamics.advance(state, -45)
     loading, interface = parameters.loading, report.interface

@@ -24,8 +24,7 @@ from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation.run import run
-from nucleation.stepping.bdf import Formula
-from nucleation.stepping.ladder import beta_of_step
+from nucleation.stepping.bdf import Formula, beta_of_step
 
 
 def coarse(law, tolerance):
@@ -125,8 +124,7 @@ def event_is_over(state, ledger, report):
 
 def event(law, tolerance):
     parameters = coarse(law, tolerance)
-    geometry, mesh = parameters.geometry, parameters.mesh
-    grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+    grid = Grid.of(parameters.geometry, parameters.mesh)
     accountant = Accountant(parameters, grid, Block(grid, parameters.material))
     return accountant.books(run(parameters), event_is_over)
 

@@ -1,8 +1,8 @@
 """What holds to round-off: discrete balance at every step, and rigid motion.
 
 That the separable solver equals the assembled matrix for any load, inertia and interface
-displacement, that D is symmetric, and that uniform strain is exact is in tests/fem/test_body.py;
-that Newton's method converges quadratically in tests/fem/test_dynamics.py.
+displacement, that D is symmetric, and that uniform strain is exact is in tests/fem/test_block.py;
+that Newton's method converges quadratically in tests/simulation/test_step.py.
 """
 
 import numpy as np
@@ -15,8 +15,9 @@ from nucleation.fem.operator import BlockOperator
 from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.step import Dynamics
-from nucleation.verification.manufactured.dynamics import ManufacturedDynamics
+from nucleation.simulation.composition import composed
+from nucleation.simulation.start import at_rest
+from nucleation.verification.manufactured.dynamics import Manufactured
 from nucleation.verification.manufactured.fields import Displacement, Power, Term
 from nucleation.verification.orders import GEOMETRY, MATERIAL
 
@@ -51,10 +52,10 @@ def test_every_step_obeys_the_assembled_equation_of_motion(law, grading):
     momentum, is the reaction of the driven edge, through the whole run.
     """
     parameters = sliding_block(law, grading)
-    dynamics = Dynamics(parameters)
+    dynamics = composed(parameters)
     block = AssembledBlock(dynamics.grid, parameters.material)
     top = block.top_load(parameters.loading.normal_stress)
-    state, report = dynamics.initial_state()
+    state, report = at_rest(dynamics, parameters.loading)
 
     def assembled(field):
         out = np.empty_like(top)
@@ -100,7 +101,7 @@ def test_rigid_motion_needs_no_force(grading):
         assert np.abs(block.stiffness @ u).max() < 1e-14 * np.abs(block.stiffness).max()
     # the period of a long block, held at its interface alone
     operator = PeriodicOperator(PeriodicBlock(grid, MATERIAL), 0.0)
-    tangential, normal, _ = operator.apply(np.ones(grid.n_x))
+    tangential, normal = operator.apply(np.ones(grid.n_x))
     assert np.abs(tangential).max() < 1e-13 * operator.diagonal.max()
     assert np.abs(normal).max() < 1e-13 * operator.diagonal.max()
 
@@ -109,7 +110,7 @@ def test_a_block_that_translates_with_its_driven_edge_feels_nothing():
     """Unloaded, with an interface that moves along, it stays free of strain at any step."""
     nothing = (Term(0.0, Power(1.0), Power(1.0), Power(1.0)),)
     parameters = Parameters(MATERIAL, geometry=GEOMETRY, mesh=Mesh(n_x=12, n_y=6, grading=2.0))
-    problem = ManufacturedDynamics(parameters, Displacement((nothing, nothing), MATERIAL))
+    problem = Manufactured(parameters, Displacement((nothing, nothing), MATERIAL))
     state, report = problem.run(*range(-80, -40, 2))
     moved = problem.velocity * state.time
     assert problem.displacement_error(state) < 1e-14 * moved

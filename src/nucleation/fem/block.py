@@ -18,7 +18,6 @@ A :class:`Block` knows the mesh and the material;
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -28,24 +27,11 @@ from scipy import fft
 
 from ..fem import kernels
 from ..model.material import Material
+from .field import Field, Motion, Terms
 from .grid import Grid, Tridiagonal, element_matrices
+from .operator import BlockOperator
 
 Array = NDArray[np.float64]
-
-
-@dataclasses.dataclass(frozen=True)
-class Field:
-    """A displacement-like field: mode amplitudes and the values of u_y on the right edge.
-
-    `modes` has shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
-    `edge` has shape (n_y + 1,); ``edge[0]`` is always zero.
-    """
-
-    modes: Array
-    edge: Array
-
-
-Terms = Sequence[tuple[float, Field]]
 
 
 class Stacked(NamedTuple):
@@ -79,6 +65,20 @@ class Block:
         )
         # integral along x of each sine mode, for the momentum
         self.x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
+
+    @property
+    def crossing_time(self) -> float:
+        """Time (s) in which shear waves cross the height."""
+        return self.grid.height / self.material.shear_wave_speed
+
+    @property
+    def no_memory(self) -> Array:
+        """What it remembers before its first step: no error of the right edge's prediction."""
+        return np.array(np.inf)
+
+    def operator(self, s: float) -> BlockOperator:
+        """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
+        return BlockOperator(self, s)
 
     def zero_field(self) -> Field:
         """A field of zeros."""
@@ -153,6 +153,26 @@ class Block:
             load.modes, near, modes,
         )  # fmt: skip
         return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))
+
+    def motion(
+        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+    ) -> Motion:
+        """The motion at a new displacement, of which one past value or two are taken.
+
+        Its velocity is the rate by ``u = sum_i past_i u_i + beta du/dt``, newest value first.
+        """
+        c1, c2 = past
+        u, u_past = motions[0].displacement, motions[-1].displacement
+        rates = np.empty_like(displacement.modes)
+        kernels.rate_of_change(c1, c2, beta, displacement.modes, u.modes, u_past.modes, rates)
+        velocity = Field(rates, (displacement.edge - c1 * u.edge - c2 * u_past.edge) / beta)
+        return Motion(displacement, velocity, self.momentum_x(velocity))
+
+    def at_rest(self, displacement: Field, velocity: float) -> Motion:
+        """The motion of a body at rest, seen from its driven edge (velocity in m/s)."""
+        rates = self.zero_field()
+        rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.grid.n_x))
+        return Motion(displacement, rates, self.momentum_x(rates))
 
     def momentum_x(self, velocity: Field) -> float:
         """Momentum along x of the velocity field w_t (kg/s per unit depth)."""

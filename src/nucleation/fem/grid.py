@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..fem import kernels
+from ..model.parameters import Geometry, Mesh
 
 Array = NDArray[np.float64]
 
@@ -91,6 +92,11 @@ class Grid:
     n_x: int
     n_y: int
     grading: float = 1.0
+
+    @classmethod
+    def of(cls, geometry: Geometry, mesh: Mesh) -> Grid:
+        """The grid of a simulation's block."""
+        return cls(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
 
     @property
     def dx(self) -> float:

@@ -13,14 +13,20 @@ the edge adds a term of low rank. The interface has ``u_y = 0`` (rigid substrate
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..fem import kernels
-from .block import Block, Field
-from .right_edge import RightEdge
+from .condensed import Balance, Expectation, Response
+from .field import Field
+from .right_edge import RightEdge, predicted, relative_error
+
+if TYPE_CHECKING:
+    from .block import Block
 
 Array = NDArray[np.float64]
 
@@ -28,19 +34,18 @@ EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in 
 
 
 @dataclasses.dataclass(frozen=True)
-class LinearResponse:
-    """Nodal forces (N/m) on the body at given w (m), and the edge values (m) in balance there.
+class BlockResponse(Response):
+    """A block's response to a load, with the edge values (m) in balance at the levels 0..n_y.
 
-    `w` and `tangential` at the nodes 1..n_x, `normal` at 0..n_x, `edge` at the levels 0..n_y.
     Where the edge values were given and not found, `swept` holds the sweep down to the interface
-    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.displacement` goes on from there.
+    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.balance` goes on from there. `predicted` are
+    the edge values that the last steps let expect, if there were any.
     """
 
-    w: Array
-    tangential: Array
-    normal: Array
+    load: Field
     edge: Array
     swept: Array | None = None
+    predicted: Array | None = None
 
 
 class BlockOperator:
@@ -93,7 +98,7 @@ class BlockOperator:
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
         return self.body.interface_forces(self._pivot[:2] * w_amplitudes - reduced)
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> LinearResponse:
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> BlockResponse:
         """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
 
         Given edge values (m) are taken to be in balance, which saves half of the work.
@@ -106,7 +111,7 @@ class BlockOperator:
             lowest[0, 0], lowest[0, 1] = amplitudes, 0.0
             kernels.substitute(self._inverse[:2], self._lower[:1], lowest)
             corner = self.edge.corner_reaction(load, lowest, edge)
-            return LinearResponse(w, tangential, np.append(normal, corner), edge, swept)
+            return BlockResponse(w, tangential, np.append(normal, corner), load, edge, swept)
         held = np.zeros_like(load.edge)
         modes, reduced = self.solve(load, amplitudes, held)
         residual = self.edge.residual(load, modes, held)
@@ -116,38 +121,54 @@ class BlockOperator:
         tangential[near:] += edge @ edge_tangential
         normal[near:] += edge @ edge_normal
         corner = self.edge.schur[0] @ edge - residual[0]
-        return LinearResponse(w, tangential, np.append(normal, corner), edge)
+        return BlockResponse(w, tangential, np.append(normal, corner), load, edge)
 
-    def displacement(self, load: Field, response: LinearResponse, w: Array, edge: Array) -> Field:
-        """The body's displacement (m) at nodal `w` under the load of a response, used up by it.
+    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[BlockResponse]:
+        """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
 
-        `edge` are the values in balance at `w`, as :meth:`apply` gives their change. Where they
-        had been given to the response, they are corrected to the balance they are found in.
+        Far from slip and waves the right edge moves as predicted, to round-off. Where it has done
+        so in the last step, the first response takes it for granted.
         """
+        edge = predicted(expected)
+        if float(expected.memory) < self.edge.round_off:
+            yield dataclasses.replace(self.respond(load, w, edge), predicted=edge)
+        yield dataclasses.replace(self.respond(load, w), predicted=edge)
+
+    def balance(self, response: BlockResponse, w: Array) -> Balance:
+        """The block at nodal `w` (m) under the load of a response, which is used up by it.
+
+        Edge values that had been given to the response are corrected to the balance they are found
+        in. The memory is the relative error of their prediction, which tells whether it served.
+        """
+        edge, modes = response.edge, response.swept
+        if w is not response.w:
+            edge = edge + self.edge.change(w - response.w)
         amplitudes = self.body.sine_amplitudes(w)
-        if response.swept is None:
-            return Field(self.solve(load, amplitudes, edge)[0], edge)
-        modes = response.swept
-        modes[0, 0], modes[0, 1] = amplitudes, 0.0
-        kernels.substitute(self._inverse, self._lower, modes)
-        residual = self.edge.residual(load, modes, response.edge)
-        return Field(modes, response.edge + self.edge.correction(residual))
+        if modes is None:
+            displacement = Field(self.solve(response.load, amplitudes, edge)[0], edge)
+        else:
+            modes[0, 0], modes[0, 1] = amplitudes, 0.0
+            kernels.substitute(self._inverse, self._lower, modes)
+            residual = self.edge.residual(response.load, modes, response.edge)
+            displacement = Field(modes, response.edge + self.edge.correction(residual))
+        if response.predicted is None:
+            return Balance(displacement, self.body.no_memory, True)
+        error = relative_error(displacement.edge, response.predicted, edge)
+        holds = modes is None or error < self.edge.round_off
+        return Balance(displacement, np.array(error), holds)
 
     # -- the condensed operator on the interface ------------------------------------------------
 
-    def apply(self, w: Array) -> tuple[Array, Array, Array]:
-        """``D w``, ``N w`` and the edge values' response for nodal w at nodes 1..n_x (m).
-
-        Shapes (n_x,), (n_x + 1,) and (n_y + 1,).
-        """
+    def apply(self, w: Array) -> tuple[Array, Array]:
+        """``D w``, shape (n_x,), and ``N w``, (n_x + 1,), for nodal w at nodes 1..n_x (m)."""
         near, tangential, normal = self.edge.felt
         amplitudes = self.body.sine_amplitudes(w)
         p, reaction = self.interface_forces(amplitudes)
-        edge = self.edge.response[:, near:] @ w[near:]
+        edge = self.edge.change(w)
         corner = tangential[0] @ w[near:] + self.edge.schur[0] @ edge
         p[near:] += edge @ tangential
         reaction[near:] += edge @ normal
-        return p, np.append(reaction, corner), edge
+        return p, np.append(reaction, corner)
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:

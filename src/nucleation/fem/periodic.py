@@ -24,9 +24,11 @@ from scipy import fft
 from scipy.linalg import circulant
 
 from ..model.material import Material
-from .block import Block, Field
+from .block import Block
+from .condensed import Balance
+from .field import Field
 from .grid import Grid
-from .operator import BlockOperator, LinearResponse
+from .operator import BlockOperator, BlockResponse
 
 Array = NDArray[np.float64]
 
@@ -45,6 +47,10 @@ class PeriodicBlock(Block):
         self.sine = np.sin(theta)
         self.edge_weights = np.zeros((3, grid.n_x))  # there is no edge
         self.x_integral = np.where(theta == 0.0, grid.length, 0.0)
+
+    def operator(self, s: float) -> PeriodicOperator:
+        """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
+        return PeriodicOperator(self, s)
 
     def _split(self, amplitudes: Array) -> tuple[Array, Array, Array]:
         """The mean, A and B."""
@@ -90,24 +96,29 @@ class PeriodicBlock(Block):
 class PeriodicOperator(BlockOperator):
     """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
 
-    def apply(self, w: Array) -> tuple[Array, Array, Array]:
-        """``D w``, ``N w`` (with entry 0) and the edge values, which do not exist: zeros."""
+    def apply(self, w: Array) -> tuple[Array, Array]:
+        """``D w`` and ``N w`` (with entry 0)."""
         p, reaction = self.interface_forces(self.body.sine_amplitudes(w))
-        return p, with_entry_zero(reaction), np.zeros(self.body.grid.n_y + 1)
+        return p, with_entry_zero(reaction)
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> LinearResponse:
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> BlockResponse:
         """The forces that hold the interface at nodal `w` (m) under a load; there is no edge."""
         amplitudes, edge = self.body.sine_amplitudes(w), np.zeros_like(load.edge)
         _, reduced = self.solve(load, amplitudes, edge)
         tangential, normal = self.interface_forces(amplitudes, reduced)
-        return LinearResponse(w, tangential, with_entry_zero(normal), edge)
+        return BlockResponse(w, tangential, with_entry_zero(normal), load, edge)
+
+    def balance(self, response: BlockResponse, w: Array) -> Balance:
+        """The layer at nodal `w` (m) under the load of a response."""
+        modes, _ = self.solve(response.load, self.body.sine_amplitudes(w), response.edge)
+        return Balance(Field(modes, response.edge), self.body.no_memory, True)
 
     @cached_property
     def _columns(self) -> tuple[Array, Array]:
         """First columns of D and N."""
         unit = np.zeros(self.body.grid.n_x)
         unit[0] = 1.0
-        p, normal, _ = self.apply(unit)
+        p, normal = self.apply(unit)
         return p, normal[1:]
 
     @cached_property

@@ -8,15 +8,22 @@ interface falls exponentially over some heights of the block.
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from ..fem import kernels
-from .block import Block, Field
+from .condensed import Expectation
+from .field import Field
+
+if TYPE_CHECKING:
+    from .block import Block
 
 Array = NDArray[np.float64]
+
+ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 
@@ -60,6 +67,17 @@ class RightEdge:
         kernels.edge_sums(self.body.edge_weights, lowest, 0, sums)
         terms = zip((*self._x, self._y, self._edge), (*sums, edge), strict=True)
         return sum(t.diagonal[0] * v[0] + t.upper[0] * v[1] for t, v in terms) - load.edge[0]
+
+    @cached_property
+    def round_off(self) -> float:
+        """Relative error of the edge values in any solve."""
+        condition = (self.body.grid.height / np.diff(self.body.grid.y).min()) ** 2
+        return ROUND_OFF * np.finfo(float).eps * condition
+
+    def change(self, w: Array) -> Array:
+        """Change of the edge values (m) in balance, for a change of w at the nodes 1..n_x (m)."""
+        near = self.felt[0]
+        return self.response[:, near:] @ w[near:]
 
     def correction(self, residual: Array) -> Array:
         """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
@@ -143,3 +161,19 @@ class RightEdge:
             np.ascontiguousarray(tangential[:, near:]),
             np.ascontiguousarray(normal[:, near:]),
         )
+
+
+def predicted(expected: Expectation) -> Array:
+    """The edge values (m) after a step, if they go on with the acceleration of the last one."""
+    (now, before), step = (expected.motions[0], expected.motions[-1]), expected.step
+    edge = now.displacement.edge + step * now.velocity.edge
+    if expected.last_step == 0.0:
+        return edge
+    change = now.velocity.edge - before.velocity.edge
+    return edge + (0.5 * step**2 / expected.last_step) * change
+
+
+def relative_error(found: Array, *assumed: Array) -> float:
+    """Largest error of what was assumed over the largest value; infinite if all are zero."""
+    largest = np.abs(found).max()
+    return max(np.abs(a - found).max() for a in assumed) / largest if largest > 0.0 else np.inf

@@ -14,7 +14,6 @@ grows by some per cent meanwhile, it is compared with the frozen patch's mean ov
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections import deque
 from collections.abc import Iterable
 from typing import Any
@@ -29,11 +28,11 @@ from ..fem.block import Block
 from ..fem.grid import Grid
 from ..fem.operator import BlockOperator
 from ..model.parameters import Parameters
+from ..simulation.composition import composed
 from ..simulation.control import Instant
 from ..simulation.run import run
 from ..simulation.state import State
 from ..simulation.step import Dynamics, StepReport
-from ..stepping.ladder import RUNGS_PER_OCTAVE, beta_of_step
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 ComplexArray = NDArray[np.complex128]
@@ -99,10 +98,8 @@ class Twin:
 
     def advance(self, instant: Instant) -> bool:
         """Take the step that the run has taken; whether the twins have been followed enough."""
-        rung = round(
-            RUNGS_PER_OCTAVE
-            * math.log2(beta_of_step(instant.state.last_step, self.state.last_step))
-        )
+        scheme = self._dynamics.scheme
+        rung = scheme.rung(instant.state.last_step, self.state.last_step)
         self.state, _ = self._dynamics.advance(self.state, rung)
         since = instant.state.time - self._start
         self._time.append(since)
@@ -166,7 +163,7 @@ def follow_twins(
     -------
     Dataset on ``twin``: :data:`MEASURED`, times in s, lengths in m, rates in 1/s.
     """
-    patches, dynamics = Patches(parameters, settings), Dynamics(parameters)
+    patches, dynamics = Patches(parameters, settings), composed(parameters)
     lengths = deque(share * theory_length for share in sorted(shares))
     active: list[Twin] = []
     rows = []

@@ -30,10 +30,12 @@ from ..fem.operator import BlockOperator
 from ..figures import style
 from ..figures.checks import work_precision
 from ..model.parameters import Parameters
+from ..simulation.composition import composed
 from ..simulation.run import run, simulate
 from ..simulation.state import State
 from ..simulation.step import Dynamics
-from ..stepping.ladder import beta_of_step, rung_below, rung_value
+from ..stepping.ladder import rung_value
+from ..stepping.scheme import BDF
 
 Array = NDArray[np.float64]
 
@@ -67,9 +69,9 @@ def creeping(parameters: Parameters) -> tuple[Dynamics, State, int]:
     for instant in run(dataclasses.replace(parameters, stepping=stepping)):
         if instant.state.time > CREEP_TIME:
             break
-    dynamics, state = Dynamics(parameters), instant.state
+    dynamics, state = composed(parameters), instant.state
     longest = parameters.stepping.longest_step * parameters.memory_time
-    rung = rung_below(beta_of_step(longest, longest))
+    rung = dynamics.scheme.steady_rung(longest)
     for _ in range(10):
         state, _ = dynamics.advance(state, rung)
     return dynamics, state, rung
@@ -125,7 +127,7 @@ def step_over_solve(parameters: Parameters) -> dict[str, float]:
     grid = grid_of(parameters)
     body = Block(grid, parameters.material)
     longest = parameters.stepping.longest_step * parameters.memory_time
-    s = 1.0 / rung_value(rung_below(beta_of_step(longest, longest))) ** 2
+    s = 1.0 / rung_value(BDF().steady_rung(longest)) ** 2
     factor = cholesky_banded(banded_matrix(body, s), lower=True)
     right = np.random.default_rng(1).normal(size=factor.shape[1])
     operator, load = BlockOperator(body, s), body.top_load(1e6)

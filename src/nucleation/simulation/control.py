@@ -7,11 +7,9 @@ import enum
 
 import numpy as np
 
-from ..model.parameters import (
-    Stepping,
-)
-from ..stepping.bdf import LARGEST_GROWTH
-from ..stepping.ladder import beta_of_step, rung_below, rung_value
+from ..model.parameters import Stepping
+from ..stepping.ladder import rung_below, rung_value
+from ..stepping.scheme import Scheme
 from .interface import NewtonFailure, Tension
 from .state import State
 from .step import Dynamics, StepReport
@@ -61,11 +59,12 @@ class Instant:
     control: Control
 
 
-def _accepted_step(
+def accepted_step(
     dynamics: Dynamics, stepping: Stepping, state: State, control: Control, longest: float
 ) -> Instant:
     """The next step whose error is within the tolerance; `longest` is the largest beta (s)."""
-    wanted, rejected, growth = control.wanted, control.rejected, LARGEST_GROWTH
+    scheme = dynamics.scheme
+    wanted, rejected, growth = control.wanted, control.rejected, scheme.largest_growth
     cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
     while True:
         rung = rung_below(min(wanted, longest))
@@ -79,18 +78,18 @@ def _accepted_step(
             cause = failure
             wanted, rejected, growth = 0.5 * beta, rejected + 1, 1.0
             continue
-        factor = _step_factor(report.error / stepping.tolerance)
+        factor = _step_factor(report.error / stepping.tolerance, scheme)
         if report.error > stepping.tolerance and np.isfinite(report.error):
             wanted, rejected, cause = beta * min(factor, 0.9), rejected + 1, None
             continue
         factor = min(factor, growth)  # not at once back to where Newton's method failed
-        wanted = beta_of_step(new.last_step * factor, new.last_step)
+        wanted = scheme.coefficient(new.last_step * factor, new.last_step)
         return Instant(new, report, Control(wanted, control.steps + 1, rejected))
 
 
-def _step_factor(error: float) -> float:
-    """Factor on the step size for a local error of third order, given over the tolerance."""
+def _step_factor(error: float, scheme: Scheme) -> float:
+    """Factor on the step size for a local error given over the tolerance."""
     if not np.isfinite(error):
         return 1.0  # the first step has no estimate
-    ideal = SAFETY * max(error, 1e-9) ** (-1.0 / 3.0)
-    return min(LARGEST_GROWTH, max(SMALLEST_SHRINKING, ideal))
+    ideal = SAFETY * max(error, 1e-9) ** (-1.0 / scheme.error_order)
+    return min(scheme.largest_growth, max(SMALLEST_SHRINKING, ideal))

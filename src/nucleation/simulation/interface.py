@@ -3,23 +3,28 @@
 At the new time the slip rate ``v``, the state ``psi = log(phi)``, the nodal tangential force
 ``p`` and the nodal normal force ``R`` (on the body, R > 0 in compression) fulfil
 
-    p = p0 + D (w - w0),   R = R0 + N (w - w0),   w = w_history + beta (v - V)
+    p = p0 + D (w - w0),   R = R0 + N (w - w0),   w = w_past + beta (v - V)
     p + f(v, psi(v)) R = 0
 
-at the nodes 1..n_x, with the body's condensed operator D, N and the state eliminated by the
-closed form of its implicit step. Node 0 slips at the imposed velocity V.
+at the nodes 1..n_x, with the body's condensed operator D, N (:mod:`nucleation.fem.condensed`), the
+slip w less that of the driven edge, and the state eliminated by the closed form of its implicit
+step. Node 0 slips at the imposed velocity V.
 """
 
 from __future__ import annotations
 
 import dataclasses
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from ..fem.operator import BlockOperator, LinearResponse
+from ..fem.condensed import Condensed, Response
 from ..model.friction.law import Friction
+from ..stepping.bdf import Formula
+from .drive import Imposed
+from .state import State
 
 Array = NDArray[np.float64]
 
@@ -46,8 +51,37 @@ class InterfaceSolution:
     tangential: Array  # N/m, force on the body
     normal: Array  # N/m, force on the body
     w: Array  # m, nodes 1..n_x
-    edge: Array  # m, levels 0..n_y
     iterations: int
+
+
+class Past(NamedTuple):
+    """What the step's formula takes from the past: ``y = past + beta dy/dt``."""
+
+    w: Array  # m, nodes 1..n_x
+    log_state: Array  # nodes 0..n_x
+    beta: float  # s
+    at_rest: bool  # whether the interface has not slipped yet
+
+    @classmethod
+    def of(cls, state: State, formula: Formula, imposed: Imposed, at_rest: bool) -> Past:
+        """The past of a state, to which the forcing at the new time adds as a rate."""
+        log_state = formula.from_past(state.past_log_states)
+        if imposed.state_forcing is not None:
+            log_state = log_state + formula.beta * imposed.state_forcing
+        return cls(formula.from_past(state.past_w), log_state, formula.beta, at_rest)
+
+
+class Solver(Protocol):
+    """What holds a body at its interface in a step."""
+
+    @property
+    def friction(self) -> Friction:
+        """The law that its slip distance is taken from."""
+
+    def solve(
+        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+    ) -> InterfaceSolution:
+        """The interface at the new time; arguments of :meth:`Interface.solve`."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,7 +98,7 @@ class Factors:
 
     @classmethod
     def of(
-        cls, operator: BlockOperator, coefficient: Array, damping: Array, elastic: Array,
+        cls, operator: Condensed, coefficient: Array, damping: Array, elastic: Array,
         beta: float,
     ) -> Factors:  # fmt: skip
         """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
@@ -102,30 +136,23 @@ class Factors:
 
 @dataclasses.dataclass(frozen=True)
 class Interface:
-    """Friction between the body and the rigid substrate, and how tightly it is solved."""
+    """Friction between a body and what it slides on, and how tightly it is solved."""
 
     friction: Friction
-    velocity: float  # m/s, of the left edge
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 8
+    most_iterations_from_rest: int = 50
 
     def solve(
-        self,
-        operator: BlockOperator,
-        response: LinearResponse,
-        w_history: Array,
-        log_state_history: Array,
-        beta: float,
-        guess: Array,
+        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
     ) -> InterfaceSolution:
         """Solve for the slip rates at the new time.
 
         Parameters
         ----------
         operator, response : the condensed body and its forces at the predicted displacement.
-        w_history : the part of w (m) at nodes 1..n_x that the step's formula takes from the past.
-        log_state_history : the same for psi at nodes 0..n_x.
-        beta : coefficient (s) of the new slip rate in the step's formula.
+        past : what the step's formula takes from the past.
+        imposed : velocity of the driven edge and strength of the interface at the new time.
         guess : slip rates (m/s) at nodes 1..n_x, those that belong to ``response.w``.
 
         Raises
@@ -135,12 +162,15 @@ class Interface:
         Tension
             A nodal normal force of the solution is tensile.
         """
-        v, w, factors = guess, response.w, None
-        rounding = ROUNDING * np.abs(w_history).max() / beta  # of v = (w - w_history) / beta
-        p, normal, edge = response.tangential, response.normal, response.edge
-        for iteration in range(self.most_iterations + 1):
-            rates = np.append(self.velocity, v)
-            coefficient, slope, psi = self._friction(rates, log_state_history, beta)
+        v, w, beta, factors = guess, response.w, past.beta, None
+        rounding = ROUNDING * np.abs(past.w).max() / beta  # of v = (w - past.w) / beta
+        p, normal = response.tangential, response.normal
+        most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
+        for iteration in range(most + 1):
+            rates = np.append(imposed.velocity, v)
+            coefficient, slope, psi = self._friction(rates, past.log_state, beta)
+            if imposed.strength is not None:
+                coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
             residual = p + coefficient[1:] * normal[1:]
             damping = slope[1:] * normal[1:]
             elastic = beta * operator.diagonal
@@ -154,17 +184,15 @@ class Interface:
                     raise Tension("the interface is in tension")
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = np.append(-coefficient[0] * normal[0], p)
-                return InterfaceSolution(rates, psi, tangential, normal, w, edge, iteration)
+                return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
             # old factors serve where they promise that one more iteration is enough
             if factors is None or error * factors.change(damping, elastic) > ENOUGH:
                 factors = Factors.of(operator, coefficient[1:], damping, elastic, beta)
             v = self._updated(v, factors.direction(residual, damping, elastic))
-            w = w_history + beta * (v - self.velocity)
-            dp, dnormal, dedge = operator.apply(w - response.w)
-            p, normal, edge = (
-                response.tangential + dp, response.normal + dnormal, response.edge + dedge,
-            )  # fmt: skip
-        raise NewtonFailure(f"no convergence in {self.most_iterations} iterations")
+            w = past.w + beta * (v - imposed.velocity)
+            dp, dnormal = operator.apply(w - response.w)
+            p, normal = response.tangential + dp, response.normal + dnormal
+        raise NewtonFailure(f"no convergence in {most} iterations")
 
     def _friction(
         self, v: Array, log_state_history: Array, beta: float

@@ -3,46 +3,47 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..fem.block import Field
-from ..fem.periodic import (
-    Array,
-    PeriodicBlock,
-    PeriodicOperator,
-)
+from ..fem.grid import Grid
+from ..fem.periodic import PeriodicBlock
 from ..model.parameters import Parameters
-from ..stepping.ladder import rung_value
+from ..stepping.scheme import BDF
+from .drive import Steady
+from .interface import Interface
 from .state import State
 from .step import Dynamics
 
+Array = NDArray[np.float64]
 
-class PeriodicDynamics(Dynamics):
+
+def sliding_period(parameters: Parameters, interface: Interface | None = None) -> Dynamics:
     """A period of a long block, driven at constant traction to slide homogeneously at V.
 
     ``geometry.length`` is the period. The reports' driving force has no meaning here.
+
+    Parameters
+    ----------
+    parameters : of the period, its number of nodes ``mesh.n_x`` odd.
+    interface : by default that of the simulation.
     """
+    body = PeriodicBlock(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
+    law, loading = parameters.friction, parameters.loading
+    shear = loading.normal_stress * float(law.steady_coefficient(loading.velocity))
+    load = body.top_load(loading.normal_stress, shear)
+    return Dynamics(
+        body, interface or Interface(law), Steady(loading.velocity, load), BDF(body.crossing_time)
+    )  # fmt: skip
 
-    def __init__(self, parameters: Parameters) -> None:
-        super().__init__(parameters)
-        self.body = PeriodicBlock(self.grid, parameters.material)
-        law, sigma0 = parameters.friction, parameters.loading.normal_stress
-        self._steady_log_state = float(np.log(law.steady_state(self.velocity)))
-        self._load = self.body.top_load(sigma0, sigma0 * law.steady_coefficient(self.velocity))  # type: ignore[arg-type]
 
-    def sliding_state(self, perturbation: Array) -> State:
-        """Homogeneous steady sliding, with a perturbation of log(phi) at the period's nodes."""
-        n = self.grid.n_x
-        modes, _ = PeriodicOperator(self.body, 0.0).solve(
-            self._load, np.zeros(n), np.zeros(self.grid.n_y + 1)
-        )
-        displacement = Field(modes, np.zeros(modes.shape[0]))
-        log_state = self._steady_log_state + np.append(0.0, perturbation)
-        rates = np.full(n + 1, self.velocity)
-        return State.beginning(
-            displacement, self.body.zero_field(), rates, log_state, np.zeros(n), 0.0
-        )
-
-    def _operator(self, rung: int) -> PeriodicOperator:
-        if rung not in self._operators:
-            self._operators[rung] = PeriodicOperator(self.body, 1.0 / rung_value(rung) ** 2)
-        return self._operators[rung]  # type: ignore[return-value]
+def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
+    """Homogeneous steady sliding, with a perturbation of log(phi) at the period's nodes."""
+    body, n, velocity = dynamics.body, dynamics.grid.n_x, dynamics.drive.velocity
+    operator = body.operator(0.0)
+    response = operator.respond(dynamics.drive.load(0.0), np.zeros(n))
+    balance = operator.balance(response, response.w)
+    steady = float(np.log(dynamics.interface.friction.steady_state(velocity)))
+    # carried along by the driving traction, it stands still as seen from V
+    motion = body.at_rest(balance.displacement, 0.0)
+    rates, log_state = np.full(n + 1, velocity), steady + np.append(0.0, perturbation)
+    return State.beginning(motion, rates, log_state, np.zeros(n), balance.memory)

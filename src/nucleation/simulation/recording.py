@@ -8,12 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..fem.block import Block, Field
-from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from .event import WINDOW, DropWatch
 from .state import State
-from .step import StepReport
+from .step import Dynamics, StepReport
 
 Array = NDArray[np.float64]
 
@@ -26,11 +24,9 @@ SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V fi
 class Recorder:
     """Collects the states of one run and makes the dataset."""
 
-    def __init__(self, parameters: Parameters) -> None:
+    def __init__(self, parameters: Parameters, dynamics: Dynamics) -> None:
         self.parameters = parameters
-        geometry, mesh = parameters.geometry, parameters.mesh
-        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
-        self._body = Block(self.grid, parameters.material)
+        self.grid, self._body, self._drive = dynamics.grid, dynamics.body, dynamics.drive
         self._velocity = parameters.loading.velocity
         self._longest_pause = LONGEST_PAUSE * parameters.memory_time
         self._rows: list[tuple[float, float, float, float, int]] = []
@@ -78,7 +74,7 @@ class Recorder:
             return
         self._last_scaled, self._last_frame_step = scaled, len(self._rows)
         interface, lengths = report.interface, self.grid.nodal_lengths
-        slip = self._velocity * state.time + np.append(0.0, interface.w)
+        slip = self._drive.at(state.time).displacement + np.append(0.0, interface.w)
         fields = (
             interface.slip_rate, np.exp(interface.log_state), slip,
             -interface.tangential / lengths, -interface.normal / lengths,
@@ -94,14 +90,10 @@ class Recorder:
 
     def _bulk(self, state: State) -> Array:
         """Displacement and velocity at the nodes, shape (4, n_y + 1, n_x + 1)."""
-        fields: list[Array] = []
-        values: tuple[Field, Field] = (state.displacement, state.velocity)
-        for value, uniform in zip(
-            values, (self._velocity * state.time, self._velocity), strict=True
-        ):
-            x, y = self._body.nodal_values(value)
-            fields += [x + uniform, y]
-        return np.array(fields)
+        edge = self._drive.at(state.time)
+        x, y = self._body.nodal_values(state.displacement)
+        rate_x, rate_y = self._body.nodal_values(state.velocity)
+        return np.array([x + edge.displacement, y, rate_x + edge.velocity, rate_y])
 
     def to_arrays(self) -> dict[str, NDArray]:
         """Everything recorded, as plain arrays by name, to be stored; exact."""

@@ -16,19 +16,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..model.parameters import (
-    FIRST_STEP,
-    Parameters,
-)
-from ..stepping.ladder import beta_of_step
-from .control import (
-    Control,
-    Instant,
-    Outcome,
-    SimulationFailure,
-    _accepted_step,
-)
+from ..model.parameters import FIRST_STEP, Parameters
+from .composition import composed
+from .control import Control, Instant, Outcome, SimulationFailure, accepted_step
 from .recording import Recorder
+from .start import at_rest
 from .state import State
 from .step import Dynamics
 
@@ -36,7 +28,11 @@ Array = NDArray[np.float64]
 Arrays = dict[str, NDArray]
 
 
-def run(parameters: Parameters, start: tuple[State, Control] | None = None) -> Iterator[Instant]:
+def run(
+    parameters: Parameters,
+    start: tuple[State, Control] | None = None,
+    dynamics: Dynamics | None = None,
+) -> Iterator[Instant]:
     """Integrate in time, yielding the initial state and then every accepted step, without end.
 
     Parameters
@@ -44,6 +40,7 @@ def run(parameters: Parameters, start: tuple[State, Control] | None = None) -> I
     parameters : everything the result depends on.
     start : state and control of an instant of an earlier run with the same parameters: yields
         what follows it there, to the last bit.
+    dynamics : what is to step, by default the usual composition for the parameters.
 
     Raises
     ------
@@ -51,16 +48,16 @@ def run(parameters: Parameters, start: tuple[State, Control] | None = None) -> I
         The step size fell below ``stepping.shortest_step``, for its own sake or because every
         longer step ends in tension.
     """
-    dynamics = Dynamics(parameters)
+    dynamics = composed(parameters) if dynamics is None else dynamics
     longest_step = parameters.stepping.longest_step * parameters.memory_time
-    longest = beta_of_step(longest_step, longest_step)
+    longest = dynamics.scheme.coefficient(longest_step, longest_step)
     if start is None:
-        state, report = dynamics.initial_state()
+        state, report = at_rest(dynamics, parameters.loading)
         start = state, Control(min(FIRST_STEP * parameters.memory_time, longest))
         yield Instant(state, report, start[1])
     state, control = start
     while True:
-        instant = _accepted_step(dynamics, parameters.stepping, state, control, longest)
+        instant = accepted_step(dynamics, parameters.stepping, state, control, longest)
         state, control = instant.state, instant.control
         yield instant
 
@@ -91,7 +88,8 @@ def simulate(
     what it recorded, with ``status`` telling so.
     """
     began = time.perf_counter()
-    recorder = Recorder(parameters)
+    dynamics = composed(parameters)
+    recorder = Recorder(parameters, dynamics)
     control, position, earlier = Control(0.0), None, 0.0
     if start is not None:
         recorder.restore(start)
@@ -100,7 +98,7 @@ def simulate(
         earlier = float(start["wall_seconds"])
     outcome = Outcome.END_TIME
     try:
-        for instant in run(parameters, position):
+        for instant in run(parameters, position, dynamics):
             control = instant.control
             recorder.record(instant.state, instant.report)
             if progress is not None:

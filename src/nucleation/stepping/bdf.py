@@ -1,12 +1,12 @@
-"""Variable-step BDF2, L-stable, with an error estimate and a step-size ladder; and BDF3.
+"""Variable-step BDF2, L-stable, with an error estimate; and BDF3.
 
 For ``dy/dt = g`` the BDF2 step from t to t + h, after a step h', reads (r = h/h')
 
     y = c1 y_n + c2 y_{n-1} + beta g,   beta = h (1 + r)/(1 + 2 r),
     c1 = (1 + r)^2/(1 + 2 r),           c2 = -r^2/(1 + 2 r).
 
-The body's operator depends on beta alone. Its values are taken from a geometric ladder, so that
-few operators serve a whole run; the step h follows from beta and h'.
+The body's operator depends on beta alone. Its values are taken from a geometric ladder
+(:mod:`.ladder`), so that few operators serve a whole run; the step h follows from beta and h'.
 """
 
 from __future__ import annotations
@@ -65,6 +65,12 @@ class Formula:
         """
         used = min(len(self.past), values.shape[0])
         return np.asarray(self.past[:used]) @ values[:used]
+
+
+def beta_of_step(step: float, previous_step: float) -> float:
+    """The leading coefficient (s) of a BDF2 step."""
+    r = step / previous_step
+    return step * (1 + r) / (1 + 2 * r)
 
 
 def extrapolation_weights(time: float, past: Array) -> Array:

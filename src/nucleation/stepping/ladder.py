@@ -12,12 +12,11 @@ def rung_below(beta: float) -> int:
     return math.floor(RUNGS_PER_OCTAVE * math.log2(beta) + 1e-9)
 
 
+def rung_nearest(beta: float) -> int:
+    """The rung whose value is nearest to `beta` (s)."""
+    return round(RUNGS_PER_OCTAVE * math.log2(beta))
+
+
 def rung_value(rung: int) -> float:
     """The value of beta (s) of a rung."""
     return 2.0 ** (rung / RUNGS_PER_OCTAVE)
-
-
-def beta_of_step(step: float, previous_step: float) -> float:
-    """The leading coefficient (s) of a BDF2 step."""
-    r = step / previous_step
-    return step * (1 + r) / (1 + 2 * r)

@@ -20,8 +20,8 @@ from ..model.linearised import (
     interface_state,
 )
 from ..model.parameters import Geometry, Mesh, Parameters
-from ..simulation.periodic import PeriodicDynamics
-from ..stepping.ladder import rung_below, rung_value
+from ..simulation.interface import Interface
+from ..simulation.periodic import sliding_period, sliding_state
 from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import RIGID, Body
@@ -79,18 +79,16 @@ def follow_mode(parameters: Parameters, seed: float = SEED) -> tuple[float, Comp
     amplitude : ndarray
         Complex amplitude of ``exp(-i k x)`` in log(v), shape (samples,).
     """
-    dynamics = PeriodicDynamics(parameters)
-    dynamics.interface = dataclasses.replace(dynamics.interface, tolerance=NEWTON_TOLERANCE)
+    dynamics = sliding_period(parameters, Interface(parameters.friction, NEWTON_TOLERANCE))
     n = parameters.mesh.n_x
-    state = dynamics.sliding_state(seed * np.cos(2.0 * np.pi / n * np.arange(n)))
-    rung = rung_below(STEP * parameters.memory_time / 1.5)
+    state = sliding_state(dynamics, seed * np.cos(2.0 * np.pi / n * np.arange(n)))
+    rung = dynamics.scheme.steady_rung(STEP * parameters.memory_time)
     amplitudes = []
     while state.time < DURATION * parameters.memory_time:
         state, report = dynamics.advance(state, rung)
         log_rate = np.log(report.interface.slip_rate[1:])
         amplitudes.append(np.conj(np.fft.rfft(log_rate)[1]) * 2.0 / n)
-    # a constant beta makes BDF2 steps of 1.5 beta
-    return 1.5 * rung_value(rung) * INTERVAL, np.array(amplitudes[SKIPPED::INTERVAL])
+    return dynamics.scheme.steady_step(rung) * INTERVAL, np.array(amplitudes[SKIPPED::INTERVAL])
 
 
 def fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:

@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..model.friction.law import Friction
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
-from ..stepping.ladder import rung_value
-from .manufactured.dynamics import ManufacturedDynamics, ManufacturedFriction
+from ..stepping.scheme import BDF
+from .manufactured.dynamics import Manufactured, ManufacturedFriction
 from .manufactured.fields import Displacement, Factor, Power, Sine, Term
 
 Array = NDArray[np.float64]
@@ -99,9 +99,7 @@ FIELDS = {
 }
 
 
-def manufactured(
-    problem: str, name: str, rows: int, grading: float = GRADING
-) -> ManufacturedDynamics:
+def manufactured(problem: str, name: str, rows: int, grading: float = GRADING) -> Manufactured:
     """The solver under the loads of a problem of :data:`PROBLEMS`.
 
     Parameters
@@ -120,23 +118,23 @@ def manufactured(
         Mesh(n_x=2 * rows, n_y=rows, grading=grading),
     )
     if problem == "elastodynamics":
-        return ManufacturedDynamics(parameters, fields.displacement)
+        return Manufactured(parameters, fields.displacement)
     steady = Term(np.log(parameters.memory_time), Power(1.0), Power(1.0), Power(1.0))
     log_state = (steady, fields.change_of_state)
     return ManufacturedFriction(parameters, fields.displacement, log_state, fields.lumped)
 
 
-def errors(dynamics: ManufacturedDynamics, rungs: ArrayLike) -> tuple[float, float, float]:
+def errors(problem: Manufactured, rungs: ArrayLike) -> tuple[float, float, float]:
     """Dimensionless errors after steps of the given rungs, in the order of :data:`ERRORS`.
 
     Root mean squares of the nodal values' errors: of the displacement over :data:`SCALE`, of the
     slip rate over V, of log(phi). Without friction only the first has a meaning.
     """
-    state, _ = dynamics.run(*rungs)  # type: ignore[misc]
+    state, _ = problem.run(*rungs)  # type: ignore[misc]
     return (
-        dynamics.displacement_error(state) / SCALE,
-        dynamics.slip_rate_error(state) / dynamics.velocity,
-        dynamics.log_state_error(state),
+        problem.displacement_error(state) / SCALE,
+        problem.slip_rate_error(state) / problem.velocity,
+        problem.log_state_error(state),
     )
 
 
@@ -154,9 +152,9 @@ def step_errors(problem: str, name: str = "step", pattern: ArrayLike = (0,)) -> 
     problem, name : what is solved, and the name of the fields and rungs.
     pattern : what is added to the rungs of successive steps, again and again.
     """
-    dynamics, found = manufactured(problem, name, STEP_ROWS), []
+    solved, found = manufactured(problem, name, STEP_ROWS), []
     for level, rung in enumerate(STEP_RUNGS[name]):
-        found.append(errors(dynamics, rung + np.resize(pattern, MOST_STEPS * 2**level)))
+        found.append(errors(solved, rung + np.resize(pattern, MOST_STEPS * 2**level)))
     return np.array(found)
 
 
@@ -195,8 +193,8 @@ def convergence_dataset() -> xr.Dataset:
 
 
 def step_sizes(name: str) -> Array:
-    """Lengths (s) of the steps of :data:`STEP_RUNGS`: at a constant beta, 3/2 of it."""
-    return np.array([1.5 * rung_value(rung) for rung in STEP_RUNGS[name]])
+    """Lengths (s) of the steps of :data:`STEP_RUNGS`."""
+    return np.array([BDF().steady_step(rung) for rung in STEP_RUNGS[name]])
 
 
 def to_csv(dataset: xr.Dataset) -> str:

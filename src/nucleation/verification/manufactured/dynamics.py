@@ -9,7 +9,7 @@ two loads make both of them a solution:
   ``-sigma_xy - f(v, phi) sigma_yy`` on the body. It cannot be avoided: at the driven edge's foot
   the shear stress of any smooth field vanishes, friction does not.
 
-The solver needs no hooks: a load and the interface's equations are all that is replaced.
+The solver needs no hooks: drive and interface are all that is replaced.
 """
 
 from __future__ import annotations
@@ -20,15 +20,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ...fem.block import Field
-from ...fem.operator import BlockOperator, LinearResponse
+from ...fem.block import Block
+from ...fem.condensed import Condensed, Response
+from ...fem.field import Field, Motion
+from ...fem.grid import Grid
 from ...model.friction.law import Friction
 from ...model.parameters import Parameters
-from ...simulation.interface import Interface, InterfaceSolution
+from ...simulation.drive import Imposed
+from ...simulation.interface import Interface, InterfaceSolution, Past, Solver
 from ...simulation.state import State
 from ...simulation.step import Dynamics, StepReport
-from ...stepping.bdf import Formula
-from ...stepping.ladder import rung_value
+from ...stepping.scheme import BDF
 from .fields import Displacement, Term
 from .loads import Loads
 
@@ -39,61 +41,55 @@ NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
 
 @dataclasses.dataclass(frozen=True)
 class GivenDisplacement:
-    """In place of the frictional interface: its displacement ``w`` (m) is prescribed."""
+    """In place of the frictional interface: its displacement is prescribed."""
 
     friction: Friction
-    w: Array
+    problem: Manufactured
 
     def solve(
-        self, operator: BlockOperator, response: LinearResponse, w_history: Array,
-        log_state_history: Array, beta: float, guess: Array,
-    ) -> InterfaceSolution:  # fmt: skip
+        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+    ) -> InterfaceSolution:
         """The forces that hold the interface there; arguments of :meth:`Interface.solve`."""
-        dp, dnormal, dedge = operator.apply(self.w - response.w)
-        v = np.append(guess[:1], (self.w - w_history) / beta)
+        w = self.problem.exact_w(imposed.time)
+        dp, dnormal = operator.apply(w - response.w)
+        v = np.append(guess[:1], (w - past.w) / past.beta)
         return InterfaceSolution(
             v, np.zeros_like(v), np.append(0.0, response.tangential + dp),
-            response.normal + dnormal, self.w, response.edge + dedge, 0,
+            response.normal + dnormal, w, 0,
         )  # fmt: skip
 
 
-@dataclasses.dataclass(frozen=True)
-class SourcedInterface(Interface):
-    """The frictional interface with a source (1/s) in ``dpsi/dt``, given at the new time."""
+class Manufactured:
+    """The solver's own step under the loads of a displacement, with its interface prescribed.
 
-    source: Array = dataclasses.field(default_factory=lambda: np.zeros(1))
-
-    def solve(
-        self, operator: BlockOperator, response: LinearResponse, w_history: Array,
-        log_state_history: Array, beta: float, guess: Array,
-    ) -> InterfaceSolution:  # fmt: skip
-        """Solve with the source, which the implicit step counts like the rest of dpsi/dt."""
-        history = log_state_history + beta * self.source
-        return super().solve(operator, response, w_history, history, beta, guess)
-
-
-class ManufacturedDynamics(Dynamics):
-    """The solver's own step under the loads of a displacement, with its interface prescribed."""
+    It is the drive of its own :attr:`dynamics`.
+    """
 
     def __init__(self, parameters: Parameters, exact: Displacement) -> None:
-        super().__init__(parameters)
+        self.grid = Grid.of(parameters.geometry, parameters.mesh)
+        self.body = Block(self.grid, parameters.material)
+        self.friction, self.velocity = parameters.friction, parameters.loading.velocity
         self.exact, self.loads = exact, Loads(self.grid, exact)
+        scheme = BDF(self.body.crossing_time)
+        self.dynamics = Dynamics(self.body, self.interface(), self, scheme)
 
-    def prescribe(self, time: float) -> None:
-        """Set the load and the interface of the step that ends at `time` (s)."""
-        self._load = self.loads.field(self.loads.nodal(time))
-        self.interface = GivenDisplacement(self.interface.friction, self.exact_w(time))  # type: ignore[assignment]
+    def interface(self) -> Solver:
+        """What holds the block."""
+        return GivenDisplacement(self.friction, self)
 
-    def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
-        """One step of the solver, its loads being those at the new time."""
-        self.prescribe(state.time + Formula.bdf2(rung_value(rung), state.last_step).step)
-        return super().advance(state, rung)
+    def at(self, time: float) -> Imposed:
+        """What is imposed on driven edge and interface at a time (s)."""
+        return Imposed(time, self.velocity * time, self.velocity)
+
+    def load(self, time: float) -> Field:
+        """The load (N/m) of the displacement at a time (s)."""
+        return self.loads.field(self.loads.nodal(time))
 
     def run(self, *rungs: int) -> tuple[State, StepReport]:
         """Integrate from the exact start, a step per rung; return the last state and report."""
-        state = self.exact_state(1.5 * rung_value(rungs[0]))
+        state = self.exact_state(self.dynamics.scheme.steady_step(rungs[0]))
         for rung in rungs:
-            state, report = self.advance(state, rung)
+            state, report = self.dynamics.advance(state, rung)
         return state, report
 
     # -- exact values ---------------------------------------------------------------------------
@@ -127,13 +123,16 @@ class ManufacturedDynamics(Dynamics):
         """The state at t = 0 with exact values at 0, -step and -2 step (s)."""
         times = np.array([0.0, -step, -2 * step])
         rates = [self.exact_slip_rate(self.grid.x, t) for t in times]
-        fields = [
-            self.as_field(self.nodal_exact(t, by_t=order)) for t in times[:2] for order in (0, 1)
-        ]
+        motions = []
+        for t in times[:2]:
+            u, rate = (self.as_field(self.nodal_exact(t, by_t=order)) for order in (0, 1))
+            motions.append(Motion(u, rate, self.body.momentum_x(rate)))
         states = [self.exact_log_state(self.grid.x, t) for t in times]
         w = [self.exact_w(t) for t in times]
-        momenta = [self.body.momentum_x(fields[i]) for i in (1, 3)]
-        return State(*fields, times, *map(np.array, (rates, states, w)), *momenta, np.inf)  # type: ignore[arg-type, call-arg]
+        return State(
+            tuple(motions), times, np.array(rates), np.array(states), np.array(w),
+            self.body.no_memory,
+        )  # fmt: skip
 
     # -- errors ---------------------------------------------------------------------------------
 
@@ -157,7 +156,7 @@ class ManufacturedDynamics(Dynamics):
         return float(np.sqrt(error**2 @ self.grid.nodal_lengths / self.grid.length))
 
 
-class ManufacturedFriction(ManufacturedDynamics):
+class ManufacturedFriction(Manufactured):
     """The same with rate-and-state friction and a chosen state variable.
 
     Parameters
@@ -176,14 +175,19 @@ class ManufacturedFriction(ManufacturedDynamics):
         super().__init__(parameters, exact)
         self.log_state, self.lumped = log_state, lumped
 
-    def prescribe(self, time: float) -> None:
-        """Set load, applied traction and source of the step that ends at `time` (s)."""
+    def interface(self) -> Solver:
+        """The simulation's own interface."""
+        return Interface(self.friction, NEWTON_TOLERANCE)
+
+    def at(self, time: float) -> Imposed:
+        """What is imposed on driven edge and interface at a time (s): the state has a source."""
+        return dataclasses.replace(super().at(time), state_forcing=self.source(time))
+
+    def load(self, time: float) -> Field:
+        """The load (N/m) of displacement and applied traction at a time (s)."""
         forces = self.loads.nodal(time)
         forces[0, 0] += self.applied_force(time)
-        self._load = self.loads.field(forces)
-        self.interface = SourcedInterface(
-            self.interface.friction, self.velocity, NEWTON_TOLERANCE, source=self.source(time)
-        )
+        return self.loads.field(forces)
 
     def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
         """Exact psi = log(phi) at x (m), or its derivative in time (1/s)."""
@@ -192,7 +196,7 @@ class ManufacturedFriction(ManufacturedDynamics):
     def friction_coefficient(self, x: Array, time: float) -> Array:
         """f(v, phi) of the exact slip rate and state at x (m)."""
         state = np.exp(self.exact_log_state(x, time))
-        return self.interface.friction.coefficient(self.exact_slip_rate(x, time), state)
+        return self.friction.coefficient(self.exact_slip_rate(x, time), state)
 
     def applied_force(self, time: float) -> Array:
         """Nodal force (N/m) of the applied traction along x, at the nodes 0..n_x."""
@@ -208,5 +212,5 @@ class ManufacturedFriction(ManufacturedDynamics):
         """Source (1/s) of the state equation in psi, at the nodes 0..n_x."""
         x = self.grid.x
         state = np.exp(self.exact_log_state(x, time))
-        own = self.interface.friction.state_rate(self.exact_slip_rate(x, time), state) / state
+        own = self.friction.state_rate(self.exact_slip_rate(x, time), state) / state
         return self.exact_log_state(x, time, by_t=1) - own

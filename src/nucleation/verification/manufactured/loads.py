@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...fem.block import Field
+from ...fem.field import Field
 from ...fem.grid import Grid
 from .fields import Displacement
 

@@ -1,0 +1,40 @@
+"""Where a run starts: a body at rest under its load, and an interface that begins to be driven."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..model.parameters import Loading
+from .interface import InterfaceSolution
+from .state import State
+from .step import Dynamics, StepReport
+
+
+def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
+    """The static field under the load at rest, without slip or in uniform shear.
+
+    Parameters
+    ----------
+    dynamics : what is to start.
+    loading : its ``initial_state`` (s), ``initial_stress`` and ``initial_shear_stress`` (Pa).
+    """
+    body, grid, drive = dynamics.body, dynamics.grid, dynamics.drive
+    n, operator, load = grid.n_x, body.operator(0.0), drive.load(0.0)
+    response = operator.respond(load, np.zeros(n))
+    if loading.initial_stress == "uniform_shear":
+        forces = -loading.initial_shear_stress * grid.nodal_lengths[1:]
+        stiffness, _ = operator.tangent(np.arange(1, n + 1))
+        slipped = np.linalg.solve(stiffness, forces - response.tangential)
+        response = operator.respond(load, slipped)
+    balance = operator.balance(response, response.w)
+    velocity = drive.at(0.0).velocity
+    slip_rate = np.append(velocity, np.zeros(n))
+    log_state = np.full(n + 1, float(np.log(loading.initial_state)))
+    motion = body.at_rest(balance.displacement, velocity)
+    state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
+    # at rest no friction acts on the driven edge's own node
+    tangential = np.append(0.0, response.tangential)
+    interface = InterfaceSolution(
+        slip_rate, log_state, tangential, response.normal, response.w, 0
+    )  # fmt: skip
+    return state, StepReport(interface, float(tangential.sum()), 0.0)

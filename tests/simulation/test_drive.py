@@ -1,0 +1,87 @@
+"""Loads that are functions of time reach the body and the interface."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.model.material import Material
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.simulation.composition import composed
+from nucleation.simulation.drive import Imposed, Steady
+from nucleation.simulation.interface import Interface
+from nucleation.simulation.start import at_rest
+from nucleation.simulation.step import Dynamics
+
+PARAMETERS = Parameters(
+    geometry=Geometry(height=0.02, length=0.4),
+    mesh=Mesh(n_x=16, n_y=4, grading=2.0),
+    loading=Loading(normal_stress=2e5, velocity=1e-3),
+)
+LADDER = (*range(-92, -60, 4), *[-60] * 30)
+STRENGTH = 1.3
+
+
+def last_step(parameters, drive=None, interface=None):
+    """The report after some steps of the usual composition, but for drive and interface."""
+    usual = composed(parameters)
+    dynamics = Dynamics(
+        usual.body, interface or usual.interface, drive or usual.drive, usual.scheme
+    )
+    state, report = at_rest(dynamics, parameters.loading)
+    for rung in LADDER:
+        state, report = dynamics.advance(state, rung)
+    return state, report
+
+
+@dataclasses.dataclass(frozen=True)
+class Stronger(Steady):
+    """The same friction at all nodes, but stronger."""
+
+    def at(self, time):
+        return dataclasses.replace(super().at(time), strength=np.full(17, STRENGTH))
+
+
+def test_strength_multiplies_friction():
+    friction, steady = PARAMETERS.friction, composed(PARAMETERS).drive
+    _, found = last_step(PARAMETERS, Stronger(steady.velocity, steady.constant_load))
+    stronger = dataclasses.replace(
+        friction,
+        base_friction=STRENGTH * friction.base_friction,
+        rate_coefficient=STRENGTH * friction.rate_coefficient,
+    )
+    _, expected = last_step(PARAMETERS, interface=Interface(stronger))
+    assert np.count_nonzero(expected.interface.slip_rate > 1e-5) >= 2
+    for name in ("slip_rate", "log_state", "tangential", "normal"):
+        one, other = getattr(found.interface, name), getattr(expected.interface, name)
+        np.testing.assert_allclose(one, other, rtol=1e-7, atol=1e-9 * np.abs(other).max())
+
+
+def test_state_forcing_is_a_rate_of_the_log_state():
+    """Ahead of the patch nothing slips: the state ages, and is forced."""
+    rate = 40.0  # 1/s
+
+    class Forced(Steady):
+        def at(self, time):
+            return Imposed(time, self.velocity * time, self.velocity, None, np.full(17, rate))
+
+    steady = composed(PARAMETERS).drive
+    state, found = last_step(PARAMETERS, Forced(steady.velocity, steady.constant_load))
+    _, without = last_step(PARAMETERS)
+    assert without.interface.slip_rate[8] < 1e-9
+    change = found.interface.log_state[8] - without.interface.log_state[8]
+    assert change == pytest.approx(rate * state.time, rel=0.05)
+
+
+def test_load_is_that_of_the_end_of_the_step():
+    """Without inertia the interface bears what rests on it."""
+    parameters = dataclasses.replace(PARAMETERS, material=Material(density=0.0))
+    body = composed(parameters).body
+
+    class Growing(Steady):
+        def load(self, time):
+            return body.top_load(2e5 * (1.0 + 10.0 * time))
+
+    state, report = last_step(parameters, Growing(1e-3, body.top_load(2e5)))
+    total = 2e5 * (1.0 + 10.0 * state.time) * parameters.geometry.length
+    assert report.interface.normal.sum() == pytest.approx(total, rel=1e-9)

@@ -1,0 +1,47 @@
+"""What a scheme promises: its rungs and steps belong together, and its formulas are exact."""
+
+import numpy as np
+import pytest
+
+from nucleation.stepping.ladder import rung_value
+from nucleation.stepping.scheme import BDF
+
+TIMES = np.array([1.0, 0.6, 0.35])  # s
+
+
+@pytest.mark.parametrize("rung", [-40, -9, -3])
+def test_the_rung_of_a_step_is_found_again(rung):
+    step = BDF().step(rung, TIMES)
+    assert BDF().rung(step.length, 0.4) == rung
+    assert BDF().coefficient(step.length, 0.4) == pytest.approx(rung_value(rung), rel=1e-12)
+
+
+@pytest.mark.parametrize("step", [1e-6, 0.005, 3.0])
+def test_steady_steps_stay_on_their_rung(step):
+    scheme = BDF()
+    rung = scheme.steady_rung(step)
+    steady = scheme.steady_step(rung)
+    assert steady <= step * (1 + 1e-9) < scheme.steady_step(rung + 1) * (1 + 1e-9)
+    past = -steady * np.arange(3)
+    assert scheme.step(rung, past).length == pytest.approx(steady, rel=1e-12)
+
+
+def test_slip_and_state_are_of_third_order_where_waves_are_not_resolved():
+    """A polynomial of the scheme's order is followed exactly, in the values and in the guess."""
+    past = np.array([0.0, -0.1, -0.2])
+    rung = BDF().steady_rung(0.1)
+    for crossing, power in ((0.0, 3), (1e9, 2)):
+        step = BDF(crossing).step(rung, past)
+        new, formula = step.length, step.interface
+        found = formula.from_past(past**power) + formula.beta * power * new ** (power - 1)
+        assert found == pytest.approx(new**power, rel=1e-12)
+        assert len(formula.past) == power
+        assert len(step.body.past) == BDF.levels == 2
+        assert step.extrapolation @ past**2 == pytest.approx(new**2, rel=1e-12)
+
+
+def test_the_first_steps_have_no_estimate():
+    first, second, third = (BDF().step(-20, TIMES[-n:]) for n in (1, 2, 3))
+    assert (first.error(0.0), second.error(0.3)) == (np.inf, 0.0)
+    assert 0.0 < third.error(1.0) < 1.0
+    assert (first.first, second.first, third.first) == (True, False, False)
