@@ -2,6 +2,7 @@
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 CORES ?= 2
 TARGETS ?=
+CONFIG ?= config/config.yaml
 FAULTS ?= 200
 SEED ?=
 
@@ -60,11 +61,11 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(BIN)/snakemake check --cores 1 --workflow-profile workflow/profiles/default
 
-bundle: $(STAMP) ## Write all results with a manifest to FILE (results.tar)
-	@$(BIN)/python -m nucleation.pipeline.bundle write $(or $(FILE),results.tar) config/config.yaml
+bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
+	@$(BIN)/python -m nucleation.pipeline.bundle write "$(or $(FILE),results.tar)" "$(CONFIG)"
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
-	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)"
+	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)" "$(CONFIG)"
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration.load > config/schema.yaml
