@@ -1,7 +1,8 @@
 """A bundle of all results: whole, verified, and nothing computed again after it is restored."""
 
 import dataclasses
-import io
+import hashlib
+import json
 import shutil
 import tarfile
 
@@ -9,7 +10,9 @@ import pytest
 import yaml
 
 from nucleation.pipeline import bundle
-from nucleation.pipeline.bundle import BundleError
+from nucleation.pipeline.archives import CHECKSUMS, BundleError
+
+RESULTS = "results/quick"
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +31,7 @@ def files_below(directory):
 
 
 def test_nothing_is_computed_again_after_restoring(quick, archive, tmp_path):
-    bundle.restore(archive, tmp_path)
+    bundle.restore(archive, RESULTS, tmp_path)
     restored = dataclasses.replace(quick, directory=tmp_path)
     assert files_below(tmp_path) == files_below(quick.directory)
     assert not list(tmp_path.glob(".restore-*"))
@@ -39,7 +42,7 @@ def test_nothing_is_computed_again_after_restoring(quick, archive, tmp_path):
 
 def test_change_after_restoring_runs_what_depends_on_it(quick, archive, tmp_path):
     """Snakemake's notes come with the results."""
-    bundle.restore(archive, tmp_path)
+    bundle.restore(archive, RESULTS, tmp_path)
     values = yaml.safe_load(quick.config.read_text())
     values["extraction"] = {**values.get("extraction", {}), "edge_threshold": 0.2}
     changed = dataclasses.replace(quick, directory=tmp_path).configured(values)
@@ -61,7 +64,7 @@ def test_links_into_a_cache_become_files(quick, tmp_path):
     kept = (results / "theory.nc").rename(tmp_path / "entry.nc")
     (results / "theory.nc").symlink_to(kept)
     bundle.write(tmp_path / "out.tar", quick.config, tmp_path)
-    bundle.restore(tmp_path / "out.tar", tmp_path / "clone")
+    bundle.restore(tmp_path / "out.tar", RESULTS, tmp_path / "clone")
     restored = tmp_path / "clone" / "results" / "quick" / "theory.nc"
     assert not restored.is_symlink() and restored.read_bytes() == kept.read_bytes()
 
@@ -69,12 +72,12 @@ def test_links_into_a_cache_become_files(quick, tmp_path):
 def test_nothing_is_overwritten(quick, archive, tmp_path):
     with pytest.raises(BundleError, match="exists already"):
         bundle.write(archive, quick.config, quick.directory)
-    bundle.restore(archive, tmp_path)
-    assert bundle.restore(archive, tmp_path) == 0
+    bundle.restore(archive, RESULTS, tmp_path)
+    assert bundle.restore(archive, RESULTS, tmp_path) == 0
     path = tmp_path / "results" / "quick" / "lengths.csv"
     path.write_text("mine")
     with pytest.raises(BundleError, match=r"lengths\.csv and 0 other files are here already"):
-        bundle.restore(archive, tmp_path)
+        bundle.restore(archive, RESULTS, tmp_path)
     assert path.read_text() == "mine"
 
 
@@ -83,10 +86,10 @@ def test_no_results_no_bundle(quick, tmp_path):
         bundle.write(tmp_path / "out.tar", quick.config, tmp_path)
     assert not list(tmp_path.iterdir())
     with pytest.raises(BundleError, match="does not exist"):
-        bundle.restore(tmp_path / "out.tar", tmp_path)
+        bundle.restore(tmp_path / "out.tar", RESULTS, tmp_path)
 
 
-@pytest.mark.parametrize("name", ["config.yaml", bundle.CHECKSUMS, "results/quick/lengths.nc"])
+@pytest.mark.parametrize("name", ["config.yaml", CHECKSUMS, "results/quick/lengths.nc"])
 def test_damaged_archive_puts_nothing_in_place(archive, tmp_path, name):
     with tarfile.open(archive) as tar:
         member = tar.getmember(name)
@@ -101,17 +104,75 @@ def _refused(content, directory):
     path = directory / "damaged.tar"
     path.write_bytes(content)
     with pytest.raises(BundleError, match="damaged"):
-        bundle.restore(path, directory / "clone")
+        bundle.restore(path, RESULTS, directory / "clone")
     assert not list((directory / "clone").iterdir())
 
 
-def test_archive_can_not_write_elsewhere(tmp_path):
-    path = tmp_path / "evil.tar"
-    with tarfile.open(path, "w") as tar:
-        for name, text in (("../outside", "x"), (bundle.CHECKSUMS, "0" * 64 + "  ../outside\n")):
-            entry = tarfile.TarInfo(name)
-            entry.size = len(text)
-            tar.addfile(entry, io.BytesIO(text.encode()))
-    with pytest.raises(BundleError):
-        bundle.restore(path, tmp_path / "clone")
-    assert not (tmp_path / "outside").exists()
+@pytest.fixture(scope="module")
+def crate(archive):
+    """The entities of the description as a research object, by their names."""
+    with tarfile.open(archive) as tar:
+        described = json.load(tar.extractfile("ro-crate-metadata.json"))
+    assert described["@context"][0] == "https://w3id.org/ro/crate/1.1/context"
+    entities = {entity["@id"]: entity for entity in described["@graph"]}
+    assert len(entities) == len(described["@graph"]), "a name stands for one entity"
+    return entities
+
+
+def references(value):
+    """All references in an entity, wherever they stand."""
+    if isinstance(value, dict):
+        return [value["@id"]] if value.keys() == {"@id"} else references(list(value.values()))
+    return [name for part in value for name in references(part)] if isinstance(value, list) else []
+
+
+def test_research_object_meets_the_specification(crate):
+    """What RO-Crate 1.1 says that must be: its sections on the root, on files, and on contexts."""
+    descriptor, root = crate["ro-crate-metadata.json"], crate["./"]
+    assert descriptor["@type"] == "CreativeWork" and descriptor["about"] == {"@id": "./"}
+    assert descriptor["conformsTo"] == {"@id": "https://w3id.org/ro/crate/1.1"}
+    assert root["@type"] == "Dataset"
+    assert all(root[key] for key in ("name", "description", "datePublished", "license", "hasPart"))
+    for entity in crate.values():
+        assert entity["@type"], entity
+        assert not [key for key, value in entity.items() if value is None], entity
+    named = {name for entity in crate.values() for name in references(entity)}
+    assert named - {"https://w3id.org/ro/crate/1.1"} <= crate.keys(), "all that is named is there"
+    assert crate.keys() - named == {"ro-crate-metadata.json"}, "all that is there is named"
+
+
+def test_research_object_names_files_code_parameters_and_paper(quick, archive, crate):
+    files = {name: entity for name, entity in crate.items() if entity["@type"] == "File"}
+    assert {entity["@id"] for entity in crate["./"]["hasPart"]} == files.keys()
+    assert files.keys() == {*files_below(quick.directory), "config.yaml", "codecheck.yml"}
+    for name, content in files_below(quick.directory).items():
+        assert files[name]["sha256"] == hashlib.sha256(content).hexdigest()
+        assert files[name]["contentSize"] == str(len(content))
+    formats = {name.rpartition(".")[2]: file["encodingFormat"] for name, file in files.items()}
+    assert formats["nc"] == "application/x-netcdf" and formats["pdf"] == "application/pdf"
+    assert crate["#material.shear_modulus"]["unitText"] == "Pa"
+    assert crate["#code"]["version"] and crate["#numpy"]["version"]
+    assert crate["./"]["license"] == {"@id": "https://spdx.org/licenses/MIT"}
+    (paper,) = crate["./"]["citation"]
+    assert paper["@id"] == "https://doi.org/10.1002/2017GL074939"
+    assert crate[crate[paper["@id"]]["author"][0]["@id"]]["name"] == "Michael Aldam"
+
+
+def test_only_results_are_packed(quick, tmp_path):
+    """A file of the user's among the results stays out, as it could not come out again."""
+    shutil.copytree(quick.directory / "results", tmp_path / "results")
+    for name in ("notes.py", ".hidden.csv"):
+        (tmp_path / RESULTS / name).write_text("mine")
+    (tmp_path / RESULTS / "secret.csv").symlink_to(tmp_path / RESULTS / "notes.py")
+    bundle.write(tmp_path / "out.tar", quick.config, tmp_path)
+    with tarfile.open(tmp_path / "out.tar") as tar:
+        assert not {"notes.py", ".hidden.csv", "secret.csv"} & {
+            name.rpartition("/")[2] for name in tar.getnames()
+        }
+
+
+def test_results_elsewhere_are_refused(quick, tmp_path):
+    values = yaml.safe_load(quick.config.read_text()) | {"results": str(tmp_path / "away")}
+    (tmp_path / "config.yaml").write_text(yaml.safe_dump(values))
+    with pytest.raises(BundleError, match="lies outside of the directory of the workflow"):
+        bundle.write(tmp_path / "out.tar", tmp_path / "config.yaml", tmp_path)
