@@ -28,6 +28,7 @@ os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get(
 
 from nucleation.configuration.advice import advise
 from nucleation.pipeline.cache import CheckedCache
+from nucleation.pipeline.repairs import show_why_groups_fail
 from nucleation.configuration.load import configure
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.datasets.provenance import digest
@@ -42,6 +43,8 @@ from nucleation.configuration.studies import varied
 snakemake.workflow.LocalOutputFileCache = CheckedCache
 if "SNAKEMAKE_OUTPUT_CACHE" not in os.environ:
     workflow.workflow_settings.cache = None
+
+show_why_groups_fail()  # such as a partition that Slurm doesn't know
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
 if not workflow.overwrite_configfiles:

@@ -205,3 +205,12 @@ def test_slurm_of_others_is_refused(slurm, tmp_path):
     assert refused.returncode == 1
     assert "is not this script's: this machine belongs to a cluster already" in refused.stdout
     assert config.read_text() == "ClusterName=others\n"
+
+
+def test_refusal_by_slurm_is_shown(slurm, workflow_type, tmp_path):
+    made = workflow_type(tmp_path, profile="slurm").configured(CONFIG)
+    wrong = ("--default-resources", "slurm_partition=nowhere", "mem_mb=500", "runtime=5")
+    done = made("simulations", "--retries", "0", *wrong)
+    assert done.returncode != 0
+    assert "invalid partition specified: nowhere" in done.stdout
+    assert "--wrap" not in done.stdout, "the reason, without some kB of command"

@@ -1,0 +1,34 @@
+"""What Snakemake and its plugins leave out, put right from within the Snakefile.
+
+Each repair stands for one gap in the pinned versions, and does nothing where it has been closed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import snakemake.jobs
+from snakemake.logging import logger
+
+SUBMISSION = "\n    sbatch call:"
+"""Where, in a message of the plugin for Slurm, a command of some kB follows the reason."""
+
+
+def show_why_groups_fail() -> None:
+    """Log why a group of jobs could not be submitted, such as a partition that does not exist.
+
+    The executor says so to the group, as to a single job; a group drops what it was told and
+    prints ``Error in group simulations`` alone.
+    """
+    original = snakemake.jobs.GroupJob.log_error
+    if getattr(original, "says_why", False):
+        return  # a Snakefile may be read twice in one process
+
+    def log_error(self: Any, msg: str | None = None, *arguments: Any, **named: Any) -> None:
+        if msg:
+            reason = str(msg).partition(SUBMISSION)[0].strip()
+            logger.error(f"Group {getattr(self, 'groupid', '')}: {reason}")
+        original(self, msg, *arguments, **named)
+
+    log_error.says_why = True  # type: ignore[attr-defined]
+    snakemake.jobs.GroupJob.log_error = log_error

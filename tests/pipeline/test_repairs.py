@@ -1,0 +1,34 @@
+"""What Snakemake leaves out is said after all."""
+
+import logging
+
+import pytest
+import snakemake.jobs
+
+from nucleation.pipeline.repairs import show_why_groups_fail
+
+REFUSED = "SLURM sbatch failed. The error message was 'sbatch: error: invalid partition: nope'."
+
+
+@pytest.fixture
+def group(monkeypatch):
+    monkeypatch.setattr(snakemake.jobs.GroupJob, "log_error", snakemake.jobs.GroupJob.log_error)
+    group = object.__new__(snakemake.jobs.GroupJob)
+    group.groupid, group.jobs = "simulations", frozenset()
+    return group
+
+
+def test_group_that_is_refused_says_why_once(group, caplog):
+    show_why_groups_fail()
+    show_why_groups_fail()  # as when the Snakefile is read again
+    with caplog.at_level(logging.ERROR):
+        group.log_error(f"{REFUSED}\n    sbatch call:\n        sbatch --wrap=...", aux_logs=[])
+    said = [record.getMessage() for record in caplog.records]
+    assert said == [f"Group simulations: {REFUSED}", "Error in group simulations"]
+
+
+def test_group_that_is_told_nothing_says_what_it_did_before(group, caplog):
+    show_why_groups_fail()
+    with caplog.at_level(logging.ERROR):
+        group.log_error()
+    assert [record.getMessage() for record in caplog.records] == ["Error in group simulations"]
