@@ -95,7 +95,7 @@ SIMULATE = [
 SHOW = [
     ([], ["Missing argument 'FILE'"]),
     (["none.nc"], ["none.nc", "does not exist"]),
-    (["file"], ["file is damaged or not a netCDF file"]),
+    (["file"], ["file is damaged, or not of this project"]),
     (["foreign.nc"], ["foreign.nc is damaged, or not of this project"]),
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),

@@ -1,6 +1,9 @@
 """Datasets on disk: complete metadata, whole or not at all, damage noticed; where they are from."""
 
+import errno
 import json
+import os
+import resource
 
 import numpy as np
 import pytest
@@ -96,7 +99,7 @@ def test_truncated_file_is_refused(record, tmp_path, part):
     path = tmp_path / "record.nc"
     netcdf.write(record, path)
     path.write_bytes(path.read_bytes()[: int(part * path.stat().st_size)])
-    with pytest.raises(DatasetError, match=r"record\.nc is damaged or not a netCDF file"):
+    with pytest.raises(DatasetError, match=r"record\.nc is damaged, or not of this project"):
         netcdf.read(path)
 
 
@@ -172,3 +175,64 @@ def test_no_flipped_bit_goes_unnoticed(tmp_path):
         else:
             xr.testing.assert_identical(again, original)
     assert refused > 10
+
+
+def test_attributes_are_read_from_the_seal(record, tmp_path, monkeypatch):
+    """They are those of the whole dataset, and HDF5 has no part in it."""
+    path = tmp_path / "record.nc"
+    netcdf.write(record.assign_attrs(steps=np.int64(3), end=np.float64(1e-9)), path, command="a")
+    whole = netcdf.read(path).attrs
+    monkeypatch.setattr(xr, "open_dataset", None)
+    assert netcdf.attributes(path) == {k: np.asarray(v).tolist() for k, v in whole.items()}
+
+
+def test_readers_of_netcdf_do_not_see_the_seal(record, tmp_path):
+    path = tmp_path / "record.nc"
+    netcdf.write(record, path)
+    with xr.open_dataset(path, decode_times=False) as stored:
+        xr.testing.assert_equal(stored.load(), record)
+
+
+@pytest.mark.parametrize(
+    "attributes",
+    [{"parameters": 5}, {"parameters": "{"}, {"sources": "[]"}, {"versions": "1"},
+     {"code_digest": 1.0}, {"parameters": "[" * 100_000}],
+)  # fmt: skip
+def test_crafted_attributes_are_refused(record, tmp_path, attributes):
+    """With a right digest and seal, as whoever makes the file can make them."""
+    path = tmp_path / "record.nc"
+    netcdf.write(record, path, **attributes)
+    for reading in (netcdf.read, netcdf.attributes):
+        with pytest.raises(DatasetError, match=r"record\.nc is damaged, or not of this project"):
+            reading(path)
+
+
+def test_only_files_are_opened(tmp_path):
+    """A pipe would be waited for, a device read without end, and an address be asked for."""
+    os.mkfifo(tmp_path / "pipe.nc")
+    for path in (tmp_path / "pipe.nc", tmp_path, "/dev/zero", "http://localhost:9/a.nc"):
+        for reading in (netcdf.read, netcdf.attributes):
+            with pytest.raises(DatasetError, match=r"it is not a file|does not exist"):
+                reading(path)
+
+
+def test_shapes_beyond_the_memory_are_refused(tmp_path, monkeypatch):
+    path = tmp_path / "record.nc"
+    netcdf.write(xr.Dataset({"slip_rate": ("x", np.zeros(1000))}), path)
+    monkeypatch.setattr(os, "sysconf", lambda name: 10)
+    with pytest.raises(DatasetError, match=r"would take 8e\+03 bytes of memory"):
+        netcdf.read(path)
+
+
+def test_lack_of_room_is_said_by_the_system(tmp_path):
+    """HDF5 says "HDF error" of a limit on files' sizes, as of a full disk or a quota."""
+    large = xr.Dataset({"slip_rate": ("x", np.random.default_rng(1).random(30_000))})
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, limits[1]))
+    try:
+        with pytest.raises(OSError, match="File too large") as caught:
+            netcdf.write(large, tmp_path / "record.nc")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert caught.value.errno == errno.EFBIG
+    assert not list(tmp_path.iterdir())

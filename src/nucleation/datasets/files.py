@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
 from collections.abc import Iterator
 from pathlib import Path
+
+LACKS_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 @contextlib.contextmanager
@@ -21,6 +24,22 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         _flush(path.parent)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def require_room(path: Path, size: int) -> None:
+    """Raise the system's own error if a file can't have a size (bytes) where it stands.
+
+    For a library that reports a full disk, a quota or a limit in words of its own. The file is
+    enlarged by the attempt.
+    """
+    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
+    try:
+        os.posix_fallocate(descriptor, 0, size)
+    except OSError as error:
+        if error.errno in LACKS_ROOM:
+            raise OSError(error.errno, os.strerror(error.errno), str(path)) from None
+    finally:
+        os.close(descriptor)
 
 
 def _flush(path: Path) -> None:

@@ -6,20 +6,30 @@ every variable its unit, long name and paper symbol from :data:`VARIABLES`.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Mapping
+import stat
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from .files import replacing
+from . import seal
+from .files import replacing, require_room
 from .variables import (
     DatasetError,
     annotate,
 )
+
+MAPPINGS = {"sources", "versions"}
+STRUCTURES = {"parameters", *MAPPINGS}
+TEXTS = {*STRUCTURES, "code_digest", "command", "content", "created"}
+"""Attributes that say where a dataset is from: texts, some of them in JSON."""
+
+HEADERS = 2**20  # bytes of a file beside its values, at most
 
 
 def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) -> None:
@@ -37,7 +47,12 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
         if variable.dtype.kind in "fiu" and variable.ndim
     }
     with replacing(path) as temporary:
-        complete.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
+        try:
+            complete.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
+            seal.add(temporary, _plain(complete.attrs))
+        except (OSError, RuntimeError):  # "NetCDF: HDF error", of a full disk as of all else
+            require_room(temporary, complete.nbytes + HEADERS)
+            raise
 
 
 def write_text(text: str, path: str | os.PathLike[str]) -> None:
@@ -54,15 +69,15 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
     DatasetError
         If the file is missing, truncated or damaged, or lacks a variable or a unit.
     """
-    try:
+    with _refusing(path):
+        sealed = seal.verified(path)  # before HDF5 is given a byte of it
+        _require_texts(sealed)
         with xr.open_dataset(path, engine="netcdf4", decode_times=False) as stored:
+            _require_memory(stored)
             dataset = stored.load()
-    except FileNotFoundError as error:
-        raise DatasetError(f"{path} does not exist") from error
-    except (OSError, RuntimeError, ValueError) as error:
-        raise DatasetError(f"{path} is damaged or not a netCDF file: {error}") from error
-    if dataset.attrs.get("content") != _content(dataset):
-        raise DatasetError(f"{path} is damaged, or not of this project: its digest does not fit")
+        content = _content(dataset)
+        if content != sealed.get("content") or _text(dataset.attrs) != _text(sealed):
+            raise ValueError("its digest does not fit")
     missing = sorted(set(requires) - set(map(str, dataset.variables)))
     if missing:
         raise DatasetError(f"{path} lacks the variables {missing}")
@@ -70,18 +85,52 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
 
 
 def attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """A dataset's attributes alone, without a check of its values.
+    """A dataset's attributes alone, from its seal, without a check of its values.
 
     Raises
     ------
     DatasetError
-        If the file is missing or can't be opened.
+        If the file is missing or can't be read.
     """
+    with _refusing(path):
+        sealed = seal.attributes(path)
+        _require_texts(sealed)
+    return sealed
+
+
+@contextlib.contextmanager
+def _refusing(path: str | os.PathLike[str]) -> Iterator[None]:
+    """Make a DatasetError of whatever goes wrong with a file."""
     try:
-        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as stored:
-            return dict(stored.attrs)
-    except (OSError, RuntimeError, ValueError) as error:
-        raise DatasetError(f"{path} is missing, damaged or not a netCDF file: {error}") from error
+        # nothing else is opened: a pipe would be waited for, an address be asked for
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            raise ValueError("it is not a file")
+        yield
+    except FileNotFoundError as error:
+        raise DatasetError(f"{path} does not exist") from error
+    except PermissionError as error:
+        raise DatasetError(f"{path} can't be read: {error.strerror}") from error
+    except Exception as error:  # of damaged bytes, HDF5, netCDF4 and xarray raise all sorts
+        reason = str(error) or type(error).__name__
+        raise DatasetError(f"{path} is damaged, or not of this project: {reason}") from error
+
+
+def _require_memory(dataset: xr.Dataset) -> None:
+    """Refuse shapes beyond the machine's memory: a few bytes of a header can claim them."""
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if dataset.nbytes > memory:
+        raise ValueError(f"its variables would take {dataset.nbytes:.3g} bytes of memory")
+
+
+def _require_texts(found: Mapping[Any, Any]) -> None:
+    """Refuse attributes that tell where a file is from, but not in the form of :func:`write`."""
+    for name in TEXTS & found.keys():
+        if not isinstance(found[name], str):
+            raise ValueError(f"its attribute {name} is not a text")
+    for name in STRUCTURES & found.keys():
+        value = json.loads(found[name])
+        if name in MAPPINGS and not isinstance(value, dict):
+            raise ValueError(f"its attribute {name} is not a mapping")
 
 
 def _content(dataset: xr.Dataset) -> str:
@@ -102,5 +151,10 @@ def _content(dataset: xr.Dataset) -> str:
 
 def _text(attributes: Mapping[str, Any]) -> bytes:
     """Attributes in a form that does not tell a Python number from numpy's."""
-    plain = {k: np.asarray(v).tolist() for k, v in attributes.items() if k != "content"}
+    plain = _plain({name: value for name, value in attributes.items() if name != "content"})
     return json.dumps(plain, sort_keys=True).encode()
+
+
+def _plain(attributes: Mapping[Any, Any]) -> dict[str, Any]:
+    """Attributes as values of Python."""
+    return {str(name): np.asarray(value).tolist() for name, value in attributes.items()}
