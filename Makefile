@@ -1,24 +1,26 @@
 # make paper: every figure and table of the paper.   make test: the tests.   make help: the rest.
-PYTHON ?= $(shell command -v python3.11 || command -v python3)
+# The newest Python that works here, of those the project runs on; PYTHON=... chooses another.
+PYTHON ?= $(eval PYTHON := $$(shell workflow/pythons.sh | head -n 1))$(PYTHON)
 CORES ?= 2
 TARGETS ?=
 CONFIG ?= config/config.yaml
 FAULTS ?= 200
 SEED ?=
 
-VENV := .venv
+VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/environment.stamp
+PYTEST = $(BIN)/python -m pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
 SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 	--workflow-profile workflow/profiles/default
 
 .DEFAULT_GOAL := help
-.PHONY: help paper report quick test lint docs bench reference schema lock clean-venv \
+.PHONY: help paper report quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
 	check bundle restore torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
-	@echo "Variables: PYTHON (3.11) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty)"
+	@echo "Variables: PYTHON (the newest of 3.11 to 3.13) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty)"
 
 paper: $(STAMP) ## Make every figure, table and verdict, in results/
 	$(SNAKEMAKE)
@@ -30,14 +32,22 @@ quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(SNAKEMAKE) --configfile config/quick.yaml
 
 test: $(STAMP) ## Run the tests
-	@$(BIN)/python -m pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
+	@$(PYTEST)
+
+test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system, in a minute
+	@$(PYTEST) -m "not slow and not system"
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	PYTHONPATH=src $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
 
-lint: $(STAMP) ## Check the code's style and types
+lint: $(STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check --quiet .
 	@$(BIN)/mypy
+	@$(BIN)/lint-imports
+
+hooks: $(STAMP) ## Have git check what make lint checks before each commit
+	@$(BIN)/pre-commit install
 
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
@@ -70,19 +80,26 @@ restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration.load > config/schema.yaml
 
-lock: ## Pin the newest versions of requirements.in in environment.txt (needs uv)
-	uv pip compile --upgrade --generate-hashes --python-version 3.11 --no-emit-index-url \
-		requirements.in -o environment.txt
+# For all Pythons and machines at once, with one version of a package on all of them if there is one.
+lock: ## Pin the newest versions of what pyproject.toml names in environment.txt (needs uv)
+	uv pip compile --upgrade --universal --python-version 3.11 --fork-strategy fewest \
+		--generate-hashes --no-emit-index-url --custom-compile-command "make lock" \
+		--all-extras pyproject.toml -o environment.txt
 
 clean-venv: ## Remove the installed environment
 	rm -rf $(VENV)
 
-# Everything installed is pinned and hashed. The package itself is not installed but pointed to:
-# that needs no build tools, which environment.txt would not pin.
+# Everything installed is pinned and hashed. The package itself is not installed but pointed to, so
+# that the code of the checkout is what runs. An environment that works keeps its Python.
+VERSION = import sys; print("%d.%d" % sys.version_info[:2])
 $(STAMP): environment.txt
-	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; sys.exit(v != (3, 11) and \
-		"Python 3.11 is needed, this is %d.%d: make PYTHON=/path/to/python3.11" % v)'
-	$(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -c '' 2>/dev/null || { \
+		case "$$('$(PYTHON)' -c '$(VERSION)' 2>/dev/null)" in \
+		3.11|3.12|3.13) '$(PYTHON)' -m venv --clear $(VENV) ;; \
+		*) echo "Python 3.11, 3.12 or 3.13 is needed, with its module venv;" \
+			"$(or $(PYTHON:%=% is not),none was found): make PYTHON=/path/to/python3.13" >&2; \
+			exit 1 ;; \
+		esac; }
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
 		-r environment.txt
 	$(BIN)/python -c 'import pathlib, sysconfig; \
@@ -90,3 +107,14 @@ $(STAMP): environment.txt
 	printf '#!/bin/sh\nexec "%s/$(BIN)/python" -m nucleation "$$@"\n' "$(CURDIR)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
 	@touch $@
+
+# A Python that is asked for where the environment has another one: said, rather than not used.
+ifeq ($(origin PYTHON),command line)
+$(STAMP): | asked-python
+asked-python:
+	@have=$$($(BIN)/python -c '$(VERSION)' 2>/dev/null); \
+	asked=$$('$(PYTHON)' -c '$(VERSION)' 2>/dev/null); \
+	[ -z "$$have" ] || [ "$$have" = "$$asked" ] || { \
+		echo "$(VENV) has Python $$have, and $(PYTHON) is $${asked:-not a Python that works}:" \
+			"make clean-venv, or VENV=.venv-$${asked:-other}" >&2; exit 1; }
+endif
