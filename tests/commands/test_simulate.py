@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from nucleation.analysis.extraction import extract
-from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.configuration.study_names import other_names, study_parameters
 from nucleation.datasets import netcdf, provenance
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
@@ -159,12 +159,13 @@ def test_warnings_are_printed(nucleation, tmp_path):
 
 def test_every_parameter_has_an_option(nucleation):
     text = " ".join(nucleation("simulate", "--help").out.split())
-    for name, (_, entry) in STUDY_PARAMETERS.items():
+    for name, entry in study_parameters().items():
         assert f"--{name.replace('_', '-')} " in text
         assert entry.range_text().replace("one of ", "").split(", ")[0] in text
-    fields = {field for field, _ in STUDY_PARAMETERS.values()}
     for group in PARAMETERS.to_dict():
-        assert set(declarations(type(getattr(PARAMETERS, group)))) <= fields
+        for field in declarations(type(getattr(PARAMETERS, group))):
+            assert f"{group}.{field}" in other_names()
+            assert f"--{group}.{field.replace('_', '-')}, " in text
 
 
 STEPS = 10  # after which a run is stopped

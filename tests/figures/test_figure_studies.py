@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.configuration.study_names import study_parameters
 from nucleation.figures import style
 from nucleation.figures.beyond import figure_studies
 
@@ -20,7 +20,7 @@ def table(theory, length):
 
 
 def draw(theory, length, **varied):
-    entries = {name: STUDY_PARAMETERS[name][1] for name in varied}
+    entries = {name: study_parameters()[name] for name in varied}
     return figure_studies.draw(table(theory, length), varied, entries)
 
 

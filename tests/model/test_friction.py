@@ -1,11 +1,13 @@
-"""The friction law against finite differences, root finding and the numbers of the paper."""
+"""The paper's friction law and its evolutions against root finding and the paper's numbers.
+
+What holds for every law is in test_laws.py.
+"""
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 from scipy.special import wrightomega
 
-from nucleation.model.friction.evolution import EVOLUTION_LAWS, wright_omega
+from nucleation.model.friction.evolution import wright_omega
 from nucleation.model.friction.law import Friction
 from nucleation.model.quantities import ParameterError
 
@@ -25,24 +27,6 @@ def test_coefficient_is_the_papers():
     np.testing.assert_allclose(LAW.coefficient(v, phi), written_out(v, phi), rtol=1e-12)
 
 
-def test_coefficient_is_odd_and_vanishes_at_rest():
-    np.testing.assert_allclose(LAW.coefficient(-RATES, 1.0), -LAW.coefficient(RATES, 1.0))
-    assert LAW.coefficient(0.0, 1.0) == 0.0
-
-
-@pytest.mark.parametrize("v", [-1e-4, 3e-10, 1e-7, 1e-5, 0.1])
-@pytest.mark.parametrize("phi", STATES)
-def test_derivatives(v, phi):
-    by_rate, by_state = LAW.derivatives(v, phi)
-    h = 1e-4
-    numeric = (LAW.coefficient(v * (1 + h), phi) - LAW.coefficient(v * (1 - h), phi)) / (2 * v * h)
-    assert by_rate == pytest.approx(numeric, rel=1e-6)
-    numeric = (LAW.coefficient(v, phi * (1 + h)) - LAW.coefficient(v, phi * (1 - h))) / (
-        2 * phi * h
-    )
-    assert by_state == pytest.approx(numeric, rel=1e-6)
-
-
 def test_state_rate_is_the_papers():
     v, phi = np.meshgrid(RATES, STATES)
     omega = phi * np.sqrt(v**2 + 1e-18) / 5e-7
@@ -60,29 +44,6 @@ def test_steady_state_is_where_the_state_rests(law):
     )
     # phi saturates at D/v0 at rest
     assert friction.steady_state(0.0) == pytest.approx(500.0)
-
-
-@pytest.mark.parametrize("law", ["aging", "slip"])
-@pytest.mark.parametrize("step", [1e-7, 1e-3, 1.0])
-def test_implicit_log_state(law, step):
-    """The closed forms against bracketing, and their derivative against differences."""
-    evolution = EVOLUTION_LAWS[law]
-    for history in (-12.0, -3.0, 0.0, 6.0):
-        for rate in (2e-3, 0.5, 20.0, 1e5):
-
-            def residual(psi, history=history, rate=rate):
-                omega = np.exp(psi) * rate
-                return psi - history - step * float(evolution.growth(omega)) * np.exp(-psi)
-
-            expected = brentq(residual, -60, 60, xtol=1e-13, rtol=1e-14)
-            psi, slope = evolution.implicit_log_state(np.array(history), step, np.array(rate))
-            assert psi == pytest.approx(expected, rel=1e-10, abs=1e-10)
-            near = [
-                evolution.implicit_log_state(np.array(history), step, np.array(rate * (1 + e)))[0]
-                for e in (1e-3, -1e-3)
-            ]
-            numeric = (near[0] - near[1]) / (2e-3 * rate)
-            assert slope == pytest.approx(numeric, rel=1e-4, abs=2e-12 / rate)
 
 
 @pytest.mark.parametrize("ends", [(-690, -30), (-30, -1), (-1, 2), (2, 100), (1e2, 1e6)])

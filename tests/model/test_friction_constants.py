@@ -41,8 +41,9 @@ def test_regularisation_is_taken_into_account():
 
 def test_own_constants_give_the_same_law():
     law = Friction()
-    again = dataclasses.astuple(full_law(law, V, *law.expansion(V)))
-    assert again[:-1] == pytest.approx(dataclasses.astuple(law)[:-1], rel=1e-12)
+    again = full_law(law, V, *law.expansion(V))
+    values = [[v for v in dataclasses.astuple(x) if isinstance(v, float)] for x in (again, law)]
+    assert values[0] == pytest.approx(values[1], rel=1e-12)
 
 
 def test_constants_not_given_are_kept():

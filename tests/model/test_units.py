@@ -10,7 +10,7 @@ import xarray as xr
 
 from nucleation.configuration.load import schema
 from nucleation.configuration.settings import Limits
-from nucleation.configuration.studies import STUDY_PARAMETERS
+from nucleation.configuration.study_names import study_parameters
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError, Quantity, declarations
 from nucleation.model.units import magnitude, parse, registry
@@ -110,7 +110,7 @@ def test_integers():
 
 def test_every_declared_unit_is_known_to_the_units_library():
     groups = [declarations(Limits), *map(schema.group_entries, schema.GROUPS)]
-    entries = [entry for _, entry in STUDY_PARAMETERS.values()] + list(QUANTITIES.values())
+    entries = [*study_parameters().values(), *QUANTITIES.values()]
     entries += [entry for group in groups for entry in group.values()]
     for entry in entries:
         if entry.unit != "1":

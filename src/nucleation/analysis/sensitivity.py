@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..model.parameters import Parameters
-from ..model.quantities import Quantity, declarations
+from ..model.names import Names
+from ..model.parameters import ALIASES, Parameters, names
+from ..model.quantities import Quantity
 from .extraction import ExtractionSettings, extract, patch_lengths
 
 COLUMNS = (
@@ -29,7 +30,9 @@ DROPS = (0.005, 0.01, 0.05, 0.1)  # fractions of |f_d|
 BASE = "base"
 DROP_COMPLETE = "end of the drop"
 
-NOT_PHYSICAL = ("n_x", "n_y", "grading", "end_time", "time_after_event")
+NOT_PHYSICAL = (
+    "mesh.n_x", "mesh.n_y", "mesh.grading", "stepping.end_time", "stepping.time_after_event",
+)  # fmt: skip
 """Not varied for their own sake: a longer block keeps its element length, a run may end sooner."""
 
 SAME_LENGTH = 1e-2  # block lengths over the theory's differ by less through rounding
@@ -50,21 +53,34 @@ def variation(case: Case, base: Case) -> tuple[str, str]:
     """The parameters that a run varies against its base, and how, in words.
 
     The block's length counts where it is another multiple of the theory's critical length; the
-    start in uniform shear is named by its shear stress.
+    start in uniform shear is named by its shear stress. With another friction law, parameters
+    that one of the two does not have are not compared.
     """
-    values, usual, entries = _flat(case.parameters), _flat(base.parameters), _entries()
-    ratio = values["length"] / case.theory_length * base.theory_length / usual["length"]
+    values, usual = case.parameters.named(), base.parameters.named()
+    own, others = case.parameters.geometry.length, base.parameters.geometry.length
+    ratio = own / case.theory_length * base.theory_length / others
     varied = {
         name
         for name, value in values.items()
-        if value != usual[name] and name not in (*NOT_PHYSICAL, "length")
+        if value != usual.get(name, value) and name not in (*NOT_PHYSICAL, "geometry.length")
     }
     if abs(ratio - 1.0) > SAME_LENGTH:
-        varied.add("length")
-    if "initial_stress" in varied:
-        varied = (varied - {"initial_stress"}) | {"initial_shear_stress"}
-    words = [_words(entries[name], name, values[name], usual[name]) for name in sorted(varied)]
-    return ", ".join(sorted(varied)) or BASE, ", ".join(words) or BASE
+        varied.add("geometry.length")
+    if "loading.initial_stress" in varied:
+        varied = (varied - {"loading.initial_stress"}) | {"loading.initial_shear_stress"}
+    known = names()
+    by_field = {_field(name, known): name for name in varied}
+    words = [
+        _words(known[name], field, values[name], usual[name])
+        for field, name in sorted(by_field.items())
+    ]
+    return ", ".join(sorted(by_field)) or BASE, ", ".join(words) or BASE
+
+
+def _field(name: str, known: Names) -> str:
+    """The last part of a full name, if no other parameter has it; ``law`` is the evolution's."""
+    last = name.rpartition(".")[2]
+    return last if last not in ALIASES and last not in known.ambiguous else name
 
 
 def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:
@@ -75,15 +91,6 @@ def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:
     if value and usual:
         return f"{symbol} x {value / usual:.3g}"
     return f"{symbol} = {value:g}" + ("" if entry.unit == "1" or not value else f" {entry.unit}")
-
-
-def _flat(parameters: Parameters) -> Row:
-    return {k: v for group in parameters.to_dict().values() for k, v in group.items()}
-
-
-def _entries() -> dict[str, Quantity]:
-    groups = (f.default for f in dataclasses.fields(Parameters))
-    return {k: entry for group in groups for k, entry in declarations(type(group)).items()}
 
 
 def sensitivity_table(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import difflib
 import os
 import shlex
@@ -20,11 +21,13 @@ from ..configuration.advice import advise
 from ..configuration.load import configure, load
 from ..configuration.settings import Limits, estimated_megabytes
 from ..configuration.strict_yaml import read_yaml
-from ..configuration.studies import STUDY_PARAMETERS, Run, StudySettings
+from ..configuration.studies import Run, StudySettings
+from ..configuration.study_names import study_parameters
 from ..datasets import netcdf, provenance
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
-from ..model.parameters import Parameters
+from ..model.friction.registry import LAWS
+from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, check, declarations
 from ..model.units import parse
 from .text import event_lines, parameter_lines, with_unit
@@ -33,24 +36,31 @@ KNOWN = 30  # names listed in a message
 STUDY = "command"  # name of the study of one run that a command line amounts to
 
 
-def _flat(parameters: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """Parameters in groups by their names in studies."""
-    fields = {name: value for group in parameters.values() for name, value in group.items()}
-    return {name: fields[field] for name, (field, _) in STUDY_PARAMETERS.items() if field in fields}
+def _flat(parameters: Parameters) -> dict[str, Any]:
+    """Parameters by their names in studies."""
+    known = names()
+    return {known.short(full): value for full, value in parameters.named().items()}
 
 
-DEFAULTS = {k: v for k, v in _flat(Parameters().to_dict()).items() if k != "length"}
+def _defaults() -> dict[str, Any]:
+    """The usual values by their names in studies, those of other friction laws among them."""
+    laws = [_flat(Parameters(friction=Friction(law=law))) for law in LAWS]
+    return {k: v for law in laws for k, v in law.items()} | _flat(Parameters())
+
+
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
 
 
 def _parameter_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """One option for each parameter of a simulation, from its declaration."""
-    for name, (_, entry) in reversed(STUDY_PARAMETERS.items()):
-        note = f"default {with_unit(DEFAULTS[name], entry)}" if name in DEFAULTS else ""
+    """One option for each parameter of a simulation, from its declaration; also by full name."""
+    known, defaults = names(), _defaults()
+    for name, entry in reversed(study_parameters().items()):
+        note = f"default {with_unit(defaults[name], entry)}" if name in defaults else ""
         note = "6 critical lengths if left out" if name == "length" else note
-        add = units.option(f"--{name.replace('_', '-')}", key=name, entry=entry, note=note)
-        function = add(function)
+        called = [name] if name in CONSTANTS else [known.full(name), name]
+        words = [f"--{word.replace('_', '-')}" for word in dict.fromkeys(called)]
+        function = units.option(*words, key=name, entry=entry, note=note)(function)
     return function
 
 
@@ -89,7 +99,13 @@ def command(
     if file and run_id:
         raise ParameterError("--parameters and --run can't be combined")
     _check_output(output, force)
-    base, given = _of_run(config, run_id) if run_id else _of_file(file) if file else (DEFAULTS, {})
+    base, given = None, {}
+    if run_id:
+        base = _of_run(config, run_id)
+    elif file and file.suffix == ".nc":
+        base = _of_dataset(file)
+    elif file:
+        given = _of_file(file)
     values = _merged(base, given | _given(options))
     study = _given({"length_over_critical": length_over_critical})
     run = planned(values, study, _given({"memory": memory}), str(output.absolute().parent))
@@ -103,13 +119,18 @@ def command(
     return _simulate(run, output, _command(output, run))
 
 
-def _merged(base: dict[str, Any], given: dict[str, Any]) -> dict[str, Any]:
-    """A full set of values with others in their place; constants of friction set its law."""
-    values = base | {name: value for name, value in given.items() if name not in CONSTANTS}
-    fields = {n: f for n, (f, _) in STUDY_PARAMETERS.items() if f in declarations(Friction)}
-    law = Friction(**{field: values[name] for name, field in fields.items()})
-    law = with_constants(law, values["velocity"], given)
-    return values | {name: getattr(law, field) for name, field in fields.items()}
+def _merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
+    """All values, from a base or the defaults, and those given; constants of friction set its law.
+
+    Without a base, the block's length is left out unless it is given: it follows from the theory.
+    """
+    plain = {name: value for name, value in given.items() if name not in CONSTANTS}
+    parameters = (base or Parameters()).replaced(plain)
+    friction = with_constants(parameters.friction, parameters.loading.velocity, given)
+    values = _flat(dataclasses.replace(parameters, friction=friction))
+    if base is None and "length" not in given:
+        del values["length"]
+    return values
 
 
 def planned(
@@ -150,40 +171,51 @@ def _check_output(output: Path, force: bool) -> None:
         raise ParameterError(f"{output} can't be written: {folder} is no writable directory")
 
 
-def _of_run(config: str, run_id: str) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The parameters of a configuration's run, and nothing given beside."""
+def _of_run(config: str, run_id: str) -> Parameters:
+    """The parameters of a configuration's run."""
     runs = {run.id: run for run in load(config).runs}
     if run_id not in runs:
         raise ParameterError(f"--run = {run_id!r} is not in {config}{_similar(run_id, runs)}")
-    return _flat(runs[run_id].parameters.to_dict()), {}
+    return runs[run_id].parameters
 
 
-def _of_file(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The parameters of a dataset; or the defaults, and what a YAML or JSON file gives."""
-    if path.suffix == ".nc":
-        attributes = netcdf.read(path, requires=["slip_rate", "driving_force"]).attrs
-        return _flat(Parameters.from_json(attributes["parameters"]).to_dict()), {}
+def _of_dataset(path: Path) -> Parameters:
+    """The parameters of an earlier simulation."""
+    attributes = netcdf.read(path, requires=["slip_rate", "driving_force"]).attrs
+    return Parameters.from_json(attributes["parameters"])
+
+
+def _of_file(path: Path) -> dict[str, Any]:
+    """What a YAML or JSON file gives, by names in studies."""
     content = read_yaml(path)
     if not isinstance(content, dict):
         raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
-    fields = {field: name for name, (field, _) in STUDY_PARAMETERS.items()}
     given: dict[str, Any] = {}
     for key, value in content.items():
-        group = value if isinstance(value, dict) else {key: value}  # as the configuration, or flat
-        for field, one in group.items():
-            name = fields.get(field, field)
+        grouped = isinstance(value, dict)  # as the configuration, or flat
+        for field, one in value.items() if grouped else [(key, value)]:
+            name = _name_in_file(path, f"{key}." if grouped else "", str(field), one)
             if name in given:
                 raise ParameterError(f"{path}: {name} is given twice")
-            given[name] = _file_value(path, name, one)  # type: ignore[index]
-    return DEFAULTS, given
+            given[name] = _file_value(path, name, one)
+    return given
+
+
+def _name_in_file(path: Path, group: str, field: str, value: Any) -> str:
+    """The name in studies of a parameter that stands in a group of a file, or in none."""
+    known, declared = names(), study_parameters()
+    name = group + field if group + field in known else field
+    try:
+        return name if name in declared else known.short(known.full(name))
+    except ParameterError as error:
+        hint = "" if "ambiguous" in str(error) else _similar(field, declared)
+        text = str(error) if not hint else "unknown key"
+        raise ParameterError(f"{path}: {field} = {value!r} is not allowed: {text}{hint}") from None
 
 
 def _file_value(path: Path, key: str, value: Any) -> Any:
     """One value of a file, in SI units."""
-    if key not in STUDY_PARAMETERS:
-        hint = _similar(str(key), STUDY_PARAMETERS)
-        raise ParameterError(f"{path}: {key} = {value!r} is not allowed: unknown key{hint}")
-    entry = STUDY_PARAMETERS[key][1]
+    entry = study_parameters()[key]
     try:
         if isinstance(value, str):
             return parse(key, value, entry)
@@ -211,8 +243,8 @@ def _plan_lines(run: Run) -> list[str]:
 
 def _command(output: Path, run: Run) -> str:
     """A command line that makes the dataset again: what differs from the defaults."""
-    values = _flat(run.parameters.to_dict())
-    changed = {k: v for k, v in values.items() if v != DEFAULTS.get(k)}
+    values, usual = _flat(run.parameters), _flat(Parameters())
+    changed = {k: v for k, v in values.items() if k == "length" or v != usual.get(k)}
     words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
     return shlex.join(["nucleation", "simulate", str(output), *words])
 

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import re
 from typing import Any
 
-from ..model.parameters import Parameters
-from ..model.quantities import Quantity, declarations
-
-GROUPS = {field.name: declarations(type(field.default)) for field in dataclasses.fields(Parameters)}
+from ..model.parameters import GROUPS, group_declarations
+from ..model.quantities import Quantity
 
 
 def parameter_lines(parameters: dict[str, dict[str, Any]]) -> list[str]:
     """The parameters of a simulation, one in a line, with unit and meaning."""
     lines = []
-    for group, entries in GROUPS.items():
+    for group in GROUPS:
         lines.append(f"{group}:")
-        for name, entry in entries.items():
+        for name, entry in group_declarations(group).items():
+            if name not in parameters[group]:
+                continue  # of another friction law, or younger than the record
             value = with_unit(parameters[group][name], entry)
-            meaning = re.split("[;:,]", entry.description)[0]
+            meaning = re.split("[;:,(]", entry.description)[0]
             lines.append(f"  {name:<28} {value:<16} {meaning}")
     return lines
 

@@ -19,8 +19,9 @@ from jsonschema.exceptions import ValidationError
 from ..analysis.extraction import ExtractionSettings
 from ..configuration import schema
 from ..model.friction.law import Friction
+from ..model.friction.registry import LAWS
 from ..model.linearised import InterfaceState, loaded
-from ..model.parameters import Parameters
+from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, refusal
 from ..theory.curves import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
@@ -108,7 +109,10 @@ def configure(values: Any) -> Configuration:
     """
     _stop_on(_schema_problems(values))
     _stop_on([*_range_problems(values), *results_problems(values.get("results", "results"))])
-    groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
+    try:
+        groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
+    except ParameterError as error:  # what the chosen friction law does not have
+        _stop_on([str(error)])
     base = Parameters(**{k: groups.pop(k) for k in ("material", "friction", "loading", "stepping")})
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
@@ -206,20 +210,29 @@ def _messages(error: ValidationError) -> Iterator[str]:
             "letters, digits and _, beginning with a letter"
         )
     elif leaf and entry is not None:
-        yield refusal(key, error.instance, entry)
+        meant = path[:1] == ("studies",) and "law" in path and error.instance in LAWS
+        hint = "; the law of friction itself is friction.law" if meant else ""
+        yield f"{refusal(key, error.instance, entry)}{hint}"
     else:
         form = {"object": "a mapping (lines of key: value)", "array": "a list"}
         yield f"{key} = {_short(error.instance)} must be {form[error.validator_value]}"
 
 
 def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]) -> Iterator[str]:
+    in_study = path[:1] == ("studies",)
     for name in given:
         if name in known:
             continue
-        close = difflib.get_close_matches(str(name), known, n=1)
-        hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(known)}"
         value = _short(given[name])
-        yield f"{key_text((*path, name))} = {value} is not allowed: unknown key; {hint}"
+        place = f"{key_text((*path, name))} = {value} is not allowed"
+        if in_study and name in (parameters := names()).ambiguous:
+            meant = [full for full in parameters if full.endswith(f".{name}")]
+            yield f"{place}: it may be {' or '.join(meant)}"
+            continue
+        close = difflib.get_close_matches(str(name), known, n=1)
+        listed = [key for key in known if "." not in key] if in_study else known
+        hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(listed)}"
+        yield f"{place}: unknown key; {hint}"
 
 
 def key_text(path: tuple[Any, ...]) -> str:

@@ -8,6 +8,7 @@ import yaml
 
 from ..analysis.extraction import ExtractionSettings
 from ..model.friction.law import Friction
+from ..model.friction.registry import law_declarations
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading, Stepping
@@ -15,7 +16,8 @@ from ..model.quantities import Quantity, declarations
 from ..theory.curves import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .settings import FigureSettings, Limits
-from .studies import RANGE, STUDY_PARAMETERS, StudySettings
+from .studies import RANGE, StudySettings
+from .study_names import other_names, study_parameters
 
 Node = dict[str, Any]
 
@@ -42,6 +44,8 @@ RESULTS = Quantity("directory of all results", kind="str")
 
 def group_entries(group: str) -> dict[str, Quantity]:
     """The keys of a section and their declarations."""
+    if group == "friction":
+        return law_declarations()
     entries = declarations(GROUPS[group])
     taken = FROM_LOADING if group == "main_text_interface" else ()
     return {name: entry for name, entry in entries.items() if name not in taken}
@@ -55,7 +59,8 @@ def entry_at(path: tuple[Any, ...]) -> Quantity | None:
     if names and names[-1] in RANGE:
         return RANGE[names[-1]]
     if names[:1] == ["studies"]:
-        known = {name: entry for name, (_, entry) in STUDY_PARAMETERS.items()}
+        known = study_parameters()
+        known |= {other: known[name] for other, name in other_names().items()}
         known |= declarations(StudySettings)
         names = names[2:]
     else:
@@ -87,12 +92,13 @@ def build() -> Node:
 def _study() -> Node:
     """The schema of one study."""
     settings = {k: _leaf(entry) for k, entry in declarations(StudySettings).items()}
-    single = {name: _leaf(entry) for name, (_, entry) in STUDY_PARAMETERS.items()}
+    declared, others = study_parameters(), other_names().items()
     place = "#/$defs/study/properties/defaults/properties/"
-    varied = {
-        name: _values({"$ref": place + name}, entry)
-        for name, (_, entry) in STUDY_PARAMETERS.items()
-    }
+    single = {name: _leaf(entry) for name, entry in declared.items()}
+    single |= {other: {"$ref": place + name} for other, name in others}
+    varied = {name: _values({"$ref": place + name}, entry) for name, entry in declared.items()}
+    place = "#/$defs/study/properties/runs/items/properties/"
+    varied |= {other: {"$ref": place + name} for other, name in others}
     runs = {
         "description": "each entry stands for all combinations of its values",
         "type": "array",

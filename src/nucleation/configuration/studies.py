@@ -16,45 +16,13 @@ from ..model.linearised import (
     linearised,
     loaded,
 )
-from ..model.parameters import Parameters
-from ..model.quantities import Checked, ParameterError, Quantity, declarations, quantity
+from ..model.parameters import Parameters, names
+from ..model.quantities import Checked, ParameterError, Quantity, quantity
 from ..theory.critical import (
     NoInstability,
     theory_length,
 )
-
-SHORT_NAMES = {"evolution": "law", "initial_state": "phi0"}
-"""Names in studies, identifiers and the table of lengths that differ from the field's name."""
-
-
-def _study_parameters() -> dict[str, tuple[str, Quantity]]:
-    """Everything a study may vary by its name there: name of a field (if any) and declaration."""
-    fields = {
-        SHORT_NAMES.get(name, name): (name, entry)
-        for group in dataclasses.fields(Parameters)
-        for name, entry in declarations(type(group.default)).items()
-    }
-    return fields | {name: (name, entry) for name, entry in CONSTANTS.items()}
-
-
-STUDY_PARAMETERS = _study_parameters()
-
-
-def _identifier_order() -> tuple[str, ...]:
-    """Names in the order of identifiers, whatever the order in the configuration.
-
-    By the groups of the parameters; within a group words before numbers, then by name.
-    """
-    groups = [declarations(type(f.default)) for f in dataclasses.fields(Parameters)] + [CONSTANTS]
-    keys = {
-        SHORT_NAMES.get(name, name): (number, not entry.choices, name)
-        for number, group in enumerate(groups)
-        for name, entry in group.items()
-    }
-    return tuple(sorted(keys, key=keys.__getitem__))
-
-
-IDENTIFIER_ORDER = _identifier_order()
+from .study_names import by_study_name, identifier, study_parameters
 
 RANGE: dict[str, Quantity] = {
     "num": Quantity("number of values", low=2, high=10000, closed="both", kind="int"),
@@ -108,8 +76,7 @@ class Run:
         friction, loading = self.parameters.friction, self.parameters.loading
         if name in CONSTANTS:
             return constants(friction, loading.velocity)[name]
-        values = {k: v for group in self.parameters.to_dict().values() for k, v in group.items()}
-        return values[STUDY_PARAMETERS[name][0]]
+        return self.parameters.named().get(names().full(name))  # None: its law has no such thing
 
     @property
     def labels(self) -> dict[str, Any]:
@@ -128,9 +95,9 @@ def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
     Only what the study gives is looked at: a block's length that follows from the theory is not.
     """
     runs = list(runs)
-    names = [name for name in STUDY_PARAMETERS if any(name in run.given for run in runs)]
-    names.sort(key=lambda name: name != "height")  # first
-    values = {name: [run.value(name) for run in runs] for name in names}
+    given = [name for name in study_parameters() if any(name in run.given for run in runs)]
+    given.sort(key=lambda name: name != "height")  # first
+    values = {name: [run.value(name) for run in runs] for name in given}
     return {name: found for name, found in values.items() if len(set(found)) > 1}
 
 
@@ -166,22 +133,6 @@ def range_problem(value: Any) -> str | None:
     if len(set(expand(value))) < value["num"]:
         return f"its {value['num']} values from {value['start']!r} on are not all different"
     return None
-
-
-def identifier(study: str, labels: dict[str, Any], varied: dict[str, Any]) -> str:
-    """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``."""
-    parts = [study, labels["law"], f"H{_text(labels['height'])}", f"phi{_text(labels['phi0'])}"]
-    others = [name for name in IDENTIFIER_ORDER if name in varied and name not in labels]
-    parts += [f"{name}{_text(varied[name])}" for name in others]
-    return "-".join(parts)
-
-
-def _text(value: Any) -> str:
-    """A number in its shortest form without a plus sign, ``4e9`` for 4.0e+9."""
-    if isinstance(value, str):
-        return value
-    mantissa, _, exponent = f"{value:.12g}".partition("e")
-    return f"{mantissa}e{int(exponent)}" if exponent else mantissa
 
 
 def study_settings(study: dict[str, Any]) -> StudySettings:
@@ -225,10 +176,11 @@ def _run(
     main_text: InterfaceState,
 ) -> Run:
     """One run; its length, unless given, is a multiple of the theory's critical length."""
-    values = {**defaults, **varied}
+    varied = by_study_name(varied)
+    values = by_study_name(defaults) | varied
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
-    parameters = base.replaced({STUDY_PARAMETERS[k][0]: _number(k, v) for k, v in values.items()})
+    parameters = base.replaced({k: v for k, v in values.items() if k not in CONSTANTS})
     height = parameters.geometry.height
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
@@ -245,10 +197,5 @@ def _run(
             f"nucleation length of the theory, {critical:.3g} m, better 6 times as long"
         )
     parameters = parameters.replaced({"length": float(length)})
-    run = Run("", study, parameters, critical, {k: _number(k, v) for k, v in values.items()})
+    run = Run("", study, parameters, critical, values)
     return dataclasses.replace(run, id=identifier(study, run.labels, varied))
-
-
-def _number(name: str, value: Any) -> Any:
-    """The value in its field's type, so that 1 and 1.0 give one and the same simulation."""
-    return float(value) if STUDY_PARAMETERS[name][1].kind == "float" else value

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from functools import cache
 from typing import Any
 
 from .friction.law import Friction
+from .friction.registry import LAWS, law_declarations
 from .material import Material
-from .quantities import Checked, quantity
+from .names import Names
+from .quantities import Checked, ParameterError, Quantity, declarations, quantity
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,7 +93,7 @@ class Parameters:
     """Everything one simulation depends on; two equal objects give the same result."""
 
     material: Material = Material()
-    friction: Friction = Friction()
+    friction: Friction = dataclasses.field(default_factory=Friction)  # finds its law by name
     loading: Loading = Loading()
     geometry: Geometry = Geometry()
     mesh: Mesh = Mesh()
@@ -105,20 +108,38 @@ class Parameters:
         """The parameters as nested plain dictionaries."""
         return dataclasses.asdict(self)
 
+    def named(self) -> dict[str, Any]:
+        """The values by full name, ``geometry.height``."""
+        groups = self.to_dict().items()
+        return {f"{group}.{name}": value for group, own in groups for name, value in own.items()}
+
     @classmethod
     def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value."""
-        groups = {f.name: f.default for f in dataclasses.fields(cls)}
-        return cls(**{name: type(default)(**values[name]) for name, default in groups.items()})  # type: ignore[misc]
+        return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
-        """A copy with other values of the fields of its groups, given by field name alone."""
-        groups = {}
-        for group in dataclasses.fields(self):
-            own = getattr(self, group.name)
-            changes = {f.name: values[f.name] for f in dataclasses.fields(own) if f.name in values}
-            groups[group.name] = dataclasses.replace(own, **changes)
-        return Parameters(**groups)
+        """A copy with other values, given by the full or short names of :func:`names`.
+
+        Raises
+        ------
+        ParameterError
+            For a bad value, a name that stands for no parameter or for several, a parameter that
+            is given twice, and one that the friction law does not have.
+        """
+        changes: dict[str, dict[str, Any]] = {group: {} for group in GROUPS}
+        known = names()
+        for name, value in values.items():
+            group, _, field = known.full(name).partition(".")
+            if field in changes[group]:
+                raise ParameterError(f"{name} is given twice: it is {group}.{field}")
+            changes[group][field] = value
+        friction = self.friction.changed(changes.pop("friction"))
+        others = {
+            group: dataclasses.replace(getattr(self, group), **own)
+            for group, own in changes.items()
+        }
+        return Parameters(friction=friction, **others)
 
     def to_json(self) -> str:
         """The parameters as JSON text, as datasets carry them."""
@@ -128,6 +149,41 @@ class Parameters:
     def from_json(cls, text: str) -> Parameters:
         """The inverse of :meth:`to_json`."""
         return cls.from_dict(json.loads(text))
+
+
+GROUPS: dict[str, type] = {
+    "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
+    "mesh": Mesh, "stepping": Stepping,
+}  # fmt: skip
+"""The groups of :class:`Parameters` and their classes."""
+
+ALIASES = {
+    "law": "friction.evolution",
+    "friction_law": "friction.law",
+    "phi0": "loading.initial_state",
+}
+"""Short names by agreement: ``law`` was the evolution's before the coefficient had one."""
+
+
+def group_declarations(group: str) -> dict[str, Quantity]:
+    """The declared parameters of a group; of all laws if it is friction."""
+    return law_declarations() if group == "friction" else declarations(GROUPS[group])
+
+
+def names() -> Names:
+    """All parameters of a run by their full names, with their short ones."""
+    return _names(tuple(LAWS))
+
+
+@cache
+def _names(laws: tuple[str, ...]) -> Names:
+    """`laws` are those that there are, since each has parameters of its own."""
+    entries = {
+        f"{group}.{name}": entry
+        for group in GROUPS
+        for name, entry in group_declarations(group).items()
+    }
+    return Names(entries, ALIASES)
 
 
 FIRST_STEP = 2.0e-6  # over the memory time D/V

@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import numbers
+from collections.abc import Collection
 from typing import Any
 
 
@@ -27,7 +28,7 @@ class Quantity:
     high: float = math.inf
     closed: str = ""  # which ends belong to the range: "low", "high", "both" or ""
     symbol: str = ""
-    choices: tuple[str, ...] = ()
+    choices: Collection[str] = ()
     kind: str = "float"  # the field's annotation: "float", "int", "str" or "tuple[float, ...]"
 
     @property
@@ -92,7 +93,12 @@ class Checked:
 
     def __post_init__(self) -> None:
         for name, entry in declarations(type(self)).items():
-            check(f"{type(self).__name__}.{name}", getattr(self, name), entry)
+            check(self._key(name), getattr(self, name), entry)
+
+    @classmethod
+    def _key(cls, name: str) -> str:
+        """What an error calls a field."""
+        return f"{cls.__name__}.{name}"
 
 
 def check(key: str, value: Any, entry: Quantity) -> None:

@@ -31,6 +31,8 @@ Array = NDArray[np.float64]
 ROUNDING = 1e-14  # relative, of displacements
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 ENOUGH = 0.1  # error expected of an iteration with old factors, in units of the tolerance
+DESCENTS = 6  # of Newton's method for one node alone, from at most twice what it is to balance
+LARGEST_ASINH = 700.0
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
 
@@ -174,7 +176,8 @@ class Interface:
             residual = p + coefficient[1:] * normal[1:]
             damping = slope[1:] * normal[1:]
             elastic = beta * operator.diagonal
-            resolved = np.abs(v) + self.friction.regularisation_slip_rate
+            linear_below = self.friction.linear_below(psi[1:])
+            resolved = np.abs(v) + linear_below
             scale = (elastic + np.abs(damping)) * (self.tolerance * resolved) + elastic * rounding
             error = float(np.max(np.abs(residual) / scale))
             if not np.isfinite(error):
@@ -188,7 +191,11 @@ class Interface:
             # old factors serve where they promise that one more iteration is enough
             if factors is None or error * factors.change(damping, elastic) > ENOUGH:
                 factors = Factors.of(operator, coefficient[1:], damping, elastic, beta)
-            v = self._updated(v, factors.direction(residual, damping, elastic))
+            change = factors.direction(residual, damping, elastic)
+            if self.friction.asinh_of_rate:
+                v = _updated_by_asinh(v, change, damping, elastic, linear_below)
+            else:
+                v = self._updated(v, change)
             w = past.w + beta * (v - imposed.velocity)
             dp, dnormal = operator.apply(w - response.w)
             p, normal = response.tangential + dp, response.normal + dnormal
@@ -203,10 +210,9 @@ class Interface:
         psi, psi_by_rate = law.evolution_law.implicit_log_state(
             log_state_history, beta, speed / distance
         )
-        aging, aging_slope = law.aging_factor(psi)
-        rate, rate_slope = law.rate_factor(v)
-        slope = aging * rate_slope + aging_slope * rate * psi_by_rate * v / (speed * distance)
-        return aging * rate, slope, psi
+        coefficient, by_rate, by_log_state = law.coefficient_and_slopes(v, psi)
+        slope = by_rate + by_log_state * psi_by_rate * v / (speed * distance)
+        return coefficient, slope, psi
 
     def _updated(self, v: Array, change: Array) -> Array:
         """``v + change``, but a slip rate that shrinks does so in asinh(v / v0).
@@ -222,3 +228,27 @@ class Interface:
             shift = np.clip(ratio[shrinking], -LARGEST_SHIFT, LARGEST_SHIFT)
             updated[shrinking] = v0 * np.sinh(np.arcsinh(v[shrinking] / v0) + shift)
         return updated
+
+
+def _updated_by_asinh(
+    v: Array, change: Array, damping: Array, elastic: Array, scale: Array
+) -> Array:
+    """``v + change`` to first order, for friction that goes with ``asinh(v / scale)``.
+
+    Stuck nodes slip by tens of orders of magnitude more slowly than their neighbours: there a
+    straight line says nothing of where the root is, from below no more than from above. So each
+    node solves its own balance ``E v + c asinh(v/s)``, whose slope is Newton's, ``E`` plus the
+    damping. With ``v = s sinh z`` the balance is convex in z, and Newton's method descends to its
+    root from either of the bounds that E or c alone would give.
+    """
+    strength = damping * np.hypot(v, scale)
+    curved = strength > 0.0  # not where friction weakens within the step
+    v_curved, s, c, e = v[curved], scale[curved], strength[curved], elastic[curved]
+    wanted = e * v_curved + c * np.arcsinh(v_curved / s) + (e + damping[curved]) * change[curved]
+    size = np.abs(wanted)
+    z = np.minimum(np.minimum(size / c, np.arcsinh(size / (e * s))), LARGEST_ASINH)
+    for _ in range(DESCENTS):
+        z -= (e * s * np.sinh(z) + c * z - size) / (e * s * np.cosh(z) + c)
+    updated = v + change
+    updated[curved] = np.copysign(s * np.sinh(z), wanted)
+    return updated

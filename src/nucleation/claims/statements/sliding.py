@@ -8,7 +8,7 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from ...model.friction.evolution import EVOLUTION_LAWS
+from ...model.friction.evolutions import aging, slip
 from ...verification.dispersion import disagreement
 from ..claim import Cause, Claim, Result, claim
 from ..evidence import Evidence
@@ -30,10 +30,7 @@ SHORT = np.geomspace(1.001, 100.0, 60)  # wavenumbers over the critical one
 )  # fmt: skip
 def evolution_slope(evidence: Evidence) -> Ours:
     h = 1e-5
-    slopes = [
-        float(law.growth(1.0 + h) - law.growth(1.0 - h)) / (2.0 * h)
-        for law in EVOLUTION_LAWS.values()
-    ]
+    slopes = [float(law.growth(1.0 + h) - law.growth(1.0 - h)) / (2.0 * h) for law in (aging, slip)]
     return Ours.furthest(slopes, target=-1.0)
 
 

@@ -32,7 +32,7 @@ class Row(NamedTuple):
 
 def rows(friction: Friction) -> list[Row]:
     """The rows of the table for a friction law, dimensionless units written as ``-``."""
-    entries = declarations(Friction)
+    entries = declarations(type(friction))
     return [
         Row(
             PRINTED.get(entries[name].symbol, entries[name].symbol),
@@ -40,7 +40,8 @@ def rows(friction: Friction) -> list[Row]:
             "-" if entries[name].unit == "1" else entries[name].unit,
             entries[name].description,
         )
-        for name in ORDER
+        for name in (ORDER if set(ORDER) <= set(entries) else entries)
+        if not entries[name].choices
     ]
 
 

@@ -1,15 +1,13 @@
-"""The full friction law that has given constants of the conventional, logarithmic law.
+"""The friction law that has given constants of the conventional, logarithmic law.
 
 Faults are described by a coefficient f, the direct effect a and the weakening zeta = b - a at a
-slip rate V. The simulations need the full regularised law of :mod:`nucleation.model.friction.law`.
+slip rate V. The simulations need a full, regularised law of :mod:`nucleation.model.friction.laws`;
+each of them finds its own parameters from these constants.
 """
 
 from __future__ import annotations
 
-import dataclasses
 from typing import Any
-
-import numpy as np
 
 from ..quantities import ParameterError, Quantity
 from .law import Friction
@@ -29,8 +27,6 @@ CONSTANTS: dict[str, Quantity] = {
 }  # fmt: skip
 """Constants of the logarithmic law, by their names in studies."""
 
-SET_BY_CONSTANTS = ("base_friction", "rate_coefficient", "aging_coefficient")
-
 
 def constants(friction: Friction, velocity: float) -> dict[str, float]:
     """The :data:`CONSTANTS` of a law at a slip rate (m/s)."""
@@ -49,7 +45,7 @@ def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) 
     given = {name: float(values[name]) for name in CONSTANTS if name in values}
     if not given:
         return friction
-    clash = [name for name in SET_BY_CONSTANTS if name in values]
+    clash = [name for name in friction.set_by_expansion if name in values]
     if clash:
         raise ParameterError(
             f"{', '.join(clash)} is not allowed together with {', '.join(given)}, which sets it"
@@ -64,7 +60,7 @@ def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: floa
     Parameters
     ----------
     friction : Friction
-        Gives D, phi*, v*, v0 and the state evolution law.
+        Gives the law, its evolution and all parameters that are not found.
     velocity : float
         Slip rate V of steady sliding (m/s).
     f : float
@@ -75,42 +71,16 @@ def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: floa
     Returns
     -------
     Friction
-        With other theta, xi and b, so that :meth:`Friction.expansion` gives f, a and zeta.
+        With other values of :attr:`Friction.set_by_expansion`, so that :meth:`Friction.expansion`
+        gives f, a and zeta.
 
     Raises
     ------
     ParameterError
-        If no allowed theta, xi, b do.
-
-    Notes
-    -----
-    With ``A = 1 + b log(1 + phi/phi*)``, ``w = sqrt(V^2 + v0^2)`` and the rate factor ``R(v)`` of
-    the law, ``f = A R``, ``a = A V R'`` and ``a + zeta = b R (V/w)^2 / (1 + phi*/phi)``. The last
-    gives b, with R = f/A; the others are linear in theta and xi.
+        If no allowed values of them do.
     """
-    v, v0, scale = velocity, friction.regularisation_slip_rate, friction.slip_rate_scale
-    speed = float(friction.slip_speed(v))
-    age = float(friction.steady_state(v)) / friction.state_scale
-    per_aging = (a + zeta) / f * (speed / v) ** 2 * (1.0 + 1.0 / age)  # b / (1 + b l)
-    growth = per_aging * np.log1p(age)
-    wanted = f"f = {f:g}, a = {a:g}, zeta = {zeta:g} at {v:g} m/s"
-    if not 0.0 <= growth < 1.0:
-        raise ParameterError(
-            f"no friction law has {wanted}: (a + zeta)/f log(1 + phi/phi*) = {growth:.3g} must lie "
-            f"in [0, 1), with phi = D/V; phi* = {friction.state_scale:g} s is state_scale"
-        )
-    aging = per_aging / (1.0 - growth)
-    factor = 1.0 + aging * np.log1p(age)
-    rates = np.array(
-        [[v / speed, np.log1p(v / scale)], [v * v0**2 / speed**3, v / (scale + v)]]
-    )  # R and V R' by theta and xi
-    base, rate = np.linalg.solve(rates, np.array([f, a]) / factor)
     try:
-        return dataclasses.replace(
-            friction,
-            base_friction=float(base),
-            rate_coefficient=float(rate),
-            aging_coefficient=float(aging),
-        )
+        return friction.with_expansion(velocity, f, a, zeta)
     except ParameterError as error:
+        wanted = f"f = {f:g}, a = {a:g}, zeta = {zeta:g} at {velocity:g} m/s"
         raise ParameterError(f"no friction law has {wanted}: {error}") from None

@@ -1,16 +1,13 @@
-"""Rate-and-state friction: the full regularised law of the paper's Text S2.
+"""Rate-and-state friction: what all laws share, and what each of them has to say.
 
-The friction coefficient (Eq. S-f, first equation of Text S2.1) is
+The friction coefficient ``f(v, phi)`` depends on the slip rate, of which it is an odd function, so
+that friction opposes slip in either direction, and on the state variable ``phi`` (s), whose
+evolution the laws of :mod:`nucleation.model.friction.evolutions` describe, all with the
+regularised slip speed ``w = sqrt(v^2 + v0^2)``:
 
-    f(v, phi) = [1 + b log(1 + phi/phi*)] [theta v / sqrt(v^2 + v0^2) + xi log(1 + |v|/v*) sign v]
+    dphi/dt = g(phi w / D)
 
-which is the paper's law for ``v >= 0``, continued as an odd function of the slip rate, so that
-friction opposes slip in either direction. The state variable ``phi`` (s) evolves by the aging
-or the slip law, both with the regularised slip speed ``w = sqrt(v^2 + v0^2)``:
-
-    aging:  dphi/dt = 1 - phi w / D
-    slip:   dphi/dt = -(phi w / D) log(phi w / D)
-
+How f depends on both is said by one file of :mod:`nucleation.model.friction.laws` for each law.
 The simulation carries the logarithm ``psi = log(phi)``: it stays positive by construction, and
 friction depends on ``log(phi)`` almost linearly.
 """
@@ -18,16 +15,14 @@ friction depends on ``log(phi)`` almost linearly.
 from __future__ import annotations
 
 import dataclasses
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..quantities import Checked, quantity
-from .evolution import (
-    EVOLUTION_LAWS,
-    StateEvolution,
-)
+from ..quantities import Checked, ParameterError, check, declarations, quantity
+from .evolution import StateEvolution
+from .registry import EVOLUTIONS, LAWS, USUAL_EVOLUTION, USUAL_LAW, law_class, module
 
 Array = NDArray[np.float64]
 
@@ -40,71 +35,120 @@ class Expansion(NamedTuple):
     zeta: float
 
 
+def law_name(name: str) -> Any:
+    """The field `law` of a law's class; `name` is the file's ``__name__``."""
+    return quantity(
+        "friction law: how friction follows from slip rate and state", choices=LAWS,
+        default=name.rpartition(".")[2],
+    )  # fmt: skip
+
+
 @dataclasses.dataclass(frozen=True)
 class Friction(Checked):
-    """The full friction law with the parameters of Table S1 (SI units)."""
+    """Rate-and-state friction by one of the laws (SI units).
 
+    ``Friction(law="dieterich_ruina", ...)`` makes an object of that law's class, as
+    :class:`pathlib.Path` does for the system at hand; without `law`, of the paper's.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such law, the law has no such parameter, or a value is out of its range.
+    """
+
+    law: str = law_name(USUAL_LAW)
+    evolution: str = quantity("state evolution law", choices=EVOLUTIONS, default=USUAL_EVOLUTION)
     characteristic_slip_distance: float = quantity(
         "characteristic slip distance", unit="m", low=0.0, high=1e3, symbol="D", default=5.0e-7
-    )
-    aging_coefficient: float = quantity(
-        "aging coefficient", low=0.0, high=10.0, closed="low", symbol="b", default=0.075
-    )
-    slip_rate_scale: float = quantity(
-        "slip-rate scale of rate strengthening",
-        unit="m/s", low=0.0, high=1.0, symbol="v*", default=1.0e-7,
-    )  # fmt: skip
-    base_friction: float = quantity(
-        "base friction coefficient", low=0.0, high=10.0, symbol="theta", default=5.0 / 18.0
-    )
-    state_scale: float = quantity(
-        "state scale of aging", unit="s", low=0.0, high=1e6, symbol="phi*", default=3.3e-4
     )
     regularisation_slip_rate: float = quantity(
         "regularisation slip rate",
         unit="m/s", low=1e-30, high=1.0, closed="low", symbol="v0", default=1.0e-9,
     )  # fmt: skip
-    rate_coefficient: float = quantity(
-        "rate-strengthening coefficient", low=0.0, high=10.0, symbol="xi", default=0.005
-    )
-    evolution: str = quantity("state evolution law", choices=tuple(EVOLUTION_LAWS), default="aging")
+
+    set_by_expansion: ClassVar[tuple[str, ...]] = ()
+    """The parameters that :meth:`with_expansion` finds."""
+
+    asinh_of_rate: ClassVar[bool] = False
+    """Whether f is proportional to ``asinh(v / linear_below(psi))`` at fixed state."""
+
+    def __new__(cls, *_: Any, **values: Any) -> Self:
+        if cls is not Friction:
+            return super().__new__(cls)
+        name = values.get("law", USUAL_LAW)
+        check("friction.law", name, declarations(Friction)["law"])
+        chosen = law_class(name)
+        own = declarations(chosen)
+        foreign = [f"friction.{key} = {value!r}" for key, value in values.items() if key not in own]
+        if foreign:
+            raise ParameterError(
+                f"{', '.join(foreign)} is not allowed: the friction law {name} has no such "
+                f"parameter; it has {', '.join(own)}"
+            )
+        return cast(Self, super().__new__(chosen))
+
+    def __post_init__(self) -> None:
+        try:
+            super().__post_init__()
+        except ParameterError as error:
+            raise ParameterError(f"{error} (friction law {self.law})") from None
+        if self.law != type(self).law:
+            raise ParameterError(f"friction.law = {self.law!r} is not that of {type(self).law}")
+
+    @classmethod
+    def _key(cls, name: str) -> str:
+        return f"friction.{name}"
+
+    def changed(self, values: dict[str, Any]) -> Friction:
+        """The law with other parameters; if one is `law`, that law with what all laws share."""
+        if values.get("law", self.law) == self.law:
+            kept = dataclasses.asdict(self)
+        else:
+            kept = {field.name: getattr(self, field.name) for field in dataclasses.fields(Friction)}
+        return Friction(**kept | values)
 
     @property
     def evolution_law(self) -> StateEvolution:
         """The state evolution law named by ``evolution``."""
-        return EVOLUTION_LAWS[self.evolution]
+        return cast(StateEvolution, module(EVOLUTIONS.package, self.evolution))
+
+    # -- what each law says ---------------------------------------------------------------------
+
+    def coefficient_and_slopes(
+        self, slip_rate: ArrayLike, log_state: ArrayLike
+    ) -> tuple[Array, Array, Array]:
+        """``f(v, psi)``, df/dv (s/m) and df/dpsi, broadcast over slip rate (m/s) and log state."""
+        raise NotImplementedError
+
+    def linear_below(self, log_state: ArrayLike) -> Any:
+        """Slip rate (m/s) below which friction is linear in it: about its scale of change there."""
+        return self.regularisation_slip_rate
+
+    def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
+        """This law with the :attr:`set_by_expansion` for which :meth:`expansion` is (f, a, zeta).
+
+        Raises
+        ------
+        ParameterError
+            If no allowed values of them do.
+        """
+        raise NotImplementedError
+
+    # -- what follows ---------------------------------------------------------------------------
 
     def slip_speed(self, slip_rate: ArrayLike) -> Array:
         """Regularised slip speed ``w = sqrt(v^2 + v0^2)`` (m/s) of a slip rate (m/s)."""
         v = np.asarray(slip_rate, dtype=float)
         return np.sqrt(v * v + self.regularisation_slip_rate**2)
 
-    def aging_factor(self, log_state: ArrayLike) -> tuple[Array, Array]:
-        """``1 + b log(1 + phi/phi*)`` and its derivative by ``psi = log(phi)``."""
-        scaled = np.asarray(log_state, dtype=float) - np.log(self.state_scale)
-        ratio = np.exp(np.minimum(scaled, 700.0))  # phi / phi*, which must not overflow
-        value = 1.0 + self.aging_coefficient * np.log1p(ratio)
-        return value, self.aging_coefficient * (ratio / (1.0 + ratio))
-
-    def rate_factor(self, slip_rate: ArrayLike) -> tuple[Array, Array]:
-        """``theta v/w + xi log(1 + |v|/v*) sign(v)`` and its derivative by v (s/m)."""
-        v = np.asarray(slip_rate, dtype=float)
-        v0, scale = self.regularisation_slip_rate, self.slip_rate_scale
-        size, by_speed = np.abs(v), 1.0 / self.slip_speed(v)
-        strengthening = np.copysign(np.log1p(size / scale), v)
-        value = self.base_friction * v * by_speed + self.rate_coefficient * strengthening
-        slope = self.base_friction * v0**2 * by_speed * by_speed * by_speed
-        return value, slope + self.rate_coefficient / (scale + size)
-
     def coefficient(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
         """Friction coefficient ``f(v, phi)``, broadcast over slip rate (m/s) and state (s)."""
-        return self.aging_factor(np.log(state))[0] * self.rate_factor(slip_rate)[0]
+        return self.coefficient_and_slopes(slip_rate, np.log(state))[0]
 
     def derivatives(self, slip_rate: ArrayLike, state: ArrayLike) -> tuple[Array, Array]:
         """Exact ``df/dv`` (s/m) at fixed state and ``df/dphi`` (1/s) at fixed slip rate."""
-        aging, aging_slope = self.aging_factor(np.log(state))
-        rate, rate_slope = self.rate_factor(slip_rate)
-        return aging * rate_slope, aging_slope / np.asarray(state, dtype=float) * rate
+        _, by_rate, by_log_state = self.coefficient_and_slopes(slip_rate, np.log(state))
+        return by_rate, by_log_state / np.asarray(state, dtype=float)
 
     def state_rate(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
         """``dphi/dt`` (dimensionless) of the chosen evolution law."""
@@ -112,7 +156,7 @@ class Friction(Checked):
         return self.evolution_law.growth(omega)
 
     def steady_state(self, slip_rate: ArrayLike) -> Array:
-        """State variable (s) of steady sliding, ``phi = D / w``, the same for both laws."""
+        """State variable (s) of steady sliding, ``phi = D / w``, the same for all evolutions."""
         return self.characteristic_slip_distance / self.slip_speed(slip_rate)
 
     def steady_coefficient(self, slip_rate: ArrayLike) -> Array:

@@ -29,7 +29,7 @@ MISSING = (
     "run workflow/install-debian.sh crosscheck"
 )
 MOST_STEPS = 200_000  # a run that needs more has failed
-UNUSED = ("initial_shear_stress", "tolerance", "shortest_step")
+UNUSED = ("loading.initial_shear_stress", "stepping.tolerance", "stepping.shortest_step")
 """Parameters without meaning for the script."""
 FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
 COLUMNS = (
@@ -57,13 +57,12 @@ def arguments(
     FreeFemError
         The script can't do what a parameter asks for, see :data:`FIXED`.
     """
-    groups = parameters.to_dict().values()
-    values = {name: value for group in groups for name, value in group.items()}
+    named = parameters.named()
     for name, only in FIXED.items():
-        if values.pop(name) != only:
+        if named[name] != only:
             raise FreeFemError(f"the script for FreeFem++ has {name} = {only} only")
-    for name in UNUSED:
-        del values[name]
+    taken = [name for name in named if name not in (*FIXED, *UNUSED)]
+    values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
     values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
     values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
     return {name: repr(value) for name, value in values.items()}

@@ -10,8 +10,11 @@ from ...model.parameters import Parameters
 from ...model.quantities import Checked, quantity
 from ...theory.critical import theory_length
 
-FIXED = {"evolution": "aging", "grading": 1.0, "initial_stress": "no_slip"}
-"""Parameters for which the script has this one value."""
+FIXED = {
+    "friction.law": "product", "friction.evolution": "aging", "mesh.grading": 1.0,
+    "loading.initial_stress": "no_slip",
+}  # fmt: skip
+"""Parameters for which the script has this one value, by full name."""
 
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
 
@@ -64,18 +67,18 @@ def runs(
     settings : heights, meshes and time after the event.
     interface : of the linear theory, in whose critical length the block's length is measured.
     """
-    common = FIXED | {"time_after_event": settings.time_after_event}
+    common = base.replaced(FIXED | {"stepping.time_after_event": settings.time_after_event})
     found = {}
     for height in settings.heights:
         length = _block_length(height, base.material, interface, settings)
-        mesh = {"n_x": settings.n_x, "n_y": settings.n_y}
-        found[f"H{height:g}"] = base.replaced(common | mesh | {"height": height, "length": length})
-    height = settings.heights[0]
+        mesh = {"mesh.n_x": settings.n_x, "mesh.n_y": settings.n_y}
+        geometry = {"geometry.height": height, "geometry.length": length}
+        found[f"H{height:g}"] = common.replaced(geometry | mesh)
     timing = {
-        "height": height, "length": _block_length(height, base.material, interface, settings),
-        "n_x": settings.timing_n_x, "n_y": settings.timing_n_y, "end_time": settings.timing_end,
+        "mesh.n_x": settings.timing_n_x, "mesh.n_y": settings.timing_n_y,
+        "stepping.end_time": settings.timing_end,
     }  # fmt: skip
-    return found | {TIMING: base.replaced(common | timing)}
+    return found | {TIMING: found[f"H{settings.heights[0]:g}"].replaced(timing)}
 
 
 def _block_length(

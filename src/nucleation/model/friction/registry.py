@@ -1,0 +1,120 @@
+"""Which friction laws and evolution laws there are: one file each, found by its name.
+
+A law of the friction coefficient is a module of :mod:`nucleation.model.friction.laws` with one
+class ``Law``, a :class:`~nucleation.model.friction.law.Friction`; an evolution of the state is a
+module of :mod:`nucleation.model.friction.evolutions` with the three functions of
+:class:`~nucleation.model.friction.evolution.StateEvolution`. The file's name is the law's name.
+
+No module imports them by statement: what a run depends on is the laws that it uses, not all that
+there are, and a new file leaves the runs of the others as they are. :func:`plugins` names them.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import pkgutil
+from collections.abc import Collection, Iterator
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from ..quantities import Quantity, declarations
+
+if TYPE_CHECKING:
+    from ..parameters import Parameters
+    from .law import Friction
+
+USUAL_LAW = "product"
+USUAL_EVOLUTION = "aging"
+
+
+class Files(Collection[str]):
+    """The names of a package's modules, read from its directories whenever they are asked for."""
+
+    def __init__(self, package: str) -> None:
+        self.package = f"{__package__}.{package}"
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(sorted(module.name for module in pkgutil.iter_modules(self._directories())))
+
+    def __bool__(self) -> bool:
+        return True  # without reading directories
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __contains__(self, name: object) -> bool:
+        return (
+            isinstance(name, str)
+            and name.isidentifier()
+            and any(Path(place, f"{name}.py").is_file() for place in self._directories())
+        )
+
+    def _directories(self) -> list[str]:
+        return list(importlib.import_module(self.package).__path__)
+
+
+LAWS = Files("laws")
+"""Laws of the friction coefficient, by name."""
+
+EVOLUTIONS = Files("evolutions")
+"""Evolution laws of the state variable, by name."""
+
+
+@cache
+def module(package: str, name: str) -> ModuleType:
+    """The module of one law."""
+    return importlib.import_module(f"{package}.{name}")
+
+
+def law_class(name: str) -> type[Friction]:
+    """The class of the friction law with a name."""
+    return module(LAWS.package, name).Law
+
+
+def plugins(parameters: Parameters | Friction) -> tuple[str, ...]:
+    """The dotted names of the modules that a run finds by name, and so imports by no statement.
+
+    A digest that follows import statements misses them: whoever digests the code of something that
+    is computed from parameters adds these modules to those it begins with, as in
+    ``digest("nucleation.simulation.run", *plugins(run.parameters))``.
+
+    Parameters
+    ----------
+    parameters : Parameters or Friction
+        All parameters of a run, or its friction alone.
+
+    Returns
+    -------
+    tuple of str
+        Module of the friction law, module of its state evolution.
+    """
+    friction: Any = getattr(parameters, "friction", parameters)
+    return f"{LAWS.package}.{friction.law}", f"{EVOLUTIONS.package}.{friction.evolution}"
+
+
+def law_declarations() -> dict[str, Quantity]:
+    """The declared parameters of all friction laws, by name; the usual law's first.
+
+    Those that not all laws have say in their description which do.
+
+    Raises
+    ------
+    TypeError
+        If two laws declare a parameter of the same name differently.
+    """
+    laws = sorted(LAWS, key=lambda name: (name != USUAL_LAW, name))
+    declared = {law: declarations(law_class(law)) for law in laws}
+    found: dict[str, Quantity] = {}
+    for law, entries in declared.items():
+        for key, entry in entries.items():
+            if found.setdefault(key, entry) != entry:
+                raise TypeError(f"the friction law {law} declares {key} unlike another law")
+    for key, entry in found.items():
+        having = [law for law in laws if key in declared[law]]
+        if len(having) < len(laws):
+            which = f"friction law{'s'[: len(having) > 1]} {', '.join(having)}"
+            found[key] = dataclasses.replace(entry, description=f"{entry.description} ({which})")
+    return found

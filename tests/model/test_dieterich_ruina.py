@@ -1,0 +1,79 @@
+"""The regularised Dieterich-Ruina law against its formula and the logarithmic law."""
+
+import math
+
+import numpy as np
+import pytest
+
+from nucleation.model.friction.constants import full_law
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.quantities import ParameterError
+
+V = 1e-5
+
+
+def law(**values):
+    return Friction(law="dieterich_ruina", **values)
+
+
+def test_coefficient_is_the_formula():
+    """With values of the SEAS benchmarks, typed in once more."""
+    friction = law(
+        reference_friction=0.6, reference_slip_rate=1e-6, log_rate_coefficient=0.010,
+        log_state_coefficient=0.015, characteristic_slip_distance=0.008,
+    )  # fmt: skip
+    v, phi = np.meshgrid(np.geomspace(1e-16, 10.0, 9), np.geomspace(1e-3, 1e9, 7))
+    exponent = (0.6 + 0.015 * np.log(1e-6 * phi / 0.008)) / 0.010
+    expected = 0.010 * np.arcsinh(v / 2e-6 * np.exp(exponent))
+    np.testing.assert_allclose(friction.coefficient(v, phi), expected, rtol=1e-12)
+
+
+def test_it_is_the_logarithmic_law_away_from_rest():
+    friction = law()
+    v, phi = np.meshgrid(np.geomspace(1e-12, 1.0, 9), np.geomspace(1e-6, 1e3, 7))
+    logarithmic = 0.41 + 0.0068 * np.log(v / V) + 0.0228 * np.log(V * phi / 5e-7)
+    far = logarithmic > 10 * 0.0068
+    assert far.sum() > 50
+    np.testing.assert_allclose(friction.coefficient(v, phi)[far], logarithmic[far], rtol=1e-8)
+
+
+def test_its_usual_values_are_the_main_texts():
+    usual = InterfaceState()
+    expected = (usual.friction, usual.a, usual.zeta)
+    assert law().expansion(V) == pytest.approx(expected, rel=1e-7)
+
+
+def test_expansion_where_the_state_is_regularised():
+    """``zeta = b (V/w)^2 - a``: below v0 the state of steady sliding no longer depends on V."""
+    friction = law(regularisation_slip_rate=V)
+    f, a, zeta = friction.expansion(V)
+    assert a == pytest.approx(0.0068) and zeta == pytest.approx(0.0228 / 2 - 0.0068)
+    assert f == pytest.approx(0.41 - 0.0228 / 2 * math.log(2.0))
+    again = full_law(friction, V, f, a, zeta)
+    assert again.log_state_coefficient == pytest.approx(0.0228)
+
+
+def test_constants_of_a_law_that_is_hardly_logarithmic():
+    """For f = 3 a the hyperbolic tangent counts: a is not the law's own coefficient."""
+    friction = full_law(law(), V, 0.03, 0.01, 0.002)
+    assert friction.expansion(V) == pytest.approx((0.03, 0.01, 0.002), rel=1e-9)
+    assert friction.log_rate_coefficient > 0.01 * 1.003
+
+
+@pytest.mark.parametrize("bad", [(0.4, 0.3, 0.1), (0.4, -0.01, 0.1), (0.4, 0.01, -0.02)])
+def test_no_law_is_said(bad):
+    with pytest.raises(ParameterError, match=r"no friction law has f = 0\.4"):
+        full_law(law(), V, *bad)
+
+
+def test_what_no_double_can_hold_is_refused():
+    with pytest.raises(ParameterError, match=r"log_rate_coefficient = 0.001 .* 0.00137 or more"):
+        law(log_rate_coefficient=1e-3)
+
+
+def test_extreme_states_stay_finite():
+    v = np.array([-1.0, -1e-300, 0.0, 1e-300, 1e-9, 1e3])
+    for log_state in (-300.0, 0.0, 300.0):
+        for values in law().coefficient_and_slopes(v, log_state):
+            assert np.isfinite(values).all()
