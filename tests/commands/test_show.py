@@ -12,6 +12,7 @@ from nucleation.analysis.lengths import gather
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
 from nucleation.model.friction.law import Friction
+from nucleation.model.friction.registry import plugins
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
@@ -35,7 +36,8 @@ def files(tmp_path_factory):
     """A real dataset of each kind that is quickly made, by name."""
     folder = tmp_path_factory.mktemp("datasets")
     whole = simulate(PARAMETERS)
-    values, digest = PARAMETERS.to_dict(), provenance.digest("nucleation.simulation.run")
+    values = PARAMETERS.to_dict()
+    digest = provenance.digest("nucleation.simulation.run", *plugins(PARAMETERS))
     short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
     row = {"id": "a-run", "study": "mine", "parameters": values, "theory_length": 0.238}
     curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))

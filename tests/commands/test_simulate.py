@@ -12,6 +12,7 @@ from nucleation.analysis.extraction import extract
 from nucleation.configuration.study_names import other_names, study_parameters
 from nucleation.datasets import netcdf, provenance
 from nucleation.model.friction.law import Friction
+from nucleation.model.friction.registry import plugins
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.quantities import declarations
 from nucleation.simulation.run import simulate
@@ -36,7 +37,9 @@ def test_record_is_that_of_the_library(nucleation, tmp_path):
     for name in expected.variables:
         np.testing.assert_array_equal(dataset[name], expected[name])
     assert parameters_of(output) == PARAMETERS
-    assert dataset.attrs["code_digest"] == provenance.digest("nucleation.simulation.run")
+    assert dataset.attrs["code_digest"] == provenance.digest(
+        "nucleation.simulation.run", *plugins(PARAMETERS)
+    )
     assert [path.name for path in output.parent.iterdir()] == ["run.nc"]  # no checkpoint is left
 
 

@@ -14,6 +14,7 @@ import xarray as xr
 from ..analysis.extraction import extract
 from ..commands import DONE, EXIT_CODES, text
 from ..datasets import netcdf, provenance
+from ..model.friction.registry import plugins
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
@@ -93,7 +94,8 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
         digest = attributes["code_digest"]
         verdict = ""
         if kind.name == SIMULATION:
-            same = digest == provenance.digest("nucleation.simulation.run")
+            own = plugins(Parameters.from_json(attributes["parameters"]))
+            same = digest == provenance.digest("nucleation.simulation.run", *own)
             verdict = ", that of this installation" if same else ", NOT that of this installation"
         lines.append(f"code: {digest[:12]}{verdict}")
     if "versions" in attributes:
@@ -109,7 +111,7 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
     theory = theory_length(parameters.geometry.height, parameters.material, interface)
     wall = f"{attributes['wall_seconds']:.4g} s of wall time"
     return [
-        *text.parameter_lines(parameters.to_dict()),
+        *text.parameter_lines(parameters),
         f"status: {attributes['status']}",
         f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, {wall}, "
         f"{attributes['peak_megabytes']:.0f} MB",

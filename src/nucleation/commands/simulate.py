@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import difflib
 import os
 import shlex
 import signal
@@ -18,21 +17,19 @@ import click
 from ..analysis.extraction import extract
 from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from ..configuration.advice import advise
-from ..configuration.load import configure, load
+from ..configuration.load import configure
 from ..configuration.settings import Limits, estimated_megabytes
-from ..configuration.strict_yaml import read_yaml
 from ..configuration.studies import Run, StudySettings
 from ..configuration.study_names import study_parameters
-from ..datasets import netcdf, provenance
+from ..datasets import provenance
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS
+from ..model.friction.registry import LAWS, plugins
 from ..model.parameters import Parameters, names
-from ..model.quantities import ParameterError, check, declarations
-from ..model.units import parse
+from ..model.quantities import ParameterError, declarations
+from .given import of_dataset, of_file, of_run
 from .text import event_lines, parameter_lines, with_unit
 
-KNOWN = 30  # names listed in a message
 STUDY = "command"  # name of the study of one run that a command line amounts to
 
 
@@ -101,11 +98,11 @@ def command(
     _check_output(output, force)
     base, given = None, {}
     if run_id:
-        base = _of_run(config, run_id)
+        base = of_run(config, run_id)
     elif file and file.suffix == ".nc":
-        base = _of_dataset(file)
+        base = of_dataset(file)
     elif file:
-        given = _of_file(file)
+        given = of_file(file)
     values = _merged(base, given | _given(options))
     study = _given({"length_over_critical": length_over_critical})
     run = planned(values, study, _given({"memory": memory}), str(output.absolute().parent))
@@ -113,7 +110,7 @@ def command(
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo(f"Warning: {text}", err=True)
     if dry_run:
-        click.echo("\n".join([*parameter_lines(run.parameters.to_dict()), *_plan_lines(run)]))
+        click.echo("\n".join([*parameter_lines(run.parameters), *_plan_lines(run)]))
         return DONE
     click.echo("\n".join(_plan_lines(run)))
     return _simulate(run, output, _command(output, run))
@@ -171,66 +168,6 @@ def _check_output(output: Path, force: bool) -> None:
         raise ParameterError(f"{output} can't be written: {folder} is no writable directory")
 
 
-def _of_run(config: str, run_id: str) -> Parameters:
-    """The parameters of a configuration's run."""
-    runs = {run.id: run for run in load(config).runs}
-    if run_id not in runs:
-        raise ParameterError(f"--run = {run_id!r} is not in {config}{_similar(run_id, runs)}")
-    return runs[run_id].parameters
-
-
-def _of_dataset(path: Path) -> Parameters:
-    """The parameters of an earlier simulation."""
-    attributes = netcdf.read(path, requires=["slip_rate", "driving_force"]).attrs
-    return Parameters.from_json(attributes["parameters"])
-
-
-def _of_file(path: Path) -> dict[str, Any]:
-    """What a YAML or JSON file gives, by names in studies."""
-    content = read_yaml(path)
-    if not isinstance(content, dict):
-        raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
-    given: dict[str, Any] = {}
-    for key, value in content.items():
-        grouped = isinstance(value, dict)  # as the configuration, or flat
-        for field, one in value.items() if grouped else [(key, value)]:
-            name = _name_in_file(path, f"{key}." if grouped else "", str(field), one)
-            if name in given:
-                raise ParameterError(f"{path}: {name} is given twice")
-            given[name] = _file_value(path, name, one)
-    return given
-
-
-def _name_in_file(path: Path, group: str, field: str, value: Any) -> str:
-    """The name in studies of a parameter that stands in a group of a file, or in none."""
-    known, declared = names(), study_parameters()
-    name = group + field if group + field in known else field
-    try:
-        return name if name in declared else known.short(known.full(name))
-    except ParameterError as error:
-        hint = "" if "ambiguous" in str(error) else _similar(field, declared)
-        text = str(error) if not hint else "unknown key"
-        raise ParameterError(f"{path}: {field} = {value!r} is not allowed: {text}{hint}") from None
-
-
-def _file_value(path: Path, key: str, value: Any) -> Any:
-    """One value of a file, in SI units."""
-    entry = study_parameters()[key]
-    try:
-        if isinstance(value, str):
-            return parse(key, value, entry)
-        check(key, value, entry)
-    except ParameterError as error:
-        raise ParameterError(f"{path}: {error}") from None
-    return value
-
-
-def _similar(name: str, known: Any) -> str:
-    close = difflib.get_close_matches(name, list(known), n=1)
-    listing = ", ".join([*list(known)[:KNOWN], *(["..."] if len(known) > KNOWN else [])])
-    return f"; did you mean {close[0]}?" if close else f"; known: {listing}"
-
-
 def _plan_lines(run: Run) -> list[str]:
     mesh = run.parameters.mesh
     element = run.parameters.geometry.length / mesh.n_x
@@ -255,7 +192,7 @@ def _simulate(run: Run, output: Path, command_line: str) -> int:
     from ..pipeline.progress import Progress
     from ..simulation.checkpoints import Stopped
 
-    digest = provenance.digest("nucleation.simulation.run")
+    digest = provenance.digest("nucleation.simulation.run", *plugins(run.parameters))
     checkpoint = checkpoint_of(run.parameters, output, digest)
     progress = Progress(run.parameters, sys.stderr)
     try:

@@ -6,20 +6,19 @@ import math
 import re
 from typing import Any
 
-from ..model.parameters import GROUPS, group_declarations
-from ..model.quantities import Quantity
+from ..model.parameters import GROUPS, Parameters
+from ..model.quantities import Quantity, declarations
 
 
-def parameter_lines(parameters: dict[str, dict[str, Any]]) -> list[str]:
+def parameter_lines(parameters: Parameters) -> list[str]:
     """The parameters of a simulation, one in a line, with unit and meaning."""
     lines = []
     for group in GROUPS:
+        own = getattr(parameters, group)
         lines.append(f"{group}:")
-        for name, entry in group_declarations(group).items():
-            if name not in parameters[group]:
-                continue  # of another friction law, or younger than the record
-            value = with_unit(parameters[group][name], entry)
-            meaning = re.split("[;:,(]", entry.description)[0]
+        for name, entry in declarations(type(own)).items():
+            value = with_unit(getattr(own, name), entry)
+            meaning = re.split("[;:,]", entry.description)[0]
             lines.append(f"  {name:<28} {value:<16} {meaning}")
     return lines
 
