@@ -1,5 +1,6 @@
 """The command as a whole: help, version, completion, exit codes."""
 
+import importlib
 import os
 import shlex
 import subprocess
@@ -85,3 +86,9 @@ def test_a_reader_that_leaves_is_no_failure_with_a_traceback(program):
         shell=True, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert ended.stdout.startswith("Usage") and ended.stderr == ""
+
+
+def test_listed_help_is_the_commands_own():
+    for name, text in commands.COMMANDS.items():
+        module = importlib.import_module(f"nucleation.commands.{name}")
+        assert module.command.help.splitlines()[0] == text

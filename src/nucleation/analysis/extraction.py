@@ -11,14 +11,17 @@ where the drop is complete.
 from __future__ import annotations
 
 import dataclasses
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
 from ..model.quantities import Checked, quantity
 from ..simulation.event import DROP, WINDOW, DropWatch
+
+if TYPE_CHECKING:  # the configuration has settings from here
+    import xarray as xr
 
 Array = NDArray[np.float64]
 

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 
 import click
+from click.shell_completion import CompletionItem
 
 from .. import __version__
 
@@ -35,7 +36,12 @@ Completion of commands and options in bash (zsh and fish in the same way):
   eval "$(_NUCLEATION_COMPLETE=bash_source nucleation)"
 """
 
-COMMANDS = ("length", "simulate", "show")
+COMMANDS = {
+    "length": "Critical nucleation length of a fault: the theory's, and others in use.",
+    "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
+    "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
+}
+"""The commands, each with the first sentence of its help: listing them imports none of them."""
 
 
 class LazyGroup(click.Group):
@@ -48,6 +54,14 @@ class LazyGroup(click.Group):
         if name not in COMMANDS:
             return None
         return importlib.import_module(f".{name}", __package__).command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        begun = [CompletionItem(k, help=v) for k, v in COMMANDS.items() if k.startswith(incomplete)]
+        return begun + click.Command.shell_complete(self, ctx, incomplete)
 
 
 @click.command(

@@ -9,7 +9,6 @@ from typing import Any
 from ..configuration.load import load
 from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
-from ..datasets import netcdf
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, check
 from ..model.units import parse
@@ -27,6 +26,8 @@ def of_run(config: str, run_id: str) -> Parameters:
 
 def of_dataset(path: Path) -> Parameters:
     """The parameters of an earlier simulation."""
+    from ..datasets import netcdf  # with the libraries of arrays on disk, which takes a second
+
     attributes = netcdf.read(path, requires=["slip_rate", "driving_force"]).attrs
     return Parameters.from_json(attributes["parameters"])
 

@@ -14,14 +14,12 @@ from typing import Any
 
 import click
 
-from ..analysis.extraction import extract
 from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from ..configuration.advice import advise
 from ..configuration.load import configure
 from ..configuration.settings import Limits, estimated_megabytes
 from ..configuration.studies import Run, StudySettings
 from ..configuration.study_names import study_parameters
-from ..datasets import provenance
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS, plugins
@@ -188,6 +186,7 @@ def _command(output: Path, run: Run) -> str:
 
 def _simulate(run: Run, output: Path, command_line: str) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
+    from ..datasets import provenance
     from ..pipeline.job import checkpoint_of, run_to_file
     from ..pipeline.progress import Progress
     from ..simulation.checkpoints import Stopped
@@ -228,6 +227,8 @@ def _listening(checkpoint: Any) -> Iterator[None]:
 
 
 def _result(dataset: Any, run: Run, output: Path) -> str:
+    from ..analysis.extraction import extract
+
     attributes, found = dataset.attrs, extract(dataset)
     lines = [
         f"{attributes['status']}",

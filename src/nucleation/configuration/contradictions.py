@@ -11,7 +11,7 @@ from ..model.linearised import InterfaceState
 from ..model.parameters import FIRST_STEP, Mesh, Parameters
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, theory_length
-from ..theory.curves import Curves
+from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from ..verification.crosscheck.plan import runs as crosscheck_runs
 from .settings import Limits, estimated_megabytes

@@ -23,7 +23,7 @@ from ..model.friction.registry import LAWS
 from ..model.linearised import InterfaceState, loaded
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, refusal
-from ..theory.curves import Curves
+from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import results_problems, run_problems, setting_problems
 from .settings import FigureSettings, Limits

@@ -13,7 +13,7 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading, Stepping
 from ..model.quantities import Quantity, declarations
-from ..theory.curves import Curves
+from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .settings import FigureSettings, Limits
 from .studies import RANGE, StudySettings

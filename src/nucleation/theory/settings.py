@@ -1,0 +1,35 @@
+"""Where the theory's curves are computed, as the configuration says."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from ..model.quantities import Checked, quantity
+
+
+def _spaced(low: float, high: float, number: int) -> tuple[float, ...]:
+    return tuple(float(f"{x:.6g}") for x in np.geomspace(low, high, number))
+
+
+@dataclasses.dataclass(frozen=True)
+class Curves(Checked):
+    """Where the theory's curves are computed."""
+
+    heights: tuple[float, ...] = quantity(
+        "block heights of the theory's curve in Figure 3", unit="m", low=0.0, high=1e6,
+        symbol="H", default=_spaced(0.003, 0.15, 80),
+    )  # fmt: skip
+    f_beta: tuple[float, ...] = quantity(
+        "friction coefficient times bimaterial contrast in Figure 2", low=-10.0, high=10.0,
+        symbol="f beta", default=tuple(float(f"{x:.6g}") for x in np.linspace(0.0, 0.5, 101)),
+    )  # fmt: skip
+    zeta_over_a: tuple[float, ...] = quantity(
+        "velocity weakening over direct effect in Figure 2", low=0.0, high=1e6,
+        symbol="zeta/a", default=(0.1, 0.3, 1.0, 3.0, 10.0),
+    )  # fmt: skip
+    slip_rates: tuple[float, ...] = quantity(
+        "slip rates of steady sliding in Figure S1", unit="m/s", low=0.0, high=1e4,
+        symbol="v", default=_spaced(1e-11, 1e1, 241),
+    )  # fmt: skip
