@@ -1,0 +1,149 @@
+"""Laws and limits of the theory that hold for any pair of bodies and any friction."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.theory.bounds import transfer_bounds
+from nucleation.theory.closed_forms import (
+    bimaterial_half_spaces,
+    bimaterial_length,
+    bimaterial_length_ratio,
+    bimaterial_modulus,
+    half_spaces_length,
+    thin_limit_length,
+)
+from nucleation.theory.critical import NoInstability, critical_length, critical_wavenumber
+from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.transfer import RIGID, Body, transfer_functions
+
+
+def powers(low, high):
+    """Numbers of any magnitude between powers of ten."""
+    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
+
+
+materials = st.builds(Material, powers(6, 12), st.floats(-0.9, 0.49))
+heights = powers(-3, 2) | st.just(math.inf)
+bodies = st.builds(Body, materials, heights, st.sampled_from(["velocity", "traction"]))
+wavenumbers = powers(-3, 5)
+interfaces = st.builds(
+    InterfaceState,
+    friction=st.floats(0.0, 0.9), a=powers(-3, -1), zeta=powers(-3, -1), slip_length=powers(-7, -2),
+    velocity=powers(-12, 0), normal_stress=powers(4, 9),
+)  # fmt: skip
+
+
+@given(wavenumbers, st.floats(0.0, 0.3), st.floats(0.0, 1.0), bodies, bodies | st.just(RIGID))
+def test_bounds_hold_anywhere_in_their_interval(k, width, place, upper, lower):
+    ends = np.array([k]), np.array([k * (1.0 + width)])
+    bounds = transfer_bounds(*ends, upper, lower)
+    g1, g2 = transfer_functions(k * (1.0 + place * width), upper, lower)
+    rounding = 1e-9 * bounds.g1_high[0]
+    assert bounds.g1_low[0] - rounding <= g1 <= bounds.g1_high[0] + rounding
+    assert abs(g2) <= bounds.g2_high[0] + rounding
+
+
+@given(wavenumbers, bodies, bodies | st.just(RIGID))
+def test_stiffness_is_positive_and_waves_may_run_either_way(k, upper, lower):
+    g1, g2 = transfer_functions(k, upper, lower)
+    back = transfer_functions(-k, upper, lower)
+    assert g1 > 0.0
+    assert back == (pytest.approx(-g1, rel=1e-15), pytest.approx(g2, rel=1e-15))
+
+
+@given(wavenumbers, bodies, bodies)
+def test_exchange_of_the_bodies_reverses_the_coupling(k, upper, lower):
+    g1, g2 = transfer_functions(k, upper, lower)
+    other = np.array(transfer_functions(k, lower, upper))
+    other *= lower.material.shear_modulus / upper.material.shear_modulus
+    assert other[0] == pytest.approx(float(g1), rel=1e-9)
+    assert other[1] == pytest.approx(float(-g2), rel=1e-6, abs=1e-9 * float(g1))
+
+
+@given(wavenumbers, bodies)
+def test_mirror_images_do_not_couple(k, body):
+    g1, g2 = transfer_functions(k, body, body)
+    assert abs(g2) <= 1e-12 * g1
+    rigid, _ = transfer_functions(k, body, RIGID)
+    assert g1 <= rigid  # a body that gives way as well makes the pair softer
+
+
+@given(powers(0, 5), st.floats(40.0, 1e6), materials, materials)
+def test_tall_layers_are_half_spaces(k, number, upper, lower):
+    tall = [Body(material, number / k, "traction") for material in (upper, lower)]
+    found = np.ravel(transfer_functions(k, *tall))
+    expected = np.ravel(bimaterial_half_spaces(k, upper, lower))
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * expected[0])
+
+
+@given(materials, materials, interfaces)
+def test_contrast_shortens_the_length(upper, lower, interface):
+    """Below pi M ell/(zeta sigma0) (Fig. 2), whichever body is on top."""
+    length = bimaterial_length(upper, lower, interface)
+    uncoupled = math.pi * bimaterial_modulus(upper, lower) * interface.slip_length
+    uncoupled /= interface.zeta * interface.normal_stress
+    assert length <= uncoupled * (1.0 + 1e-12)
+    assert length == pytest.approx(bimaterial_length(lower, upper, interface), rel=1e-6)
+
+
+@given(st.floats(0.0, 3.0), st.floats(0.0, 1.0), powers(-4, 3))
+def test_more_coupling_is_shorter(f_beta, more, zeta_over_a):
+    one, other = bimaterial_length_ratio([f_beta, f_beta + more], zeta_over_a)
+    assert 0.0 < other <= one * (1.0 + 1e-12) <= 1.0 + 1e-12
+    assert bimaterial_length_ratio(-f_beta, zeta_over_a) == one
+
+
+@settings(max_examples=25)
+@given(bodies, bodies | st.just(RIGID), interfaces, powers(-2, 2))
+def test_only_ratios_of_lengths_matter(upper, lower, interface, scale):
+    """With heights and slip length so many times as large, so is the critical length."""
+
+    def scaled(body):
+        return body if body is RIGID else Body(body.material, body.height * scale, body.far_side)
+
+    values = vars(interface) | {"slip_length": interface.slip_length * scale}
+    larger = InterfaceState(**values)
+    assume(larger.slip_length < 1e3)
+    try:
+        length = critical_wavenumber(upper, lower, interface).length
+    except NoInstability:
+        return  # a thin held layer is a stiff spring
+    found = critical_wavenumber(scaled(upper), scaled(lower), larger).length
+    assert found == pytest.approx(scale * length, rel=1e-6)
+
+
+@settings(max_examples=25)
+@given(bodies, bodies | st.just(RIGID), interfaces, st.floats(1.0, 10.0))
+def test_nothing_grows_beyond_the_critical_wavenumber(upper, lower, interface, further):
+    try:
+        point = critical_wavenumber(upper, lower, interface)
+    except NoInstability:
+        return
+    k = point.wavenumber * np.array([1.0, 1.0 + 1e-6, 1.0 + further])
+    fastest = growth_rates(k, upper, lower, interface).real.max(axis=0)
+    size = np.abs(growth_rates(k[0], upper, lower, interface)).max()
+    assert abs(fastest[0]) <= 1e-6 * size
+    assert (fastest[1:] <= 1e-9 * size).all()
+
+
+@settings(max_examples=25)
+@given(materials, interfaces, powers(-6, -4), powers(2, 4))
+def test_block_lies_between_its_limits(material, interface, thin, tall):
+    """From the root of Eq. (11), friction being small, to a half-space on a rigid base."""
+    plain = InterfaceState(**vars(interface) | {"friction": 0.0})
+    unit = half_spaces_length(material, plain)
+    heights = np.array([thin, 0.01, 1.0, tall]) * unit
+    assume((heights > 1e-9).all() and (heights < 1e9).all())
+    lengths = critical_length(heights, material, plain)
+    assert (np.diff(lengths) > 0.0).all()
+    assert lengths[0] == pytest.approx(
+        float(thin_limit_length(heights[0], material, plain)), rel=0.05
+    )
+    half = critical_wavenumber(Body(material), RIGID, plain).length
+    assert lengths[-1] == pytest.approx(half, rel=0.05)
