@@ -5,14 +5,17 @@ import inspect
 import math
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
+import pint
 import pytest
 import xarray as xr
 from numpy.testing import assert_allclose
 
 from nucleation import api
+from nucleation.model import plausible
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
@@ -88,6 +91,50 @@ def test_every_parameter_broadcasts(name):
     assert np.ptp(found, axis=0).max() > 0.0
 
 
+def test_far_side_of_each_body():
+    bodies = Body(Material(30e9, 0.25), 0.3, "free"), Body(Material(30e9, 0.25), 0.3, "clamped")
+    interface = InterfaceState(0.6, 0.01, 0.005, 5e-6, 1.0, 50e6)
+    expected = critical.critical_wavenumber(*bodies, interface)
+    fault = FAULT | {"height": 0.3, "far_side": "free"}
+    found = arrays.critical_length(**fault, friction=0.6, second_far_side="clamped")
+    assert found == pytest.approx(expected.length, rel=1e-13)
+    with pytest.raises(ParameterError, match="friction is missing"):
+        arrays.critical_length(**fault, second_far_side="roller")
+    free = arrays.critical_length(**fault, second_far_side="traction")  # another word for it
+    assert free == arrays.critical_length(**fault)
+    with pytest.raises(ParameterError, match="second_far_side = 'glued' is not allowed"):
+        arrays.critical_length(**fault, second_far_side="glued")
+
+
+def test_units_are_converted_and_results_carry_theirs():
+    """One fault in SI units, as DataArrays with CF units and as pint quantities."""
+    plain = arrays.critical_length(**FAULT)
+    row = xr.DataArray([50.0, 100.0], dims="s", attrs={"units": "MPa"})
+    named = arrays.critical_length(**FAULT | {"normal_stress": row})
+    assert_allclose(named, [plain, plain / 2])
+    assert named.attrs["units"] == "m"
+    quantity = pint.UnitRegistry().Quantity
+    given = {"normal_stress": quantity([50, 100], "MPa"), "slip_distance": quantity(5, "um")}
+    found = arrays.critical_length(**FAULT | given)
+    assert found.check("[length]")
+    assert_allclose(found.to("mm").magnitude, [1e3 * plain, 5e2 * plain])
+    mode = arrays.critical_mode(**FAULT | given, velocity=quantity(1, "mm/yr"))
+    assert mode.angular_frequency.check("1/[time]")
+    rates = arrays.spectrum(quantity(2.0, "1/mm"), **FAULT, velocity=1e-6)
+    assert_allclose(rates, arrays.spectrum(2e3, **FAULT, velocity=1e-6))
+    for wrong in (row.assign_attrs(units="mm"), quantity(3.0, "m")):
+        with pytest.raises(ParameterError, match=r"normal_stress .*unit of length, but Pa"):
+            arrays.critical_length(**FAULT | {"normal_stress": wrong})
+
+
+def test_implausible_magnitudes_are_warned_of():
+    with pytest.warns(plausible.ImplausibleWarning, match="shear_modulus = 30 Pa"):
+        arrays.critical_length(**FAULT | {"shear_modulus": 30.0})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        arrays.critical_length(**FAULT, height=[1e-3, np.inf])
+
+
 def test_stable_sliding_is_nan():
     found = arrays.critical_length(**ROCK, slip_distance=5e-6, a=[0.01, 0.02], b=0.015)
     assert np.isfinite(found).tolist() == [True, False]
@@ -161,7 +208,7 @@ def test_named_arrays_keep_their_names():
         ({"a": 1j}, "a = 1j is not allowed"),
         ({"zeta": 0.005}, "zeta or b"),
         ({"b": None}, "zeta or b"),
-        ({"far_side": "free"}, "far_side = 'free' is not allowed.*velocity, traction"),
+        ({"far_side": "glued"}, "far_side = 'glued' is not allowed.*velocity, traction"),
         ({"second_shear_modulus": 60e9}, "friction is missing"),
         ({"second_height": 60.0}, "friction is missing"),
         ({"viscosity": 1.0}, "unexpected keyword argument 'viscosity'"),

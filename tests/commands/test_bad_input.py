@@ -43,7 +43,7 @@ LENGTH = [
     (length(height="0"), ["height = 0.0 m", "(0, inf] m"]),
     (length(height="-inf"), ["height = -inf m", "(0, inf] m"]),
     (length(friction="-0.1"), ["friction = -0.1", "[0, 10)"]),
-    (length(far_side="free"), ["far_side = 'free'", "velocity, traction"]),
+    (length(far_side="glued"), ["far_side = 'glued'", "velocity, traction"]),
     (length(density="2700"), ["velocity is missing"]),
     (length(density="2.7 g", velocity="1"), ["density = '2.7 g'", "kg/m^3 is needed"]),
     (length(weakening_rate="5 MPa"), ["weakening_rate", "Pa/m is needed"]),

@@ -100,6 +100,26 @@ def test_far_side(nucleation):
     assert from_json(nucleation(*words))["theory"]["critical_length"] == pytest.approx(expected)
 
 
+def test_far_side_of_each_body(nucleation):
+    sides = ["--far-side", "free", "--second-far-side", "clamped", "--friction", "0.6"]
+    expected = arrays.critical_length(
+        **FAULT, height=0.3, friction=0.6, far_side="traction", second_far_side="clamped"
+    )
+    found = from_json(nucleation(*WORDS, "--height", "30cm", *sides, "--json"))
+    assert found["theory"]["critical_length"] == pytest.approx(expected)
+    assert found["parameters"]["second_far_side"] == "clamped"
+
+
+def test_a_held_layer_that_is_stable_does_not_blame_friction(nucleation):
+    ended = nucleation(*WORDS, "--height", "1mm", "--far-side", "clamped")
+    assert ended.code == 3 and "although friction" in ended.out and "clamped" in ended.out
+
+
+def test_doubtful_magnitudes_are_warned_of_once(nucleation):
+    ended = nucleation(*[word.replace("GPa", "Pa") for word in WORDS])
+    assert ended.code == 0 and ended.err.count("are the units right?") == 1
+
+
 def test_weakening_rate(nucleation):
     words = [*WORDS, "--weakening-rate", "100 GPa/m", "--json"]
     lengths = {x["key"]: x["length"] for x in from_json(nucleation(*words))["lengths"]}
@@ -114,7 +134,7 @@ def test_without_velocity_the_frequency_is_relative(nucleation):
 def test_stable_sliding(nucleation):
     words = ["0.02" if w == "0.010" else w for w in WORDS]
     ended = nucleation(*words)
-    assert ended.code == 3 and "sliding is stable at every wavelength" in ended.out
+    assert ended.code == 3 and "sliding is stable at every wavenumber" in ended.out
     assert "L_b" in ended.out and "0.2667 m" in ended.out  # others are still given
     found = nucleation(*words, "--json")
     assert found.code == 3 and from_json(found)["theory"]["critical_length"] is None

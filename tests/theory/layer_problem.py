@@ -45,7 +45,10 @@ def compliance(k, height, mu, nu, far_side):
     """Real 2x2 matrix with ``(U, W) = C (T, N)`` at y = 0; height < 0 for a lower body."""
     k, height, mu, nu = (Decimal(float(x)) for x in (k, height, mu, nu))
     near, far = mode_rows(k, Decimal(0), mu, nu), mode_rows(k, height, mu, nu)
-    conditions = {"velocity": ("u", "n"), "traction": ("t", "n")}[far_side]
+    conditions = {
+        "velocity": ("u", "n"), "traction": ("t", "n"), "free": ("t", "n"),
+        "clamped": ("u", "w"), "roller": ("w", "t"),
+    }[far_side]
     matrix = [near["t"], near["n"], far[conditions[0]], far[conditions[1]]]
     columns = []
     for load in ((1, 0), (0, 1)):

@@ -1,4 +1,5 @@
 import dataclasses
+import time
 
 import numpy as np
 import pytest
@@ -9,12 +10,14 @@ from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory.critical import (
     NoInstability,
-    _certainly_stable,
     critical_length,
     critical_wavenumber,
-    marginal_stiffness,
+    systems_of,
+    theory_lengths,
 )
-from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.crossings import certainly_stable, largest_crossings, marginal_stiffness
+from nucleation.theory.spectrum import growth_rates, system
+from nucleation.theory.stiffness import FAR_SIDES
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -92,7 +95,7 @@ def random_system(rng):
     def body():
         height = rng.choice([np.inf, 10 ** rng.uniform(-3, 1)])
         material = Material(10 ** rng.uniform(9, 10.5), rng.uniform(-0.3, 0.49))
-        return Body(material, float(height), str(rng.choice(["velocity", "traction"])))
+        return Body(material, float(height), str(rng.choice(list(FAR_SIDES))))
 
     pair = [body(), body()]
     if (rigid := rng.integers(4)) < 2:
@@ -125,6 +128,56 @@ def test_largest_crossing_of_random_systems():
     assert max(counts)[0] > 2
 
 
+def test_many_systems_at_once_are_each_alone():
+    """To the last bit, in any company and order; none computed twice; NaN where stable."""
+    rng = np.random.default_rng(5)
+    cases = [random_system(rng) for _ in range(150)]
+    lengths = theory_lengths([*cases, *cases[:20]])
+    assert np.array_equal(lengths[150:], lengths[:20], equal_nan=True)
+    for case, length in zip(cases, lengths, strict=False):
+        if np.isnan(length):
+            with pytest.raises(NoInstability):
+                critical_wavenumber(*case)
+        else:
+            assert critical_wavenumber(*case).length == length
+    assert 20 < np.isnan(lengths).sum() < 100
+    assert theory_lengths([]).shape == (0,)
+
+
+def test_twenty_thousand_layers_take_seconds():
+    heights = np.geomspace(1e-4, 1.0, 20_000)
+    one = systems_of([(Body(MATERIAL, 1.0, "traction"), RIGID, MAIN_TEXT)])
+    many = one.at(np.zeros(heights.size, dtype=int))
+    many = many._replace(pair=many.pair._replace(upper=many.pair.upper._replace(height=heights)))
+    start = time.process_time()
+    k = largest_crossings(many)
+    assert time.process_time() - start < 5.0
+    some = slice(None, None, 2500)
+    expected = critical_length(heights[some], MATERIAL, MAIN_TEXT)
+    np.testing.assert_array_equal(2 * np.pi / k[some], expected)
+
+
+def test_numbers_of_pairs_with_a_far_side_each():
+    """Identical blocks of 20 mm, the upper one free (m): the lower one glued, or free as well."""
+    block = Body(MATERIAL, 0.02, "free")
+    lengths = theory_lengths(
+        (block, Body(MATERIAL, 0.02, kind), MAIN_TEXT) for kind in ("clamped", "free", "roller")
+    )
+    np.testing.assert_allclose(lengths[:2], [0.400, 0.166], atol=5e-4)
+    assert lengths[1] < lengths[2] < lengths[0]
+
+
+@pytest.mark.parametrize("kind", ["clamped", "roller", "velocity"])
+def test_a_thin_stiff_layer_below_is_a_rigid_base_or_a_free_body(kind):
+    """A glued layer of no height is the base itself; high layers forget their far side."""
+    block = Body(MATERIAL, 0.02, "traction")
+    rigid = critical_wavenumber(block, RIGID, MAIN_TEXT).length
+    glued = critical_wavenumber(block, Body(MATERIAL, 1e-7, "clamped"), MAIN_TEXT).length
+    assert glued == pytest.approx(rigid, rel=1e-4)
+    high = critical_wavenumber(block, Body(MATERIAL, 10.0, kind), MAIN_TEXT).length
+    assert high == pytest.approx(critical_wavenumber(block, Body(MATERIAL), MAIN_TEXT).length)
+
+
 @pytest.mark.parametrize("zeta", [0.016, 1e-5, -5e-6, -4e-4])
 @pytest.mark.parametrize("rho", [0.03, -0.2, 0.9])
 def test_marginal_stiffness_solves_its_quadratic(zeta, rho):
@@ -153,7 +206,8 @@ def test_certainly_stable_intervals_are_stable():
             k_low = 10 ** rng.uniform(-4, 5, 60)
             inside = k_low * np.exp(width * np.linspace(0, 1, 15))[:, None]
             growth = growth_rates(inside, upper, lower, interface)[0].real.max(axis=0)
-            stable = _certainly_stable(k_low, k_low * np.exp(width), upper, lower, interface)
+            one = system(upper, lower, interface)
+            stable = certainly_stable(one, k_low, k_low * np.exp(width))
             assert not np.any(growth[stable] > 0.0)
             certified[width] += stable.sum()
             weaker = dataclasses.replace(
@@ -257,11 +311,20 @@ def test_held_block_is_a_spring_for_long_waves():
         (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.01}),
         (Body(height=0.01, far_side="traction"), RIGID, {"zeta": -0.003}),
         (Body(height=0.01), RIGID, {}),
+        (Body(height=0.01, far_side="clamped"), RIGID, {}),
     ],
 )
 def test_no_instability(upper, lower, changes):
     with pytest.raises(NoInstability, match="zeta"):
         critical_wavenumber(upper, lower, dataclasses.replace(MAIN_TEXT, **changes))
+
+
+def test_the_reason_of_stability_blames_what_is_to_blame():
+    with pytest.raises(NoInstability, match=r"although friction weakens: .*velocity.*H = 0\.01 m"):
+        critical_wavenumber(Body(height=0.01), RIGID, MAIN_TEXT)
+    strengthening = dataclasses.replace(MAIN_TEXT, zeta=-0.003)
+    with pytest.raises(NoInstability, match="does not weaken"):
+        critical_wavenumber(Body(), Body(), strengthening)
 
 
 def test_bad_arguments():

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import textwrap
+import warnings
 from typing import Any
 
 import click
@@ -11,9 +13,10 @@ import numpy as np
 
 from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.material import Material
+from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError, declarations
 from ..model.units import bounds, parse
-from ..theory.arrays import CriticalMode, critical_mode
+from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.literature_table import LENGTHS, WEAKENING_RATE, Length, lengths_of
 
@@ -36,6 +39,7 @@ def _option(*names: str, key: str, **settings: Any) -> Any:
 @_option("--velocity", key="velocity", note="for frequencies alone")
 @_option("--height", key="height", default="inf", show_default=True)
 @_option("--far-side", key="far_side", default="traction", show_default=True)
+@_option("--second-far-side", key="second_far_side", note="of the second body; the same by default")
 @click.option(
     "--second-body", default="same", show_default=True, metavar="BODY",
     help="same; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3",
@@ -68,10 +72,14 @@ def command(
         given |= {k: given[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in given}
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
-    fault = Fault(**given)
-    mode = critical_mode(
-        **given if "velocity" in given else {**given, "velocity": _unit_rate(fault)}
-    )
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always", ImplausibleWarning)
+        fault = Fault(**given)
+        mode = critical_mode(
+            **given if "velocity" in given else {**given, "velocity": _unit_rate(fault)}
+        )
+    for text in dict.fromkeys(str(doubt.message) for doubt in doubts):
+        click.echo(f"warning: {text}", err=True)
     lengths = lengths_of(fault, weakening_rate)
     print_as = _as_json if as_json else _as_text
     click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))  # type: ignore[misc]
@@ -147,8 +155,8 @@ def _theory_lines(fault: Fault, mode: CriticalMode, density: float | None) -> li
     """Length, wavenumber and frequency of the critical mode."""
     head = "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):"
     if not np.isfinite(mode.length):
-        reason = f"zeta = {float(fault.zeta):.4g}, a = {float(fault.a):.4g}"
-        return [head, f"  sliding is stable at every wavelength ({reason}): no critical length"]
+        reason = textwrap.wrap(reason_of_stability(fault), 90)
+        return [head, "  no critical length:", *(f"  {line}" for line in reason)]
     frequency = float(mode.angular_frequency)
     lines = [
         head,

@@ -5,13 +5,16 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 
-from ..model.quantities import ParameterError
-from .critical import NoInstability, critical_wavenumber
-from .fault import Fault, Values
-from .spectrum import growth_rates
-from .transfer import transfer_functions as _transfer_functions
+from ..model.quantities import ParameterError, Quantity
+from ..model.units import magnitude
+from .critical import stability_reason
+from .crossings import largest_crossings, marginal_frequencies
+from .fault import Fault, Values, labelled
+from .spectrum import Systems
+from .transfer import as_wavenumber
+
+WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
 
 
 class CriticalMode(NamedTuple):
@@ -19,7 +22,7 @@ class CriticalMode(NamedTuple):
 
     Attributes
     ----------
-    length : ndarray or DataArray
+    length : ndarray, DataArray or pint quantity
         Critical nucleation length ``L_c = 2 pi/k_c`` (m).
     wavenumber : ndarray or DataArray
         k_c (1/m).
@@ -44,7 +47,8 @@ def critical_length(**fault: Values) -> Any:
     Returns
     -------
     ndarray or DataArray
-        ``L_c = 2 pi/k_c`` (m), broadcast shape; NaN where homogeneous sliding is stable.
+        ``L_c = 2 pi/k_c`` (m), broadcast shape; NaN where homogeneous sliding is stable. A
+        DataArray if there is one among the parameters, else a pint quantity if there is one.
 
     Raises
     ------
@@ -104,13 +108,15 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
         If a wavenumber is zero or not finite.
     """
 
-    def rates(upper: Any, lower: Any, interface: Any, k: Any) -> Any:
-        return growth_rates(k, upper, lower, interface)
+    def rates(systems: Systems, k: Any) -> Any:
+        return systems.growth_rates(as_wavenumber(k))
 
-    found = _with_velocity(_fault(fault)).evaluate(rates, wavenumber, rows=2, dtype=complex)
-    if isinstance(found, xr.DataArray):
-        return _named(found.rename(row="root"), "growth_rate", "1/s", "growth rate of the mode")
-    return found
+    own = _with_velocity(_fault(fault))
+    k = magnitude("wavenumber", wavenumber, WAVENUMBER)
+    found = own.evaluate(rates, k, rows=2, dtype=complex)
+    if labelled(found):
+        found = found.rename(row="root")
+    return _named(found, "growth_rate", "1/s", "growth rate of the mode", own)
 
 
 def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
@@ -137,32 +143,55 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     ValueError
         If a wavenumber is zero or not finite.
     """
-    neutral = {"normal_stress": 1.0, "a": 1.0, "slip_distance": 1.0, "friction": 0.0}
+    neutral = {"normal_stress": 1e6, "a": 0.01, "slip_distance": 1e-6, "friction": 0.0}
     if fault.keys().isdisjoint({"zeta", "b"}):
-        neutral["zeta"] = 1.0
+        neutral["zeta"] = 0.01
 
-    def functions(upper: Any, lower: Any, _: Any, k: Any) -> Any:
-        return _transfer_functions(k, upper, lower)
+    def functions(systems: Systems, k: Any) -> Any:
+        return systems.pair.transfer_functions(as_wavenumber(k))
 
-    g1, g2 = _fault(neutral | fault).evaluate(functions, wavenumber, rows=2)
-    return _named(g1, "G1", "1", "shear response"), _named(g2, "G2", "1", "normal response")
+    own = _fault(neutral | fault)
+    k = magnitude("wavenumber", wavenumber, WAVENUMBER)
+    shear, normal = own.evaluate(functions, k, rows=2)
+    return (
+        _named(shear, "G1", "1", "shear response", own),
+        _named(normal, "G2", "1", "normal response", own),
+    )
 
 
 def _critical(fault: Fault) -> CriticalMode:
-    def point(upper: Any, lower: Any, interface: Any) -> Any:
-        try:
-            mode = critical_wavenumber(upper, lower, interface)
-        except NoInstability:
-            return np.full(3, np.nan)
-        return mode.length, mode.wavenumber, mode.angular_frequency
+    def points(systems: Systems) -> Any:
+        k = largest_crossings(systems)
+        return 2.0 * np.pi / k, k, marginal_frequencies(systems, k)
 
-    length, wavenumber, frequency = fault.evaluate(point, rows=3)
-    frequency = xr.where(fault.bodies_differ, frequency, abs(frequency))
+    length, wavenumber, frequency = fault.evaluate(points, rows=3)
+    mirrored = np.logical_not(fault.bodies_differ)
+    frequency = frequency + (abs(frequency) - frequency) * mirrored  # keeps the dimensions' names
     return CriticalMode(
-        _named(length, "critical_length", "m", "critical nucleation length"),
-        _named(wavenumber, "critical_wavenumber", "1/m", "critical wavenumber"),
-        _named(frequency, "critical_frequency", "rad/s", "angular frequency of the critical mode"),
+        _named(length, "critical_length", "m", "critical nucleation length", fault),
+        _named(wavenumber, "critical_wavenumber", "1/m", "critical wavenumber", fault),
+        _named(frequency, "critical_frequency", "rad/s", "frequency of the critical mode", fault),
     )
+
+
+def reason_of_stability(fault: Fault) -> str:
+    """Why homogeneous sliding of one fault is stable at every wavelength, where it is.
+
+    Raises
+    ------
+    ParameterError
+        If the fault's parameters are not single numbers.
+    """
+    reasons: list[str] = []
+
+    def note(systems: Systems) -> Any:
+        reasons.extend(stability_reason(systems.at(np.array([i]))) for i in range(systems.a.size))
+        return systems.a
+
+    fault.evaluate(note)
+    if len(reasons) != 1:
+        raise ParameterError("the reason of stability is that of one fault, not of arrays")
+    return reasons[0]
 
 
 def _fault(parameters: dict[str, Any]) -> Fault:
@@ -178,8 +207,8 @@ def _with_velocity(fault: Fault) -> Fault:
     return fault
 
 
-def _named(values: Any, name: str, units: str, long_name: str) -> Any:
-    """A DataArray with name and unit; an array as it is."""
-    if not isinstance(values, xr.DataArray):
-        return values
-    return values.rename(name).assign_attrs(units=units, long_name=long_name)
+def _named(values: Any, name: str, units: str, long_name: str, fault: Fault) -> Any:
+    """A DataArray with name and unit; a pint quantity if the fault has one; else the array."""
+    if labelled(values):
+        return values.rename(name).assign_attrs(units=units, long_name=long_name)
+    return values if fault.registry is None else fault.registry.Quantity(values, units)

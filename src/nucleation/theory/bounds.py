@@ -1,9 +1,11 @@
 """Rigorous bounds of the transfer functions over intervals of the wavenumber.
 
-Every entry of a body's stiffness is ``N(q)/D(q)`` with N and D positive and increasing in
-``q = |k| H`` (:mod:`.transfer`), hence ``N(q1)/D(q2) <= N/D <= N(q2)/D(q1)`` for ``q1 <= q <= q2``.
-The stiffness of a pair combines these by sums, products and one quotient of positive quantities,
-whose extremes come from the ends in the same way. The bounds close linearly with the interval.
+Every entry of a layer's stiffness is ``N(q)/D(q)`` with N and D sums of positive functions of
+``q = |k| H`` (:mod:`.stiffness`), each of which is monotonic, as it is or times ``exp(-2q)``; so
+its extremes are at the ends of the interval, and ``min N/max D <= N/D <= max N/min D``. Only
+``A_xy`` may have a difference of two such N. The stiffness of a pair combines these by sums,
+products and one quotient, by the arithmetic of intervals. The bounds close linearly with the
+interval; where layers are thick they are close whatever the interval.
 """
 
 from __future__ import annotations
@@ -12,7 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .transfer import Array, Body, RigidBody, Stiffness
+from .stiffness import Array, Layers, Pair, Stiffness
+from .waves import Waves
 
 
 class TransferBounds(NamedTuple):
@@ -23,39 +26,71 @@ class TransferBounds(NamedTuple):
     g2_high: Array
 
 
-def stiffness_bounds(k_low: Array, k_high: Array, body: Body) -> tuple[Stiffness, Stiffness]:
-    """Lower and upper bounds of a body's dimensionless stiffness over ``[k_low, k_high]``."""
-    q_low, q_high = body.layer_number(k_low), body.layer_number(k_high)
-    *at_low, least = body.stiffness_terms(q_low)
-    *at_high, greatest = body.stiffness_terms(q_high)
-    rescale = np.exp(2.0 * (q_high - q_low))  # the terms carry exp(-2q)
-    low = Stiffness(*(numerator / greatest / rescale for numerator in at_low))
-    high = Stiffness(*(numerator / least * rescale for numerator in at_high))
-    return low, high
+class Extremes:
+    """The least or the greatest values of :class:`~.waves.Waves` over intervals of q.
+
+    Where ``q >= 1`` in all of the interval they are those of the functions times ``exp(-2q)``,
+    elsewhere those without the factor, over ``exp(2 q)`` at the upper end.
+    """
+
+    def __init__(self, low: Waves, high: Waves, greatest: bool) -> None:
+        self.low, self.high, self.greatest = low, high, greatest
+        self.thick = low.q >= 1.0
+        self.grow = np.exp(2.0 * (high.q - low.q))
+
+    def __getattr__(self, name: str) -> Array:
+        low, high = getattr(self.low, name), getattr(self.high, name)
+        if self.greatest:
+            return np.where(self.thick, np.maximum(low, high), high)
+        return np.where(self.thick, np.minimum(low, high), low / self.grow)
 
 
-def transfer_bounds(
-    k_low: Array, k_high: Array, upper: Body | RigidBody, lower: Body | RigidBody
-) -> TransferBounds:
-    """Bounds of the transfer functions over intervals ``0 < k_low <= k <= k_high`` (1/m)."""
-    if isinstance(upper, RigidBody) or isinstance(lower, RigidBody):
-        body = lower if isinstance(upper, RigidBody) else upper
-        low, high = stiffness_bounds(k_low, k_high, body)
-        return TransferBounds(low.xx, high.xx, high.xy)
-    r = lower.material.shear_modulus / upper.material.shear_modulus
-    (a, a_high), (b, b_high) = (stiffness_bounds(k_low, k_high, x) for x in (upper, lower))
+def stiffness_bounds(
+    k_low: Array, k_high: Array, layers: Layers, whole: bool = True
+) -> tuple[Stiffness, Stiffness]:
+    """Lower and upper bounds of the dimensionless stiffness of layers over ``[k_low, k_high]``."""
+    at_low, at_high = (Waves(layers.layer_number(k)) for k in (k_low, k_high))
+    least = layers.terms(Extremes(at_low, at_high, greatest=False), whole)
+    greatest = layers.terms(Extremes(at_low, at_high, greatest=True), whole)
+    below, above = least.denominator, greatest.denominator
+    low = [x / above if x is not None else None for x in (least.xx, least.yy, least.det)]
+    high = [x / below if x is not None else None for x in (greatest.xx, greatest.yy, greatest.det)]
+    xy_low, xy_high = least.xy - greatest.xy_less, greatest.xy - least.xy_less
+    xy_low = xy_low / np.where(xy_low > 0.0, above, below)
+    xy_high = xy_high / np.where(xy_high > 0.0, below, above)
+    return Stiffness(low[0], xy_low, *low[1:]), Stiffness(high[0], xy_high, *high[1:])
 
-    def joint(a: Stiffness, b: Stiffness) -> Array:
-        return a.det + r * (a.xx * b.yy + a.yy * b.xx + 2.0 * a.xy * b.xy) + r**2 * b.det
 
-    def diagonal(a: Stiffness, b: Stiffness) -> Array:
-        return r**2 * b.det * a.xx + r * a.det * b.xx
-
-    coupling = np.maximum(
-        r**2 * b_high.det * a_high.xy - r * a.det * b.xy,
-        r * a_high.det * b_high.xy - r**2 * b.det * a.xy,
+def _product(low: Array, high: Array, x_low: Array, x_high: Array) -> tuple[Array, Array]:
+    """The extremes of a positive quantity times one of either sign."""
+    return (
+        np.where(x_low > 0.0, low, high) * x_low,
+        np.where(x_high > 0.0, high, low) * x_high,
     )
-    least, greatest = joint(a, b), joint(a_high, b_high)
+
+
+def transfer_bounds(k_low: Array, k_high: Array, pair: Pair) -> TransferBounds:
+    """Bounds of the transfer functions over intervals ``0 < k_low <= k <= k_high`` (1/m)."""
+    if pair.upper is None or pair.lower is None:
+        low, high = stiffness_bounds(k_low, k_high, pair.upper or pair.lower, whole=False)
+        return TransferBounds(low.xx, high.xx, np.maximum(np.abs(low.xy), np.abs(high.xy)))
+    r = pair.ratio
+    (a, a_high), (b, b_high) = (stiffness_bounds(k_low, k_high, x) for x in pair)
+    corners = [x * y for x in (a.xy, a_high.xy) for y in (b.xy, b_high.xy)]
+    cross, cross_high = np.minimum.reduce(corners), np.maximum.reduce(corners)
+    dets = a.det + r**2 * b.det
+    # A and B are positive definite, hence A_xx B_yy + A_yy B_xx + 2 A_xy B_xy >= 0
+    least = dets + r * np.maximum(a.xx * b.yy + a.yy * b.xx + 2.0 * cross, 0.0)
+    greatest = (
+        a_high.det
+        + r * (a_high.xx * b_high.yy + a_high.yy * b_high.xx + 2.0 * cross_high)
+        + r**2 * b_high.det
+    )
+    from_a = _product(r**2 * b.det, r**2 * b_high.det, a.xy, a_high.xy)
+    from_b = _product(r * a.det, r * a_high.det, b.xy, b_high.xy)
+    coupling = np.maximum(from_a[1] - from_b[0], from_b[1] - from_a[0])
     return TransferBounds(
-        diagonal(a, b) / greatest, diagonal(a_high, b_high) / least, coupling / least
+        (r**2 * b.det * a.xx + r * a.det * b.xx) / greatest,
+        (r**2 * b_high.det * a_high.xx + r * a_high.det * b_high.xx) / least,
+        coupling / least,
     )

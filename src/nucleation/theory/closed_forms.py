@@ -9,8 +9,10 @@ from numpy.typing import ArrayLike
 
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from .critical import NoInstability, marginal_stiffness
-from .transfer import RIGID, Array, Body, as_wavenumber, transfer_functions
+from .critical import NoInstability
+from .crossings import marginal_stiffness
+from .stiffness import Array
+from .transfer import RIGID, Body, as_wavenumber, transfer_functions
 
 
 def identical_half_spaces(wavenumber: ArrayLike, poisson_ratio: float) -> tuple[Array, Array]:
@@ -93,7 +95,7 @@ def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
     Notes
     -----
     The paper's bracket subtracts nearly equal numbers for small ``zeta/a``. Times its conjugate
-    it is ``zeta / h_plus`` with h_plus of :func:`.critical.marginal_stiffness`, which adds
+    it is ``zeta / h_plus`` with h_plus of :func:`.crossings.marginal_stiffness`, which adds
     positive numbers. Equally ``1 - |f beta|/w`` with ``w = |omega| ell / V`` the positive root of
     ``a w^2 - |f beta| (a + zeta) w - zeta = 0``.
     """

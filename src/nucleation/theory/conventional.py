@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from .transfer import Array
+from .stiffness import Array
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 """Range of the prefactor eta of Eq. (3) in the literature (Dieterich, 1992, Table 1)."""

@@ -1,28 +1,35 @@
 """One or many faults: two elastic bodies and linearised friction, as arrays that broadcast.
 
-The array form of the linear theory's input. Every parameter may be a number, an array or an
-:class:`xarray.DataArray`; they broadcast together as NumPy's or, by name, as xarray's do.
+The array form of the linear theory's input. Every parameter may be a number, an array, a pint
+quantity or an :class:`xarray.DataArray`; they broadcast together as NumPy's or, by name, as
+xarray's do. What carries a unit is converted to SI units.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
+import sys
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
+from ..model.plausible import warn_of_implausible
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
-from .transfer import RIGID, Body, RigidBody
+from ..model.units import is_quantity, magnitude
+from .spectrum import Systems
+from .stiffness import FAR_SIDES, Array, Layers, Pair
+from .transfer import Body
 
-Array = NDArray[np.float64]
-Values = ArrayLike | xr.DataArray
+if TYPE_CHECKING:
+    import xarray as xr
+
+Values: TypeAlias = "ArrayLike | xr.DataArray"
 
 
 def _declared() -> dict[str, Quantity]:
@@ -48,6 +55,7 @@ def _declared() -> dict[str, Quantity]:
         "second_poisson_ratio": material["poisson_ratio"],
         "second_height": body["height"],
         "far_side": body["far_side"],
+        "second_far_side": body["far_side"],
     }
 
 
@@ -87,14 +95,26 @@ class Fault:
         mu (Pa) of the second body; that of the first one by default, inf for a rigid body.
     second_poisson_ratio, second_height : array_like, optional
         The same for nu and the height (m).
-    far_side : {"traction", "velocity"}
-        What is imposed on the bodies' sides away from the interface: both stresses (Eq. 10), or
-        u_x and sigma_yy.
+    far_side : {"traction", "free", "velocity", "clamped", "roller"}
+        What is imposed on the first body's side away from the interface: both stresses (Eq. 10;
+        two words for it), u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy.
+    second_far_side : str, optional
+        The same of the second body; that of the first one by default.
+
+    Attributes
+    ----------
+    registry : pint.UnitRegistry or None
+        That of a parameter that was a pint quantity; the fields themselves are in SI units.
+
+    Warns
+    -----
+    ImplausibleWarning
+        If a magnitude is one that no known fault has, such as a shear modulus of 30 Pa.
 
     Raises
     ------
     ParameterError
-        If a parameter is outside its range, missing or given twice.
+        If a parameter is outside its range, missing, given twice or of another unit's dimension.
     """
 
     shear_modulus: Values
@@ -111,14 +131,22 @@ class Fault:
     second_poisson_ratio: Values | None = None
     second_height: Values | None = None
     far_side: str = "traction"
+    second_far_side: str | None = None
+    registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        for name in self._given():
+            if is_quantity(getattr(self, name)):
+                object.__setattr__(self, "registry", getattr(self, name)._REGISTRY)
         if (self.zeta is None) == (self.b is None):
             raise ParameterError("zeta or b = a + zeta is needed, one of them and not both")
         for name in self._given():
             object.__setattr__(self, name, checked(name, getattr(self, name), QUANTITIES[name]))
-        if self.far_side not in QUANTITIES["far_side"].choices:
-            raise ParameterError(refusal("far_side", self.far_side, QUANTITIES["far_side"]))
+        if self.second_far_side is None:
+            object.__setattr__(self, "second_far_side", self.far_side)
+        for name in ("far_side", "second_far_side"):
+            if getattr(self, name) not in FAR_SIDES:
+                raise ParameterError(refusal(name, getattr(self, name), QUANTITIES[name]))
         if self.zeta is None:
             object.__setattr__(self, "zeta", self.b - self.a)
         else:
@@ -127,8 +155,7 @@ class Fault:
             if getattr(self, f"second_{name}") is None:
                 object.__setattr__(self, f"second_{name}", getattr(self, name))
         arrays = [getattr(self, name) for name in self._given()]
-        named = any(isinstance(x, xr.DataArray) for x in arrays)
-        if named and any(x.ndim and not isinstance(x, xr.DataArray) for x in arrays):
+        if any(map(labelled, arrays)) and any(x.ndim and not labelled(x) for x in arrays):
             raise ParameterError("arrays with and without named dimensions can't be combined")
         if self.friction is None and np.any(self.bodies_differ):
             raise ParameterError(
@@ -138,7 +165,8 @@ class Fault:
 
     def _given(self) -> list[str]:
         names = (field.name for field in dataclasses.fields(self))
-        return [n for n in names if n != "far_side" and getattr(self, n) is not None]
+        others = ("far_side", "second_far_side", "registry")
+        return [n for n in names if n not in others and getattr(self, n) is not None]
 
     @property
     def bodies_differ(self) -> Any:
@@ -147,6 +175,7 @@ class Fault:
             (self.second_shear_modulus != self.shear_modulus)
             | (self.second_poisson_ratio != self.poisson_ratio)
             | (self.second_height != self.height)
+            | (FAR_SIDES[self.far_side] is not FAR_SIDES[self.second_far_side])  # type: ignore[index]
         )
 
     @property
@@ -157,13 +186,13 @@ class Fault:
     def evaluate(
         self, function: Callable[..., Any], *arrays: Values, rows: int = 1, dtype: type = float
     ) -> Any:
-        """Values of a function of one fault at every point of the broadcast parameters.
+        """Values of a function of many faults at every point of the broadcast parameters.
 
         Parameters
         ----------
         function : callable
-            Takes the upper body, the lower body, the interface, and one-dimensional arrays of
-            the points of that fault; returns `rows` arrays of the same length.
+            Takes :class:`~nucleation.theory.spectrum.Systems` of n faults and n entries of each
+            further argument; returns `rows` arrays of length n.
         arrays : array_like
             Further arguments, which broadcast with the parameters.
         rows : int
@@ -176,52 +205,57 @@ class Fault:
         ndarray or DataArray
             Shape ``(rows,) + broadcast shape``; the first dimension is called ``row``.
         """
-        names = (
-            "shear_modulus", "poisson_ratio", "height", "friction", "a", "zeta", "slip_distance",
-            "velocity", "normal_stress", "second_shear_modulus", "second_poisson_ratio",
-            "second_height",
-        )  # fmt: skip
         neutral = {"friction": 0.0, "velocity": 1.0}  # where not given they do not matter
-        values = [getattr(self, n) for n in names]
-        values = [neutral[n] if v is None else v for n, v in zip(names, values, strict=True)]
+        values = [getattr(self, n) for n in _OF_SYSTEMS]
+        values = [neutral[n] if v is None else v for n, v in zip(_OF_SYSTEMS, values, strict=True)]
 
         def core(*inputs: Array) -> NDArray:
             shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
             flat = [np.broadcast_to(x, shape).ravel() for x in inputs]
-            parameters = np.stack(flat[: len(names)], axis=1)
-            points, group = np.unique(parameters, axis=0, return_inverse=True)
-            found = np.empty((parameters.shape[0], rows), dtype=dtype)  # type: ignore[var-annotated]
-            order = np.argsort(group.ravel(), kind="stable")
-            ends = np.cumsum(np.bincount(group.ravel(), minlength=len(points)))
-            for point, chosen in zip(points, np.split(order, ends[:-1]), strict=True):
-                one = dict(zip(names, map(float, point), strict=True))
-                rest = (x[chosen] for x in flat[len(names) :])
-                found[chosen] = np.transpose(function(*_one_fault(one, self.far_side), *rest))
+            found = np.empty((flat[0].size, rows), dtype=dtype)  # type: ignore[var-annotated]
+            rigid = np.isinf(flat[_OF_SYSTEMS.index("second_shear_modulus")])
+            for chosen in (np.flatnonzero(rigid), np.flatnonzero(~rigid)):
+                if chosen.size:
+                    part = [x[chosen] for x in flat]
+                    own, rest = part[: len(_OF_SYSTEMS)], part[len(_OF_SYSTEMS) :]
+                    found[chosen] = np.transpose(function(self._systems(*own), *rest))
             return found.reshape(*shape, rows)
 
+        if not any(map(labelled, [*values, *arrays])):
+            return np.moveaxis(core(*values, *arrays), -1, 0)
+        import xarray as xr
+
         result = xr.apply_ufunc(core, *values, *arrays, output_core_dims=[["row"]])
-        if isinstance(result, xr.DataArray):
-            return result.transpose("row", ...)
-        return np.moveaxis(result, -1, 0)
+        return result.transpose("row", ...)
+
+    def _systems(
+        self, modulus: Array, ratio: Array, height: Array, second_modulus: Array,
+        second_ratio: Array, second_height: Array, friction: Array, a: Array, zeta: Array,
+        slip_distance: Array, velocity: Array, normal_stress: Array,
+    ) -> Systems:  # fmt: skip
+        """Faults as systems, all or none of them with a rigid second body."""
+        upper, lower = Layers(modulus, ratio, height, self.far_side), None
+        if np.all(np.isfinite(second_modulus)):
+            lower = Layers(second_modulus, second_ratio, second_height, self.second_far_side)
+        softness = modulus * slip_distance / normal_stress
+        return Systems(Pair(upper, lower), friction, a, zeta, softness, velocity / slip_distance)
 
 
-def _one_fault(p: dict[str, float], far_side: str) -> tuple[Body, Body | RigidBody, InterfaceState]:
-    """Bodies and interface of one point."""
-    upper = Body(Material(p["shear_modulus"], p["poisson_ratio"]), p["height"], far_side)
-    lower: Body | RigidBody = RIGID
-    if math.isfinite(p["second_shear_modulus"]):
-        rock = Material(p["second_shear_modulus"], p["second_poisson_ratio"])
-        lower = Body(rock, p["second_height"], far_side)
-    interface = InterfaceState(
-        p["friction"], p["a"], p["zeta"], p["slip_distance"], p["velocity"], p["normal_stress"]
-    )
-    return upper, lower, interface
+_OF_SYSTEMS = (
+    "shear_modulus", "poisson_ratio", "height", "second_shear_modulus", "second_poisson_ratio",
+    "second_height", "friction", "a", "zeta", "slip_distance", "velocity", "normal_stress",
+)  # fmt: skip
+
+
+def labelled(value: Any) -> bool:
+    """Whether it is a DataArray; xarray is not loaded for the question."""
+    return "xarray" in sys.modules and isinstance(value, sys.modules["xarray"].DataArray)
 
 
 def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
-    """The value as an array of floats, every element of which lies in the declared range."""
-
-    array = value if isinstance(value, xr.DataArray) else np.asarray(value)
+    """The value in SI units as an array of floats, all in the declared range."""
+    value = magnitude(name, value, entry)
+    array = value if labelled(value) else np.asarray(value)
     if array.dtype.kind not in "iuf":
         raise ParameterError(refusal(name, value, entry))
     array = array.astype(float)
@@ -232,4 +266,5 @@ def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
     if bad.size:
         at = ", ".join(map(str, np.unravel_index(bad[0], array.shape)))
         raise ParameterError(refusal(f"{name}[{at}]" if at else name, float(flat[bad[0]]), entry))
+    warn_of_implausible(name, flat, entry)
     return array

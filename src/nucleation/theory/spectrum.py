@@ -2,29 +2,76 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..model.linearised import InterfaceState
-from .transfer import Body, RigidBody, as_wavenumber, reference_modulus, transfer_functions
+from .stiffness import Array, Pair
+from .transfer import Body, RigidBody, as_wavenumber
 
 ComplexArray = NDArray[np.complex128]
 
 
-def elastic_load(
-    wavenumber: ArrayLike,
-    upper: Body | RigidBody,
-    lower: Body | RigidBody,
-    interface: InterfaceState,
-) -> ComplexArray:
-    """Elastic stiffness over frictional weakening, ``Gamma = mu k ell (G1 - i f G2) / sigma0``.
+class Systems(NamedTuple):
+    """Pairs of bodies that slide upon each other, one or many, as the linear theory sees them.
 
-    Dimensionless, shape of k (1/m). ``Re Gamma > 0`` for every k.
+    Attributes
+    ----------
+    pair : Pair
+    friction, a, zeta : float or ndarray
+        f, direct effect and velocity weakening.
+    softness : float or ndarray
+        ``mu ell/sigma0`` (m) with mu of :attr:`Pair.modulus`.
+    rate : float or ndarray
+        ``V/ell`` (1/s).
     """
-    k = as_wavenumber(wavenumber)
-    g1, g2 = transfer_functions(k, upper, lower)
-    scale = reference_modulus(upper, lower) * interface.slip_length / interface.normal_stress
-    return scale * k * (g1 - 1j * interface.friction * g2)
+
+    pair: Pair
+    friction: Array
+    a: Array
+    zeta: Array
+    softness: Array
+    rate: Array
+
+    @property
+    def b(self) -> Array:
+        """``b = a + zeta``."""
+        return self.a + self.zeta
+
+    def at(self, index: NDArray) -> Systems:
+        """The systems of an index."""
+        return Systems(self.pair.at(index), *(x[index] for x in self[1:]))
+
+    def load_and_coupling(self, wavenumber: Array) -> tuple[Array, Array]:
+        """``g = mu |k| ell |G1|/sigma0`` and ``rho = f G2/|G1|`` at wavenumbers (1/m)."""
+        found = self.pair.stiffness(wavenumber, whole=False)
+        g = self.softness * np.abs(wavenumber) * found.xx
+        return g, self.friction * found.xy / found.xx
+
+    def growth_rates(self, wavenumber: Array) -> ComplexArray:
+        """Both roots of :func:`growth_rates`, for wavenumbers that broadcast with the systems."""
+        g1, g2 = self.pair.transfer_functions(wavenumber)
+        gamma = self.softness * wavenumber * (g1 - 1j * self.friction * g2)
+        half = 0.5 * (gamma - self.zeta) / self.a
+        product = gamma / self.a
+        root = np.sqrt(half**2 - product)
+        root = np.where((np.conj(half) * root).real < 0.0, -root, root)
+        larger = -(half + root)
+        pair = np.stack([larger, product / larger])
+        pair = np.where(pair[0].real >= pair[1].real, pair, pair[::-1])
+        return pair * self.rate
+
+
+def system(
+    upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState
+) -> Systems:
+    """One system of two bodies and their interface."""
+    pair = Pair(upper.layers, lower.layers)
+    s = interface
+    softness = pair.modulus * s.slip_length / s.normal_stress
+    return Systems(pair, s.friction, s.a, s.zeta, softness, s.velocity / s.slip_length)
 
 
 def growth_rates(
@@ -49,20 +96,13 @@ def growth_rates(
 
     Notes
     -----
-    With ``lambda = Lambda ell / V`` and Gamma of :func:`elastic_load`, Eq. (5) times
-    ``1 + lambda`` is ``a lambda^2 + (Gamma - zeta) lambda + Gamma = 0``. The larger root is
-    formed by an addition and the other one from the product of the roots, Gamma/a. Perturbations
-    vary as ``exp(Lambda t - i k x)``; ``Lambda(-k)`` is the complex conjugate of ``Lambda(k)``.
+    With ``lambda = Lambda ell / V`` and the elastic stiffness over the frictional one,
+    ``Gamma = mu k ell (G1 - i f G2) / sigma0``, Eq. (5) times ``1 + lambda`` is
+    ``a lambda^2 + (Gamma - zeta) lambda + Gamma = 0``. The larger root is formed by an addition and
+    the other one from the product of the roots, Gamma/a. Perturbations vary as
+    ``exp(Lambda t - i k x)``; ``Lambda(-k)`` is the complex conjugate of ``Lambda(k)``.
     """
-    gamma = elastic_load(wavenumber, upper, lower, interface)
-    half = 0.5 * (gamma - interface.zeta) / interface.a
-    product = gamma / interface.a
-    root = np.sqrt(half**2 - product)
-    root = np.where((np.conj(half) * root).real < 0.0, -root, root)
-    larger = -(half + root)
-    pair = np.stack([larger, product / larger])
-    pair = np.where(pair[0].real >= pair[1].real, pair, pair[::-1])
-    return pair * (interface.velocity / interface.slip_length)
+    return system(upper, lower, interface).growth_rates(as_wavenumber(wavenumber))
 
 
 def spectrum_branches(

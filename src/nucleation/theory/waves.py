@@ -1,0 +1,79 @@
+"""Functions of a layer's number ``q = |k| H``, from which nothing overflows and nothing cancels."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+_ORDERS = np.arange(17.0, 3.0, -2.0)
+_COEFFICIENTS = (1.0 / ((_ORDERS - 1.0) * _ORDERS)).tolist()
+
+
+def scaled_sinh_excess(x: ArrayLike) -> Array:
+    """``(sinh(x) - x) exp(-x)`` for ``x >= 0`` without cancellation (power series below 1)."""
+    x = np.asarray(x, dtype=float)
+    decay = np.exp(-x)
+    direct = -0.5 * np.expm1(-2.0 * x) - x * decay
+    if np.all(x >= 1.0):
+        return direct
+    small = np.minimum(x, 1.0)
+    square, series = small**2, 1.0
+    for coefficient in _COEFFICIENTS:
+        series = 1.0 + series * square * coefficient
+    return np.where(x < 1.0, small**3 / 6.0 * series * decay, direct)
+
+
+class Waves:
+    """Functions of ``q = |k| H``, times ``exp(-2q)``, of which the stiffness is made; lazy.
+
+    All are positive. Without the factor all increase with q; with it, each is monotonic for
+    ``q >= 1``, since q exp(-2q) and q^2 exp(-2q) fall there.
+    """
+
+    def __init__(self, q: Array) -> None:
+        self.q = q
+
+    @cached_property
+    def decay(self) -> Array:
+        """1."""
+        return np.exp(-2.0 * self.q)
+
+    @cached_property
+    def linear(self) -> Array:
+        """``2 q``."""
+        return 2.0 * self.q * self.decay
+
+    @cached_property
+    def square(self) -> Array:
+        """``q^2``."""
+        return self.q**2 * self.decay
+
+    @cached_property
+    def sinh_2q(self) -> Array:
+        """``sinh 2q``."""
+        return -0.5 * np.expm1(-4.0 * self.q)
+
+    @cached_property
+    def sinh_squared(self) -> Array:
+        """``sinh^2 q``."""
+        return 0.25 * np.expm1(-2.0 * self.q) ** 2
+
+    @cached_property
+    def cosh_squared(self) -> Array:
+        """``cosh^2 q``."""
+        return 0.25 * (1.0 + self.decay) ** 2
+
+    @cached_property
+    def excess(self) -> Array:
+        """``sinh 2q - 2q``."""
+        return scaled_sinh_excess(2.0 * self.q)
+
+    @cached_property
+    def square_excess(self) -> Array:
+        """``sinh^2 q - q^2``."""
+        sinh_plus = -0.5 * np.expm1(-2.0 * self.q) + self.q * np.exp(-self.q)
+        return scaled_sinh_excess(self.q) * sinh_plus
