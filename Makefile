@@ -3,7 +3,6 @@
 PYTHON ?= $(eval PYTHON := $$(shell workflow/pythons.sh | head -n 1))$(PYTHON)
 CORES ?= 2
 TARGETS ?=
-CONFIG ?= config/config.yaml
 FAULTS ?= 200
 SEED ?=
 
@@ -11,8 +10,12 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/environment.stamp
 PYTEST = $(BIN)/python -m pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
-SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
-	--workflow-profile workflow/profiles/default
+PAPERS := config/config.yaml
+CONFIG ?= $(PAPERS)
+# The launcher looks at a configuration before Snakemake, which runs what some of them hold.
+LAUNCH = $(BIN)/python -m nucleation.pipeline.launch
+OPTIONS = --cores $(CORES) --workflow-profile workflow/profiles/default
+CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
@@ -20,16 +23,16 @@ SNAKEMAKE = $(BIN)/snakemake $(TARGETS) --cores $(CORES) \
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
-	@echo "Variables: PYTHON (the newest of 3.11 to 3.13) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty)"
+	@echo "Variables: PYTHON (the newest of 3.11 to 3.13) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty) CONFIG=my.yaml"
 
 paper: $(STAMP) ## Make every figure, table and verdict, in results/
-	$(SNAKEMAKE)
+	$(LAUNCH) $(TARGETS) $(OPTIONS) $(CONFIGURED)
 
 report: $(STAMP) ## Make results/report.html: verdicts, figures, theory with sliders, in half an hour
-	$(BIN)/snakemake report --cores $(CORES) --workflow-profile workflow/profiles/default
+	$(LAUNCH) report $(OPTIONS) $(CONFIGURED)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
-	$(SNAKEMAKE) --configfile config/quick.yaml
+	$(LAUNCH) $(TARGETS) $(OPTIONS) --configfile config/quick.yaml
 
 test: $(STAMP) ## Run the tests
 	@$(PYTEST)
@@ -69,7 +72,7 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
 
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
-	$(BIN)/snakemake check --cores 1 --workflow-profile workflow/profiles/default
+	$(LAUNCH) check $(OPTIONS) $(CONFIGURED)
 
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
 	@$(BIN)/python -m nucleation.pipeline.bundle write "$(or $(FILE),results.tar)" "$(CONFIG)"

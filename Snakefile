@@ -28,7 +28,8 @@ os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get(
 
 from nucleation.configuration.advice import advise
 from nucleation.pipeline.cache import CheckedCache
-from nucleation.pipeline.repairs import show_why_groups_fail
+from nucleation.pipeline.repairs import show_why_groups_fail, suggest_targets
+from nucleation.pipeline.targets import default_target
 from nucleation.configuration.load import configure
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.datasets.provenance import digest
@@ -45,6 +46,7 @@ if "SNAKEMAKE_OUTPUT_CACHE" not in os.environ:
     workflow.workflow_settings.cache = None
 
 show_why_groups_fail()  # such as a partition that Slurm doesn't know
+suggest_targets(lambda: workflow.rules)
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
 if not workflow.overwrite_configfiles:
@@ -73,6 +75,7 @@ RUNS = {run.id: run for run in settings.runs}
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
 THEORY = f"{RESULTS}/theory.nc"
 LENGTHS = f"{RESULTS}/lengths.nc"
+DEFAULT = default_target(settings)
 
 
 def simulation(id):
@@ -124,7 +127,7 @@ report: str(Path(workflow.basedir, "workflow", "report", "workflow.rst"))
 
 
 localrules:
-    paper, simulations, lengths, figure_1, figure_2, figure_3, figure_s1, figure_s2, table_s1,
+    paper, studies, simulations, lengths, figure_1, figure_2, figure_3, figure_s1, figure_s2, table_s1,
     figure_patch_stability,
 
 
@@ -150,7 +153,7 @@ workflow.localrules(*(rule.name for rule in workflow.rules if rule.name.startswi
 # measured(): after one failed or vanished, what was made from it would otherwise still count as up
 # to date. A test goes through all targets.
 rule paper:
-    default_target: True
+    default_target: DEFAULT == "paper"
     input:
         rules.figure_1.input,
         rules.figure_2.input,
@@ -162,3 +165,14 @@ rule paper:
         rules.article.input,
     message:
         f"Every figure, table and verdict is in {RESULTS}"
+
+
+# The default of a configuration that does not have the paper's runs.
+rule studies:
+    default_target: DEFAULT == "studies"
+    input:
+        [figure(f"study_{study}") for study in settings.studies],
+        measured(*settings.studies),
+        rules.lengths.input if SHARED else [],
+    message:
+        f"Lengths and a figure of each study are in {RESULTS}"

@@ -71,6 +71,8 @@ BAD = {
     "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
     "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
     "blank": (changed("results", " "), ["results = ' '", "spaces at its ends"]),
+    "of git": (changed("results", ".git/hooks"), ["results = '.git/hooks'", "hidden directories"]),
+    "of code": (changed("results", "src/nucleation"), ["results = 'src/nucleation'"]),
     "home": (changed("results", "~/out"), ["results = '~/out'", "write the home directory out"]),
     # contradictions
     "low edge above the edge": (
@@ -190,3 +192,20 @@ def test_results_need_a_writable_directory(tmp_path, monkeypatch):
     monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)
     assert "is not writable" in directory_problem(tmp_path / "new")
     assert directory_problem(tmp_path / "new", write=False) is None
+
+
+BOMBS = {
+    "aliases": "\n".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]" for old, new in
+                         zip("abcdefgh", "bcdefghi", strict=True)),
+    "within itself": "b: &b [*b]",
+    "mapping within itself": "b: &b {c: *b}",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", BOMBS.values(), ids=BOMBS.keys())
+def test_aliases_can_not_stand_for_millions(tmp_path, text):
+    """Ten short lines would take minutes and gigabytes, as messages quote their values."""
+    path = tmp_path / "config.yaml"
+    path.write_text(f"a: &a [x]\n{text}\n")
+    with pytest.raises(ParameterError, match=r"line 1: with its aliases written out"):
+        read_yaml(path)

@@ -5,6 +5,7 @@ import dataclasses
 import io
 import json
 import re
+from html.parser import HTMLParser
 
 import numpy as np
 import pandas as pd
@@ -216,3 +217,56 @@ def test_catalogue_names_figures_that_exist_and_what_they_stand_on():
     assert set(catalogue.FIGURES) - {"animation"} == drawn - {"figure_crosscheck", "figure_studies"}
     assert "figure_3" not in catalogue.drawable(["mine"])
     assert {"figure_2", "figure_3", "animation"} <= set(catalogue.drawable(["paper"]))
+
+
+EVIL = """'"><img src=x onerror=alert(1)></script><script>alert(2)</script><!--<script>{{ 7 }}"""
+
+
+class Tags(HTMLParser):
+    """The elements of a page, with their attributes, and the texts of its scripts."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.found, self.scripts, self._within = [], [], False
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.found.append((tag, dict(attrs)))
+        self._within = tag == "script"
+        if self._within:
+            self.scripts.append("")
+
+    def handle_endtag(self, tag):
+        self._within = self._within and tag != "script"
+
+    def handle_data(self, data):
+        if self._within:
+            self.scripts[-1] += data
+
+
+def test_no_text_becomes_a_part_of_the_page(content):
+    """Descriptions, names, claims and attributes of datasets may come from others."""
+    lengths = content.results["lengths"].copy(deep=True)
+    for name in ("id", "study"):
+        lengths[name] = lengths[name].astype(object).where(False, EVIL).astype(str)
+    lengths.attrs |= {"command": EVIL, "created": EVIL, "code_digest": EVIL}
+    words = ("where", "statement", "paper", "unit", "reason", "quotation", "method")
+    claims = [{**claim, **dict.fromkeys(words, EVIL)} for claim in content.claims]
+    (picture,) = content.pictures
+    row = content.player.row.copy(deep=True)
+    row["id"] = EVIL
+    evil = content._replace(
+        config={**content.config, "studies": {"s": {"description": EVIL}}, EVIL: EVIL},
+        provenance={"versions": json.dumps({EVIL: EVIL}), "created": EVIL, "code_digest": EVIL},
+        results={**content.results, "lengths": lengths, EVIL: lengths},
+        pictures=[picture._replace(title=EVIL, name=EVIL, category=EVIL)],
+        claims=claims,
+        player=content.player._replace(row=row),
+    )
+    good, bad = Tags(page.build(content)), Tags(page.build(evil))
+    assert EVIL not in page.build(evil)
+    assert len(good.scripts) == len(bad.scripts)
+    assert not [tag for tag, attributes in bad.found if any(a.startswith("on") for a in attributes)]
+    kinds = {tag for tag, _ in good.found}
+    assert {tag for tag, _ in bad.found} == kinds
+    assert json.loads(bad.scripts[0])["points"][0]["id"][0] == EVIL

@@ -183,3 +183,12 @@ def test_pickled_checkpoint_is_not_executed(tmp_path):
     one, log = checkpoint(path)
     assert one.load() is None
     assert "damaged" in log.getvalue()
+
+
+def test_compressed_checkpoint_is_not_unpacked(tmp_path):
+    """Ours are not compressed; a small file of zeros could be larger than the memory."""
+    path = tmp_path / "run.npz"
+    np.savez_compressed(path, fingerprint=np.array("this run"), value=np.zeros(10**6))
+    one, log = checkpoint(path)
+    assert one.load() is None
+    assert "it is compressed" in log.getvalue()

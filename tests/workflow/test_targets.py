@@ -51,3 +51,23 @@ def test_every_target_names_all_files_that_it_leads_to(plain):
                 waiting += inputs[file]
         beside = {file for _, _, made in jobs if made & led_to for file in made}
         assert led_to | beside <= named, target
+
+
+def test_configuration_of_ones_own_needs_no_target(workflow):
+    """By default it makes its lengths and figures; the paper's are not among them."""
+    defaults = {"n_x": 20, "n_y": 4, "end_time": 0.2}
+    studies = {
+        "mine": {"defaults": defaults, "runs": [{"height": [0.01, 0.02]}]},
+        "alone": {"defaults": defaults, "table": "own", "runs": [{"height": 0.01}]},
+    }
+    planned = workflow.configured({"studies": studies}).planned()
+    assert planned["simulate"] == 3 and planned["draw_figure_study"] == 2
+    assert planned["studies"] == 1 and planned["gather_lengths"] == 1
+    assert not {"paper", "draw_figure_3", "evaluate_claims"} & planned.keys()
+
+
+def test_wrong_target_is_told_the_nearest(workflow):
+    done = workflow("figure_33", "--dry-run")
+    assert done.returncode != 0
+    assert "no target figure_33: did you mean figure_3" in done.stdout
+    assert "Traceback" not in done.stdout

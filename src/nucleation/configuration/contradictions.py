@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from ..analysis.extraction import ExtractionSettings
 from ..model.linearised import InterfaceState
@@ -19,6 +19,9 @@ from .studies import Run
 
 LONGEST_ID = 200
 """Characters of an identifier: with its suffixes it is a file's name, of 255 bytes at most."""
+
+CODE = ("src", "workflow", "config", "docs", "tests")
+"""Directories of the checkout in which results have no place."""
 
 
 def setting_problems(
@@ -95,6 +98,12 @@ def results_problems(results: str) -> Iterator[str]:
         yield (
             f"results = {results!r} is not allowed: a directory must be named without braces, "
             "wildcards, control characters, and spaces at its ends"
+        )
+    first = PurePosixPath(results).parts[:1]
+    if first and (first[0] in CODE or (first[0].startswith(".") and first[0] != "..")):
+        yield (
+            f"results = {results!r} is not allowed: hidden directories and {', '.join(CODE)} hold "
+            "what makes results"
         )
     if results.startswith("~"):
         yield f"results = {results!r} is not allowed: write the home directory out in place of ~"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from typing import Any
@@ -12,6 +13,10 @@ from ..model.quantities import ParameterError
 
 LEADING_ZERO = re.compile(r"[-+]?0[0-9_]+")
 """Integers that YAML 1.1 reads as octal, ``0400`` as 256; with colons it reads 1:30 as 90."""
+
+
+LARGEST = 1_000_000
+"""Entries of a file with its aliases written out; ten lines of aliases can stand for billions."""
 
 
 def read_yaml(path: str | os.PathLike[str]) -> Any:
@@ -34,7 +39,16 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
 
 
 class _StrictLoader(yaml.SafeLoader):
-    """YAML's safe loader, which refuses keys given twice and numbers of another base."""
+    """YAML's safe loader, which refuses keys given twice, numbers of another base, and bombs."""
+
+    def get_single_node(self) -> yaml.Node | None:
+        """The file as nodes, of which aliases may share some, but not to stand for millions."""
+        node = super().get_single_node()
+        if node is not None and _weight(node, {}) > LARGEST:
+            raise ParameterError(
+                f"{_place(node)}: with its aliases written out it has more than {LARGEST} entries"
+            )
+        return node
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
         lines: dict[str, int] = {}
@@ -64,6 +78,16 @@ class _StrictLoader(yaml.SafeLoader):
 
 for _kind in ("int", "float"):
     _StrictLoader.add_constructor(f"tag:yaml.org,2002:{_kind}", _StrictLoader.construct_number)
+
+
+def _weight(node: yaml.Node, known: dict[yaml.Node, float]) -> float:
+    """The number of nodes that one stands for, itself included; endless if it is within itself."""
+    if node not in known:
+        known[node] = math.inf  # as long as it is not known, it is found only within itself
+        below = node.value if isinstance(node, yaml.CollectionNode) else ()
+        parts = [part for entry in below for part in (entry if type(entry) is tuple else (entry,))]
+        known[node] = 1 + sum(_weight(part, known) for part in parts)
+    return known[node]
 
 
 def _place(node: yaml.Node) -> str:

@@ -17,6 +17,8 @@ import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path, PurePosixPath
 
+from ..configuration.contradictions import CODE
+
 NOTES = ".snakemake/metadata"  # Snakemake's, of what made each file
 CHECKSUMS = "manifest-sha256.txt"
 MANIFEST = "codecheck.yml"
@@ -27,9 +29,6 @@ DESCRIPTIONS = (CONFIGURATION, MANIFEST, CRATE, CHECKSUMS)
 
 RESULTS = (".nc", ".csv", ".json", ".md", ".html", ".pdf", ".png", ".gif", ".log", ".txt", ".tex")
 """Endings of the files that the workflow makes; none that Python, a shell or git would run."""
-
-RESERVED = ("src", "workflow", "config", "docs", "tests", "build", "dist")
-"""Directories of the checkout that hold code, or what code is run by."""
 
 LARGEST_DESCRIPTION = 2**26  # bytes; the checksums of a hundred thousand files take 15 MB
 BLOCK = 2**20
@@ -54,11 +53,11 @@ def place(results: str) -> str:
             "holds what is in it: name it by a relative path, or copy that directory as it is"
         )
     parts = path.parts
-    own = not parts or parts[0] in RESERVED or any(part.startswith(".") for part in parts)
+    own = not parts or parts[0] in CODE or any(part.startswith(".") for part in parts)
     if own or _problem_of_name(path.as_posix()):
         raise BundleError(
             f"results = {results!r} is no place for an archive: it must be a directory of its own, "
-            f"not the checkout itself, none that begins with a dot, and not {', '.join(RESERVED)}"
+            f"not the checkout itself, none that begins with a dot, and not {', '.join(CODE)}"
         )
     return path.as_posix()
 

@@ -5,10 +5,16 @@ Each repair stands for one gap in the pinned versions, and does nothing where it
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from typing import Any
 
+import snakemake.api  # first: its parts import each other
+import snakemake.dag
 import snakemake.jobs
+from snakemake.exceptions import MissingRuleException
 from snakemake.logging import logger
+
+from .targets import unknown_target
 
 SUBMISSION = "\n    sbatch call:"
 """Where, in a message of the plugin for Slurm, a command of some kB follows the reason."""
@@ -32,3 +38,22 @@ def show_why_groups_fail() -> None:
 
     log_error.says_why = True  # type: ignore[attr-defined]
     snakemake.jobs.GroupJob.log_error = log_error
+
+
+def suggest_targets(rules: Callable[[], Iterable[Any]]) -> None:
+    """Have Snakemake say of a target that it doesn't know which ones it does.
+
+    Parameters
+    ----------
+    rules : gives the rules of the workflow once all are read.
+    """
+
+    class UnknownTarget(MissingRuleException):
+        def __init__(self, file: Any, *arguments: Any, **named: Any) -> None:
+            super().__init__(file, *arguments, **named)
+            self._asked = str(file)
+
+        def __str__(self) -> str:  # not before: of files that need no rule it is raised and caught
+            return unknown_target(self._asked, rules())
+
+    snakemake.dag.MissingRuleException = UnknownTarget

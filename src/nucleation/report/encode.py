@@ -25,5 +25,8 @@ def float32(values: ArrayLike) -> str:
 
 
 def script_json(value: Any) -> str:
-    """JSON that can stand inside a ``<script>`` element: no text in it can end the element."""
-    return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
+    """JSON that can stand inside a ``<script>`` element: no text in it can end the element.
+
+    Nor can any begin a comment, after which the element's own end would not be found.
+    """
+    return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")

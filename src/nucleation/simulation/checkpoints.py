@@ -13,6 +13,7 @@ import os
 import signal
 import sys
 import time
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
@@ -69,6 +70,8 @@ class Checkpoint:
             return None
         try:
             with np.load(self.path, allow_pickle=False) as stored:
+                if any(part.compress_type != zipfile.ZIP_STORED for part in stored.zip.infolist()):
+                    raise ValueError("it is compressed, and may be larger than the memory")
                 arrays = {name: stored[name] for name in stored.files}
             fingerprint, content = str(arrays.pop("fingerprint")), str(arrays.pop("content"))
             if content != _digest(arrays):

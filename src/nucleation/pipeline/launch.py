@@ -1,0 +1,56 @@
+"""Snakemake, started once its configuration files have been looked at.
+
+``python -m nucleation.pipeline.launch`` takes Snakemake's arguments. Snakemake itself reads a file
+given by ``--configfile`` before anything of the workflow: one that is missing or is no text ends
+in a traceback there, and of one with the key ``__use_yte__`` it runs expressions of Python.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+
+from ..configuration.load import load
+from ..model.quantities import ParameterError
+
+OPTIONS = ("--configfile", "--configfiles")
+
+
+def configuration_files(arguments: list[str]) -> Iterator[str]:
+    """The configuration files that a command line names."""
+    taking = False  # an option takes all that follow, up to the next one
+    for argument in arguments:
+        option, equals, value = argument.partition("=")
+        if argument.startswith("-"):
+            taking = option in OPTIONS
+            if taking and equals:
+                yield value
+        elif taking:
+            yield argument
+
+
+def problem(arguments: list[str]) -> str | None:
+    """What is wrong with the configuration files, in words; None if they can be used.
+
+    Of several, whose values are merged, only the first must be complete; all must be plain.
+    """
+    try:
+        for path in configuration_files(arguments):
+            load(path)
+    except ParameterError as error:
+        return str(error)
+    return None
+
+
+def main() -> None:
+    """Check, then become Snakemake."""
+    arguments = sys.argv[1:]
+    found = problem(arguments)
+    if found is not None:
+        sys.exit(found)
+    os.execv(sys.executable, [sys.executable, "-m", "snakemake", *arguments])
+
+
+if __name__ == "__main__":
+    main()

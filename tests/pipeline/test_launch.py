@@ -1,0 +1,76 @@
+"""A configuration is looked at before Snakemake sees it; targets are what it can make."""
+
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import pytest
+from configurations import CONFIG, changed, study
+
+from nucleation.configuration.load import configure, load
+from nucleation.pipeline import launch
+from nucleation.pipeline.targets import default_target, unknown_target
+
+GOOD = "studies: {s: {runs: [{height: 0.01}]}}\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "files"),
+    [
+        ("lengths --cores 2", []),
+        ("lengths --configfile a.yaml b.yaml --cores 2", ["a.yaml", "b.yaml"]),
+        ("--configfiles=a.yaml -n lengths", ["a.yaml"]),
+        ("--configfile a.yaml --config results=b --configfile c.yaml", ["a.yaml", "c.yaml"]),
+    ],
+)
+def test_configuration_files_of_a_command_line(arguments, files):
+    assert list(launch.configuration_files(arguments.split())) == files
+
+
+BAD = {
+    "missing": (None, "can't be read: No such file"),
+    "binary": (b"\x80\xff", "is not valid YAML"),
+    "code": (f"__use_yte__: true\n{GOOD}".encode(), "__use_yte__ = True is not allowed"),
+    "nested": (b"[" * 5000, "is not valid YAML"),
+    "list": (b"[1, 2]", "must be a mapping"),
+}
+
+
+@pytest.mark.parametrize(("content", "said"), BAD.values(), ids=BAD.keys())
+def test_bad_file_is_one_message_and_snakemake_is_not_started(content, said, tmp_path):
+    if content is not None:
+        (tmp_path / "a.yaml").write_bytes(content)
+    command = [sys.executable, "-m", "nucleation.pipeline.launch", "--configfile", "a.yaml"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1 and done.stdout == ""
+    assert said in done.stderr and "Traceback" not in done.stderr
+    assert not (tmp_path / ".snakemake").exists()
+
+
+def test_good_file_is_handed_on(tmp_path, monkeypatch):
+    (tmp_path / "a.yaml").write_text(GOOD)
+    arguments = ["-n", "--configfile", str(tmp_path / "a.yaml")]
+    started = []
+    monkeypatch.setattr("os.execv", lambda program, command: started.append(command))
+    monkeypatch.setattr(sys, "argv", ["launch", *arguments])
+    launch.main()
+    assert started == [[sys.executable, "-m", "snakemake", *arguments]]
+
+
+def test_default_target_is_what_the_configuration_can_make():
+    for name in ("config.yaml", "quick.yaml"):
+        assert default_target(load(CONFIG / name)) == "paper"
+    assert default_target(configure(study({"height": 0.01}))) == "studies"
+    without = configure(changed("figures", {"inset_height": 0.0123}))
+    assert default_target(without) == "studies"
+
+
+def test_wrong_target_is_told_the_nearest_ones():
+    def rule(name, *output):
+        return SimpleNamespace(name=name, output=output, has_wildcards=lambda: False)
+
+    rules = [rule("figure_3", "results/figure_3.pdf"), rule("lengths", "results/lengths.csv")]
+    rules.append(SimpleNamespace(name="simulate", output=("{id}.nc",), has_wildcards=lambda: True))
+    assert unknown_target("figure_33", rules) == "no target figure_33: did you mean figure_3?"
+    assert "did you mean results/lengths.csv" in unknown_target("result/lengths.csv", rules)
+    assert "--list-target-rules" in unknown_target("zzz", rules)
