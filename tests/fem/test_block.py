@@ -182,7 +182,7 @@ def test_edge_that_moves_as_foreseen_saves_a_solve(off):
     expectation = Expectation((at_rest,), 1e-3, 0.0, np.array(0.0))
     used = 0
     for response in operator.responses(load, near_the_load, expectation):
-        balance = operator.balance(response, near_the_load)
+        balance = operator.balance(response, near_the_load, expectation)
         used += 1
         if balance.holds:
             break

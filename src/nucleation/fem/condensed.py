@@ -85,7 +85,7 @@ class Operator(Condensed, Protocol):
     def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[Any]:
         """The same response, at first perhaps one that is cheaper, if expectations come true."""
 
-    def balance(self, response: Any, w: Array) -> Balance:
+    def balance(self, response: Any, w: Array, expected: Expectation | None = None) -> Balance:
         """The body at `w` (m), once the interface has been solved with a response (used up)."""
 
 

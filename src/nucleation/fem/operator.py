@@ -38,14 +38,12 @@ class BlockResponse(Response):
     """A block's response to a load, with the edge values (m) in balance at the levels 0..n_y.
 
     Where the edge values were given and not found, `swept` holds the sweep down to the interface
-    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.balance` goes on from there. `predicted` are
-    the edge values that the last steps let expect, if there were any.
+    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.balance` goes on from there.
     """
 
     load: Field
     edge: Array
     swept: Array | None = None
-    predicted: Array | None = None
 
 
 class BlockOperator:
@@ -131,10 +129,12 @@ class BlockOperator:
         """
         edge = predicted(expected)
         if float(expected.memory) < self.edge.round_off:
-            yield dataclasses.replace(self.respond(load, w, edge), predicted=edge)
-        yield dataclasses.replace(self.respond(load, w), predicted=edge)
+            yield self.respond(load, w, edge)
+        yield self.respond(load, w)
 
-    def balance(self, response: BlockResponse, w: Array) -> Balance:
+    def balance(
+        self, response: BlockResponse, w: Array, expected: Expectation | None = None
+    ) -> Balance:
         """The block at nodal `w` (m) under the load of a response, which is used up by it.
 
         Edge values that had been given to the response are corrected to the balance they are found
@@ -151,9 +151,10 @@ class BlockOperator:
             kernels.substitute(self._inverse, self._lower, modes)
             residual = self.edge.residual(response.load, modes, response.edge)
             displacement = Field(modes, response.edge + self.edge.correction(residual))
-        if response.predicted is None:
+        if expected is None:
             return Balance(displacement, self.body.no_memory, True)
-        error = relative_error(displacement.edge, response.predicted, edge)
+        foreseen = predicted(expected) if modes is None else response.edge
+        error = relative_error(displacement.edge, foreseen, edge)
         holds = modes is None or error < self.edge.round_off
         return Balance(displacement, np.array(error), holds)
 

@@ -25,7 +25,7 @@ from scipy.linalg import circulant
 
 from ..model.material import Material
 from .block import Block
-from .condensed import Balance
+from .condensed import Balance, Expectation
 from .field import Field
 from .grid import Grid
 from .operator import BlockOperator, BlockResponse
@@ -108,7 +108,9 @@ class PeriodicOperator(BlockOperator):
         tangential, normal = self.interface_forces(amplitudes, reduced)
         return BlockResponse(w, tangential, with_entry_zero(normal), load, edge)
 
-    def balance(self, response: BlockResponse, w: Array) -> Balance:
+    def balance(
+        self, response: BlockResponse, w: Array, expected: Expectation | None = None
+    ) -> Balance:
         """The layer at nodal `w` (m) under the load of a response."""
         modes, _ = self.solve(response.load, self.body.sine_amplitudes(w), response.edge)
         return Balance(Field(modes, response.edge), self.body.no_memory, True)

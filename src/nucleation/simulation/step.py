@@ -77,7 +77,7 @@ class Dynamics:
             solution = self.interface.solve(
                 operator, response, past, imposed, guess.slip_rate[1:]
             )  # fmt: skip
-            balance = operator.balance(response, solution.w)
+            balance = operator.balance(response, solution.w, expected)
             if balance.holds:
                 break
         formula, motions = step.body, state.motions
