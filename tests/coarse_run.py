@@ -3,7 +3,7 @@
 import pytest
 
 from nucleation.analysis import lengths
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.configuration.load import configure
 from nucleation.simulation.run import simulate
 

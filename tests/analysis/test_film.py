@@ -20,8 +20,8 @@ def test_shear_stress_of_a_known_displacement():
     """Bilinear along x and linear along y on a graded mesh: the differences are exact."""
     grid = Grid(2.0, 0.5, 8, 6, 3.0)
     x, y = np.meshgrid(grid.x, grid.y)
-    body = SimpleNamespace(nodal_values=lambda field: (3.0 * y * (1.0 + x), 5.0 * x))
-    stress = film.shear_stress(body, grid, SimpleNamespace(displacement=None), 7.0)
+    body = SimpleNamespace(grid=grid, nodal_values=lambda field: (3.0 * y * (1.0 + x), 5.0 * x))
+    stress = film.shear_stress(body, SimpleNamespace(displacement=None), 7.0)
     np.testing.assert_allclose(stress, 7.0 * (3.0 * (1.0 + x) + 5.0), rtol=1e-12)
 
 

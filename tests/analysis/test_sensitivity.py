@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from made_up_runs import PARAMETERS, changed, record, run
 
-from nucleation.analysis.extraction import ExtractionSettings, extract
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.extraction import extract
 from nucleation.analysis.sensitivity import COLUMNS, Case, sensitivity_table, variation
 
 BASE = Case("base", PARAMETERS, 0.5, None)

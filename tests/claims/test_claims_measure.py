@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from made_up_runs import PARAMETERS, record
 
-from nucleation.analysis.extraction import ExtractionSettings, extract
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.extraction import extract
 from nucleation.claims.measure import measure
 
 SETTINGS = ExtractionSettings()

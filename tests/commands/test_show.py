@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib.image import imread
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import gather
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import growth
 from nucleation.patch.growth import (

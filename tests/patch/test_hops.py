@@ -8,7 +8,7 @@ from nucleation.patch.hops import crossing_times, follow_hops, hop_frequency, os
 
 
 def test_crossing_times_between_samples():
-    time, length = np.arange(5.0), np.array([0.0, 1.0, 1.0, 0.5, 3.0])
+    time, length = np.arange(5.0), np.array([0.0, 1.0, 1.0, 1.0, 3.0])
     times = crossing_times(time, length, np.array([0.5, 1.0, 2.0, 3.5]))
     np.testing.assert_allclose(times, [0.5, 3.0, 3.5, np.nan])
 

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import twins
 from nucleation.patch.twins import difference, fitted_rate, follow_twins, gather, kicked
@@ -56,9 +56,10 @@ def test_twin_without_a_kick_is_the_run(monkeypatch):
     patches, dynamics = twins.Patches(PARAMETERS, settings), composed(PARAMETERS)
     twin = None
     for instant in run(PARAMETERS):
+        length = patches.length(instant.report)
         if twin is not None:
-            twin.advance(instant)
-        elif patches.length(instant.report) > 0.3 * THEORY:
+            twin.advance(instant, length)
+        elif length > 0.3 * THEORY:
             twin = twins.Twin(patches, dynamics, instant)
             until = instant.state.time + 0.1
         if twin is not None and instant.state.time > until:

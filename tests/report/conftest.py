@@ -12,7 +12,7 @@ from coarse_run import CONFIG
 from playwright.sync_api import sync_playwright
 
 from nucleation.analysis import lengths
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2

@@ -15,7 +15,7 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
 from nucleation.analysis import moments
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.figures import catalogue
 from nucleation.figures.paper import figure_3
 from nucleation.model.quantities import declarations

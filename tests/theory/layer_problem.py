@@ -46,8 +46,11 @@ def compliance(k, height, mu, nu, far_side):
     k, height, mu, nu = (Decimal(float(x)) for x in (k, height, mu, nu))
     near, far = mode_rows(k, Decimal(0), mu, nu), mode_rows(k, height, mu, nu)
     conditions = {
-        "velocity": ("u", "n"), "traction": ("t", "n"), "free": ("t", "n"),
-        "clamped": ("u", "w"), "roller": ("w", "t"),
+        "velocity": ("u", "n"),
+        "traction": ("t", "n"),
+        "free": ("t", "n"),
+        "clamped": ("u", "w"),
+        "roller": ("w", "t"),
     }[far_side]
     matrix = [near["t"], near["n"], far[conditions[0]], far[conditions[1]]]
     columns = []

@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nucleation.analysis.extraction import ExtractionSettings, patch_lengths
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.record import Record
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from nucleation.simulation.run import simulate
@@ -59,10 +60,8 @@ def test_driving_force(pair):
 def test_patch_length(pair):
     """Either front hops from node to node: at any time they are less than one hop apart."""
     times = np.linspace(0.2, END, 200)
-    edges = [
-        np.interp(times, r["time"].values, patch_lengths(r, 0.01 * PARAMETERS.loading.velocity))
-        for r in pair
-    ]
+    records = [Record(run) for run in pair]
+    edges = [np.interp(times, r.time, r.lengths) for r in records]
     dx = PARAMETERS.geometry.length / PARAMETERS.mesh.n_x
     assert np.abs(edges[1] - edges[0]).max() < dx
     assert edges[0][-1] > 10.0 * dx

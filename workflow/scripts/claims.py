@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.claims import table
 from nucleation.claims.evidence import Evidence
 from nucleation.claims.measure import measure

@@ -1,7 +1,7 @@
 """Compare the runs of the two solvers."""
 
 from nucleation.analysis import lengths
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 from nucleation.verification.crosscheck import compare
 

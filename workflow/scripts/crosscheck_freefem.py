@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 from nucleation.model.parameters import Parameters
 from nucleation.verification.crosscheck import freefem

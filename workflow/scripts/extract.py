@@ -1,7 +1,7 @@
 """Gather onset times and critical lengths of all simulations into one table."""
 
 from nucleation.analysis import lengths
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 
 params = snakemake.params

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import numpy as np
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf
 from nucleation.figures import style
 from nucleation.figures.checks import figure_crosscheck

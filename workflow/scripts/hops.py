@@ -1,6 +1,6 @@
 """Follow the hops of one simulation's front."""
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 from nucleation.patch.hops import follow_hops
 

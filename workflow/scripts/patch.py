@@ -1,6 +1,6 @@
 """Follow the linear stability of one simulation's creeping patch."""
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 from nucleation.patch.growth import follow_patch
 

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import row
 from nucleation.datasets import netcdf, provenance
 from nucleation.figures import catalogue

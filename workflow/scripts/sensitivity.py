@@ -1,7 +1,7 @@
 """Compare the runs of the study sensitivity with the base run of their height."""
 
 from nucleation.analysis import lengths, sensitivity
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 
 params = snakemake.params

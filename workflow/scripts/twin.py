@@ -1,6 +1,6 @@
 """Kick the patch of one run at several of its lengths, and follow the kicks."""
 
-from nucleation.analysis.extraction import ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import netcdf, provenance
 from nucleation.model.parameters import Parameters
 from nucleation.patch.twins import follow_twins

@@ -10,12 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..fem.block import Block
-from ..fem.grid import Grid
-from ..model.parameters import Parameters
+from ..fem.condensed import Body
+from ..simulation.composition import composed
 from ..simulation.run import run
 from ..simulation.state import State
 from .moments import chosen_frames, event_interval, thinned
+from .record import parameters_of
 
 Array = NDArray[np.float64]
 
@@ -24,9 +24,9 @@ MOST_COLUMNS, MOST_ROWS = 241, 31
 SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 
-def shear_stress(body: Block, grid: Grid, state: State, shear_modulus: float) -> Array:
+def shear_stress(body: Body, state: State, shear_modulus: float) -> Array:
     """Shear stress (Pa) at the nodes, shape (n_y + 1, n_x + 1), by differences of neighbours."""
-    along_x, along_y = body.nodal_values(state.displacement)
+    grid, (along_x, along_y) = body.grid, body.nodal_values(state.displacement)
     shear = np.gradient(along_x, grid.y, axis=0) + np.gradient(along_y, grid.x, axis=1)
     return shear_modulus * shear
 
@@ -49,20 +49,20 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
         the recorded times and of the nodes, near the loaded edge; ``driving_force`` (N/m) and
         ``maximal_slip_rate`` (m/s) on (step); the run's ``parameters`` as an attribute.
     """
-    parameters = Parameters.from_json(simulation.attrs["parameters"])
-    geometry, mesh = parameters.geometry, parameters.mesh
-    grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
-    body = Block(grid, parameters.material)
-    farthest = np.fmin(SHOWN_LENGTHS * float(row["length"]), geometry.length)
+    parameters = parameters_of(simulation)
+    dynamics = composed(parameters)
+    grid = dynamics.grid
+    farthest = np.fmin(SHOWN_LENGTHS * float(row["length"]), grid.length)
     columns = thinned(np.flatnonzero(grid.x <= farthest), MOST_COLUMNS)
     rows = thinned(np.arange(grid.y.size), MOST_ROWS)
     recorded = simulation["time"].values
     event = event_interval(simulation, float(row["onset_time"]))
     frames = chosen_frames(recorded, event, MOST_FRAMES)
     stresses = []  # type: ignore[var-annotated]
-    for instant in run(parameters):
+    for instant in run(parameters, dynamics=dynamics):
         if instant.state.time >= recorded[frames[len(stresses)]]:
-            stress = shear_stress(body, grid, instant.state, parameters.material.shear_modulus)
+            modulus = parameters.material.shear_modulus
+            stress = shear_stress(dynamics.body, instant.state, modulus)
             stresses.append(stress[np.ix_(rows, columns)].astype(np.float32))
         if len(stresses) == frames.size:
             break

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .extraction import ExtractionSettings, extract
+from .definitions import ExtractionSettings
+from .extraction import extract
 
 MEASURED = (
     "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",

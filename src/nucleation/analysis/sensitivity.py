@@ -17,7 +17,9 @@ import xarray as xr
 from ..model.names import Names
 from ..model.parameters import ALIASES, Parameters, names
 from ..model.quantities import Quantity
-from .extraction import ExtractionSettings, extract, patch_lengths
+from .definitions import ExtractionSettings
+from .extraction import extract
+from .record import Record
 
 COLUMNS = (
     "id", "height", "varied", "variation", "length", "length_change", "theory_length",
@@ -158,10 +160,9 @@ def _redefined(
             yield name, text.format(value), (found["length"], found["onset_time"])
     end = usual["onset_time_high"]
     if math.isfinite(end):
-        threshold = settings.edge_threshold * base.parameters.loading.velocity
-        frame = int(np.abs(base.simulation["time"].values - end).argmin())
-        reach = patch_lengths(base.simulation.isel(time=slice(0, frame + 1)), threshold)
-        yield "instant", DROP_COMPLETE, (float(reach.max()), end)
+        record = Record(base.simulation, settings)
+        frame = record.frames_at(np.array([end]))[0]
+        yield "instant", DROP_COMPLETE, (float(record.lengths[frame]), end)
 
 
 def _row(

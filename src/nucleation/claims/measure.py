@@ -9,10 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..analysis.extraction import ExtractionSettings, Onset, find_onset, patch_lengths
+from ..analysis.definitions import ExtractionSettings
+from ..analysis.record import Record
 from ..model.friction.law import Friction
-from ..model.parameters import Parameters
-from ..simulation.event import WINDOW
 
 Array = NDArray[np.float64]
 
@@ -64,10 +63,7 @@ NONE = float("nan")
 
 def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
     """Read a simulation (the record of :func:`nucleation.simulation.run.simulate`)."""
-    parameters = Parameters.from_json(simulation.attrs["parameters"])
-    steps = simulation["step_time"].values
-    force = np.abs(simulation["driving_force"].values)
-    onset = find_onset(steps, force, WINDOW * parameters.memory_time, settings.drop)
+    record = Record(simulation, settings)
     fastest = simulation["maximal_slip_rate"].values
     sizes = simulation["step_size"].values[1:]
     always = {
@@ -75,56 +71,39 @@ def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
         "largest_rate": float(fastest.max()),
         "usual_step": float(np.median(sizes)),
     }
-    if onset is None:
+    if record.onset is None:
         names = {field.name for field in dataclasses.fields(Measures)} - set(always)
         many = {"lengths": (NONE,) * 9, "patch_rates": (NONE,) * 3}
         return Measures(**{**dict.fromkeys(names, NONE), **many, **always})
-    return Measures(
-        **always,
-        **_drop(steps, fastest, sizes, onset, parameters),
-        **_patch(simulation, steps, onset, parameters, settings),
-    )
+    start = record.onset.start
+    return Measures(**always, **_drop(record, start, fastest, sizes), **_patch(record))
 
 
-def _drop(
-    steps: Array, fastest: Array, sizes: Array, onset: Onset, parameters: Parameters
-) -> dict[str, float]:
-    """How fast the event is."""
-    velocity = parameters.loading.velocity
-    rates = fastest[onset.start :]
+def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str, float]:
+    """How fast the event is that starts with a step."""
+    velocity, steps = record.velocity, record.step_time
+    _, steep, end = record.drop_times
+    rates = fastest[start:]
     hundred = int(np.argmax(rates > 100.0 * velocity)) if rates.max() > 100.0 * velocity else 0
     slower = np.flatnonzero(rates[:hundred] < 10.0 * velocity)
     acceleration = NONE
     if hundred and slower.size:
-        acceleration = steps[onset.start + hundred] - steps[onset.start + slower[-1]]
+        acceleration = steps[start + hundred] - steps[start + slower[-1]]
     return {
         "acceleration_time": float(acceleration),
-        "drop_time": float(steps[onset.end] - steps[onset.steep]),
-        "onset_rate": float(fastest[onset.start]),
-        "shortest_step": float(sizes[onset.start :].min()),
+        "drop_time": float(end - steep),
+        "onset_rate": float(fastest[start]),
+        "shortest_step": float(sizes[start:].min()),
     }
 
 
-def _patch(
-    simulation: xr.Dataset,
-    steps: Array,
-    onset: Onset,
-    parameters: Parameters,
-    settings: ExtractionSettings,
-) -> dict[str, float | tuple[float, ...]]:
+def _patch(record: Record) -> dict[str, float | tuple[float, ...]]:
     """The creeping patch up to the onset, and its length by every definition."""
-    instants = steps[[onset.start, onset.steep, onset.end]]
-    times, x = simulation["time"].values, simulation["x"].values
-    frames = np.abs(times[:, None] - instants).argmin(axis=0)
-    velocity, friction = parameters.loading.velocity, parameters.friction
-    record = simulation.isel(time=slice(0, int(frames.max()) + 1))
-    thresholds = (
-        settings.edge_threshold, settings.edge_threshold_high, settings.edge_threshold_low,
-    )  # fmt: skip
-    reach = [np.maximum.accumulate(patch_lengths(record, part * velocity)) for part in thresholds]
-    at, length = int(frames[0]), reach[0]
+    instants, times, x = record.drop_times, record.time, record.x
+    frames, friction = record.frames_at(instants), record.parameters.friction
+    at, length = int(frames[0]), record.lengths
     rate, state, stress, normal = (
-        simulation[name].values[: at + 1]
+        record.simulation[name].values[: at + 1]
         for name in ("slip_rate", "state", "shear_stress", "normal_stress")
     )
     inside = x <= length[: at + 1, None]
@@ -135,7 +114,7 @@ def _patch(
     weight = np.gradient(times[: at + 1])[:, None] * np.ones_like(rate)
     regular = np.abs(rate[at]) > 10.0 * friction.regularisation_slip_rate
     return {
-        "lengths": tuple(float(edges[i]) for edges in reach for i in frames),
+        "lengths": tuple(float(edges[i]) for edges in record.all_lengths for i in frames),
         "growth_time": float(length[at] / speed) if speed > 0.0 else math.inf,
         "front_speed": float(speed),
         "patch_rates": (float(np.median(medians)), float(medians.min()), float(medians.max())),

@@ -26,10 +26,11 @@ def of_run(config: str, run_id: str) -> Parameters:
 
 def of_dataset(path: Path) -> Parameters:
     """The parameters of an earlier simulation."""
-    from ..datasets import netcdf  # with the libraries of arrays on disk, which takes a second
+    # with the libraries of arrays on disk, which takes a second
+    from ..analysis.record import parameters_of
+    from ..datasets import netcdf
 
-    attributes = netcdf.read(path, requires=["slip_rate", "driving_force"]).attrs
-    return Parameters.from_json(attributes["parameters"])
+    return parameters_of(netcdf.read(path, requires=["slip_rate", "driving_force"]))
 
 
 def of_file(path: Path) -> dict[str, Any]:

@@ -12,11 +12,11 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.extraction import extract
+from ..analysis.record import parameters_of
 from ..commands import DONE, EXIT_CODES, text
 from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.linearised import linearised
-from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.critical import theory_length
 
@@ -94,7 +94,7 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
         digest = attributes["code_digest"]
         verdict = ""
         if kind.name == SIMULATION:
-            own = plugins(Parameters.from_json(attributes["parameters"]))
+            own = plugins(parameters_of(dataset))
             same = digest == provenance.digest("nucleation.simulation.run", *own)
             verdict = ", that of this installation" if same else ", NOT that of this installation"
         lines.append(f"code: {digest[:12]}{verdict}")
@@ -105,8 +105,7 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
 
 
 def _simulation_lines(dataset: xr.Dataset) -> list[str]:
-    attributes = dataset.attrs
-    parameters = Parameters.from_json(attributes["parameters"])
+    attributes, parameters = dataset.attrs, parameters_of(dataset)
     interface = linearised(parameters.friction, parameters.loading)
     theory = theory_length(parameters.geometry.height, parameters.material, interface)
     wall = f"{attributes['wall_seconds']:.4g} s of wall time"

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
-from ..analysis.extraction import ExtractionSettings
+from ..analysis.definitions import ExtractionSettings
 from ..model.linearised import InterfaceState
 from ..model.parameters import FIRST_STEP, Mesh, Parameters
 from ..model.quantities import ParameterError

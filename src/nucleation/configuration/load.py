@@ -16,7 +16,7 @@ from typing import Any
 import jsonschema
 from jsonschema.exceptions import ValidationError
 
-from ..analysis.extraction import ExtractionSettings
+from ..analysis.definitions import ExtractionSettings
 from ..configuration import schema
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS

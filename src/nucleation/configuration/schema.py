@@ -6,7 +6,7 @@ from typing import Any
 
 import yaml
 
-from ..analysis.extraction import ExtractionSettings
+from ..analysis.definitions import ExtractionSettings
 from ..model.friction.law import Friction
 from ..model.friction.registry import law_declarations
 from ..model.linearised import InterfaceState

@@ -28,7 +28,8 @@ from scipy import fft
 from ..fem import kernels
 from ..model.material import Material
 from .field import Field, Motion, Terms
-from .grid import Grid, Tridiagonal, element_matrices
+from .grid import Grid
+from .matrices import Tridiagonal, element_matrices
 from .operator import BlockOperator
 
 Array = NDArray[np.float64]

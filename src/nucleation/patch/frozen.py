@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from ..analysis.extraction import SEARCHED
+from ..analysis.definitions import SEARCHED
 from ..fem.operator import BlockOperator
 from ..model.friction.law import Friction
 

@@ -3,8 +3,7 @@
 Growth of the frozen patch (:mod:`nucleation.patch.frozen`) begins where its oscillating mode
 stops decaying. Each instant of a run needs the spectrum of a dense matrix, and a run has some
 hundred of them: a few, spaced evenly in patch length, find the crossing, and a line through the
-instants around it gives its length. The patch's length is the one of
-:func:`nucleation.analysis.extraction.extract`, the furthest that its edge has come.
+instants around it gives its length.
 """
 
 from __future__ import annotations
@@ -16,13 +15,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..analysis.extraction import ExtractionSettings, find_onset, patch_lengths
+from ..analysis.definitions import ExtractionSettings
 from ..analysis.lengths import description
+from ..analysis.record import Record
 from ..fem.block import Block
-from ..fem.grid import Grid
-from ..fem.operator import BlockOperator
-from ..model.parameters import Parameters
-from ..simulation.event import WINDOW
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 Array = NDArray[np.float64]
@@ -50,7 +46,7 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
         and ``stability_frequency`` (1/s), NaN where it does not begin. On ``x``: real and
         imaginary part of the displacement in that mode, ``mode_real`` and ``mode_imaginary``.
     """
-    record = _Record(simulation, settings)
+    record = _Creep(Record(simulation, settings))
     frames = record.usable_frames()
     scanned = evenly(frames, record.length, SCANNED)
     crossing = rough_crossing(record.length[scanned], record.growth(scanned).real)
@@ -69,25 +65,17 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
     return record.dataset(fit, mode)
 
 
-class _Record:
+class _Creep:
     """A simulation's frames up to the onset, and the frozen patch at each."""
 
-    def __init__(self, simulation: xr.Dataset, settings: ExtractionSettings) -> None:
-        self.parameters = Parameters.from_json(simulation.attrs["parameters"])
-        geometry, mesh = self.parameters.geometry, self.parameters.mesh
-        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
-        self._operator = BlockOperator(Block(self.grid, self.parameters.material), 0.0)
-        self._threshold = settings.edge_threshold * self.parameters.loading.velocity
+    def __init__(self, record: Record) -> None:
+        self.parameters, self.grid = record.parameters, record.grid
+        self._operator = Block(self.grid, self.parameters.material).operator(0.0)
+        self._threshold = record.threshold
         self._slowest_oscillation = OSCILLATING / self.parameters.memory_time
-        steps = simulation["step_time"].values
-        force = np.abs(simulation["driving_force"].values)
-        window = WINDOW * self.parameters.memory_time
-        onset = find_onset(steps, force, window, settings.drop)
-        last = steps[onset.start] if onset is not None else np.inf
-        before = simulation.isel(time=np.flatnonzero(simulation["time"].values <= last))
+        before = record.simulation.isel(time=record.creep)
         self._fields = [before[name].values for name in ("slip_rate", "state", "normal_stress")]
-        self.time = before["time"].values
-        self.length = np.maximum.accumulate(patch_lengths(before, self._threshold))
+        self.time, self.length = record.time[record.creep], record.lengths[record.creep]
         self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
 
     def usable_frames(self) -> NDArray[np.intp]:

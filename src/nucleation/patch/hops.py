@@ -12,9 +12,8 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
-from ..analysis.extraction import SEARCHED, ExtractionSettings, find_onset, patch_lengths
-from ..model.parameters import Parameters
-from ..simulation.event import WINDOW
+from ..analysis.definitions import SEARCHED, ExtractionSettings
+from ..analysis.record import Record
 
 Array = NDArray[np.float64]
 
@@ -27,13 +26,12 @@ TREND = 3  # degree of the trend within the window
 
 
 def crossing_times(time: Array, length: Array, positions: Array) -> Array:
-    """Times (s) at which a growing length (m) first exceeds each position (m), NaN if never."""
-    reach = np.maximum.accumulate(length)
-    index = np.searchsorted(reach, positions, side="right")
+    """Times (s) at which a length (m) that never falls exceeds each position (m), NaN if never."""
+    index = np.searchsorted(length, positions, side="right")
     found = np.full(positions.size, np.nan)
-    inner = (index > 0) & (index < reach.size)
+    inner = (index > 0) & (index < length.size)
     i = index[inner]
-    part = (positions[inner] - reach[i - 1]) / (reach[i] - reach[i - 1])
+    part = (positions[inner] - length[i - 1]) / (length[i] - length[i - 1])
     found[inner] = time[i - 1] + part * (time[i] - time[i - 1])
     return found
 
@@ -64,24 +62,17 @@ def follow_hops(
     ValueError
         If the run has no event.
     """
-    parameters = Parameters.from_json(simulation.attrs["parameters"])
-    velocity, x = parameters.loading.velocity, simulation["x"].values
-    steps, force = simulation["step_time"].values, np.abs(simulation["driving_force"].values)
-    onset = find_onset(steps, force, WINDOW * parameters.memory_time, settings.drop)
-    if onset is None:
-        raise ValueError("the run has no event")
-    before = simulation["time"].values <= steps[onset.start]
-    time = simulation["time"].values[before]
-    rates = simulation["slip_rate"].values
-    creep = simulation.isel(time=np.flatnonzero(before))
-    length = patch_lengths(creep, settings.edge_threshold * velocity)
+    record = Record(simulation, settings)
+    onset_time, x, creep = record.drop_times[0], record.x, record.creep
+    time, length = record.time[creep], record.lengths[creep]
+    rates, parameters = simulation["slip_rate"].values, record.parameters
     nodes = x[1:][x[1:] <= SEARCHED * x[-1]]
     hops = crossing_times(time, length, nodes)
     seen = np.isfinite(hops)
     inner = int(np.argmin(np.abs(x - INSIDE * length.max())))
     passed = time >= time[np.argmax(length >= PASSED * length.max())]
     sample_time, amplitude = oscillation(
-        time[passed], rates[np.flatnonzero(before)[passed], inner], parameters.memory_time
+        time[passed], rates[creep[passed], inner], parameters.memory_time
     )
     return xr.Dataset(
         {
@@ -93,11 +84,11 @@ def follow_hops(
             "inner_slip_rate": ("time", rates[:, inner]),
             "sample_time": ("sample", sample_time),
             "oscillation_amplitude": ("sample", amplitude),
-            "onset_time": steps[onset.start],
+            "onset_time": onset_time,
             "n_x": x.size - 1,
-            "velocity": velocity,
+            "velocity": record.velocity,
         },
-        coords={"time": simulation["time"].values},
+        coords={"time": record.time},
         attrs={"parameters": parameters.to_json()},
     )  # fmt: skip
 

@@ -22,11 +22,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..analysis.extraction import ExtractionSettings, patch_edge
+from ..analysis.definitions import Extent, ExtractionSettings
 from ..analysis.lengths import description
 from ..fem.block import Block
 from ..fem.grid import Grid
-from ..fem.operator import BlockOperator
 from ..model.parameters import Parameters
 from ..simulation.composition import composed
 from ..simulation.control import Instant
@@ -54,16 +53,16 @@ class Patches:
     """The frozen patches of one run, from its step reports."""
 
     def __init__(self, parameters: Parameters, settings: ExtractionSettings) -> None:
-        geometry, mesh = parameters.geometry, parameters.mesh
-        self.grid = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
-        self._operator = BlockOperator(Block(self.grid, parameters.material), 0.0)
+        self.grid = Grid.of(parameters.geometry, parameters.mesh)
+        self._operator = Block(self.grid, parameters.material).operator(0.0)
         self._law = parameters.friction
         self._threshold = settings.edge_threshold * parameters.loading.velocity
+        self._extent = Extent(self.grid.x, self._threshold)
         self._slowest_oscillation = OSCILLATING / parameters.memory_time
 
     def length(self, report: StepReport) -> float:
-        """The patch's length (m) at an instant."""
-        return patch_edge(self.grid.x, report.interface.slip_rate, self._threshold)
+        """The patch's length (m) at an instant, all of which are asked for in their order."""
+        return self._extent.reach(report.interface.slip_rate)
 
     def frozen(self, report: StepReport) -> FrozenPatch:
         """The frozen patch at an instant."""
@@ -96,8 +95,11 @@ class Twin:
         self._frozen: list[complex] = []
         self._lengths: list[float] = []
 
-    def advance(self, instant: Instant) -> bool:
-        """Take the step that the run has taken; whether the twins have been followed enough."""
+    def advance(self, instant: Instant, length: float) -> bool:
+        """Take the step that the run has taken; whether the twins have been followed enough.
+
+        `length` (m) is that of the run's patch at this instant.
+        """
         scheme = self._dynamics.scheme
         rung = scheme.rung(instant.state.last_step, self.state.last_step)
         self.state, _ = self._dynamics.advance(self.state, rung)
@@ -106,7 +108,7 @@ class Twin:
         change = difference(instant.state, self.state, self._nodes)
         self._amplitude.append(complex(change @ self._weights))
         if since >= len(self._lengths) * self._duration / FROZEN:
-            self._lengths.append(self._patches.length(instant.report))
+            self._lengths.append(length)
             self._frozen.append(self._patches.rate(self._patches.frozen(instant.report)))
         return since >= self._duration
 
@@ -173,10 +175,11 @@ def follow_twins(
         creeps = fastest < EVENT * parameters.loading.velocity
         if not (creeps and state.time < parameters.stepping.end_time and (active or lengths)):
             break
-        finished = [twin for twin in active if twin.advance(instant)]
+        length = patches.length(instant.report)
+        finished = [twin for twin in active if twin.advance(instant, length)]
         active = [twin for twin in active if twin not in finished]
         rows += [twin.measured for twin in finished]
-        if lengths and patches.length(instant.report) >= lengths[0]:
+        if lengths and length >= lengths[0]:
             lengths.popleft()
             active.append(Twin(patches, dynamics, instant))
     rows.sort(key=lambda row: row["twin_time"])

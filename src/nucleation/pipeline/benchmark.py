@@ -124,7 +124,7 @@ def banded_matrix(body: Block, s: float) -> Array:
 
 def step_over_solve(parameters: Parameters) -> dict[str, float]:
     """(a) A whole step at the paper's mesh against one banded solve of its size."""
-    grid = grid_of(parameters)
+    grid = Grid.of(parameters.geometry, parameters.mesh)
     body = Block(grid, parameters.material)
     longest = parameters.stepping.longest_step * parameters.memory_time
     s = 1.0 / rung_value(BDF().steady_rung(longest)) ** 2
@@ -144,12 +144,6 @@ def step_over_solve(parameters: Parameters) -> dict[str, float]:
         "own_solve_milliseconds": 1e3 * own,
         "step_over_own_solve": steps / STEPS / own,
     }
-
-
-def grid_of(parameters: Parameters) -> Grid:
-    """The grid of a simulation."""
-    geometry, mesh = parameters.geometry, parameters.mesh
-    return Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
 
 
 def whole_run(parameters: Parameters) -> dict[str, float]:
@@ -175,7 +169,7 @@ def speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dict
     each step, accepted or not, and a factorisation whenever the step size changed. That leaves
     out the interface's Newton iterations, so it is a lower bound for the ordinary way.
     """
-    grid = grid_of(parameters)
+    grid = Grid.of(parameters.geometry, parameters.mesh)
     stiffness, mass = assemble(grid, parameters.material)
     levels = np.arange(grid.n_y + 1)
     held = np.unique(np.concatenate((

@@ -9,7 +9,7 @@ from typing import TextIO
 import numpy as np
 from tqdm import tqdm
 
-from ..analysis.extraction import ExtractionSettings, patch_edge
+from ..analysis.definitions import Extent, ExtractionSettings
 from ..fem.grid import Grid
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
@@ -34,9 +34,8 @@ class Progress:
     """
 
     def __init__(self, parameters: Parameters, stream: TextIO) -> None:
-        geometry, mesh = parameters.geometry, parameters.mesh
-        self._x = Grid(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading).x
-        self._velocity = parameters.loading.velocity
+        threshold = ExtractionSettings().edge_threshold * parameters.loading.velocity
+        self._patch = Extent(Grid.of(parameters.geometry, parameters.mesh).x, threshold)
         self._end = parameters.stepping.end_time
         self._expected_length = _expected_length(parameters)
         self._stream = stream
@@ -52,13 +51,11 @@ class Progress:
 
     def __call__(self, instant: Instant) -> None:
         """Take note of one accepted step."""
-        now = time.monotonic()
+        now, rate = time.monotonic(), instant.report.interface.slip_rate
+        length = self._patch.reach(rate)
         if now < self._next:
             return
         self._next = now + self._pause
-        rate = instant.report.interface.slip_rate
-        threshold = ExtractionSettings().edge_threshold * self._velocity
-        length = patch_edge(self._x, rate, threshold)
         part = self.part_done(instant.state.time, length)
         text = (
             f"t = {instant.state.time:.5g} s, dt = {instant.state.last_step:.3g} s, "

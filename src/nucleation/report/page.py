@@ -14,13 +14,13 @@ import xarray as xr
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from ..analysis.record import parameters_of
 from ..datasets import netcdf
 from ..figures import catalogue, style
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..model.parameters import Parameters
 from ..report import encode, explorer, tables
 from .captions import caption_html
 
@@ -119,7 +119,7 @@ def _player(content: Content) -> dict[str, Any] | None:
     if content.player is None:
         return None
     run, row = content.player
-    loading = Parameters.from_json(run.attrs["parameters"]).loading
+    loading = parameters_of(run).loading
     onset, length = (float(row[name]) for name in ("onset_time", "length"))
     start = onset if np.isfinite(onset) else 0.0
     fields = {
@@ -149,7 +149,7 @@ def _run(content: Content) -> dict[str, Any] | None:
     name = f"{row['id'].values}.nc"
     return {
         "id": str(row["id"].values),
-        "height": Parameters.from_json(run.attrs["parameters"]).geometry.height,
+        "height": parameters_of(run).geometry.height,
         "onset": float(row["onset_time"]),
         "length": float(row["length"]),
         "frames": run.sizes["time"],

@@ -6,9 +6,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..analysis.extraction import ExtractionSettings, patch_lengths
+from ..analysis.definitions import ExtractionSettings
 from ..analysis.moments import chosen_frames, event_interval, thinned
-from ..model.parameters import Parameters
+from ..analysis.record import Record
 
 Array = NDArray[np.float64]
 
@@ -48,11 +48,9 @@ def player_dataset(
         The attributes ``event_start`` and ``event_end`` (s) are those of
         :func:`nucleation.analysis.moments.event_interval`.
     """
-    parameters = Parameters.from_json(simulation.attrs["parameters"])
-    threshold = settings.edge_threshold * parameters.loading.velocity
-    edge = np.maximum.accumulate(patch_lengths(simulation, threshold))
+    record = Record(simulation, settings)
     event = event_interval(simulation, float(row["onset_time"]))
-    frames = chosen_frames(simulation["time"].values, event, MOST_FRAMES)
+    frames = chosen_frames(record.time, event, MOST_FRAMES)
     nodes = thinned(np.arange(simulation.sizes["x"]), MOST_NODES)
     fields = simulation[["slip_rate", "shear_stress", "state"]].isel(time=frames, x=nodes)
     step_time, force = simulation["step_time"].values, simulation["driving_force"].values
@@ -65,7 +63,7 @@ def player_dataset(
     )
     kept = np.unique(steps)
     return fields.assign(
-        patch_length=("time", edge[frames]),
+        patch_length=("time", record.lengths[frames]),
         step_time=("step", step_time[kept]),
         driving_force=("step", force[kept]),
     ).assign_attrs(event_start=event[0], event_end=event[1])

@@ -64,9 +64,7 @@ class Systems(NamedTuple):
         return pair * self.rate
 
 
-def system(
-    upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState
-) -> Systems:
+def system(upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState) -> Systems:
     """One system of two bodies and their interface."""
     pair = Pair(upper.layers, lower.layers)
     s = interface

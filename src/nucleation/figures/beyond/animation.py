@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from ...analysis.moments import event_interval
+from ...analysis.record import parameters_of
 from ...datasets.files import replacing
 from ...figures import style
 from ...model.parameters import Parameters
@@ -72,7 +73,7 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
     grid = figure.add_gridspec(3, 2, height_ratios=(1.15, 1.0, 1.0))
     rate, block = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
     whole, near = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
-    parameters = Parameters.from_json(film.attrs["parameters"])
+    parameters = parameters_of(film)
     onset = float(row["onset_time"])
     interval = event_interval(film, onset)
     title = rate.set_title("", loc="left")

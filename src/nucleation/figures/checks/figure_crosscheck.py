@@ -9,9 +9,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...analysis.extraction import ExtractionSettings, patch_lengths
+from ...analysis.definitions import ExtractionSettings
+from ...analysis.record import Record
 from ...figures import style
-from ...model.parameters import Parameters
 
 OWN, FREEFEM = style.BLACK, style.VERMILLION
 KILO = 1e3
@@ -50,17 +50,15 @@ def draw(
         3, len(pairs), sharex="col", squeeze=False, height_ratios=(1.35, 1.35, 1.0)
     )
     for i, (column, (own, freefem)) in enumerate(zip(panels.T, pairs, strict=True)):
-        parameters = Parameters.from_json(own.attrs["parameters"])
-        threshold = settings.edge_threshold * parameters.loading.velocity
-        row = table.isel(run=i)
-        lengths = [(run["time"].values, patch_lengths(run, threshold)) for run in (own, freefem)]
+        records, row = (Record(own, settings), Record(freefem, settings)), table.isel(run=i)
+        lengths = [(run.time, run.lengths) for run in records]
         forces = [
             (run["step_time"].values, -run["driving_force"].values / KILO) for run in (own, freefem)
         ]
         _draw_both(column[0], lengths, row, "length")
         _draw_both(column[1], forces, row)
         _draw_differences(column[2], lengths, forces, row)
-        column[0].set_title(f"$H={parameters.geometry.height:g}$ m", pad=3.0)
+        column[0].set_title(f"$H={records[0].grid.height:g}$ m", pad=3.0)
         column[2].set_xlabel("Time $t$ (s)")
     _label(panels)
     return figure

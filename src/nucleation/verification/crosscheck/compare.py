@@ -15,7 +15,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...analysis.extraction import ExtractionSettings, extract, patch_lengths
+from ...analysis.definitions import ExtractionSettings
+from ...analysis.extraction import extract
+from ...analysis.record import Record
 from ...model.parameters import Parameters
 from ...simulation.run import simulate
 
@@ -48,15 +50,12 @@ def compare(
     are relative; the largest difference of L(t) is given in elements as well. NaN where a run has
     no event or is too short.
     """
-    parameters = Parameters.from_json(own.attrs["parameters"])
+    records = Record(own, settings), Record(theirs, settings)
+    parameters = records[0].parameters
     measured, measured_freefem = extract(own, settings), extract(theirs, settings)
     ends = (measured["onset_time"], measured_freefem["onset_time"])
     instants = np.linspace(SETTLED * parameters.memory_time, BEFORE_ONSET * np.min(ends), INSTANTS)
-    threshold = settings.edge_threshold * parameters.loading.velocity
-    patch, patch_freefem = (
-        np.interp(instants, run["time"].values, patch_lengths(run, threshold))
-        for run in (own, theirs)
-    )
+    patch, patch_freefem = (np.interp(instants, run.time, run.lengths) for run in records)
     force, force_freefem = (
         np.interp(instants, run["step_time"].values, run["driving_force"].values)
         for run in (own, theirs)

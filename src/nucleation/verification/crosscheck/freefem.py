@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from ...analysis.extraction import ExtractionSettings
+from ...analysis.definitions import ExtractionSettings
 from ...model.parameters import Parameters
 from .plan import (
     FIXED,

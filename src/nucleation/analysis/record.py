@@ -1,0 +1,125 @@
+"""A recorded run, read once: its parameters, its onset, its patch.
+
+Whatever looks at a simulation's dataset looks at it through a :class:`Record`, so that parameters,
+thresholds, onset and length of the patch are the same for all.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..fem.grid import Grid
+from ..model.parameters import Parameters
+from ..simulation.event import WINDOW
+from .definitions import ExtractionSettings, Onset, find_onset, slipping_edge
+
+Array = NDArray[np.float64]
+
+
+def parameters_of(dataset: xr.Dataset) -> Parameters:
+    """The parameters of the run that a dataset is of or comes from."""
+    return Parameters.from_json(dataset.attrs["parameters"])
+
+
+class Record:
+    """The dataset of one simulation, as the analysis sees it.
+
+    Parameters
+    ----------
+    simulation : of :func:`nucleation.simulation.run.simulate`, or another solver's like it.
+    settings : definitions of the patch's edge and of the drop.
+    """
+
+    def __init__(
+        self, simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+    ) -> None:
+        self.simulation, self.settings = simulation, settings
+        self.parameters = parameters_of(simulation)
+
+    @cached_property
+    def grid(self) -> Grid:
+        """The mesh of the run's block."""
+        return Grid.of(self.parameters.geometry, self.parameters.mesh)
+
+    @property
+    def velocity(self) -> float:
+        """The imposed velocity V (m/s)."""
+        return self.parameters.loading.velocity
+
+    @cached_property
+    def x(self) -> Array:
+        """Positions (m) along the interface."""
+        return self.simulation["x"].values
+
+    # -- the drive, at every step -----------------------------------------------------------------
+
+    @cached_property
+    def step_time(self) -> Array:
+        """Times (s) of the steps."""
+        return self.simulation["step_time"].values
+
+    @cached_property
+    def force(self) -> Array:
+        """Magnitude of the driving force (N/m) at every step."""
+        return np.abs(self.simulation["driving_force"].values)
+
+    @cached_property
+    def onset(self) -> Onset | None:
+        """The first event, as indices into the steps; None if there is none."""
+        window = WINDOW * self.parameters.memory_time
+        return find_onset(self.step_time, self.force, window, self.settings.drop)
+
+    @property
+    def drop_times(self) -> Array:
+        """Times (s) at which the force's drop starts, is steep and is complete, (3,).
+
+        Raises
+        ------
+        ValueError
+            If the run has no event.
+        """
+        if self.onset is None:
+            raise ValueError("the run has no event")
+        return self.step_time[[self.onset.start, self.onset.steep, self.onset.end]]
+
+    # -- the interface, at recorded times ---------------------------------------------------------
+
+    @cached_property
+    def time(self) -> Array:
+        """Times (s) of the frames."""
+        return self.simulation["time"].values
+
+    def frames_at(self, times: Array) -> NDArray[np.intp]:
+        """The frames nearest to some times (s)."""
+        return np.abs(self.time[:, None] - times).argmin(axis=0)
+
+    @cached_property
+    def creep(self) -> NDArray[np.intp]:
+        """The frames up to the onset, all of them if there is none."""
+        last = np.inf if self.onset is None else self.drop_times[0]
+        return np.flatnonzero(self.time <= last)
+
+    @property
+    def threshold(self) -> float:
+        """Slip rate (m/s) at the edge of the patch."""
+        return self.settings.edge_threshold * self.velocity
+
+    @cached_property
+    def lengths(self) -> Array:
+        """Length of the patch (m) at every frame: the furthest that its edge has come so far."""
+        return self._lengths(self.settings.edge_threshold)
+
+    @cached_property
+    def all_lengths(self) -> tuple[Array, Array, Array]:
+        """The same for the usual threshold, the largest and the smallest of the error bar."""
+        high, low = self.settings.edge_threshold_high, self.settings.edge_threshold_low
+        return self.lengths, self._lengths(high), self._lengths(low)
+
+    def _lengths(self, share: float) -> Array:
+        rates, threshold = self.simulation["slip_rate"].values, share * self.velocity
+        edges = [slipping_edge(self.x, rate, threshold) for rate in rates]
+        return np.maximum.accumulate(np.array(edges))

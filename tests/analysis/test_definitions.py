@@ -1,0 +1,72 @@
+"""Onset of made-up forces and edges of made-up slip rates, with known answers."""
+
+import numpy as np
+import pytest
+from analysis.made_up_patch import force_record
+
+from nucleation.analysis.definitions import Extent, find_onset, slipping_edge
+from nucleation.simulation.event import DropWatch
+
+MEMORY_TIME = 0.05  # D/V (s) of the default parameters
+
+
+def test_onset_is_the_start_of_the_abrupt_drop():
+    time, force = force_record()
+    onset = find_onset(time, force, MEMORY_TIME, 0.02)
+    assert time[onset.start] == pytest.approx(10.0, abs=0.0101)
+    assert time[onset.end] == pytest.approx(10.0 + 0.004 * 0.4, abs=2e-4)
+    assert onset.start <= onset.steep <= onset.end
+
+
+def test_a_slow_decrease_is_no_event():
+    time, force = force_record(fall=2.0, size=0.1, end=20.0)
+    assert find_onset(time, force, MEMORY_TIME, 0.02) is None
+
+
+def test_a_small_drop_is_no_event():
+    time, force = force_record(size=0.01)
+    assert find_onset(time, force, MEMORY_TIME, 0.02) is None
+
+
+def test_the_first_of_two_events_counts():
+    time, force = force_record()
+    later, again = force_record(onset=5.0, end=7.0)
+    onset = find_onset(
+        np.append(time, time[-1] + 0.01 + later), np.append(force, again), MEMORY_TIME, 0.02
+    )
+    assert time[onset.start] == pytest.approx(10.0, abs=0.0101)
+
+
+def test_drop_watch_forgets_what_left_the_window():
+    watch = DropWatch(window=1.0, drop=0.1)
+    assert not watch.dropped(0.0, 100.0)
+    assert not watch.dropped(0.5, 95.0)
+    assert not watch.dropped(1.2, 88.0)  # 100 is forgotten, 95 is not: a fall by 7 %
+    assert watch.dropped(1.3, 85.0)
+
+
+@pytest.mark.parametrize("threshold", [1e-8, 1e-6, 5e-6])
+def test_slipping_edge_is_found_between_nodes(threshold):
+    """log v falls linearly in x, so the crossing is known exactly."""
+    x = np.linspace(0.0, 1.0, 41)
+    rate = 1e-5 * 10.0 ** (-x / 0.06)
+    assert slipping_edge(x, rate, threshold) == pytest.approx(0.06 * np.log10(1e-5 / threshold))
+
+
+def test_slipping_edge_limits():
+    x = np.linspace(0.0, 1.0, 21)
+    far = np.where(x > 0.8, 1e-3, 1e-12)  # slip at the far corner is not the patch
+    assert slipping_edge(x, far, 1e-6) == 0.0
+    holed = np.where((x < 0.3) & ~((x > 0.1) & (x < 0.2)), 1e-5, 1e-12)
+    assert 0.25 <= slipping_edge(x, holed, 1e-6) <= 0.3  # the furthest edge counts
+    assert slipping_edge(x, np.full(21, 1e-2), 1e-6) == 0.5  # all slips: the part searched
+
+
+def test_a_patch_keeps_its_extent():
+    """The edge goes to and fro with the slip rate; what has crept belongs to the patch."""
+    x, lengths = np.linspace(0.0, 1.0, 41), []
+    extent = Extent(x, 1e-6)
+    for speed in (1.0, 10.0, 0.1, 20.0):
+        lengths.append(extent.reach(speed * 1e-5 * 10.0 ** (-x / 0.06)))
+    np.testing.assert_allclose(lengths, 0.06 * np.log10([10.0, 100.0, 100.0, 200.0]), rtol=1e-9)
+    assert extent.length == lengths[-1]
