@@ -1,0 +1,150 @@
+"""Parameters of studies by full and short names, and the friction laws' own ones."""
+
+import pytest
+from configurations import changed, messages, study, with_run
+
+from nucleation.configuration import schema
+from nucleation.configuration.load import configure
+from nucleation.configuration.study_names import other_names, study_parameters
+from nucleation.model import parameters
+from nucleation.model.friction.constants import constants
+from nucleation.model.friction.law import Friction
+from nucleation.model.names import Names
+from nucleation.model.parameters import Parameters
+
+RUN = "studies.paper.runs[3]"
+SHORT = {"height": 0.1, "law": ["aging", "slip"], "n_x": 800, "phi0": 10.0}
+FULL = {
+    "geometry.height": 0.1, "friction.evolution": ["aging", "slip"], "mesh.n_x": 800,
+    "loading.initial_state": 10.0,
+}  # fmt: skip
+
+
+def runs_of(*entries, **settings):
+    return configure(study(*entries, **settings)).runs
+
+
+def test_full_names_give_the_same_runs():
+    assert runs_of(SHORT) == runs_of(FULL)
+    assert [run.id for run in runs_of(FULL)] == [
+        "s-aging-H0.1-phi10-n_x800", "s-slip-H0.1-phi10-n_x800",
+    ]  # fmt: skip
+    assert [run.given for run in runs_of(SHORT)] == [run.given for run in runs_of(FULL)]
+
+
+def test_names_in_defaults_and_runs_may_differ():
+    (run,) = runs_of({"height": 0.1}, defaults={"geometry.height": 0.2, "mesh.n_x": 90})
+    assert (run.parameters.geometry.height, run.parameters.mesh.n_x) == (0.1, 90)
+    (run,) = runs_of({"height": 0.1, "evolution": "slip"})
+    assert run.labels["law"] == "slip"
+
+
+def test_schema_has_every_name():
+    properties = schema.build()["$defs"]["study"]["properties"]
+    for node in (properties["defaults"], properties["runs"]["items"]):
+        assert set(node["properties"]) == {*study_parameters(), *other_names()}
+    assert "geometry.height" in other_names() and "friction.law" in other_names()
+
+
+def test_ranges_are_checked_by_any_name():
+    for name in ("geometry.height", "height"):
+        text = messages(with_run(**{name: [0.2, -1.0]}))
+        assert f"{RUN}.{name}[1] = -1.0 m is not allowed: block height must lie in (0, 1e" in text
+
+
+NAMES = {
+    "given twice": (
+        study({"height": 0.1, "geometry.height": 0.2}),
+        ["studies.s.runs[0]: geometry.height = 0.2 is not allowed: height is given already"],
+    ),
+    "wrong group": (
+        with_run(**{"mesh.height": 0.1}),
+        [f"{RUN}.mesh.height = 0.1 is not allowed: unknown key; did you mean"],
+    ),
+    "unknown": (with_run(zzz=0.1), [f"{RUN}.zzz = 0.1", "known keys: shear_modulus, poisson_r"]),
+    "a law of friction as evolution": (
+        with_run(height=0.1, law="dieterich_ruina"),
+        [f"{RUN}.law = 'dieterich_ruina'", "must be one of aging, slip", "friction.law"],
+    ),
+}
+
+FRICTION = {
+    "unknown law": (
+        changed("friction.law", "none"),
+        ["friction.law = 'none' is not allowed", "one of dieterich_ruina, product"],
+    ),
+    "another law's parameter in the section": (
+        {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina", "state_scale": 1.0}},
+        ["friction.state_scale = 1.0 is not allowed: the friction law dieterich_ruina has no such",
+         "log_rate_coefficient"],
+    ),
+    "another law's parameter in a run": (
+        study({"height": 0.1, "friction.law": "dieterich_ruina", "state_scale": 1.0}),
+        ["studies.s.runs[0]: friction.state_scale = 1.0", "law dieterich_ruina has no such"],
+    ),
+    "no law's parameter": (
+        {**study({"height": 0.1}), "friction": {"log_rate_coefficent": 0.01}},
+        ["friction.log_rate_coefficent = 0.01", "did you mean log_rate_coefficient?"],
+    ),
+    "out of range": (
+        {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina",
+                                                "reference_slip_rate": -1.0}},
+        ["friction.reference_slip_rate = -1.0 m/s", "(friction law dieterich_ruina)", "(0, 1) m/s"],
+    ),
+    "values that contradict each other": (
+        {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina",
+                                                "log_rate_coefficient": 1e-4}},
+        ["friction.log_rate_coefficient = 0.0001", "0.00137 or more"],
+    ),
+    "a constant and what it sets": (
+        study({"height": 0.1, "friction_law": "dieterich_ruina", "zeta_over_a": 2.0,
+               "log_state_coefficient": 0.02}),
+        ["log_state_coefficient is not allowed together with zeta_over_a"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("config", "fragments"), (NAMES | FRICTION).values(), ids=(NAMES | FRICTION).keys()
+)
+def test_bad_names_and_laws_are_named(config, fragments):
+    text = messages(config)
+    for fragment in fragments:
+        assert fragment in text
+    assert text.startswith("the configuration has one problem:\n")
+
+
+def test_a_second_body_would_be_named(monkeypatch):
+    """With another ``height``, the short name is an error that lists both; full ones work."""
+    entries = dict(parameters.names())
+    names = Names(entries | {"second_body.height": entries["geometry.height"]}, parameters.ALIASES)
+    monkeypatch.setattr("nucleation.configuration.load.names", lambda: names)
+    monkeypatch.setattr("nucleation.configuration.study_names.names", lambda: names)
+    text = messages(study({"height": 0.1}))
+    assert text.endswith(
+        "studies.s.runs[0].height = 0.1 is not allowed: "
+        "it may be geometry.height or second_body.height"
+    )
+
+
+def test_laws_are_compared_by_one_study():
+    """Both laws with the same constants: the theory's length is one, the laws are two."""
+    constant = {"friction_coefficient": 0.5, "direct_effect": 0.01, "zeta_over_a": 1.0}
+    runs = runs_of(
+        {"height": 0.1, "friction.law": ["product", "dieterich_ruina"]}, defaults=constant
+    )
+    assert [run.id for run in runs] == [
+        "s-aging-H0.1-phi1-friction_lawproduct", "s-aging-H0.1-phi1-friction_lawdieterich_ruina",
+    ]  # fmt: skip
+    for run in runs:
+        assert constants(run.parameters.friction, 1e-5) == pytest.approx(constant)
+    assert runs[0].theory_length == pytest.approx(runs[1].theory_length, rel=1e-9)
+    assert runs[1].value("friction_law") == "dieterich_ruina"
+    assert runs[1].value("aging_coefficient") is None
+
+
+def test_the_section_chooses_the_law():
+    values = {"law": "dieterich_ruina", "evolution": "slip", "log_state_coefficient": 0.02}
+    config = configure({**study({"height": 0.1}), "friction": values})
+    assert config.friction == Friction(**values) == config.runs[0].parameters.friction
+    assert Parameters.from_json(config.runs[0].parameters.to_json()) == config.runs[0].parameters
