@@ -1,10 +1,12 @@
 """docs/extending.md carried out in a copy of the project: law, test, study and figure."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pandas as pd
 import pytest
 from docs.samples import ROOT, commands, samples
@@ -22,45 +24,42 @@ def run(arguments, checkout):
     return done.stdout
 
 
+LAW = "src/nucleation/model/friction/laws/dieterich_ruina.py"
+ADDED = ["src/nucleation/model/friction/evolutions/halfway.py", LAW]
+ADDED += ["src/nucleation/figures/beyond/figure_laws.py", "workflow/scripts/figure_laws.py"]
+
+
 @pytest.fixture(scope="module")
 def checkout(tmp_path_factory):
-    """A copy of the project with the page's additions."""
+    """A copy of the project without the law that the page adds, and then with its additions."""
     copy = tmp_path_factory.mktemp("checkout")
     parts = ("Snakefile", "pyproject.toml", "src", "workflow", "config")
-    for part in (*parts, "tests/model/test_friction.py"):
+    for part in (*parts, "tests/model/test_laws.py"):
         (copy / part).parent.mkdir(parents=True, exist_ok=True)
         take = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
         take(ROOT / part, copy / part)
-    added = {}
+    (copy / LAW).unlink()
     for sample in filter(lambda sample: sample.file, samples(PAGE)):
         path = copy / sample.file
-        if sample.language == "diff":
-            lines = sample.code.splitlines()
-            removed = "".join(line[1:] + "\n" for line in lines if line.startswith("-"))
-            new = "".join(line[1:] + "\n" for line in lines if line.startswith("+"))
-            text = path.read_text()
-            assert text.count(removed) == 1  # the page shows the line as it is
-            path.write_text(text.replace(removed, added.pop(sample.file) + "\n\n" + new))
-        elif path.name == "evolution.py":
-            added[sample.file] = sample.code  # goes above the line that the next sample changes
-        else:
-            before = path.read_text() + "\n\n" if path.exists() else ""
-            path.write_text(before + sample.code)
-    assert not added
+        before = path.read_text() + "\n\n" if path.exists() else ""
+        path.write_text(before + sample.code)
     return copy
 
 
-def test_law_passes_its_test(checkout):
-    command = ["pytest", "tests/model/test_friction.py", "-k", "halfway"]
-    assert "3 passed" in run([*command, "-p", "no:cacheprovider"], checkout)
+def test_law_of_the_page_is_the_projects(checkout):
+    assert (checkout / LAW).read_text() == (ROOT / LAW).read_text()
+
+
+def test_laws_pass_the_tests_of_all_laws(checkout):
+    for law in ("halfway", "dieterich_ruina"):
+        command = ["pytest", "tests/model/test_laws.py", "-k", law, "-p", "no:cacheprovider"]
+        done = re.search(r"(\d+) passed", run(command, checkout))
+        assert int(done[1]) > 10
 
 
 def test_additions_are_in_style(checkout):
-    paths = ["src/nucleation/model/friction/evolution.py"]
-    paths += ["src/nucleation/figures/beyond/figure_laws.py"]
-    paths += ["tests/model/test_friction.py", "workflow/scripts/figure_laws.py"]
-    run(["ruff", "check", *paths], checkout)
-    run(["ruff", "format", "--check", *paths], checkout)
+    run(["ruff", "check", *ADDED], checkout)
+    run(["ruff", "format", "--check", *ADDED], checkout)
 
 
 def test_study_and_figure(checkout):
@@ -72,8 +71,11 @@ def test_study_and_figure(checkout):
     results = checkout / "results" / "laws"
     assert (results / "figures" / "figure_laws.png").stat().st_size > 10_000
     table = pd.read_csv(results / "lengths.csv")
-    assert sorted(table["law"]) == ["aging"] * 2 + ["halfway"] * 2
-    assert table["length"].notna().all()
-    by_law = table.set_index(["height", "law"])["length"].unstack()
-    assert (by_law["halfway"] != by_law["aging"]).all()
-    assert (by_law["halfway"] / by_law["aging"]).between(0.7, 1.4).all()
+    table["friction"] = np.where(table["id"].str.contains("dieterich_ruina"), "other", "paper")
+    by_law = table.set_index(["friction", "height", "law"])["length"]
+    assert by_law.notna().all() and by_law.index.is_unique
+    paper, other = by_law["paper"].unstack(), by_law["other"].unstack()
+    assert set(paper) == {"aging", "halfway"} and set(other) == {"halfway", "slip"}
+    assert (paper["halfway"] != paper["aging"]).all()
+    for ratio in (paper["halfway"] / paper["aging"], other["halfway"] / paper["halfway"].loc[0.02]):
+        assert ratio.between(0.7, 1.4).all()
