@@ -15,7 +15,12 @@ from nucleation.model.quantities import ParameterError
 from nucleation.theory import closed_forms, conventional, literature
 from nucleation.theory.arrays import critical_length
 from nucleation.theory.fault import Fault
-from nucleation.theory.literature_table import LENGTHS, lengths_in_use, lengths_of
+from nucleation.theory.literature_table import (
+    LENGTHS,
+    TWO_MATERIALS,
+    lengths_in_use,
+    lengths_of,
+)
 
 ROCK = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3}
 LOAD = {"normal_stress": 1e6, "slip_distance": 5e-7}
@@ -60,10 +65,13 @@ def test_relations():
     assert ratio == pytest.approx(2 * math.pi / 3)
     assert full / one("dieterich_longest") == pytest.approx(math.pi / (1 - 1 / 3) / (4 / 3))
     assert one("state_evolution") == pytest.approx(STATE_LENGTH)
-    assert one("uenishi_rice") == pytest.approx(1.158 * STATE_LENGTH)
+    small = {"a": 0.001, "zeta": 0.0218}
+    assert one("uenishi_rice", **small) == pytest.approx(1.158 * STATE_LENGTH)
+    assert one("uenishi_rice", weakening_rate=0.0228e6 / 5e-7) == one("uenishi_rice", **small)
     # without direct effect, a = 0, the theory is 2 pi times L_b / 2, and eta = pi/(1 - nu)
-    tiny = {"a": 1e-12, "zeta": 0.0228}
-    assert one("homogeneous_sliding", **tiny) == pytest.approx(math.pi * STATE_LENGTH)
+    tiny = {"a": 2e-7, "zeta": 0.0228}
+    expected = math.pi * STATE_LENGTH
+    assert one("homogeneous_sliding", **tiny) == pytest.approx(expected, rel=1e-4)
     # near a/b = 1 the expanding patch is larger than the linear one by (2/pi^2) b/(b - a)
     near = {"a": 0.0999, "zeta": 0.0001}
     ratio = one("rubin_ampuero_crack", **near) / one("homogeneous_sliding", **near)
@@ -162,6 +170,7 @@ def test_thin_layer_length():
         ("dieterich_longest", [0.999], [1.0]),
         ("thin_limit", [0.01, 0.9], [1.0, 1.2]),
         ("state_evolution", [0.01, 1.2], []),
+        ("uenishi_rice", [0.01, 0.099], [0.101, 0.9, 1.2]),
     ],
 )
 def test_ranges_of_validity_in_a_over_b(key, inside, outside):
@@ -212,7 +221,7 @@ def test_arrays_and_names():
         point = fault | {"a": float(a[i]), "normal_stress": float(stress[j])}
         alone = lengths_in_use(**point)["rubin_ampuero_localised"]
         assert_allclose(found[i, j], alone)
-    plain = lengths_in_use(**ROCK | LOAD | {"a": [[0.1], [0.2]], "b": [0.3, 0.4, 0.5]})
+    plain = lengths_in_use(**ROCK | LOAD | {"a": [[0.01], [0.02]], "b": [0.03, 0.04, 0.05]})
     assert plain["rice_ruina"].dims == ("axis_0", "axis_1")
     assert plain["rice_ruina"].shape == (2, 3)
 
@@ -221,6 +230,40 @@ def test_what_depends_on_no_named_array():
     a = xr.DataArray([0.004, 0.006], dims="a")
     found = lengths_in_use(**ROCK, **LOAD, a=a, b=0.0228)
     assert found["state_evolution"].dims == () and found["rice_ruina"].dims == ("a",)
+
+
+TWO = {"friction": 0.6, "second_shear_modulus": 4e9, "second_poisson_ratio": 0.3}
+
+
+@pytest.mark.parametrize("second", [4e9, 1e9, 9.9e11, math.inf])
+@pytest.mark.parametrize("key", [x.key for x in LENGTHS if x.system == TWO_MATERIALS])
+def test_lengths_of_two_materials_have_the_modulus_of_the_pair(key, second):
+    pair = TWO | {"second_shear_modulus": second, "friction": 0.01, "a": 0.0001, "zeta": 0.0227}
+    if "crack" in key:
+        pair |= NEUTRAL
+    stiff = Material(min(second, 9.9e12), 0.3)
+    modulus = closed_forms.bimaterial_modulus(Material(3.1e9, 1 / 3), stiff)
+    alone = one(key.removesuffix("_two_materials"), **{k: pair[k] for k in ("a", "zeta")})
+    assert one(key, **pair) == pytest.approx(alone * modulus / PLANE_MODULUS, rel=1e-3)
+
+
+def test_the_theory_without_coupling_has_the_length_of_two_materials():
+    """With vanishing friction normal stress does not matter, and Eq. (9) is its normalisation."""
+    uncoupled = TWO | {"friction": 0.0}
+    expected = critical_length(**ROCK, **LOAD, **WEAKENING, **uncoupled)
+    assert one("homogeneous_sliding_two_materials", **uncoupled) == pytest.approx(expected)
+    same = {"second_shear_modulus": 3.1e9, "second_poisson_ratio": 1 / 3, "friction": 0.6}
+    length = one("homogeneous_sliding_two_materials", **same)
+    assert length == pytest.approx(one("homogeneous_sliding"))
+
+
+def test_pairs_whose_coupling_matters_are_out_of_range():
+    """A tenth of the change in shear stress, from normal stress times friction, and not more."""
+    beta = closed_forms.bimaterial_contrast(Material(3.1e9, 1 / 3), Material(30e9, 0.3))
+    for factor, valid in ((0.99, True), (1.01, False)):
+        pair = TWO | {"second_shear_modulus": 30e9, "friction": factor * 0.1 / abs(beta)}
+        assert np.isfinite(one("rice_ruina_two_materials", **pair)) == valid
+        assert np.isfinite(one("rice_ruina", **pair))
 
 
 def test_one_fault_serves_all():

@@ -18,7 +18,14 @@ from ..model.quantities import ParameterError, declarations
 from ..model.units import bounds, parse
 from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
 from ..theory.fault import QUANTITIES, Fault
-from ..theory.literature_table import LENGTHS, WEAKENING_RATE, Length, lengths_of
+from ..theory.literature_table import (
+    LENGTHS,
+    TWO_MATERIALS,
+    WEAKENING_RATE,
+    Length,
+    of_two_materials,
+    values_of,
+)
 
 DENSITY = declarations(Material)["density"]
 
@@ -80,9 +87,9 @@ def command(
         )
     for text in dict.fromkeys(str(doubt.message) for doubt in doubts):
         click.echo(f"warning: {text}", err=True)
-    lengths = lengths_of(fault, weakening_rate)
+    lengths = values_of(fault, weakening_rate)
     print_as = _as_json if as_json else _as_text
-    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))  # type: ignore[misc]
+    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))
     return DONE if np.isfinite(mode.length) else STABLE
 
 
@@ -142,12 +149,21 @@ def _as_text(
     fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
 ) -> str:
     lines = [*_theory_lines(fault, mode, density)]
+    one_material = (fault.shear_modulus, fault.poisson_ratio) == (
+        fault.second_shear_modulus, fault.second_poisson_ratio,
+    )  # fmt: skip
     for system in dict.fromkeys(length.system for length in LENGTHS):
+        if system == TWO_MATERIALS and one_material:
+            continue
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
             if length.system == system:
                 lines += _length_lines(length, lengths[length.key], fault, float(mode.length))
-    lines += ["", "with mu* = mu/(1 - nu), b = a + zeta, natural logarithms; all are full lengths"]
+    modulus = "" if one_material else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
+    lines += [
+        "",
+        f"with mu* = mu/(1 - nu){modulus}, b = a + zeta, natural logarithms; all are full lengths",
+    ]
     return "\n".join(lines)
 
 
@@ -205,8 +221,10 @@ def _why(length: Length, fault: Fault) -> str:
         facts.append(f"a/b = {a / b:.4g}" if b > 0.0 else f"b = {b:.4g}")
     if "zeta" in length.needs:
         facts.append(f"zeta = {zeta:.4g}")
-    if "b > 0" in length.needs or "W > 0" in length.needs:
+    if "b > 0" in length.needs:
         facts.append(f"b = {b:.4g}")
+    if "beta" in length.needs:
+        facts.append(f"f |beta| = {float(of_two_materials(fault)[1]):.4g}")
     if "H/L" in length.needs:
         facts.append(f"H = {height:g} m")
     return ", ".join(facts)

@@ -252,6 +252,13 @@ def labelled(value: Any) -> bool:
     return "xarray" in sys.modules and isinstance(value, sys.modules["xarray"].DataArray)
 
 
+def where(condition: Any, first: Any, second: Any) -> Any:
+    """``xr.where`` if there is a DataArray, else NumPy's."""
+    if any(map(labelled, (condition, first, second))):
+        return sys.modules["xarray"].where(condition, first, second)
+    return np.where(condition, first, second)[()]
+
+
 def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
     """The value in SI units as an array of floats, all in the declared range."""
     value = magnitude(name, value, entry)

@@ -12,16 +12,20 @@ import math
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from .conventional import CONVENTIONAL_ETA
-from .fault import Values
+from .fault import Values, where
 
 LOCALISED_LIMIT = 0.3781
 """Largest a/b at which a patch of fixed length accelerates (Rubin and Ampuero, 2005)."""
 
 THIN = 0.3
 """Largest ``2 pi H/L`` at which a layer counts as thin: Eq. (11) is then 8 % above the theory."""
+
+
+NEGLIGIBLE = 0.1
+"""Largest a/b of a law whose direct effect is left out, and largest ``f |beta|`` of a pair whose
+coupling of slip to normal stress is: a tenth of what is kept."""
 
 
 def plane_strain_modulus(shear_modulus: Values, poisson_ratio: Values) -> Any:
@@ -155,10 +159,30 @@ def uenishi_rice_length(
 
     Source: Uenishi and Rice (2003); independent of the shape of the load. Valid while strength
     falls linearly with slip all over the patch, ``W > 0``. Far above steady state the aging law
-    weakens at ``W = b sigma0/D`` but for its direct effect, which makes it ``1.158 L_b``.
+    weakens at ``W = b sigma0/D``, which makes it ``1.158 L_b``, as long as its direct effect is
+    negligible: where a/b is .3 a patch has to be more than twice as long to accelerate.
     """
     modulus = plane_strain_modulus(shear_modulus, poisson_ratio)
     return _where(weakening_rate > 0.0, 1.158 * modulus / _nan0(weakening_rate))
+
+
+def bimaterial(
+    shear_modulus: Values,
+    poisson_ratio: Values,
+    second_shear_modulus: Values,
+    second_poisson_ratio: Values,
+) -> tuple[Any, Any]:
+    """Modulus M (Pa) and contrast beta of two half-spaces (Eq. 8), the second one perhaps rigid.
+
+    Slip on their interface changes the shear stress as between two half-spaces of one material
+    with ``mu* = M``, and the normal stress by beta times as much, a quarter wavelength apart
+    (Eq. 7). For identical materials M is ``mu*`` and beta vanishes.
+    """
+    softness = shear_modulus / second_shear_modulus  # 1/psi, 0 for a rigid second body
+    nu, nu2 = poisson_ratio, second_poisson_ratio
+    total = (1.0 - nu) + (1.0 - nu2) * softness
+    beta = 0.5 * ((1.0 - 2.0 * nu) - (1.0 - 2.0 * nu2) * softness) / total
+    return 2.0 * shear_modulus / ((1.0 - beta**2) * total), beta
 
 
 def thin_limit_length(
@@ -200,12 +224,12 @@ def thin_layer_length(
 
 def _where(condition: Any, values: Any) -> Any:
     """The values where the condition holds, NaN elsewhere; arrays or DataArrays."""
-    return xr.where(condition, values, np.nan)
+    return where(condition, values, np.nan)
 
 
 def _nan0(values: Any) -> Any:
     """The values, NaN in place of zero, which nothing may be divided by."""
-    return xr.where(values != 0.0, values, np.nan)
+    return where(values != 0.0, values, np.nan)
 
 
 def _thin(length: Any, height: Values) -> Any:

@@ -8,15 +8,18 @@ from __future__ import annotations
 import dataclasses
 import inspect
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from ..model.quantities import Quantity
 from ..theory import literature
-from .fault import Fault, Values, checked
+from .fault import Fault, Values, checked, labelled, where
 
+if TYPE_CHECKING:
+    import xarray as xr
+
+TWO_MATERIALS = "two half-spaces of the two bodies' materials"
 HALF_SPACES = "two identical half-spaces of the first body's material"
 RIGID_BASE = "a layer of the first body's material and height on a rigid body"
 
@@ -43,7 +46,25 @@ class Length:
         """The length (m) of a fault, NaN outside its validity."""
         names = inspect.signature(self.compute).parameters
         own = {"weakening_rate": weakening_rate}
-        return self.compute(**{n: own[n] if n in own else getattr(fault, n) for n in names})
+        if self.system == TWO_MATERIALS:
+            modulus, coupling = of_two_materials(fault)
+            own |= {"shear_modulus": modulus, "poisson_ratio": 0.0}  # of which mu* = M
+        value = self.compute(**{n: own[n] if n in own else getattr(fault, n) for n in names})
+        if self.system == TWO_MATERIALS:
+            return where(coupling < literature.NEGLIGIBLE, value, np.nan)
+        return value
+
+    def of_two(self) -> Length:
+        """The same for two materials, with M in the place of mu*."""
+        return dataclasses.replace(
+            self,
+            key=f"{self.key}_two_materials",
+            formula=self.formula.replace("mu*", "M"),
+            source=f"{self.source}; M of Aldam et al. (2017), Eq. (8)",
+            validity=f"{self.validity}; normal stress hardly changed by slip",
+            system=TWO_MATERIALS,
+            needs=f"{self.needs} and f |beta| < {literature.NEGLIGIBLE}",
+        )
 
     def words(self) -> dict[str, str]:
         """Unit, title, formula, source, validity, system and condition, as attributes."""
@@ -51,9 +72,18 @@ class Length:
         return {"units": "m", **{name: getattr(self, name) for name in names}}
 
 
+def of_two_materials(fault: Fault) -> tuple[Any, Any]:
+    """The modulus M (Pa) of the pair as half-spaces and ``f |beta|``."""
+    modulus, beta = literature.bimaterial(
+        fault.shear_modulus, fault.poisson_ratio, fault.second_shear_modulus,
+        fault.second_poisson_ratio,
+    )  # fmt: skip
+    return modulus, abs(beta) * (0.0 if fault.friction is None else fault.friction)
+
+
 _WEAKENING = "velocity weakening, near steady sliding, either law"
 
-LENGTHS = (
+_OF_ONE_MATERIAL = (
     Length(
         "homogeneous_sliding", "homogeneous sliding", "pi mu* D/(zeta sigma0)",
         "Rice and Ruina (1983); Aldam et al. (2017), Eq. (6)", _WEAKENING, HALF_SPACES,
@@ -98,7 +128,8 @@ LENGTHS = (
     Length(
         "uenishi_rice", "Uenishi-Rice", "1.158 mu*/W, W = b sigma0/D unless given",
         "Uenishi and Rice (2003)", "strength falls linearly with slip, without direct effect",
-        HALF_SPACES, literature.uenishi_rice_length, "W > 0",
+        HALF_SPACES, literature.uenishi_rice_length,
+        f"a/b < {literature.NEGLIGIBLE} unless W is given",
     ),
     Length(
         "thin_limit", "thin layer, Hk -> 0", "2 pi sqrt[2 mu* H D/(zeta sigma0)]",
@@ -111,6 +142,12 @@ LENGTHS = (
         literature.thin_layer_length, f"a/b < 1/2 and 2 pi H/L < {literature.THIN}",
     ),
 )  # fmt: skip
+_OF_TWO = (
+    "homogeneous_sliding", "rice_ruina", "state_evolution", "rubin_ampuero_localised",
+    "rubin_ampuero_crack", "uenishi_rice",
+)  # fmt: skip
+
+LENGTHS = (*_OF_ONE_MATERIAL, *(x.of_two() for x in _OF_ONE_MATERIAL if x.key in _OF_TWO))
 """The lengths in use, in the order in which they are listed."""
 
 
@@ -120,10 +157,12 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     Parameters
     ----------
     weakening_rate : array_like, optional
-        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default.
+        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
+        ``a/b < 0.1``.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; friction and the second body do
-        not matter: the system of each length is its attribute ``system``.
+        The parameters of :class:`~nucleation.theory.fault.Fault`. The system of each length is
+        its attribute ``system``: the second body matters to those of two materials alone, whose
+        key ends with ``_two_materials``.
 
     Returns
     -------
@@ -137,21 +176,29 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     ParameterError
         If a parameter is missing, unknown or outside its range.
     """
-    own = Fault(**fault)
-    return lengths_of(own, weakening_rate)
+    return lengths_of(Fault(**fault), weakening_rate)
 
 
 def lengths_of(fault: Fault, weakening_rate: Values | None = None) -> xr.Dataset:
     """The same for a :class:`~nucleation.theory.fault.Fault`."""
-    if weakening_rate is None:
-        weakening_rate = fault.b * fault.normal_stress / fault.slip_distance
-    else:
-        weakening_rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
-    found = {length.key: length.evaluate(fault, weakening_rate) for length in LENGTHS}
-    plain = {k: x for k, x in found.items() if not isinstance(x, xr.DataArray)}
+    import xarray as xr
+
+    found = values_of(fault, weakening_rate)
+    plain = {k: x for k, x in found.items() if not labelled(x)}
     shape = np.broadcast_shapes(*map(np.shape, plain.values()))
     dims = [f"axis_{n}" for n in range(len(shape))]
     found |= {k: xr.DataArray(np.broadcast_to(x, shape), dims=dims) for k, x in plain.items()}
     return xr.Dataset(
         {length.key: found[length.key].assign_attrs(length.words()) for length in LENGTHS}
     )
+
+
+def values_of(fault: Fault, weakening_rate: Values | None = None) -> dict[str, Any]:
+    """The lengths (m) by key, as arrays or DataArrays."""
+    if weakening_rate is None:
+        weakening_rate = fault.b * fault.normal_stress / fault.slip_distance
+        small = fault.a < literature.NEGLIGIBLE * fault.b
+        weakening_rate = where(small, weakening_rate, np.nan)
+    else:
+        weakening_rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
+    return {length.key: length.evaluate(fault, weakening_rate) for length in LENGTHS}
