@@ -247,8 +247,12 @@ def test_example_of_the_module():
 
 
 def test_the_theory_does_not_load_the_solver():
+    """Nor xarray, scipy and matplotlib, which take longer to load than to answer."""
     code = (
-        "import sys, nucleation.api as api; assert 'numba' not in sys.modules; "
+        "import sys, nucleation.api as api; "
+        f"fault = {FAULT}; api.critical_mode(**fault, velocity=1.0, height=[0.1, 1.0]); "
+        "heavy = {'numba', 'scipy', 'xarray', 'pandas', 'matplotlib', 'pint', 'netCDF4'}; "
+        "assert not heavy & sys.modules.keys(), heavy & sys.modules.keys(); "
         "api.simulate; assert 'numba' in sys.modules"
     )
     source = str(Path(api.__file__).parents[1])

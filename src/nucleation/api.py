@@ -7,20 +7,22 @@
 ... )
 array([2.51327412, 1.25663706])
 
-All values are in SI units. Functions of the linear theory take the parameters of
+Plain numbers are in SI units. Functions of the linear theory take the parameters of
 :class:`~nucleation.theory.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
 broadcast as NumPy's do, DataArrays by the names of their dimensions, and what comes in as
 DataArray goes out as one. Where homogeneous sliding is stable, lengths are NaN.
 
-``run`` and ``simulate`` are imported when they are first used, since that takes seconds.
+What carries a unit is converted to SI units: a DataArray by its attribute ``units``, and pint
+quantities, of which the results are quantities too.
+
+Simulations, extraction and datasets are imported when first used, since that takes a while.
 """
 
 from __future__ import annotations
 
+import importlib
 from typing import TYPE_CHECKING, Any
 
-from .analysis.extraction import extract
-from .datasets.netcdf import read, write
 from .model.friction.law import Friction
 from .model.material import Material
 from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
@@ -36,6 +38,8 @@ from .theory.fault import Fault
 from .theory.literature_table import lengths_in_use
 
 if TYPE_CHECKING:
+    from .analysis.extraction import extract
+    from .datasets.netcdf import read, write
     from .simulation.run import run, simulate
 
 __all__ = [
@@ -62,11 +66,15 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    if name in ("run", "simulate"):
-        from .simulation import run
+_LATER = {
+    "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
+    "run": ".simulation.run", "simulate": ".simulation.run",
+}  # fmt: skip
 
-        return getattr(run, name)
+
+def __getattr__(name: str) -> Any:
+    if name in _LATER:
+        return getattr(importlib.import_module(_LATER[name], __package__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
