@@ -28,7 +28,11 @@ os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get(
 
 from nucleation.configuration.advice import advise
 from nucleation.pipeline.cache import CheckedCache
-from nucleation.pipeline.repairs import show_why_groups_fail, suggest_targets
+from nucleation.pipeline.repairs import (
+    caption_where_made,
+    show_why_groups_fail,
+    suggest_targets,
+)
 from nucleation.pipeline.targets import default_target
 from nucleation.configuration.load import configure
 from nucleation.configuration.contradictions import directory_problem
@@ -176,3 +180,6 @@ rule studies:
         rules.lengths.input if SHARED else [],
     message:
         f"Lengths and a figure of each study are in {RESULTS}"
+
+
+caption_where_made(workflow.rules)

@@ -1,11 +1,13 @@
 """What Snakemake leaves out is said after all."""
 
 import logging
+from types import SimpleNamespace
 
 import pytest
 import snakemake.jobs
+from snakemake.io import IOFile, flag, is_flagged
 
-from nucleation.pipeline.repairs import show_why_groups_fail
+from nucleation.pipeline.repairs import caption_where_made, show_why_groups_fail
 
 REFUSED = "SLURM sbatch failed. The error message was 'sbatch: error: invalid partition: nope'."
 
@@ -32,3 +34,11 @@ def test_group_that_is_told_nothing_says_what_it_did_before(group, caplog):
     with caplog.at_level(logging.ERROR):
         group.log_error()
     assert [record.getMessage() for record in caplog.records] == ["Error in group simulations"]
+
+
+def test_file_for_the_report_is_its_makers_alone():
+    made = IOFile(flag("figure.png", "report", "its caption"), rule=None)
+    target = SimpleNamespace(input=[made, IOFile("table.csv", rule=None), lambda wildcards: "a"])
+    caption_where_made([target])
+    assert target.input[:2] == ["figure.png", "table.csv"]
+    assert not is_flagged(target.input[0], "report") and is_flagged(made, "report")

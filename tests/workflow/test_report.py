@@ -119,3 +119,4 @@ def test_snakemakes_own_report_has_the_captions(reported, results):
     ):
         assert text in html, text
     assert "{{ snakemake" not in html
+    assert "system-message" not in html, "a caption that docutils complains of"

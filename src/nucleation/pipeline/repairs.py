@@ -12,6 +12,7 @@ import snakemake.api  # first: its parts import each other
 import snakemake.dag
 import snakemake.jobs
 from snakemake.exceptions import MissingRuleException
+from snakemake.io import IOFile, is_flagged
 from snakemake.logging import logger
 
 from .targets import unknown_target
@@ -57,3 +58,15 @@ def suggest_targets(rules: Callable[[], Iterable[Any]]) -> None:
             return unknown_target(self._asked, rules())
 
     snakemake.dag.MissingRuleException = UnknownTarget
+
+
+def caption_where_made(rules: Iterable[Any]) -> None:
+    """Have Snakemake's report show a file with the job that made it.
+
+    A target that lists a file for the report is taken for its maker as well. The caption of one
+    job was then filled in from the parameters of another, which has none.
+    """
+    for rule in rules:
+        for number, file in enumerate(rule.input):
+            if isinstance(file, str) and is_flagged(file, "report"):
+                rule.input[number] = IOFile(str(file), rule=rule)
