@@ -38,7 +38,8 @@ def test_group_that_is_told_nothing_says_what_it_did_before(group, caplog):
 
 def test_file_for_the_report_is_its_makers_alone():
     made = IOFile(flag("figure.png", "report", "its caption"), rule=None)
-    target = SimpleNamespace(input=[made, IOFile("table.csv", rule=None), lambda wildcards: "a"])
+    inputs = [made, IOFile("table.csv", rule=None), lambda wildcards: "a"]
+    target = SimpleNamespace(input=inputs, pathvars=SimpleNamespace(apply=str))
     caption_where_made([target])
     assert target.input[:2] == ["figure.png", "table.csv"]
     assert not is_flagged(target.input[0], "report") and is_flagged(made, "report")

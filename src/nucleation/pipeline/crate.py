@@ -15,9 +15,9 @@ from urllib.parse import quote
 
 import yaml
 
-from ..configuration import schema
 from ..configuration.load import Configuration
 from ..datasets.provenance import PACKAGE, ROOT, versions
+from ..model.quantities import declarations
 from .archives import CONFIGURATION, CRATE, MANIFEST, BundleError
 
 CHECKOUT = ROOT.parent.parent
@@ -132,7 +132,7 @@ def _parameters(settings: Configuration) -> list[Entity]:
     }  # fmt: skip
     found = []
     for group, values in groups.items():
-        for name, entry in schema.group_entries(group).items():
+        for name, entry in declarations(type(values)).items():
             value = getattr(values, name)
             unit = {} if entry.unit in ("", "1") else {"unitText": entry.unit}
             found.append(
