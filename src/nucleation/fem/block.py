@@ -18,59 +18,30 @@ A :class:`Block` knows the mesh and the material;
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
-from ..fem import kernels
 from ..model.material import Material
-from .field import Field, Motion, Terms
+from .field import Field
 from .grid import Grid
-from .matrices import Tridiagonal, element_matrices
 from .operator import BlockOperator
+from .separable import SeparableBody
 
 Array = NDArray[np.float64]
 
 
-class Stacked(NamedTuple):
-    """The y-matrices as arrays (3, n_y + 1) for the kernels: lower, diagonal, upper."""
-
-    mass: Array
-    stiffness: Array
-    derivative: Array
-
-
-def _stacked(matrix: Tridiagonal) -> Array:
-    return np.array([matrix.lower, matrix.diagonal, matrix.upper])
-
-
-class Block:
+class Block(SeparableBody):
     """One deformable rectangular block on the interface y = 0."""
 
     def __init__(self, grid: Grid, material: Material) -> None:
-        self.grid, self.material = grid, material
-        self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
-        self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
         theta = (np.arange(grid.n_x) + 0.5) * np.pi / grid.n_x
-        sine, cosine = np.sin(theta), np.cos(theta)
-        self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
-        self.x_mass = grid.dx * (4.0 + 2.0 * cosine) / 6.0
-        self.sine = sine
         self._alternating = (-1.0) ** np.arange(grid.n_x)
         # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
-        self.edge_weights = self._alternating * np.array(
-            [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, sine]
+        edge_weights = self._alternating * np.array(
+            [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
         )
-        # integral along x of each sine mode, for the momentum
-        self.x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
-
-    @property
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the height."""
-        return self.grid.height / self.material.shear_wave_speed
+        super().__init__(grid, material, theta, 0.5 * grid.dx / np.tan(theta / 2.0), edge_weights)
 
     @property
     def no_memory(self) -> Array:
@@ -80,11 +51,6 @@ class Block:
     def operator(self, s: float) -> BlockOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
         return BlockOperator(self, s)
-
-    def zero_field(self) -> Field:
-        """A field of zeros."""
-        n = self.grid.n_y + 1
-        return Field(np.zeros((n, 2, self.grid.n_x)), np.zeros(n))
 
     # -- transforms between interface nodes and modes -------------------------------------------
 
@@ -117,8 +83,6 @@ class Block:
         normal[..., 0] *= 0.5  # and to the first one
         return tangential, normal
 
-    # -- loads and integrals --------------------------------------------------------------------
-
     def top_load(self, normal_stress: float) -> Field:
         """Nodal forces of the compressive stress (Pa) on the top, per mode times 2/n_x (N/m)."""
         load = self.zero_field()
@@ -130,55 +94,6 @@ class Block:
         load.modes[-1, 1] = fft.dct(full, type=3) / n
         load.edge[-1] = forces[-1]
         return load
-
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`.
-
-        Parameters
-        ----------
-        s : of ``K + s M`` (1/s^2).
-        terms : coefficients and fields (m).
-        load : a load (N/m) to add to; none by default.
-        """
-        load = self.zero_field() if load is None else load
-        terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
-        coefficients = np.array([c for c, _ in terms])
-        edge = sum(c * field.edge for c, field in terms)
-        rho_s = s * self.material.density
-        edge_mass = rho_s * self.grid.dx / 6.0
-        near, modes = np.empty_like(load.edge), np.empty_like(load.modes)
-        kernels.add_inertia(
-            self.stacked.mass, rho_s * self.x_mass, coefficients,
-            tuple(field.modes for _, field in terms),
-            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],  # type: ignore[operator]
-            load.modes, near, modes,
-        )  # fmt: skip
-        return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))
-
-    def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
-    ) -> Motion:
-        """The motion at a new displacement, of which one past value or two are taken.
-
-        Its velocity is the rate by ``u = sum_i past_i u_i + beta du/dt``, newest value first.
-        """
-        c1, c2 = past
-        u, u_past = motions[0].displacement, motions[-1].displacement
-        rates = np.empty_like(displacement.modes)
-        kernels.rate_of_change(c1, c2, beta, displacement.modes, u.modes, u_past.modes, rates)
-        velocity = Field(rates, (displacement.edge - c1 * u.edge - c2 * u_past.edge) / beta)
-        return Motion(displacement, velocity, self.momentum_x(velocity))
-
-    def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """The motion of a body at rest, seen from its driven edge (velocity in m/s)."""
-        rates = self.zero_field()
-        rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.grid.n_x))
-        return Motion(displacement, rates, self.momentum_x(rates))
-
-    def momentum_x(self, velocity: Field) -> float:
-        """Momentum along x of the velocity field w_t (kg/s per unit depth)."""
-        along_y = self.stacked.mass.sum(axis=0)
-        return self.material.density * float(along_y @ (velocity.modes[:, 0] @ self.x_integral))
 
     def nodal_values(self, field: Field) -> tuple[Array, Array]:
         """Nodal w_x and u_y, each of shape (n_y + 1, n_x + 1)."""

@@ -21,9 +21,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..fem import kernels
-from .condensed import Balance, Expectation, Response
+from .condensed import Balance, Expectation
 from .field import Field
 from .right_edge import RightEdge, predicted, relative_error
+from .separable import LoadedResponse, SeparableOperator
 
 if TYPE_CHECKING:
     from .block import Block
@@ -34,67 +35,28 @@ EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in 
 
 
 @dataclasses.dataclass(frozen=True)
-class BlockResponse(Response):
+class BlockResponse(LoadedResponse):
     """A block's response to a load, with the edge values (m) in balance at the levels 0..n_y.
 
     Where the edge values were given and not found, `swept` holds the sweep down to the interface
     with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.balance` goes on from there.
     """
 
-    load: Field
     edge: Array
     swept: Array | None = None
 
 
-class BlockOperator:
+class BlockOperator(SeparableOperator):
     """``K + s M`` of a :class:`Block` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
     def __init__(self, body: Block, s: float) -> None:
-        self.body, self.s = body, s
-        grid, material = body.grid, body.material
-        lame, shear, p_modulus = (
-            material.lame_modulus, material.shear_modulus, material.p_wave_modulus,
-        )  # fmt: skip
-        rho_s = s * material.density
-        self._pivot = np.empty((3, grid.n_x))
-        self._inverse = np.zeros((grid.n_y + 1, 3, grid.n_x))
-        self._lower = np.empty((grid.n_y, 4, grid.n_x))
-        kernels.factorise(
-            p_modulus * body.x_stiffness + rho_s * body.x_mass, shear * body.x_mass,
-            shear * body.x_stiffness + rho_s * body.x_mass, p_modulus * body.x_mass,
-            body.sine, body.stacked.mass, body.stacked.stiffness, body.stacked.derivative,
-            lame, shear, self._pivot, self._inverse, self._lower,
-        )  # fmt: skip
+        super().__init__(body, s)
+        self.body: Block = body
         self.edge = RightEdge(body, s, self._inverse, self._lower)
 
-    # -- solving --------------------------------------------------------------------------------
-
-    def solve(self, load: Field, w_amplitudes: Array, edge: Array) -> tuple[Array, Array]:
-        """Modes of the bulk for a given interface ``w`` (amplitudes) and given edge values.
-
-        Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
-        (2, n_x); all loads in the scaling of :meth:`Block.top_load` (N/m).
-        """
-        modes = self._swept(load, edge)
-        reduced = modes[0].copy()
-        modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
-        kernels.substitute(self._inverse, self._lower, modes)
-        return modes, reduced
-
-    def _swept(self, load: Field, edge: Array) -> Array:
-        """The forward sweep from the top down to the interface."""
-        modes = np.empty_like(load.modes)
-        kernels.eliminate(
-            self._lower, load.modes, self.edge.profiles(edge), self.body.edge_weights,
-            2.0 / self.body.grid.n_x, modes,
-        )  # fmt: skip
-        return modes
-
-    def interface_forces(
-        self, w_amplitudes: Array, reduced: Array | float = 0.0
-    ) -> tuple[Array, Array]:
-        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
-        return self.body.interface_forces(self._pivot[:2] * w_amplitudes - reduced)
+    def _profiles(self, edge: Array) -> Array:
+        """What given edge values do to the modes, as profiles along y."""
+        return self.edge.profiles(edge)
 
     def respond(self, load: Field, w: Array, edge: Array | None = None) -> BlockResponse:
         """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
@@ -223,10 +185,3 @@ class BlockOperator:
             if own[-1] == n:
                 coupling[-1, near:] += tangential[0, own - 1]
         return stiffness, coupling
-
-    @property
-    def megabytes(self) -> float:
-        """Memory that this operator holds once all of its parts are in use (MB)."""
-        grid = self.body.grid
-        levels = grid.n_y + 1
-        return 8e-6 * levels * (9 * grid.n_x + 2 * levels)

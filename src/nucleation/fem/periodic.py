@@ -16,6 +16,7 @@ block the node of the driven edge, slides at the imposed velocity and acts on no
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -24,29 +25,24 @@ from scipy import fft
 from scipy.linalg import circulant
 
 from ..model.material import Material
-from .block import Block
 from .condensed import Balance, Expectation
 from .field import Field
 from .grid import Grid
-from .operator import BlockOperator, BlockResponse
+from .separable import LoadedResponse, SeparableBody, SeparableOperator
 
 Array = NDArray[np.float64]
 
 
-class PeriodicBlock(Block):
+class PeriodicBlock(SeparableBody):
     """A layer of one period along x on the interface y = 0."""
 
     def __init__(self, grid: Grid, material: Material) -> None:
         if grid.n_x % 2 == 0:
             raise ValueError(f"n_x = {grid.n_x} is not allowed: it must be odd in a periodic body")
-        super().__init__(grid, material)
         half = np.arange(1, grid.n_x // 2 + 1)
         theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
-        self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
-        self.x_mass = grid.dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
-        self.sine = np.sin(theta)
-        self.edge_weights = np.zeros((3, grid.n_x))  # there is no edge
-        self.x_integral = np.where(theta == 0.0, grid.length, 0.0)
+        x_integral, no_edge = np.where(theta == 0.0, grid.length, 0.0), np.zeros((3, grid.n_x))
+        super().__init__(grid, material, theta, x_integral, no_edge)
 
     def operator(self, s: float) -> PeriodicOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
@@ -93,7 +89,7 @@ class PeriodicBlock(Block):
         return self.sine_values(field.modes[:, 0]), self.cosine_values(field.modes[:, 1])
 
 
-class PeriodicOperator(BlockOperator):
+class PeriodicOperator(SeparableOperator):
     """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
 
     def apply(self, w: Array) -> tuple[Array, Array]:
@@ -101,19 +97,24 @@ class PeriodicOperator(BlockOperator):
         p, reaction = self.interface_forces(self.body.sine_amplitudes(w))
         return p, with_entry_zero(reaction)
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> BlockResponse:
+    def respond(self, load: Field, w: Array) -> LoadedResponse:
         """The forces that hold the interface at nodal `w` (m) under a load; there is no edge."""
-        amplitudes, edge = self.body.sine_amplitudes(w), np.zeros_like(load.edge)
-        _, reduced = self.solve(load, amplitudes, edge)
+        amplitudes = self.body.sine_amplitudes(w)
+        _, reduced = self.solve(load, amplitudes, np.zeros_like(load.edge))
         tangential, normal = self.interface_forces(amplitudes, reduced)
-        return BlockResponse(w, tangential, with_entry_zero(normal), load, edge)
+        return LoadedResponse(w, tangential, with_entry_zero(normal), load)
+
+    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[LoadedResponse]:
+        """The one response at nodal `w` (m) under a load."""
+        yield self.respond(load, w)
 
     def balance(
-        self, response: BlockResponse, w: Array, expected: Expectation | None = None
+        self, response: LoadedResponse, w: Array, expected: Expectation | None = None
     ) -> Balance:
         """The layer at nodal `w` (m) under the load of a response."""
-        modes, _ = self.solve(response.load, self.body.sine_amplitudes(w), response.edge)
-        return Balance(Field(modes, response.edge), self.body.no_memory, True)
+        edge = np.zeros_like(response.load.edge)
+        modes, _ = self.solve(response.load, self.body.sine_amplitudes(w), edge)
+        return Balance(Field(modes, edge), self.body.no_memory, True)
 
     @cached_property
     def _columns(self) -> tuple[Array, Array]:

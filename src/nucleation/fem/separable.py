@@ -1,0 +1,199 @@
+"""Bodies whose finite-element equations separate along x: what they have in common.
+
+On a grid that is uniform along x the matrices of bilinear elements are sums of Kronecker products
+of one-dimensional matrices. In modes of one angle theta per element each the equations decouple,
+and leave a block-tridiagonal system along y per mode. Which modes these are, and what the ends
+along x add, is for each body to say.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.material import Material
+from . import kernels
+from .condensed import Response
+from .field import Field, Motion, Terms
+from .grid import Grid
+from .matrices import Tridiagonal, element_matrices
+
+Array = NDArray[np.float64]
+
+
+class Stacked(NamedTuple):
+    """The y-matrices as arrays (3, n_y + 1) for the kernels: lower, diagonal, upper."""
+
+    mass: Array
+    stiffness: Array
+    derivative: Array
+
+
+def _stacked(matrix: Tridiagonal) -> Array:
+    return np.array([matrix.lower, matrix.diagonal, matrix.upper])
+
+
+class SeparableBody(ABC):
+    """A layer of a material on a grid.
+
+    Parameters
+    ----------
+    grid, material : of the layer.
+    theta : angle of each mode per element, shape (n_x,).
+    x_integral : integral along x (m) of each mode of u_x, for the momentum.
+    edge_weights : of each mode in the forces on an edge that has unknowns of its own, (3, n_x).
+    """
+
+    def __init__(
+        self, grid: Grid, material: Material, theta: Array, x_integral: Array, edge_weights: Array
+    ) -> None:
+        self.grid, self.material = grid, material
+        self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
+        self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
+        self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
+        self.x_mass = grid.dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
+        self.sine = np.sin(theta)
+        self.x_integral, self.edge_weights = x_integral, edge_weights
+
+    @abstractmethod
+    def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values at i = 1..n_x (last axis) in the basis of u_x."""
+
+    @abstractmethod
+    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+        """Nodal forces along x and y whose generalised forces per mode are ``modal * n_x/2``."""
+
+    @property
+    def crossing_time(self) -> float:
+        """Time (s) in which shear waves cross the height."""
+        return self.grid.height / self.material.shear_wave_speed
+
+    @property
+    def no_memory(self) -> Array:
+        """What it remembers before its first step."""
+        return np.empty(0)
+
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        n = self.grid.n_y + 1
+        return Field(np.zeros((n, 2, self.grid.n_x)), np.zeros(n))
+
+    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`.
+
+        Parameters
+        ----------
+        s : of ``K + s M`` (1/s^2).
+        terms : coefficients and fields (m).
+        load : a load (N/m) to add to; none by default.
+        """
+        load = self.zero_field() if load is None else load
+        terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
+        coefficients = np.array([c for c, _ in terms])
+        edge = sum(c * field.edge for c, field in terms)
+        rho_s = s * self.material.density
+        edge_mass = rho_s * self.grid.dx / 6.0
+        near, modes = np.empty_like(load.edge), np.empty_like(load.modes)
+        kernels.add_inertia(
+            self.stacked.mass, rho_s * self.x_mass, coefficients,
+            tuple(field.modes for _, field in terms),
+            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],  # type: ignore[operator]
+            load.modes, near, modes,
+        )  # fmt: skip
+        return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))
+
+    def motion(
+        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+    ) -> Motion:
+        """The motion at a new displacement, of which one past value or two are taken.
+
+        Its velocity is the rate by ``u = sum_i past_i u_i + beta du/dt``, newest value first.
+        """
+        c1, c2 = past
+        u, u_past = motions[0].displacement, motions[-1].displacement
+        rates = np.empty_like(displacement.modes)
+        kernels.rate_of_change(c1, c2, beta, displacement.modes, u.modes, u_past.modes, rates)
+        velocity = Field(rates, (displacement.edge - c1 * u.edge - c2 * u_past.edge) / beta)
+        return Motion(displacement, velocity, self.momentum_x(velocity))
+
+    def at_rest(self, displacement: Field, velocity: float) -> Motion:
+        """The motion of a body at rest, seen from its driven edge (velocity in m/s)."""
+        rates = self.zero_field()
+        rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.grid.n_x))
+        return Motion(displacement, rates, self.momentum_x(rates))
+
+    def momentum_x(self, velocity: Field) -> float:
+        """Momentum along x of the velocity field w_t (kg/s per unit depth)."""
+        along_y = self.stacked.mass.sum(axis=0)
+        return self.material.density * float(along_y @ (velocity.modes[:, 0] @ self.x_integral))
+
+
+@dataclasses.dataclass(frozen=True)
+class LoadedResponse(Response):
+    """A response with the load (N/m) that it is to."""
+
+    load: Field
+
+
+class SeparableOperator:
+    """``K + s M`` of a body for one ``s`` (1/s^2), with ``s = 0`` for statics."""
+
+    def __init__(self, body: SeparableBody, s: float) -> None:
+        self.body, self.s = body, s
+        grid, material = body.grid, body.material
+        lame, shear, p_modulus = (
+            material.lame_modulus, material.shear_modulus, material.p_wave_modulus,
+        )  # fmt: skip
+        rho_s = s * material.density
+        self._pivot = np.empty((3, grid.n_x))
+        self._inverse = np.zeros((grid.n_y + 1, 3, grid.n_x))
+        self._lower = np.empty((grid.n_y, 4, grid.n_x))
+        kernels.factorise(
+            p_modulus * body.x_stiffness + rho_s * body.x_mass, shear * body.x_mass,
+            shear * body.x_stiffness + rho_s * body.x_mass, p_modulus * body.x_mass,
+            body.sine, body.stacked.mass, body.stacked.stiffness, body.stacked.derivative,
+            lame, shear, self._pivot, self._inverse, self._lower,
+        )  # fmt: skip
+
+    def solve(self, load: Field, w_amplitudes: Array, edge: Array) -> tuple[Array, Array]:
+        """Modes of the bulk for a given interface ``w`` (amplitudes) and given edge values.
+
+        Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
+        (2, n_x); all loads in the scaling of a body's ``top_load`` (N/m).
+        """
+        modes = self._swept(load, edge)
+        reduced = modes[0].copy()
+        modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
+        kernels.substitute(self._inverse, self._lower, modes)
+        return modes, reduced
+
+    def _swept(self, load: Field, edge: Array) -> Array:
+        """The forward sweep from the top down to the interface."""
+        modes = np.empty_like(load.modes)
+        kernels.eliminate(
+            self._lower, load.modes, self._profiles(edge), self.body.edge_weights,
+            2.0 / self.body.grid.n_x, modes,
+        )  # fmt: skip
+        return modes
+
+    def interface_forces(
+        self, w_amplitudes: Array, reduced: Array | float = 0.0
+    ) -> tuple[Array, Array]:
+        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
+        return self.body.interface_forces(self._pivot[:2] * w_amplitudes - reduced)
+
+    def _profiles(self, edge: Array) -> Array:
+        """What given edge values do to the modes, as profiles along y: nothing without an edge."""
+        return np.zeros((3, edge.size))
+
+    @property
+    def megabytes(self) -> float:
+        """Memory that this operator holds once all of its parts are in use (MB)."""
+        grid = self.body.grid
+        levels = grid.n_y + 1
+        return 8e-6 * levels * (9 * grid.n_x + 2 * levels)
