@@ -21,7 +21,7 @@ from .spectrum import Systems, system
 from .stiffness import Array, Layers, Pair
 from .transfer import RIGID, Body, RigidBody
 
-Case = tuple[Body | RigidBody, Body | RigidBody, InterfaceState]
+_Case = tuple[Body | RigidBody, Body | RigidBody, InterfaceState]
 """A system of the theory: the upper body, the lower body and their interface."""
 
 
@@ -73,7 +73,7 @@ def critical_wavenumber(
     return CriticalPoint(float(k[0]), float(marginal_frequencies(one, k)[0]))
 
 
-def systems_of(cases: Sequence[Case]) -> Systems:
+def systems_of(cases: Sequence[_Case]) -> Systems:
     """Systems as arrays; their bodies have the same far sides, and the same one is rigid."""
     single = [system(*case) for case in cases]
 
@@ -88,7 +88,7 @@ def systems_of(cases: Sequence[Case]) -> Systems:
     return Systems(pair, *np.array([s[1:] for s in single], dtype=float).T)
 
 
-def theory_lengths(cases: Iterable[Case]) -> Array:
+def theory_lengths(cases: Iterable[_Case]) -> Array:
     """The linear theory's critical lengths of many systems, in few vectorised calls.
 
     Parameters
@@ -104,11 +104,11 @@ def theory_lengths(cases: Iterable[Case]) -> Array:
         (:func:`critical_wavenumber` says why).
     """
     cases = list(cases)
-    groups: dict[tuple[str, str], dict[Case, None]] = {}
+    groups: dict[tuple[str, str], dict[_Case, None]] = {}
     for case in cases:
         kind = tuple(getattr(body, "far_side", "rigid") for body in case[:2])
         groups.setdefault(kind, {})[case] = None
-    lengths: dict[Case, float] = {}
+    lengths: dict[_Case, float] = {}
     for group in groups.values():
         k = largest_crossings(systems_of(list(group)))
         lengths |= zip(group, (2.0 * math.pi / k).tolist(), strict=True)
@@ -158,7 +158,7 @@ def critical_length(height: ArrayLike, material: Material, interface: InterfaceS
     Eq. (5) with the transfer functions of Eq. (10): constant stress on the block's far side.
     """
     height = np.asarray(height, dtype=float)
-    cases: list[Case] = [
+    cases: list[_Case] = [
         (Body(material, h, "traction"), RIGID, interface) for h in height.ravel().tolist()
     ]
     lengths = theory_lengths(cases)
