@@ -15,9 +15,7 @@ COMING = {"fem/pair.py"}
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_files_exist(page):
     text = page.read_text(encoding="utf-8")
-    named = set(
-        re.findall(r"`([\w./-]+/[\w.-]+\.(?:py|smk|edp|html|js|css|md|yaml|sh))`", text)
-    )
+    named = set(re.findall(r"`([\w./-]+/[\w.-]+\.(?:py|smk|edp|html|js|css|md|yaml|sh))`", text))
     made = {sample.file for sample in samples(page)} | COMING
     roots = (ROOT, SOURCE, SOURCE.parent, page.parent)
     missing = {n for n in named - made if not any((root / n).exists() for root in roots)}
