@@ -13,9 +13,10 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
+import os
 import pkgutil
 from collections.abc import Collection, Iterator
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -37,7 +38,8 @@ class Files(Collection[str]):
         self.package = f"{__package__}.{package}"
 
     def __iter__(self) -> Iterator[str]:
-        return iter(sorted(module.name for module in pkgutil.iter_modules(self._directories())))
+        states = tuple((place, os.stat(place).st_mtime_ns) for place in self._directories())
+        return iter(_modules_in(states))
 
     def __bool__(self) -> bool:
         return True  # without reading directories
@@ -54,6 +56,13 @@ class Files(Collection[str]):
 
     def _directories(self) -> list[str]:
         return list(importlib.import_module(self.package).__path__)
+
+
+@lru_cache(maxsize=16)  # asked for with every run of a study
+def _modules_in(directories: tuple[tuple[str, int], ...]) -> tuple[str, ...]:
+    """The names of the modules in directories, each given with the time of its last change."""
+    found = pkgutil.iter_modules([place for place, _ in directories])
+    return tuple(sorted(module.name for module in found))
 
 
 LAWS = Files("laws")
