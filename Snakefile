@@ -4,12 +4,12 @@
 #
 # Data flow: theory and simulate -> extract -> draw. Results lie below the configuration's
 # `results`, relative to the working directory. docs and workflow/rules/*.smk have the details.
+import functools
 import os
 import sys
 from dataclasses import asdict
 from pathlib import Path
 
-import snakemake.workflow
 from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
@@ -27,7 +27,6 @@ sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
 
 from nucleation.configuration.advice import advise
-from nucleation.pipeline.cache import CheckedCache
 from nucleation.pipeline.repairs import (
     caption_where_made,
     show_why_groups_fail,
@@ -36,18 +35,15 @@ from nucleation.pipeline.repairs import (
 from nucleation.pipeline.targets import default_target
 from nucleation.configuration.load import configure
 from nucleation.configuration.contradictions import directory_problem
-from nucleation.datasets.provenance import digest
+from nucleation.pipeline import cache, keys
+from nucleation.pipeline.planning import Planner, decide_by_keys
+from nucleation.model.friction.registry import plugins
 from nucleation.model.quantities import ParameterError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.configuration.studies import varied
-
-# The profiles share simulations between checkouts and users (--cache simulate), where this variable
-# says, if it does. Snakemake looks the class up under this name.
-snakemake.workflow.LocalOutputFileCache = CheckedCache
-if "SNAKEMAKE_OUTPUT_CACHE" not in os.environ:
-    workflow.workflow_settings.cache = None
+from nucleation.model.parameters import Parameters
 
 show_why_groups_fail()  # such as a partition that Slurm doesn't know
 suggest_targets(lambda: workflow.rules)
@@ -62,6 +58,8 @@ try:
         read_yaml(path)  # finds keys that stand twice, of which Snakemake keeps the last
     settings = configure(config)
     unusable = directory_problem(settings.results, write=not workflow.dryrun)
+    if unusable is None and cache.shared() is not None:
+        unusable = cache.problem(cache.shared())
     if unusable:
         raise ParameterError(unusable)
 except ParameterError as error:
@@ -71,10 +69,16 @@ if workflow.resource_settings.cores is not None and workflow.resource_settings.c
     raise WorkflowError("--cores must be 1 or more: with less, Snakemake waits forever")
 
 if workflow.is_main_process:  # and not again in each job
-    for warning in advise(settings.runs):
-        logger.warning(f"Warning: {warning}")
+    for warning in [*advise(settings.runs), cache.shared() and cache.warning(cache.shared())]:
+        if warning:
+            logger.warning(f"Warning: {warning}")
 
-RESULTS = settings.results
+RESULTS = os.path.normpath(settings.results)
+STORE = keys.Store(RESULTS)
+PLANNER = Planner(workflow, STORE)
+decide_by_keys(PLANNER)
+if workflow.is_main_process and not workflow.dryrun:
+    cache.release(Path(RESULTS))
 RUNS = {run.id: run for run in settings.runs}
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
 THEORY = f"{RESULTS}/theory.nc"
@@ -82,9 +86,65 @@ LENGTHS = f"{RESULTS}/lengths.nc"
 DEFAULT = default_target(settings)
 
 
+def script_path(script):
+    return Path(workflow.basedir, "workflow", "scripts", script)
+
+
+def made_by(script, modules=()):
+    """Parameters by which a script's results are known (nucleation.pipeline.planning)."""
+    return PLANNER.made_by(script_path(script), modules)
+
+
+def keyed(kind, name, script, parameters, sources=(), modules=()):
+    """The dataset of a kind that bears its key: of this script, parameters and sources.
+
+    The parameters are those of the rule that makes it; `sources` gives paths by their role there.
+    """
+    sources = {role: [PLANNER.key(path) for path in paths] for role, paths in dict(sources).items()}
+    code = PLANNER.code(script_path(script), modules)
+    return STORE.dataset(kind, name, keys.key(code, parameters, sources))
+
+
+def place_of(kind):
+    """The pattern of the datasets of a kind that bear their keys."""
+    return f"{RESULTS}/{kind}/{{name}}.{{key}}.nc"
+
+
+wildcard_constraints:
+    name=r"[^/]+",
+    key="[0-9a-f]{16}",
+
+
+@functools.cache
 def simulation(id):
     """The dataset of one simulation."""
-    return f"{RESULTS}/simulations/{id}.nc"
+    parameters = RUNS[id].parameters
+    given = {"parameters": parameters.to_dict()}
+    return keyed("simulations", id, "simulate.py", given, modules=plugins(parameters))
+
+
+def of_key(paths, what):
+    """A function that gives the run to which a dataset's key belongs.
+
+    A key that is not among the paths is one of an earlier configuration or code: nothing makes it.
+    """
+
+    @functools.cache
+    def by_key():
+        return {keys.key_in(paths(id)): id for id in RUNS}
+
+    def run(wildcards):
+        if wildcards.key not in by_key():
+            raise WorkflowError(
+                f"{what} {wildcards.name}.{wildcards.key} is not of the present configuration and "
+                "code: start the workflow again"
+            )
+        return RUNS[by_key()[wildcards.key]]
+
+    return run
+
+
+simulated = of_key(simulation, "simulation")
 
 
 def runs_in(*studies):
@@ -131,21 +191,24 @@ report: str(Path(workflow.basedir, "workflow", "report", "workflow.rst"))
 
 
 localrules:
-    paper, studies, simulations, lengths, figure_1, figure_2, figure_3, figure_s1, figure_s2, table_s1,
-    figure_patch_stability,
+    paper, studies, simulations, lengths, table_s1,
 
 
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/simulate.smk"
 include: "workflow/rules/extract.smk"
-include: "workflow/rules/figures.smk"
 include: "workflow/rules/patches.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/studies.smk"
+include: "workflow/rules/figures.smk"
 include: "workflow/rules/crosscheck.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/check.smk"
+
+
+onsuccess:
+    cache.release(Path(RESULTS))
 
 
 # These take seconds, and run where snakemake runs. Everything else is for a cluster's jobs.

@@ -10,21 +10,29 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from nucleation.configuration.load import load
-from nucleation.datasets import provenance
-from nucleation.pipeline import progress
+from harness import SCRIPT, Place, made
 
-SCRIPT = Path(__file__).parents[2] / "workflow" / "scripts" / "simulate.py"
+from nucleation.configuration.load import load
+from nucleation.model.friction.registry import plugins
+from nucleation.pipeline import code, progress
 
 (run,) = (run for run in load("config.yaml").runs if run.id == sys.argv[1])
-log = Path("results/logs/simulate", f"{run.id}.log")
+output = Place(Path()).simulation(run.id)
+log = Path("results/logs/simulate", output.with_suffix(".log").name)
 log.parent.mkdir(parents=True, exist_ok=True)
 job = SimpleNamespace(
     params=SimpleNamespace(
-        parameters=run.parameters.to_dict(), digest=provenance.digest("nucleation.simulation.run")
+        parameters=run.parameters.to_dict(),
+        code=code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters)),
+        modules=list(plugins(run.parameters)),
+        made=made(run),
+        expected={},
     ),
-    output=[f"results/simulations/{run.id}.nc"],
+    input=[],
+    output=[str(output)],
     log=[str(log)],
+    config={},
+    rule="simulate",
 )
 
 

@@ -57,8 +57,8 @@ def _damaged_dataset(place: Place, reference: Reference, random: random.Random, 
     if not listed:  # a bit without meaning
         place.require_same(reference)
         return RECOVERED
-    done = place.run("lengths", "--forcerun", "extract" if path in paths[:2] else "gather_lengths")
-    if path.name == "lengths.nc":
+    done = place.run("lengths", "--forcerun", "extract")
+    if path not in paths[:2]:
         require(done.status == 0, done.output)
         return RECOVERED  # made again
     require(done.status != 0, "a table was made from a damaged dataset")
@@ -134,10 +134,6 @@ def _damaged_cache(place: Place, reference: Reference, random: random.Random, da
         place.simulation(IDS[0]).unlink()
         place.finish(**variables)
         place.require_same(reference)
-        target = place.simulation(IDS[0])
-        shutil.copy2(target.resolve(), place.directory / "copy.nc")
-        target.unlink()
-        shutil.move(place.directory / "copy.nc", target)
     finally:
         shutil.rmtree(cache)
     return RECOVERED

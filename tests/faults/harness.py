@@ -18,9 +18,14 @@ import yaml
 from processes import ROOT, Done, Lost, Running, require
 
 from nucleation.configuration.load import load
+from nucleation.configuration.studies import Run
 from nucleation.datasets import netcdf, variables
-from nucleation.pipeline.check import Finding, check_results
+from nucleation.model.friction.registry import plugins
+from nucleation.pipeline import code, keys
+from nucleation.pipeline.check import Finding
+from nucleation.pipeline.keys import Store
 
+SCRIPT = ROOT / "workflow" / "scripts" / "simulate.py"
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {
     "studies": {
@@ -76,7 +81,8 @@ class Place:
 
     def simulation(self, id: str) -> Path:
         """The dataset of one simulation."""
-        return self.results / "simulations" / f"{id}.nc"
+        run = next(run for run in load(self.directory / "config.yaml").runs if run.id == id)
+        return Path(Store(self.results).dataset("simulations", id, keys.joined(made(run))))
 
     def checkpoint(self, id: str) -> Path:
         """The checkpoint of one simulation."""
@@ -84,7 +90,8 @@ class Place:
 
     def log(self, id: str) -> str:
         """What a simulation has written to its log."""
-        return (self.results / "logs" / "simulate" / f"{id}.log").read_text(errors="replace")
+        name = self.simulation(id).with_suffix(".log").name
+        return (self.results / "logs" / "simulate" / name).read_text(errors="replace")
 
     def start(
         self, *arguments: str, prepare: Callable[[], object] | None = None, **environment: str
@@ -130,9 +137,9 @@ class Place:
                 for path in self.results.rglob("*"):
                     os.utime(path, (now, now))
                 continue
-            damaged = re.findall(r"DatasetError: (\S+) is damaged", done.output)
+            damaged = re.findall(r"(results/\S+) is (?:damaged|another result)", done.output)
             require(damaged, f"it can't be finished: {done.output[-3000:]}")
-            for path in damaged:
+            for path in set(damaged):
                 (self.directory / path).unlink(missing_ok=True)
         raise Lost(f"it can't be finished: {done.output[-3000:]}")
 
@@ -142,9 +149,9 @@ class Place:
         return {path.relative_to(self.directory): netcdf.read(path) for path in paths}
 
     def findings(self) -> list[Finding]:
-        """What target `check` would list."""
-        settings = load(self.directory / "config.yaml")
-        return check_results(settings, self.directory)
+        """What target `check` lists."""
+        listed = re.findall(r"^(\w+) +(results/\S+): (.+)$", self.run("check").output, re.M)
+        return [Finding(self.directory / path, state, why) for state, path, why in listed]
 
     def require_same(self, reference: Reference) -> None:
         """Every dataset has the undisturbed one's values, bit for bit."""
@@ -165,6 +172,12 @@ class Place:
         for path, content in before.items():
             require(path.exists(), f"{path.name} was lost")
             require(path.read_bytes() == content, f"{path.name} was changed")
+
+
+def made(run: Run) -> dict[str, str]:
+    """What makes a simulation, as the workflow says it."""
+    digest = code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters))
+    return keys.parts(digest, {"parameters": run.parameters.to_dict()}, {})
 
 
 def first_difference(one: xr.Dataset, other: xr.Dataset) -> str | None:
@@ -188,6 +201,7 @@ def make_reference(directory: Path) -> Reference:
     (whole.directory / "config.yaml").write_text(yaml.safe_dump(CONFIG))
     workflow = whole.run()
     require(workflow.status == 0, workflow.output)
+    require(not list(whole.results.glob(".kept/*")), "second names were left")
 
     place, checkpoints = whole.copy(directory / "halfway"), directory / "stopped"
     checkpoints.mkdir()

@@ -81,7 +81,7 @@ def sigkill_simulation_in_workflow(place, reference, random):
         done = running.end()
         if done.status == 0:
             return RECOVERED  # the kill came too late
-        require(f"{id}.nc" in done.output, f"the failed job is not named: {done.output}")
+        require(f"{id}." in done.output, f"the failed job is not named: {done.output}")
         place.finish()
     return CLEAR_ERROR
 

@@ -62,10 +62,17 @@ class Workflow:
             return {}
         return {rule: int(count) for rule, count in map(str.split, table[1].splitlines())}
 
+    def dataset(self, kind: str, id: str, results: str = "results/quick") -> Path:
+        """The one dataset of a kind and a run, whatever key it bears."""
+        (path,) = (self.directory / results / kind).glob(f"{id}.*.nc")
+        return path
+
     def configured(self, config: object, name: str = "config.yaml") -> "Workflow":
         """The same with another configuration, given as text or as plain dictionaries."""
         path = self.directory / name
-        path.write_text(config if isinstance(config, str) else yaml.safe_dump(config))
+        path.write_text(
+            config if isinstance(config, str) else yaml.safe_dump(config, sort_keys=False)
+        )
         return dataclasses.replace(self, config=path)
 
 
@@ -110,3 +117,14 @@ def freefem_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     program.write_text("#!/bin/sh\nexit 1\n")
     program.chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+
+
+@pytest.fixture
+def checkout(quick, tmp_path):
+    """A copy of the project to edit, over the results of the quick configuration."""
+    parts = ("Snakefile", "src", "workflow", "config", "docs")
+    for part in parts:
+        source = ROOT / part
+        copy = shutil.copytree if source.is_dir() else shutil.copy2
+        copy(source, tmp_path / part)
+    return dataclasses.replace(quick, checkout=tmp_path)

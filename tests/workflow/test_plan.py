@@ -191,7 +191,8 @@ def test_failed_simulation_is_no_result_and_keeps_its_record(workflow):
     done = workflow.configured({"studies": {"fails": {"runs": [run]}}})("lengths")
     assert done.returncode != 0
     (record,) = (workflow.directory / "results" / "simulations").iterdir()
-    assert record.name == "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step9e-8.failed.nc"
+    name = "fails-aging-H0.01-phi1-n_x16-n_y4-shortest_step9e-8"
+    assert record.name.startswith(f"{name}.") and record.name.endswith(".failed.nc")
     assert "failed: the step size fell below the shortest step allowed" in done.stdout
     assert not (workflow.directory / "results" / "lengths.nc").exists()
 

@@ -1,10 +1,40 @@
-# What of the results is stale, incomplete, damaged or foreign, without running anything else.
+# What of the results is stale, incomplete, damaged or foreign, without running anything else; and
+# which datasets are of earlier parameters or code, which a return to these would use again.
+from nucleation.pipeline.check import files as result_files
+
+
 localrules:
-    check,
+    check, prune,
+
+
+def wanted_keys(wildcards):
+    """Keys of all datasets that the configuration can ask for."""
+    paths = [kind(id) for kind in (simulation, patch, twin, hops) for id in RUNS]
+    paths += [*crosscheck_records("own"), *crosscheck_records("freefem")]
+    return [keys.key_in(path) for path in paths]
+
+
+def expected_parts(wildcards):
+    """What makes each file that is there, None where no rule does."""
+    return {path: PLANNER.parts_or_none(path) for path in result_files(Path(RESULTS))}
 
 
 rule check:
+    params:
+        results=RESULTS,
+        expected=expected_parts,
+        wanted=wanted_keys,
     message:
         f"Check of {RESULTS}"
     script:
         "../scripts/check.py"
+
+
+rule prune:
+    params:
+        results=RESULTS,
+        wanted=wanted_keys,
+    message:
+        f"Datasets in {RESULTS} that the configuration does not ask for are removed"
+    script:
+        "../scripts/prune.py"

@@ -31,7 +31,11 @@ rule evaluate_claims:
         loading=asdict(settings.base.loading),
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.claims.table"),
+        ids=[run.id for run in runs_in(*CLAIMED)],
+        patch_ids=[run.id for run in runs_in(JUDGED)],
+        **made_by("claims.py", plugins(settings.base)),
+    log:
+        f"{RESULTS}/logs/claims.log",
     threads: 1
     message:
         "Claims of the paper, our numbers and the verdicts"
@@ -47,7 +51,9 @@ rule write_article:
         ARTICLE,
     params:
         template=lambda wildcards: TEMPLATE.read_text("utf-8"),
-        digest=digest("nucleation.claims.article"),
+        **made_by("article.py"),
+    log:
+        f"{RESULTS}/logs/article.log",
     message:
         "Article on the replication, its numbers from the results"
     script:

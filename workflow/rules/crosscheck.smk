@@ -1,7 +1,5 @@
 # The independent solver: the same runs by FreeFem++ and by the project's own solver. Not a part of
 # `paper`: it needs a program that make doesn't install, and takes ten minutes.
-from hashlib import sha256
-
 from nucleation.verification.crosscheck import freefem, plan
 
 CROSSCHECKS = plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
@@ -15,23 +13,39 @@ def freefem_script(wildcards):
     return str(FREEFEM_SCRIPT)
 
 
+def crosscheck_parameters(id):
+    return {
+        "parameters": CROSSCHECKS[id].to_dict(),
+        "settings": asdict(settings.crosscheck),
+        "extraction": asdict(settings.extraction),
+    }
+
+
+@functools.cache
+def crosscheck_record(id, solver):
+    """The record of one run by one of the solvers, own or freefem."""
+    parameters, sources = crosscheck_parameters(id), {"script": [str(FREEFEM_SCRIPT)]}
+    if solver == "own":
+        parameters, sources = {"parameters": parameters["parameters"]}, {}
+    laws = plugins(CROSSCHECKS[id])
+    return keyed(f"crosscheck/{solver}", id, f"crosscheck_{solver}.py", parameters, sources, laws)
+
+
 def crosscheck_records(solver):
-    return [f"{RESULTS}/crosscheck/{id}-{solver}.nc" for id in CROSSCHECKS]
-
-
-wildcard_constraints:
-    crosscheck="|".join(CROSSCHECKS).replace(".", r"\."),
+    return [crosscheck_record(id, solver) for id in CROSSCHECKS]
 
 
 rule crosscheck_own:
     output:
-        f"{RESULTS}/crosscheck/{{crosscheck}}-own.nc",
+        place_of("crosscheck/own"),
     params:
-        parameters=lambda wildcards: CROSSCHECKS[wildcards.crosscheck].to_dict(),
-        digest=digest("nucleation.simulation.run"),
+        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
+        **made_by("crosscheck_own.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
+    log:
+        f"{RESULTS}/logs/crosscheck/own/{{name}}.{{key}}.log",
     threads: 1
     message:
-        "Crosscheck {wildcards.crosscheck} with the project's solver"
+        "Crosscheck {wildcards.name} with the project's solver"
     script:
         "../scripts/crosscheck_own.py"
 
@@ -40,16 +54,17 @@ rule crosscheck_freefem:
     input:
         script=freefem_script,
     output:
-        f"{RESULTS}/crosscheck/{{crosscheck}}-freefem.nc",
+        place_of("crosscheck/freefem"),
     params:
-        parameters=lambda wildcards: CROSSCHECKS[wildcards.crosscheck].to_dict(),
+        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
         settings=asdict(settings.crosscheck),
         extraction=asdict(settings.extraction),
-        script=sha256(FREEFEM_SCRIPT.read_bytes()).hexdigest(),
-        digest=digest("nucleation.verification.crosscheck.freefem"),
+        **made_by("crosscheck_freefem.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
+    log:
+        f"{RESULTS}/logs/crosscheck/freefem/{{name}}.{{key}}.log",
     threads: 1
     message:
-        "Crosscheck {wildcards.crosscheck} with FreeFem++"
+        "Crosscheck {wildcards.name} with FreeFem++"
     script:
         "../scripts/crosscheck_freefem.py"
 
@@ -64,7 +79,9 @@ rule compare_crosscheck:
     params:
         ids=list(CROSSCHECKS),
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.verification.crosscheck.compare"),
+        **made_by("compare_crosscheck.py"),
+    log:
+        f"{RESULTS}/logs/crosscheck.log",
     message:
         "Crosscheck: differences of the two solvers"
     script:
@@ -81,7 +98,9 @@ rule draw_figure_crosscheck:
     params:
         ids=list(CROSSCHECKS),
         extraction=asdict(settings.extraction),
-        digest=drawing_digest("figure_crosscheck"),
+        **made_by("figure_crosscheck.py"),
+    log:
+        f"{RESULTS}/logs/draw/figure_crosscheck.log",
     message:
         "Crosscheck: patch length and driving force by both solvers"
     script:

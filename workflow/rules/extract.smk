@@ -25,7 +25,9 @@ rule extract:
         study="|".join(settings.studies),
     params:
         parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
-        digest=digest("nucleation.analysis.lengths"),
+        **made_by("extract.py"),
+    log:
+        f"{RESULTS}/logs/extract/{{study}}.log",
     message:
         "Critical lengths of the study {wildcards.study}"
     script:
@@ -39,7 +41,9 @@ rule gather_lengths:
         dataset=LENGTHS,
         table=f"{RESULTS}/lengths.csv",
     params:
-        digest=digest("nucleation.analysis.lengths"),
+        **made_by("gather_lengths.py"),
+    log:
+        f"{RESULTS}/logs/gather_lengths.log",
     message:
         "Critical lengths of the studies " + ", ".join(SHARED)
     script:

@@ -1,14 +1,6 @@
-# One rule draws each figure, and one target of the figure's name asks for it together with the
-# simulations it stands on (see the Snakefile). What is drawn comes from datasets alone.
-DRAWING = ("matplotlib", "numpy")
-
-
-def drawing_digest(name):
-    (path,) = Path(SOURCE, "nucleation", "figures").rglob(f"{name}.py")
-    name = ".".join(path.relative_to(SOURCE).with_suffix("").parts)
-    return digest(name, libraries=DRAWING)
-
-
+# One rule draws each figure, and one target of the figure's name asks for it together with what it
+# stands on (see the Snakefile). What is drawn comes from datasets alone: a rule's inputs bear the
+# names of the parameters of the figure's `draw`.
 def shown(height):
     """The simulation of the paper's study that a figure shows, by height (m)."""
     try:
@@ -27,72 +19,63 @@ def space_time_id(wildcards):
     return shown(settings.figures.space_time_height)
 
 
-rule draw_figure_1:
-    output:
-        figure("figure_1"),
-    params:
-        digest=drawing_digest("figure_1"),
-    message:
-        "Figure 1: the two set-ups"
-    script:
-        "../scripts/figure_1.py"
+def drawing(name):
+    """The module that draws a figure."""
+    (path,) = Path(SOURCE, "nucleation", "figures").rglob(f"{name}.py")
+    return ".".join(path.relative_to(SOURCE).with_suffix("").parts)
 
 
-rule draw_figure_2:
-    input:
-        theory=THEORY,
-    output:
-        figure("figure_2"),
-    params:
-        digest=drawing_digest("figure_2"),
-    message:
-        "Figure 2: critical length of bimaterial interfaces"
-    script:
-        "../scripts/figure_2.py"
+DRAWN = {
+    "figure_1": {},
+    "figure_2": {"theory": THEORY},
+    "figure_3": {
+        "theory": THEORY,
+        "lengths": LENGTHS,
+        "inset_simulation": lambda wildcards: simulation(inset_id(wildcards)),
+    },
+    "figure_s1": {"theory": THEORY},
+    "figure_s2": {
+        "lengths": study_lengths("paper"),
+        "simulation": lambda wildcards: simulation(space_time_id(wildcards)),
+    },
+    "figure_patch_stability": {
+        "table": PATCHES,
+        "patches": patches(*PATCH_TABLES["patch_stability"]),
+        "twins": TWINS,
+    },
+    "figure_3_extended": {"theory": THEORY, "lengths": LENGTHS, "table": PATCHES},
+    "figure_dispersion": {"dispersion": DISPERSION},
+    "figure_verification": {"convergence": VERIFICATION},
+    "figure_convergence": {
+        "table": CONVERGENCE,
+        "hops": lambda wildcards: [hops(run.id) for run in hopping(wildcards)],
+        "patch": lambda wildcards: patch(hopping(wildcards)[0].id),
+    },
+    "figure_sensitivity": {"table": SENSITIVITY},
+}
+"""The figures that are drawn from datasets alone, with these."""
 
+SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": inset_id}
+"""The simulation of which a figure shows more than its lengths."""
 
-rule draw_figure_3:
-    input:
-        theory=THEORY,
-        lengths=LENGTHS,
-        simulation=lambda wildcards: simulation(inset_id(wildcards)),
-    output:
-        figure("figure_3"),
-    params:
-        id=inset_id,
-        digest=drawing_digest("figure_3"),
-    message:
-        "Figure 3: critical length against height, theory and simulations"
-    script:
-        "../scripts/figure_3.py"
+for _name, _inputs in DRAWN.items():
 
-
-rule draw_figure_s1:
-    input:
-        theory=THEORY,
-    output:
-        figure("figure_s1"),
-    params:
-        digest=drawing_digest("figure_s1"),
-    message:
-        "Figure S1: steady-state friction"
-    script:
-        "../scripts/figure_s1.py"
-
-
-rule draw_figure_s2:
-    input:
-        lengths=study_lengths("paper"),
-        simulation=lambda wildcards: simulation(space_time_id(wildcards)),
-    output:
-        figure("figure_s2"),
-    params:
-        id=space_time_id,
-        digest=drawing_digest("figure_s2"),
-    message:
-        "Figure S2: shear stress in space and time, and the driving force"
-    script:
-        "../scripts/figure_s2.py"
+    rule:
+        name:
+            f"draw_{_name}"
+        input:
+            **_inputs,
+        output:
+            figure(_name),
+        params:
+            id=SHOWN_RUNS.get(_name, ""),
+            **made_by("draw.py", [drawing(_name)]),
+        log:
+            f"{RESULTS}/logs/draw/{_name}.log",
+        message:
+            FIGURES[_name].title
+        script:
+            "../scripts/draw.py"
 
 
 rule write_table_s1:
@@ -101,51 +84,46 @@ rule write_table_s1:
         markdown=f"{RESULTS}/tables/table_s1.md",
     params:
         friction=asdict(settings.base.friction),
-        digest=drawing_digest("table_s1"),
+        **made_by("table_s1.py", plugins(settings.base)),
+    log:
+        f"{RESULTS}/logs/table_s1.log",
     message:
         "Table S1: parameters of the friction law"
     script:
         "../scripts/table_s1.py"
 
 
-rule figure_1:
-    input:
-        figure("figure_1"),
-    message:
-        "Figure 1 is in {input[0]}"
+TARGETS = {
+    "figure_1": [],
+    "figure_2": [THEORY],
+    "figure_3": [THEORY, rules.lengths.input],
+    "figure_s1": [THEORY],
+    "figure_s2": [measured("paper")],
+    "figure_patch_stability": [
+        frozen("patch_stability"),
+        frozen("patch_convergence") if runs_in("patch_convergence") else [],
+        with_csv(TWINS),
+        twins(),
+    ],
+    "figure_3_extended": [THEORY, rules.lengths.input, frozen("patch_stability")],
+    "figure_dispersion": [rules.dispersion.output],
+    "figure_verification": [rules.verification.output],
+    "figure_convergence": [rules.convergence.output, hops_shown, measured(*CONVERGENCE_STUDIES)],
+    "figure_sensitivity": [rules.sensitivity.output, simulations("sensitivity")],
+}
+"""What stands behind each figure, all the way down."""
 
+for _name, _behind in TARGETS.items():
 
-rule figure_2:
-    input:
-        figure("figure_2"),
-        THEORY,
-    message:
-        "Figure 2 is in {input[0]}"
-
-
-rule figure_3:
-    input:
-        figure("figure_3"),
-        THEORY,
-        rules.lengths.input,
-    message:
-        "Figure 3 is in {input[0]}"
-
-
-rule figure_s1:
-    input:
-        figure("figure_s1"),
-        THEORY,
-    message:
-        "Figure S1 is in {input[0]}"
-
-
-rule figure_s2:
-    input:
-        figure("figure_s2"),
-        measured("paper"),
-    message:
-        "Figure S2 is in {input[0]}"
+    rule:
+        name:
+            _name
+        input:
+            figure(_name),
+            *_behind,
+        localrule: True
+        message:
+            f"{FIGURES[_name].title} is in {{input[0]}}"
 
 
 rule table_s1:

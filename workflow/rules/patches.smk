@@ -9,8 +9,30 @@ PATCH_TABLES = {
 """Tables of patches by the studies in them."""
 
 
+def of_simulation(kind, id, script):
+    """What a script reads from one simulation by the settings of extraction."""
+    parameters = {"extraction": asdict(settings.extraction)}
+    return keyed(kind, id, script, parameters, {"": [simulation(id)]}, plugins(RUNS[id].parameters))
+
+
+@functools.cache
+def patch(id):
+    """The stability of one simulation's patch."""
+    return of_simulation("patches", id, "patch.py")
+
+
+@functools.cache
+def twin(id):
+    """The twin runs of one run."""
+    parameters = {"run": RUNS[id].to_dict(), "extraction": asdict(settings.extraction)}
+    return keyed("twins", id, "twin.py", parameters, modules=plugins(RUNS[id].parameters))
+
+
 def patches(*studies):
-    return [f"{RESULTS}/patches/{run.id}.nc" for run in runs_in(*studies)]
+    return [patch(run.id) for run in runs_in(*studies)]
+
+
+patched, twinned = of_key(patch, "patch of"), of_key(twin, "twins of")
 
 
 def frozen(table):
@@ -20,19 +42,21 @@ def frozen(table):
 
 
 def twins():
-    return [f"{RESULTS}/twins/{run.id}.nc" for run in runs_in("twin_runs")]
+    return [twin(run.id) for run in runs_in("twin_runs")]
 
 
 rule patch:
     input:
-        simulation("{id}"),
+        lambda wildcards: simulation(patched(wildcards).id),
     output:
-        f"{RESULTS}/patches/{{id}}.nc",
+        place_of("patches"),
     params:
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.patch.growth"),
+        **made_by("patch.py", lambda wildcards: plugins(patched(wildcards).parameters)),
+    log:
+        f"{RESULTS}/logs/patch/{{name}}.{{key}}.log",
     message:
-        "Stability of the creeping patch of {wildcards.id}"
+        "Stability of the creeping patch of {wildcards.name}"
     script:
         "../scripts/patch.py"
 
@@ -50,7 +74,9 @@ rule gather_patches:
         table="|".join(PATCH_TABLES),
     params:
         runs=lambda wildcards: [run.to_dict() for run in runs_in(*PATCH_TABLES[wildcards.table])],
-        digest=digest("nucleation.patch.growth"),
+        **made_by("gather_patches.py"),
+    log:
+        f"{RESULTS}/logs/{{table}}.log",
     message:
         "Patch lengths at which growth begins: {wildcards.table}"
     script:
@@ -59,17 +85,19 @@ rule gather_patches:
 
 rule twin:
     output:
-        f"{RESULTS}/twins/{{id}}.nc",
+        place_of("twins"),
     params:
-        run=lambda wildcards: run_of(wildcards).to_dict(),
+        run=lambda wildcards: twinned(wildcards).to_dict(),
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.patch.twins"),
+        **made_by("twin.py", lambda wildcards: plugins(twinned(wildcards).parameters)),
+    log:
+        f"{RESULTS}/logs/twin/{{name}}.{{key}}.log",
     threads: 1
     resources:
-        mem_mb=lambda wildcards, attempt: 2 * memory(wildcards, attempt),
+        mem_mb=lambda wildcards, attempt: 2 * memory(twinned(wildcards), attempt),
         runtime=ceil(settings.limits.runtime),
     message:
-        "Twin runs of {wildcards.id}"
+        "Twin runs of {wildcards.name}"
     script:
         "../scripts/twin.py"
 
@@ -82,59 +110,10 @@ rule gather_twins:
         table=f"{RESULTS}/twin_runs.csv",
     params:
         runs=[run.to_dict() for run in runs_in("twin_runs")],
-        digest=digest("nucleation.patch.twins"),
+        **made_by("gather_twins.py"),
+    log:
+        f"{RESULTS}/logs/twin_runs.log",
     message:
         "Growth of kicks in twin runs"
     script:
         "../scripts/gather_twins.py"
-
-
-rule draw_figure_patch_stability:
-    input:
-        table=PATCHES,
-        patches=patches(*PATCH_TABLES["patch_stability"]),
-        twins=TWINS,
-    output:
-        figure("figure_patch_stability"),
-    params:
-        digest=drawing_digest("figure_patch_stability"),
-    message:
-        "Growth of the frozen patch, the shape of its mode, and twin runs"
-    script:
-        "../scripts/figure_patch_stability.py"
-
-
-rule draw_figure_3_extended:
-    input:
-        theory=THEORY,
-        lengths=LENGTHS,
-        table=PATCHES,
-    output:
-        figure("figure_3_extended"),
-    params:
-        digest=drawing_digest("figure_3_extended"),
-    message:
-        "Lengths of the drop and of the patch's stability over those of the theory"
-    script:
-        "../scripts/figure_3_extended.py"
-
-
-rule figure_patch_stability:
-    input:
-        rules.draw_figure_patch_stability.output,
-        frozen("patch_stability"),
-        frozen("patch_convergence") if runs_in("patch_convergence") else [],
-        with_csv(TWINS),
-        twins(),
-    message:
-        "Stability of the patches is in {input[0]} and {PATCHES}"
-
-
-rule figure_3_extended:
-    input:
-        rules.draw_figure_3_extended.output,
-        THEORY,
-        rules.lengths.input,
-        frozen("patch_stability"),
-    message:
-        "Figure 3 with the patches' lengths is in {input[0]}"

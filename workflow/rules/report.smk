@@ -6,7 +6,7 @@ from nucleation.figures import catalogue
 FILM = f"{RESULTS}/film.nc"
 ANIMATION = f"{RESULTS}/figures/animation.gif"
 REPORT_FILES = [
-    Path(SOURCE, "nucleation", "report", name)
+    str(Path(SOURCE, "nucleation", "report", name))
     for name in ("template.html", "page.css", "page.js", "theory.js")
 ]
 REPORTED = catalogue.drawable(list(settings.studies))
@@ -17,8 +17,6 @@ OWN_STUDIES = {
 }
 """What the studies are for that the paper does not have and that share lengths.csv."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
-SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": inset_id}
-"""The simulation that a figure's caption names."""
 
 
 localrules:
@@ -51,7 +49,9 @@ rule film:
         FILM,
     params:
         id=inset_id,
-        digest=digest("nucleation.analysis.film"),
+        **made_by("film.py"),
+    log:
+        f"{RESULTS}/logs/film.log",
     threads: 1
     message:
         "Film: a run once more, for the stress in its block"
@@ -67,7 +67,9 @@ rule draw_animation:
         captioned(ANIMATION, "animation"),
     params:
         id=inset_id,
-        digest=digest("nucleation.figures.beyond.animation", libraries=(*DRAWING, "pillow")),
+        **made_by("animation.py"),
+    log:
+        f"{RESULTS}/logs/draw/animation.log",
     message:
         "Animation of creep, nucleation and rupture"
     script:
@@ -90,6 +92,7 @@ rule write_report:
         datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
         player=player_input,
         claims=CLAIMS,
+        page=REPORT_FILES,
     output:
         f"{RESULTS}/report.html",
     params:
@@ -101,12 +104,10 @@ rule write_report:
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
         config=config,
-        digest=digest(
-            "nucleation.report.page",
-            "nucleation.report.player",
-            libraries=("numpy", "plotly", "jinja2", "docutils"),
-        )
-        + sha256(b"".join(path.read_bytes() for path in REPORT_FILES)).hexdigest(),
+        player=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
+        **made_by("report.py", plugins(settings.base)),
+    log:
+        f"{RESULTS}/logs/report.log",
     message:
         "Report"
     script:

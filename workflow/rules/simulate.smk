@@ -1,35 +1,28 @@
-# One job for each simulation. Its parameters and the digest of the code it runs are in `params`:
-# Snakemake sees neither imported modules nor what a wildcard stands for, and a change of either
-# has to run the simulation again (and nothing else has to).
+# One job for each simulation. Its dataset bears the key of parameters and code in its name: whatever
+# of them changes, it is another file, and one that exists is never made again.
 from math import ceil
 
 
-def run_of(wildcards):
-    return RUNS[wildcards.id]
-
-
-def memory(wildcards, attempt):
+def memory(run, attempt):
     """Memory (MB) of a cluster job with one simulation: two Snakemakes in it need 150 MB each."""
-    return attempt * ceil(300 + estimated_megabytes(run_of(wildcards).parameters.mesh))
+    return attempt * ceil(300 + estimated_megabytes(run.parameters.mesh))
 
 
 rule simulate:
     output:
-        simulation("{id}"),
+        place_of("simulations"),
     params:
-        parameters=lambda wildcards: run_of(wildcards).parameters.to_dict(),
-        digest=digest("nucleation.simulation.run"),
-    wildcard_constraints:
-        id="|".join(RUNS).replace(".", r"\."),
+        parameters=lambda wildcards: simulated(wildcards).parameters.to_dict(),
+        **made_by("simulate.py", lambda wildcards: plugins(simulated(wildcards).parameters)),
     log:
-        f"{RESULTS}/logs/simulate/{{id}}.log",
+        f"{RESULTS}/logs/simulate/{{name}}.{{key}}.log",
     threads: 1
     priority: 1  # before the short jobs, which then fill all cores at the end
     resources:
-        mem_mb=memory,
+        mem_mb=lambda wildcards, attempt: memory(simulated(wildcards), attempt),
         runtime=ceil(settings.limits.runtime),
     message:
-        "Simulation {wildcards.id}"
+        "Simulation {wildcards.name}"
     script:
         "../scripts/simulate.py"
 

@@ -8,7 +8,7 @@ CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("
 
 
 localrules:
-    figure_convergence, figure_sensitivity, figure_studies,
+    figure_studies,
 
 
 def hopping(wildcards):
@@ -32,7 +32,9 @@ rule draw_figure_study:
         study="|".join(settings.studies),
     params:
         varied=lambda wildcards: varied(settings.runs_of(wildcards.study)),
-        digest=drawing_digest("figure_studies"),
+        **made_by("figure_studies.py"),
+    log:
+        f"{RESULTS}/logs/draw/study_{{study}}.log",
     message:
         "Figure of the study {wildcards.study}: simulations and theory"
     script:
@@ -68,50 +70,44 @@ rule convergence:
         dataset=CONVERGENCE,
         table=f"{RESULTS}/convergence.csv",
     params:
-        digest=digest("nucleation.analysis.convergence"),
+        **made_by("convergence.py"),
+    log:
+        f"{RESULTS}/logs/convergence.log",
     message:
         "Critical lengths against mesh and steps"
     script:
         "../scripts/convergence.py"
 
 
+@functools.cache
+def hops(id):
+    """The hops of one simulation's front."""
+    return of_simulation("hops", id, "hops.py")
+
+
+hopped = of_key(hops, "hops of")
+
+
 rule hops:
     input:
-        simulation("{id}"),
+        lambda wildcards: simulation(hopped(wildcards).id),
     output:
-        f"{RESULTS}/hops/{{id}}.nc",
+        place_of("hops"),
     params:
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.patch.hops"),
+        **made_by("hops.py", lambda wildcards: plugins(hopped(wildcards).parameters)),
+    log:
+        f"{RESULTS}/logs/hops/{{name}}.{{key}}.log",
     message:
-        "Hops of the front of {wildcards.id}"
+        "Hops of the front of {wildcards.name}"
     script:
         "../scripts/hops.py"
 
 
-rule draw_figure_convergence:
-    input:
-        table=CONVERGENCE,
-        hops=lambda wildcards: [f"{RESULTS}/hops/{run.id}.nc" for run in hopping(wildcards)],
-        patch=lambda wildcards: f"{RESULTS}/patches/{hopping(wildcards)[0].id}.nc",
-    output:
-        figure("figure_convergence"),
-    params:
-        digest=drawing_digest("figure_convergence"),
-    message:
-        "Convergence figure: critical length against mesh and steps"
-    script:
-        "../scripts/figure_convergence.py"
-
-
-rule figure_convergence:
-    input:
-        rules.draw_figure_convergence.output,
-        rules.draw_figure_convergence.input,
-        rules.convergence.output,
-        measured(*CONVERGENCE_STUDIES),
-    message:
-        "The convergence figure is in {input[0]}, its table in {CONVERGENCE}"
+def hops_shown(wildcards):
+    """The hops in the figure of convergence, and the patch of the coarsest run."""
+    runs = hopping(wildcards)
+    return [*(hops(run.id) for run in runs), patch(runs[0].id)]
 
 
 rule sensitivity:
@@ -123,30 +119,10 @@ rule sensitivity:
     params:
         runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
         extraction=asdict(settings.extraction),
-        digest=digest("nucleation.analysis.sensitivity"),
+        **made_by("sensitivity.py"),
+    log:
+        f"{RESULTS}/logs/sensitivity.log",
     message:
         "Sensitivity of critical lengths"
     script:
         "../scripts/sensitivity.py"
-
-
-rule draw_figure_sensitivity:
-    input:
-        table=SENSITIVITY,
-    output:
-        figure("figure_sensitivity"),
-    params:
-        digest=drawing_digest("figure_sensitivity"),
-    message:
-        "Sensitivity figure: changes of the critical length"
-    script:
-        "../scripts/figure_sensitivity.py"
-
-
-rule figure_sensitivity:
-    input:
-        rules.draw_figure_sensitivity.output,
-        rules.sensitivity.output,
-        simulations("sensitivity"),
-    message:
-        "The sensitivity figure is in {input[0]}, its table in {SENSITIVITY}"

@@ -4,7 +4,9 @@ rule theory:
         THEORY,
     params:
         parameters=settings.theory_parameters(),
-        digest=digest("nucleation.theory.curves"),
+        **made_by("theory.py", plugins(settings.base)),
+    log:
+        f"{RESULTS}/logs/theory.log",
     message:
         "Theory: critical lengths and friction curves"
     script:

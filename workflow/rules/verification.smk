@@ -7,10 +7,6 @@ DISPERSION = f"{RESULTS}/dispersion.nc"
 VERIFICATION = f"{RESULTS}/verification.nc"
 
 
-localrules:
-    figure_dispersion, figure_verification,
-
-
 rule dispersion:
     output:
         dataset=DISPERSION,
@@ -19,7 +15,9 @@ rule dispersion:
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
-        digest=digest("nucleation.verification.dispersion"),
+        **made_by("dispersion.py", plugins(settings.base)),
+    log:
+        f"{RESULTS}/logs/dispersion.log",
     threads: 1
     message:
         "Dispersion: growth of single modes, time integration and theory"
@@ -27,56 +25,16 @@ rule dispersion:
         "../scripts/dispersion.py"
 
 
-rule draw_figure_dispersion:
-    input:
-        dispersion=DISPERSION,
-    output:
-        figure("figure_dispersion"),
-    params:
-        digest=drawing_digest("figure_dispersion"),
-    message:
-        "Dispersion figure: growth and frequency against wavenumber"
-    script:
-        "../scripts/figure_dispersion.py"
-
-
-rule figure_dispersion:
-    input:
-        figure("figure_dispersion"),
-        rules.dispersion.output,
-    message:
-        "The dispersion figure is in {input[0]}"
-
-
 rule verification:
     output:
         dataset=VERIFICATION,
         table=f"{RESULTS}/verification.csv",
     params:
-        digest=digest("nucleation.verification.orders"),
+        **made_by("verification.py", plugins(Parameters())),
+    log:
+        f"{RESULTS}/logs/verification.log",
     threads: 1
     message:
         "Convergence: errors of manufactured solutions against element size and time step"
     script:
         "../scripts/verification.py"
-
-
-rule draw_figure_verification:
-    input:
-        verification=VERIFICATION,
-    output:
-        figure("figure_verification"),
-    params:
-        digest=drawing_digest("figure_verification"),
-    message:
-        "Verification figure: orders of convergence"
-    script:
-        "../scripts/figure_verification.py"
-
-
-rule figure_verification:
-    input:
-        figure("figure_verification"),
-        rules.verification.output,
-    message:
-        "The verification figure is in {input[0]}"

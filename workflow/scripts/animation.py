@@ -1,9 +1,10 @@
 """Draw the animation."""
 
 from nucleation.analysis.lengths import row
-from nucleation.datasets import netcdf
 from nucleation.figures.beyond import animation
+from nucleation.pipeline.job import Job
 
-film = netcdf.read(snakemake.input.film)
-entry = row(netcdf.read(snakemake.input.lengths), snakemake.params.id)
-animation.save(animation.frames(film, entry), snakemake.output[0])
+with Job(snakemake, __file__) as job:
+    film = job.read(job.input.film)
+    entry = row(job.read(job.input.lengths), job.params.id)
+    animation.save(animation.frames(film, entry), job.output[0])

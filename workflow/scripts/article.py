@@ -4,12 +4,12 @@ import json
 from pathlib import Path
 
 from nucleation.claims import article
-from nucleation.datasets import netcdf
+from nucleation.pipeline.job import Job
 
-given = snakemake.input
-text = article.render(
-    snakemake.params.template,
-    json.loads(Path(given.claims).read_text(encoding="utf-8")),
-    [netcdf.read(path) for path in given.lengths],
-)
-netcdf.write_text(text, snakemake.output[0])
+with Job(snakemake, __file__) as job:
+    text = article.render(
+        job.params.template,
+        json.loads(Path(job.input.claims).read_text(encoding="utf-8")),
+        list(job.read_all(job.input.lengths)),
+    )
+    job.write_text(text, job.output[0])

@@ -1,12 +1,12 @@
 """List the results that are not what the present code and configuration would make."""
 
-from nucleation.configuration.load import configure
-from nucleation.pipeline.check import check_results, unverified
+import sys
 
-settings = configure(snakemake.config)
-findings = check_results(settings)
-for finding in findings:
-    print(finding)
-print(f"{len(findings)} findings: these results are not current" if findings else "All is current")
-if names := [path.name for path in unverified(settings)]:
-    print("Not checked, they do not say where they are from:", *names)
+from nucleation.pipeline import check
+from nucleation.pipeline.keys import Store
+
+params = snakemake.params
+findings = check.check_results(Store(params.results), params.expected, params.wanted)
+print(check.report(findings))
+if any(found.state != check.UNUSED for found in findings):
+    sys.exit("check: there are findings")

@@ -2,18 +2,16 @@
 
 from nucleation.analysis import lengths
 from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.datasets import netcdf, provenance
+from nucleation.pipeline.job import Job
 from nucleation.verification.crosscheck import compare
 
-params, own, freefem = snakemake.params, snakemake.input.own, snakemake.input.freefem
-settings = ExtractionSettings(**params.extraction)
-rows = {
-    name: compare.compare(netcdf.read(first), netcdf.read(second), settings)
-    for name, first, second in zip(params.ids, own, freefem, strict=True)
-}
-table = compare.gather(rows)
-attributes = provenance.attributes(
-    params.extraction, params.digest, "snakemake crosscheck", [*own, *freefem]
-)
-netcdf.write(table, snakemake.output.dataset, **attributes)
-netcdf.write_text(lengths.to_csv(table, compare.COLUMNS), snakemake.output.table)
+with Job(snakemake, __file__) as job:
+    settings = ExtractionSettings(**job.params.extraction)
+    pairs = zip(job.params.ids, job.input.own, job.input.freefem, strict=True)
+    rows = {
+        name: compare.compare(job.read(first), job.read(second), settings)
+        for name, first, second in pairs
+    }
+    table = compare.gather(rows)
+    job.write(table, job.output.dataset, job.params.extraction)
+    job.write_text(lengths.to_csv(table, compare.COLUMNS), job.output.table)

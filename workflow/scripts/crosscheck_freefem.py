@@ -5,17 +5,17 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.datasets import netcdf, provenance
 from nucleation.model.parameters import Parameters
+from nucleation.pipeline.job import Job
 from nucleation.verification.crosscheck import freefem
 from nucleation.verification.crosscheck.plan import CrosscheckSettings
 
-params, output = snakemake.params, snakemake.output[0]
-settings = {**params.settings, "heights": tuple(params.settings["heights"])}
-with TemporaryDirectory() as directory:
+with Job(snakemake, __file__) as job, TemporaryDirectory() as directory:
+    params = job.params
+    settings = {**params.settings, "heights": tuple(params.settings["heights"])}
     try:
         record = freefem.run(
-            Path(snakemake.input.script),
+            Path(job.input.script),
             Path(directory),
             Parameters.from_dict(params.parameters),
             CrosscheckSettings(**settings),
@@ -23,5 +23,4 @@ with TemporaryDirectory() as directory:
         )
     except freefem.FreeFemError as error:
         sys.exit(str(error))
-attributes = provenance.attributes(params.parameters, params.digest, f"snakemake {output}")
-netcdf.write(record, output, **attributes)
+    job.write(record, job.output[0], params.parameters)

@@ -2,13 +2,12 @@
 
 import sys
 
-from nucleation.datasets import netcdf, provenance
 from nucleation.model.parameters import Parameters
+from nucleation.pipeline.job import Job
 from nucleation.verification.crosscheck.compare import simulate_timed
 
-params, output = snakemake.params, snakemake.output[0]
-record = simulate_timed(Parameters.from_dict(params.parameters))
-if not record.attrs["completed"]:
-    sys.exit(f"{output}: {record.attrs['status']}")
-attributes = provenance.attributes(params.parameters, params.digest, f"snakemake {output}")
-netcdf.write(record, output, **attributes)
+with Job(snakemake, __file__) as job:
+    record = simulate_timed(Parameters.from_dict(job.params.parameters))
+    if not record.attrs["completed"]:
+        sys.exit(f"{job.output[0]}: {record.attrs['status']}")
+    job.write(record, job.output[0], job.params.parameters)

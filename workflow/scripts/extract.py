@@ -1,15 +1,12 @@
-"""Gather onset times and critical lengths of all simulations into one table."""
+"""Gather onset times and critical lengths of all simulations of a study into one table."""
 
 from nucleation.analysis import lengths
 from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.datasets import netcdf, provenance
+from nucleation.pipeline.job import Job
 
-params = snakemake.params
-runs, extraction = params.parameters["runs"], params.parameters["extraction"]
-simulations = map(netcdf.read, snakemake.input)
-table = lengths.gather(runs, simulations, ExtractionSettings(**extraction))
-attributes = provenance.attributes(
-    params.parameters, params.digest, "snakemake lengths", snakemake.input
-)
-netcdf.write(table, snakemake.output.dataset, **attributes)
-netcdf.write_text(lengths.to_csv(table), snakemake.output.table)
+with Job(snakemake, __file__) as job:
+    parameters = job.params.parameters
+    extraction = ExtractionSettings(**parameters["extraction"])
+    table = lengths.gather(parameters["runs"], job.read_all(job.input), extraction)
+    job.write(table, job.output.dataset, parameters)
+    job.write_text(lengths.to_csv(table), job.output.table)

@@ -3,11 +3,12 @@
 from pathlib import Path
 
 from nucleation.configuration.study_names import study_parameters
-from nucleation.datasets import netcdf
 from nucleation.figures import style
 from nucleation.figures.beyond import figure_studies
+from nucleation.pipeline.job import Job
 
-varied = snakemake.params.varied
-entries = {name: study_parameters()[name] for name in varied}
-drawn = figure_studies.draw(netcdf.read(snakemake.input.table), varied, entries)
-style.save(drawn, Path(snakemake.output[0]).with_suffix(""))
+with Job(snakemake, __file__) as job:
+    varied = job.params.varied
+    entries = {name: study_parameters()[name] for name in varied}
+    drawn = figure_studies.draw(job.read(job.input.table), varied, entries)
+    style.save(drawn, Path(job.output[0]).with_suffix(""), job.key)

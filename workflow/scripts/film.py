@@ -1,13 +1,13 @@
 """Take the film of a simulation."""
 
+import json
+
 from nucleation.analysis.film import film_dataset
 from nucleation.analysis.lengths import row
-from nucleation.datasets import netcdf, provenance
+from nucleation.pipeline.job import Job
 
-params = snakemake.params
-simulation = netcdf.read(snakemake.input.simulation)
-entry = row(netcdf.read(snakemake.input.lengths), params.id)
-film = film_dataset(simulation, entry)
-attributes = provenance.attributes({"id": params.id}, params.digest, "snakemake animation")
-attributes["parameters"] = film.attrs["parameters"]  # of the run, as in its own dataset
-netcdf.write(film, snakemake.output[0], **attributes)
+with Job(snakemake, __file__) as job:
+    entry = row(job.read(job.input.lengths), job.params.id)
+    film = film_dataset(job.read(job.input.simulation), entry)
+    # the parameters are those of the run, as in its own dataset
+    job.write(film, job.output[0], json.loads(film.attrs["parameters"]))

@@ -1,10 +1,9 @@
 """Join the tables of lengths of several studies."""
 
 from nucleation.analysis import lengths
-from nucleation.datasets import netcdf, provenance
+from nucleation.pipeline.job import Job
 
-params = snakemake.params
-table = lengths.join(map(netcdf.read, snakemake.input))
-attributes = provenance.attributes({}, params.digest, "snakemake lengths", snakemake.input)
-netcdf.write(table, snakemake.output.dataset, **attributes)
-netcdf.write_text(lengths.to_csv(table), snakemake.output.table)
+with Job(snakemake, __file__) as job:
+    table = lengths.join(job.read_all(job.input))
+    job.write(table, job.output.dataset, {})
+    job.write_text(lengths.to_csv(table), job.output.table)

@@ -1,13 +1,10 @@
 """Gather the growth of kicks in all twin runs."""
 
 from nucleation.analysis import lengths
-from nucleation.datasets import netcdf, provenance
 from nucleation.patch import twins
+from nucleation.pipeline.job import Job
 
-params = snakemake.params
-table = twins.gather(params.runs, map(netcdf.read, snakemake.input))
-attributes = provenance.attributes(
-    params.runs, params.digest, "snakemake figure_patch_stability", snakemake.input
-)
-netcdf.write(table, snakemake.output.dataset, **attributes)
-netcdf.write_text(lengths.to_csv(table, twins.COLUMNS), snakemake.output.table)
+with Job(snakemake, __file__) as job:
+    table = twins.gather(job.params.runs, job.read_all(job.input))
+    job.write(table, job.output.dataset, job.params.runs)
+    job.write_text(lengths.to_csv(table, twins.COLUMNS), job.output.table)

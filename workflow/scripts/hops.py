@@ -1,13 +1,14 @@
 """Follow the hops of one simulation's front."""
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.datasets import netcdf, provenance
-from nucleation.patch.hops import follow_hops
+import json
 
-params, output = snakemake.params, snakemake.output[0]
-followed = follow_hops(netcdf.read(snakemake.input[0]), ExtractionSettings(**params.extraction))
-attributes = provenance.attributes(
-    params.extraction, params.digest, f"snakemake {output}", snakemake.input
-)
-attributes["parameters"] = followed.attrs["parameters"]
-netcdf.write(followed, output, **attributes)
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.patch.hops import follow_hops
+from nucleation.pipeline.job import Job
+
+with Job(snakemake, __file__) as job:
+    if not job.fetched():
+        simulation = job.read(job.input[0])
+        found = follow_hops(simulation, ExtractionSettings(**job.params.extraction))
+        job.write(found, job.output[0], json.loads(simulation.attrs["parameters"]))
+        job.keep()

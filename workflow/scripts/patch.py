@@ -1,14 +1,14 @@
 """Follow the linear stability of one simulation's creeping patch."""
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.datasets import netcdf, provenance
-from nucleation.patch.growth import follow_patch
+import json
 
-params, output = snakemake.params, snakemake.output[0]
-simulation = netcdf.read(snakemake.input[0])
-patch = follow_patch(simulation, ExtractionSettings(**params.extraction))
-attributes = provenance.attributes(
-    params.extraction, params.digest, f"snakemake {output}", snakemake.input
-)
-attributes["parameters"] = simulation.attrs["parameters"]
-netcdf.write(patch, output, **attributes)
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.patch.growth import follow_patch
+from nucleation.pipeline.job import Job
+
+with Job(snakemake, __file__) as job:
+    if not job.fetched():
+        simulation = job.read(job.input[0])
+        found = follow_patch(simulation, ExtractionSettings(**job.params.extraction))
+        job.write(found, job.output[0], json.loads(simulation.attrs["parameters"]))
+        job.keep()

@@ -5,44 +5,45 @@ from pathlib import Path
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import row
-from nucleation.datasets import netcdf, provenance
 from nucleation.figures import catalogue
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
+from nucleation.pipeline.job import Job
 from nucleation.report import page
 from nucleation.report.player import player_dataset
 
-params, given = snakemake.params, snakemake.input
-results = {Path(path).stem: netcdf.read(path) for path in given.datasets}
-player = None
-if given.player:
-    simulation = netcdf.read(given.player)
-    entry = row(results["lengths"], Path(given.player).stem)
-    player = page.Player(
-        player_dataset(simulation, entry, ExtractionSettings(**params.extraction)), entry
-    )
-entries = catalogue.FIGURES | catalogue.of_studies(params.studies)
-pictures = []
-for name, caption in zip(params.figures, given.captions, strict=True):
-    entry = entries[name]
-    files = [Path(path) for path in given.figures if Path(path).stem == name]
-    text = Path(caption).read_text(encoding="utf-8")
-    pictures.append(
-        page.Picture(
-            name, entry.title, entry.category, files[::-1], text, params.captions.get(name, {}),
-            entry.data,
+with Job(snakemake, __file__) as job:
+    params, given = job.params, job.input
+    results = {Path(path).stem: job.read(path) for path in given.datasets}
+    player = None
+    if params.player:
+        simulation = job.read(given.player)
+        entry = row(results["lengths"], params.player)
+        player = page.Player(
+            player_dataset(simulation, entry, ExtractionSettings(**params.extraction)), entry
         )
-    )  # fmt: skip
-content = page.Content(
-    material=Material(**params.material),
-    friction=Friction(**params.friction),
-    interface=InterfaceState(**params.main_text_interface),
-    config=params.config,
-    provenance=provenance.attributes(params.config, params.digest, "snakemake report"),
-    results=results,
-    pictures=pictures,
-    claims=json.loads(Path(given.claims).read_text(encoding="utf-8")),
-    player=player,
-)
-netcdf.write_text(page.build(content), snakemake.output[0])
+    entries = catalogue.FIGURES | catalogue.of_studies(params.studies)
+    pictures = []
+    for name, caption in zip(params.figures, given.captions, strict=True):
+        entry = entries[name]
+        files = [Path(path) for path in given.figures if Path(path).stem == name]
+        text = Path(caption).read_text(encoding="utf-8")
+        pictures.append(
+            page.Picture(
+                name, entry.title, entry.category, files[::-1], text, params.captions.get(name, {}),
+                entry.data,
+            )
+        )  # fmt: skip
+    content = page.Content(
+        material=Material(**params.material),
+        friction=Friction(**params.friction),
+        interface=InterfaceState(**params.main_text_interface),
+        config=params.config,
+        provenance=job.attributes(params.config),
+        results=results,
+        pictures=pictures,
+        claims=json.loads(Path(given.claims).read_text(encoding="utf-8")),
+        player=player,
+    )
+    job.write_text(page.build(content), job.output[0])

@@ -2,15 +2,12 @@
 
 from nucleation.analysis import lengths, sensitivity
 from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.datasets import netcdf, provenance
+from nucleation.pipeline.job import Job
 
-params = snakemake.params
-table = sensitivity.sensitivity_table(
-    params.runs, map(netcdf.read, snakemake.input), ExtractionSettings(**params.extraction)
-)
-settings = {"runs": params.runs, "extraction": params.extraction}
-attributes = provenance.attributes(
-    settings, params.digest, "snakemake figure_sensitivity", snakemake.input
-)
-netcdf.write(table, snakemake.output.dataset, **attributes)
-netcdf.write_text(lengths.to_csv(table, sensitivity.COLUMNS), snakemake.output.table)
+with Job(snakemake, __file__) as job:
+    runs, extraction = job.params.runs, job.params.extraction
+    table = sensitivity.sensitivity_table(
+        runs, job.read_all(job.input), ExtractionSettings(**extraction)
+    )
+    job.write(table, job.output.dataset, {"runs": runs, "extraction": extraction})
+    job.write_text(lengths.to_csv(table, sensitivity.COLUMNS), job.output.table)

@@ -1,9 +1,9 @@
 """Measure the orders of convergence on manufactured solutions."""
 
-from nucleation.datasets import netcdf, provenance
+from nucleation.pipeline.job import Job
 from nucleation.verification.orders import convergence_dataset, to_csv
 
-dataset = convergence_dataset()
-attributes = provenance.attributes({}, snakemake.params.digest, "snakemake figure_verification")
-netcdf.write(dataset, snakemake.output.dataset, **attributes)
-netcdf.write_text(to_csv(dataset), snakemake.output.table)
+with Job(snakemake, __file__) as job:
+    dataset = convergence_dataset()
+    job.write(dataset, job.output.dataset, {})
+    job.write_text(to_csv(dataset), job.output.table)

@@ -14,10 +14,10 @@ import xarray as xr
 from ..analysis.extraction import extract
 from ..analysis.record import parameters_of
 from ..commands import DONE, EXIT_CODES, text
-from ..datasets import netcdf, provenance
-from ..model.friction.registry import plugins
+from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
+from ..pipeline.running import simulation_code
 from ..theory.critical import theory_length
 
 SHOWN_ROWS = 60
@@ -94,8 +94,7 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
         digest = attributes["code_digest"]
         verdict = ""
         if kind.name == SIMULATION:
-            own = plugins(parameters_of(dataset))
-            same = digest == provenance.digest("nucleation.simulation.run", *own)
+            same = digest == simulation_code(parameters_of(dataset))
             verdict = ", that of this installation" if same else ", NOT that of this installation"
         lines.append(f"code: {digest[:12]}{verdict}")
     if "versions" in attributes:

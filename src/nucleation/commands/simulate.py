@@ -22,7 +22,7 @@ from ..configuration.studies import Run, StudySettings
 from ..configuration.study_names import study_parameters
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS, plugins
+from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, declarations
 from .given import of_dataset, of_file, of_run
@@ -187,17 +187,19 @@ def _command(output: Path, run: Run) -> str:
 def _simulate(run: Run, output: Path, command_line: str) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
     from ..datasets import provenance
-    from ..pipeline.job import checkpoint_of, run_to_file
     from ..pipeline.progress import Progress
+    from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
+    from ..simulation.run import simulate
 
-    digest = provenance.digest("nucleation.simulation.run", *plugins(run.parameters))
+    digest = simulation_code(run.parameters)
+    attributes = provenance.attributes(run.parameters.to_dict(), digest, command_line)
     checkpoint = checkpoint_of(run.parameters, output, digest)
     progress = Progress(run.parameters, sys.stderr)
     try:
         with _listening(checkpoint):
             dataset, path = run_to_file(
-                run.parameters, output, digest, command_line,
+                simulate, run.parameters, output, attributes,
                 checkpoint=checkpoint, progress=progress,
             )  # fmt: skip
     except Stopped as stopped:

@@ -84,8 +84,8 @@ STYLE: dict[str, object] = {
 }
 
 
-CODE = "Code"
-"""Key under which a PNG holds the digest of the code that drew it."""
+KEY = "Key"
+"""Entry of a PNG that holds the key of what it was made from."""
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
@@ -106,7 +106,7 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
-def save(figure: Figure, stem: str | os.PathLike[str], code: str = "") -> tuple[Path, Path]:
+def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[Path, Path]:
     """Write a figure as ``stem.pdf`` and ``stem.png``, then drop its contents.
 
     The same figure gives the same bytes: the files carry no date and no program version.
@@ -118,9 +118,8 @@ def save(figure: Figure, stem: str | os.PathLike[str], code: str = "") -> tuple[
         The figure; it is empty afterwards, and its memory free.
     stem : path
         Path of the files without their suffix; missing directories are made.
-    code : str
-        Digest of the code that drew it (:func:`nucleation.datasets.provenance.digest`), kept in the
-        files.
+    key : str
+        Of what it was made from (:func:`nucleation.pipeline.keys.key`), kept in the files.
 
     Returns
     -------
@@ -131,9 +130,9 @@ def save(figure: Figure, stem: str | os.PathLike[str], code: str = "") -> tuple[
     metadata = {
         "pdf": {
             "CreationDate": None, "ModDate": None, "Producer": None, "Creator": None,
-            "Keywords": code or None,
+            "Keywords": key or None,
         },
-        "png": {"Software": None} | ({CODE: code} if code else {}),
+        "png": {"Software": None} | ({KEY: key} if key else {}),
     }  # fmt: skip
     paths = []
     with mpl.rc_context(STYLE):

@@ -1,61 +1,163 @@
-"""One job of a workflow: a simulation from its checkpoint, if there is one, into its file."""
+"""What every job of the workflow does besides its own work.
+
+It says in its log what happens, refuses to run other code than it was planned with, reads only
+what is what it was asked for, and leaves with each result what vouches for it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import sys
+import time
+import traceback
+from collections.abc import Mapping
 from pathlib import Path
+from types import TracebackType
+from typing import Any
 
 import xarray as xr
 
 from ..datasets import netcdf, provenance
-from ..model.parameters import Parameters
-from ..simulation.checkpoints import (
-    Checkpoint,
-)
-from ..simulation.control import Instant
-from ..simulation.run import simulate
+from ..datasets.variables import DatasetError
+from ..model.quantities import ParameterError
+from . import cache, code, keys
+from .keys import Store
+
+EXPECTED = (DatasetError, ParameterError, code.CodeError, OSError)
+"""Failures that are told in one line: what to do about them is outside of the code."""
 
 
-def run_to_file(
-    parameters: Parameters,
-    output: Path,
-    code_digest: str,
-    command: str,
-    *,
-    checkpoint: Checkpoint,
-    progress: Callable[[Instant], None],
-) -> tuple[xr.Dataset, Path]:
-    """Simulate, from the checkpoint if there is one, and write the record.
+class Job:
+    """A job, as a context: ``with Job(snakemake, __file__) as job``.
 
     Parameters
     ----------
-    parameters : of the run.
-    output : place of the result; the record of a failed run goes beside it, as ``.failed.nc``.
-    code_digest, command : for :func:`nucleation.datasets.provenance.attributes`.
-    checkpoint : of :func:`checkpoint_of`; it is removed once the record is written.
-    progress : called with every accepted step.
-
-    Returns
-    -------
-    The record, and where it was written.
+    snakemake : what Snakemake gives to a script.
+    script : path of the script.
 
     Raises
     ------
-    Stopped
-        If a signal has stopped the run, which has left a checkpoint.
+    SystemExit
+        With one line, if something is wrong that is not an error of the code.
     """
-    dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
-    failed = output.with_suffix(".failed.nc")
-    path = output if dataset.attrs["completed"] else failed
-    attributes = provenance.attributes(parameters.to_dict(), code_digest, command)
-    netcdf.write(dataset, path, **attributes)
-    checkpoint.remove()
-    if path == output:
-        failed.unlink(missing_ok=True)
-    return dataset, path
 
+    def __init__(self, snakemake: Any, script: str) -> None:
+        self._snakemake, self._script = snakemake, script
+        self.params, self.input, self.output = snakemake.params, snakemake.input, snakemake.output
+        self.key = keys.key_in(self.output[0]) or keys.joined(self.params.made)
+        self._began = time.monotonic()
 
-def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Checkpoint:
-    """The checkpoint of a run, beside the place of its result."""
-    fingerprint = provenance.fingerprint(parameters.to_dict(), code_digest)
-    return Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
+    def __enter__(self) -> Job:
+        if self._snakemake.log:
+            sys.stderr = open(self._snakemake.log[0], "a", buffering=1, encoding="utf-8")
+        try:
+            code.verify_loaded(self.params.code, self._script, *code.ALWAYS, *self.params.modules)
+            if keys.key_in(self.output[0]) not in (None, keys.joined(self.params.made)):
+                raise DatasetError(f"{self.output[0]} is not what this job makes: plan it again")
+            for path, wanted in self.params.expected.items():
+                self._verify(path, wanted)
+        except EXPECTED as error:
+            self._refuse(error)
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
+    ) -> None:
+        if isinstance(error, EXPECTED):
+            self._refuse(error)
+        if error is not None:
+            if not isinstance(error, SystemExit):
+                traceback.print_exception(error)  # into the log
+            return
+        for path in map(str, self.output):
+            if keys.key_in(path) is None:
+                self._store.sign(path, self.params.made)
+        print(f"done in {time.monotonic() - self._began:.1f} s", file=sys.stderr)
+
+    @property
+    def _store(self) -> Store:
+        return Store(self._snakemake.config.get("results", "results"))
+
+    def end(self, message: str) -> None:
+        """End the job without its result, for a reason that its log and Snakemake's output tell."""
+        print(message, file=sys.stderr)
+        sys.stderr = sys.__stderr__
+        sys.exit(message)
+
+    def _refuse(self, error: BaseException) -> None:
+        self.end(f"{self._snakemake.rule}: {error}")
+
+    def _verify(self, path: str, wanted: str) -> None:
+        """Make sure of a file with a plain name; one with its key in it is verified when read."""
+        if Path(path).suffix == ".nc":
+            return
+        known = len(wanted) == keys.LENGTH
+        found = self._store.key_of(path) if known else keys.content(path)
+        if found != wanted:
+            raise DatasetError(f"{path} is not what this job was planned with: run it again")
+
+    # -- reading and writing --------------------------------------------------------------------
+
+    def read(self, path: str) -> xr.Dataset:
+        """An input, whole and of the key that the job was planned with.
+
+        Raises
+        ------
+        DatasetError
+            Otherwise, naming the file.
+        """
+        dataset = netcdf.read(path)
+        wanted = self.params.expected[str(path)]
+        if dataset.attrs.get("key") != wanted:
+            raise DatasetError(
+                f"{path} is another result than it should be (its key is "
+                f"{dataset.attrs.get('key', 'missing')}, not {wanted}): delete it, run it again"
+            )
+        return dataset
+
+    def read_all(self, paths: Any) -> Any:
+        """Several inputs, read one at a time."""
+        return map(self.read, paths)
+
+    def attributes(self, parameters: Any) -> dict[str, str]:
+        """Attributes of a dataset that say how this job made it."""
+        return provenance.attributes(
+            parameters,
+            self.params.code,
+            f"snakemake {self.output[0]}",
+            self._sources(),
+            key=self.key,
+        )
+
+    def _sources(self) -> Mapping[str, str]:
+        results = self._store.results
+        return {
+            str(Path(path).relative_to(results) if Path(path).is_relative_to(results) else path): k
+            for path, k in self.params.expected.items()
+        }
+
+    def write(self, dataset: xr.Dataset, path: str, parameters: Any) -> None:
+        """Write a dataset with its origin; `parameters` is what it depends on."""
+        netcdf.write(dataset, path, **self.attributes(parameters))
+
+    def write_text(self, text: str, path: str) -> None:
+        """Write a text file."""
+        netcdf.write_text(text, path)
+
+    # -- results that cost much -----------------------------------------------------------------
+
+    def fetched(self) -> bool:
+        """Whether the job's dataset was found under its key, in the cache or kept from before."""
+        output = Path(self.output[0])
+        shared = cache.shared()
+        for place in (self._store.results / cache.KEPT, *([shared] if shared else [])):
+            if cache.fetch(place, self.key, output):
+                print(f"taken from {place}", file=sys.stderr)
+                return True
+        return False
+
+    def keep(self) -> None:
+        """Keep the job's dataset under its key, for others and for what may still fail."""
+        output = Path(self.output[0])
+        cache.hold(self._store.results, self.key, output)
+        if shared := cache.shared():
+            cache.keep(shared, self.key, output)

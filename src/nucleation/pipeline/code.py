@@ -1,0 +1,344 @@
+"""What code a result depends on, by its content: no name of a module or file takes part.
+
+The digest of a script or module is a hash of its syntax tree, without words (comments, docstrings,
+layout), in which whatever it imports from the package is replaced by the digest of where that
+comes from. So a change of any definition reaches all that use its module, directly or not, and a
+module that is moved or renamed changes nothing. The versions of the libraries that this code
+imports are part of it. docs/reuse.md says where the line is drawn.
+"""
+
+from __future__ import annotations
+
+import ast
+import contextlib
+import hashlib
+import importlib
+import importlib.metadata
+import importlib.util
+import json
+import os
+import sys
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ..datasets.files import replacing
+
+PACKAGE = "nucleation"
+ROOT = Path(__file__).resolve().parents[1]
+
+NEUTRAL = f"{PACKAGE}.pipeline"
+"""The wing that surrounds computations and can't change what they compute: in no digest."""
+
+DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
+"""Libraries whose distribution has another name than what is imported."""
+
+COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotlib": ("pillow",)}
+"""Libraries that do the work of others without being imported here."""
+
+ALWAYS = (f"{PACKAGE}.datasets.netcdf",)
+"""Code that takes part in every dataset: how it is written, units and names of its variables."""
+
+PARSED = ROOT / "__pycache__" / "digests.json"
+"""What is kept of each source, by its content, so that a start of the workflow parses nothing."""
+
+RACE = 2.0
+"""Seconds within which Python takes bytecode for current though the source has changed since."""
+
+
+class CodeError(RuntimeError):
+    """Code that is not the one a job was planned with, or that can't be followed."""
+
+
+@cache
+def digest(*roots: str) -> str:
+    """Digest of scripts and modules, of all they import from the package, and of libraries.
+
+    Parameters
+    ----------
+    roots : str
+        Dotted names of the package's modules, such as ``nucleation.simulation.run``, or paths of
+        scripts.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+
+    Raises
+    ------
+    CodeError
+        If a module is not there, or modules import each other in a circle.
+    """
+    parts = sorted(_fingerprint(_file(root)) for root in roots)
+    found: set[str] = set()
+    for path in closure(*roots):
+        found |= _libraries(path)
+    parts += [f"{name} {_version(name)}" for name in sorted(found)]
+    _keep_parsed()
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+@cache
+def closure(*roots: str) -> frozenset[Path]:
+    """The files of `roots` and of all they import from the package, directly or not."""
+    found: set[Path] = set()
+    waiting = [_file(root) for root in roots]
+    while waiting:
+        path = waiting.pop()
+        if path not in found:
+            found.add(path)
+            waiting += [place for place, _ in _imported(path)]
+            waiting += _packages(path)
+    return frozenset(found)
+
+
+def forget() -> None:
+    """Read all code anew at the next question: it may have been edited since the last one."""
+    for function in (digest, closure, _source, _imported, _fingerprint):
+        function.cache_clear()
+
+
+def verify_loaded(planned: str, *roots: str) -> None:
+    """Make sure that this process runs the code that a job was planned with.
+
+    All modules that the code may import later are imported here: an edit after this can't reach
+    the process any more.
+
+    Raises
+    ------
+    CodeError
+        If the code is another one, or Python has taken outdated bytecode for it.
+    """
+    for path in sorted(closure(*roots)):
+        if path.is_relative_to(ROOT):
+            importlib.import_module(_name(path))
+    forget()
+    if digest(*roots) != planned:
+        raise CodeError(
+            f"the code of {', '.join(Path(r).name for r in roots)} has changed since this job was "
+            "planned: start the workflow again"
+        )
+    for path in closure(*roots):
+        _refuse_outdated_bytecode(path)
+
+
+def _refuse_outdated_bytecode(path: Path) -> None:
+    """Compare bytecode with its source where their times leave a doubt.
+
+    Python tells them apart by size and time in whole seconds alone: an edit right after an import
+    goes unnoticed.
+    """
+    try:
+        compiled = Path(importlib.util.cache_from_source(str(path)))
+        if os.stat(compiled).st_mtime - os.stat(path).st_mtime > RACE:
+            return
+    except (OSError, NotImplementedError):
+        return  # no bytecode, no doubt
+    module = sys.modules.get(_name(path)) if path.is_relative_to(ROOT) else None
+    if module is None or module.__spec__ is None or module.__spec__.loader is None:
+        return
+    loaded = module.__spec__.loader.get_code(module.__name__)  # type: ignore[attr-defined]
+    if loaded != compile(path.read_bytes(), str(path), "exec", dont_inherit=True):
+        raise CodeError(f"{compiled} is outdated bytecode: remove it, start the workflow again")
+
+
+@cache
+def _version(library: str) -> str:
+    return importlib.metadata.version(library)
+
+
+# -- syntax trees ----------------------------------------------------------------------------------
+
+
+class Source(NamedTuple):
+    """What the words of one file come to; the same for every Python version."""
+
+    body: str  # digest of its syntax tree, imported names of the package by their order of use
+    uses: list[list[Any]]  # imports of the package in that order: level, module, name
+    libraries: list[str]  # roots of the other imports
+
+
+@cache
+def _fingerprint(path: Path) -> str:
+    """Digest of one file and of what it imports from the package."""
+    parts = [_source(path).body]
+    for place, name in _imported(path):
+        parts.append(f"{_fingerprint(place)}:{name}")
+    parts += [_fingerprint(package) for package in _packages(path)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+@cache
+def _source(path: Path) -> Source:
+    content = path.read_bytes()
+    return _parsed(hashlib.sha256(content).hexdigest(), content)
+
+
+def _parsed(name: str, content: bytes) -> Source:
+    """A file's :class:`Source`, by the digest of its bytes: parsed once, and kept on the disk."""
+    kept = _kept()
+    if name not in kept:
+        kept[name] = _parse(content)
+        kept["changed"] = True
+    return Source(*kept[name])
+
+
+def _keep_parsed() -> None:
+    """Write what has been parsed since the last time."""
+    kept = _kept()
+    if kept.pop("changed", False):
+        with contextlib.suppress(OSError), replacing(PARSED) as temporary:
+            temporary.write_text(json.dumps(kept))
+
+
+@cache
+def _kept() -> dict[str, Any]:
+    try:
+        return dict(json.loads(PARSED.read_text()))
+    except (OSError, ValueError):
+        return {}
+
+
+def _parse(content: bytes) -> list[Any]:
+    tree = ast.parse(content)
+    imports, libraries = _imports(tree)
+    order: dict[str, int] = {}
+    words: list[str] = []
+    _write(tree, {name for name in imports}, order, words)
+    unused = sorted(set(imports) - set(order), key=lambda name: imports[name])
+    uses = [list(imports[name]) for name in (*order, *unused)]
+    return [hashlib.sha256("\0".join(words).encode()).hexdigest(), uses, sorted(libraries)]
+
+
+def _imports(tree: ast.Module) -> tuple[dict[str, tuple[int, str, str]], set[str]]:
+    """Imports of the package, by the local name, and roots of all others."""
+    own: dict[str, tuple[int, str, str]] = {}
+    libraries: set[str] = set()
+    waiting: list[ast.AST] = [tree]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                if alias.name.split(".")[0] == PACKAGE:
+                    own[alias.asname or alias.name] = (0, alias.name, "")
+                else:
+                    libraries.add(alias.name.split(".")[0])
+        elif isinstance(node, ast.ImportFrom) and _is_own(node):
+            for alias in node.names:
+                own[alias.asname or alias.name] = (node.level, node.module or "", alias.name)
+        elif isinstance(node, ast.ImportFrom):
+            libraries.add(str(node.module).split(".")[0])
+        elif not _is_dropped(node):
+            waiting += ast.iter_child_nodes(node)
+    return own, libraries - {*sys.stdlib_module_names}
+
+
+def _write(node: Any, own: set[str], order: dict[str, int], words: list[str]) -> None:
+    """Append a syntax tree to a list of words."""
+    if isinstance(node, list):
+        words.append("[")
+        for item in node:
+            _write(item, own, order, words)
+        words.append("]")
+    elif isinstance(node, ast.Name) and node.id in own:
+        words.append(f"import {order.setdefault(node.id, len(order))}")
+    elif isinstance(node, ast.AST):
+        words.append(type(node).__name__)
+        for field in node._fields:
+            value = getattr(node, field, None)
+            if isinstance(value, list):
+                value = [item for item in value if not _is_dropped(item)]
+            if field not in UNSAID and value is not None and value != []:
+                words.append(field)
+                _write(value, own, order, words)
+    else:
+        words.append(repr(node))
+
+
+UNSAID = ("ctx", "kind", "type_comment", "type_ignores", "type_params")
+"""Fields of syntax trees that say nothing or that not every Python version has."""
+
+
+def _is_dropped(node: Any) -> bool:
+    """Whether a node counts for nothing: words, imports of the package, hints for type checkers."""
+    match node:
+        case ast.ImportFrom():
+            return _is_own(node) or node.module == "__future__"
+        case ast.Import():
+            return all(alias.name.split(".")[0] == PACKAGE for alias in node.names)
+        case ast.If(test=ast.Name(id="TYPE_CHECKING")):
+            return True
+        case ast.Assign():
+            return any(isinstance(t, ast.Name) and t.id == "__version__" for t in node.targets)
+        case ast.Expr(value=ast.Constant(value=str())):
+            return True
+    return False
+
+
+def _is_own(node: ast.ImportFrom) -> bool:
+    return bool(node.level) or (node.module or "").split(".")[0] == PACKAGE
+
+
+@cache
+def _imported(path: Path) -> list[tuple[Path, str]]:
+    """What a file imports from the package: files, and the names in them ("" for all of one)."""
+    found = []
+    for level, module, name in _source(path).uses:
+        base = _base(path, level, module)
+        if name and _exists(f"{base}.{name}"):
+            base, name = f"{base}.{name}", ""
+        if base != NEUTRAL and not base.startswith(f"{NEUTRAL}."):
+            found.append((_file(base), name))
+    return found
+
+
+def _base(path: Path, level: int, module: str) -> str:
+    """The dotted name that an import statement starts from."""
+    if not level:
+        return module
+    parts = _name(path).split(".")
+    package = parts if path.name == "__init__.py" else parts[:-1]
+    return ".".join([*package[: len(package) - level + 1], *filter(None, [module])])
+
+
+def _libraries(path: Path) -> set[str]:
+    """Distributions that one file imports, and their companions."""
+    roots = _source(path).libraries
+    extra = {name for root in roots for name in COMPANIONS.get(root, ())}
+    return {DISTRIBUTIONS.get(root, root) for root in roots} | extra
+
+
+# -- files of the package --------------------------------------------------------------------------
+
+
+def _packages(path: Path) -> list[Path]:
+    """The ``__init__`` files that are executed before a module and hold more than words."""
+    if not path.is_relative_to(ROOT):
+        return []
+    files = [parent / "__init__.py" for parent in path.parents if parent.is_relative_to(ROOT)]
+    return [f for f in files if f != path and _source(f).body != _parse(b"")[0]]
+
+
+def _file(root: str) -> Path:
+    """The file of a dotted name, or of a script given by its path."""
+    if root.endswith(".py"):
+        return Path(root).resolve()
+    place = ROOT.joinpath(*root.split(".")[1:])
+    for path in (place.with_suffix(".py"), place / "__init__.py"):
+        if path.is_file():
+            return path
+    raise CodeError(f"{root} is no module of the package")
+
+
+def _exists(module: str) -> bool:
+    try:
+        return bool(_file(module))
+    except CodeError:
+        return False
+
+
+def _name(path: Path) -> str:
+    """The dotted name of a file of the package."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join([PACKAGE, *(parts[:-1] if parts[-1] == "__init__" else parts)])

@@ -1,0 +1,122 @@
+"""The digest of code: content and nothing else."""
+
+import importlib.metadata
+import os
+import time
+
+import pytest
+
+from nucleation.pipeline import code
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A package of its own in the place of the project's."""
+    monkeypatch.setattr(code, "ROOT", tmp_path / "nucleation")
+    monkeypatch.setattr(code, "PARSED", tmp_path / "digests.json")
+    code.forget()
+    code._kept.cache_clear()
+    files = {
+        "__init__.py": '"""Words."""\n__version__ = "1"\n',
+        "wing/__init__.py": '"""Words."""\n',
+        "wing/low.py": "import numpy as np\n\nX = 1\n\n\ndef f(a):\n    return np.sin(a) + X\n",
+        "wing/high.py": "from . import low\nfrom .low import f as g\n\nY = low.X + g(2)\n",
+        "pipeline/__init__.py": "",
+        "pipeline/around.py": "Z = 1\n",
+    }
+    for name, text in files.items():
+        path = tmp_path / "nucleation" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    (tmp_path / "job.py").write_text(
+        "from nucleation.pipeline import around\nfrom nucleation.wing.high import Y\nprint(Y)\n"
+    )
+    yield tmp_path
+    code.forget()
+    code._kept.cache_clear()
+
+
+def digest(package):
+    code.forget()
+    return code.digest(str(package / "job.py"))
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "matters"),
+    [
+        ("nucleation/wing/low.py", "X = 1", "X = 2", True),
+        ("nucleation/wing/low.py", "sin", "cos", True),
+        ("nucleation/wing/low.py", "def f(a):", "def f(a):\n    'Words.'\n    # and more", False),
+        ("nucleation/wing/low.py", "np.sin(a) + X", "(\n        np.sin(a) + X)", False),
+        ("nucleation/wing/high.py", "g(2)", "g(3)", True),
+        ("nucleation/wing/__init__.py", '"""Words."""', "import os", True),
+        ("nucleation/__init__.py", '"1"', '"2"', False),
+        ("nucleation/pipeline/around.py", "Z = 1", "Z = 2", False),
+        ("job.py", "print(Y)", "print(-Y)", True),
+    ],
+)
+def test_what_counts(package, name, old, new, matters):
+    before = digest(package)
+    path = package / name
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+    assert (digest(package) != before) == matters
+
+
+def test_renamed_module_is_the_same(package):
+    before = digest(package)
+    wing = package / "nucleation" / "wing"
+    (wing / "low.py").rename(wing / "ground.py")
+    (wing / "high.py").write_text("from . import ground\nfrom .ground import f as h\n\n"
+                                  "Y = ground.X + h(2)\n")  # fmt: skip
+    assert digest(package) == before
+    (wing / "high.py").write_text("from . import ground\nfrom .ground import X as h\n\n"
+                                  "Y = ground.X + h(2)\n")  # fmt: skip
+    assert digest(package) != before, "another definition under the same name"
+
+
+def test_versions_of_what_is_imported_count(package, monkeypatch):
+    before = digest(package)
+    versions = {"numpy": "0.0"}
+    known = importlib.metadata.version
+    monkeypatch.setattr(importlib.metadata, "version", lambda n: versions.get(n) or known(n))
+    code._version.cache_clear()
+    assert digest(package) != before
+    versions = {"scipy": "0.0"}
+    code._version.cache_clear()
+    assert digest(package) == before, "nothing imports it"
+    code._version.cache_clear()
+
+
+def test_digest_of_the_simulation_reaches_its_libraries():
+    names = {name for path in code.closure("nucleation.simulation.run")
+             for name in code._libraries(path)}  # fmt: skip
+    assert {"numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4"} <= names
+    closure = {path.relative_to(code.ROOT).parts[0] for path in
+               code.closure("nucleation.simulation.run")}  # fmt: skip
+    assert closure <= {"simulation", "model", "fem", "stepping"}
+
+
+def test_outdated_bytecode_is_refused(tmp_path, monkeypatch):
+    """An edit in the second of the last import, of the same size: Python would not see it."""
+    import importlib
+    import sys
+
+    root = tmp_path / "nucleation_like"
+    root.mkdir()
+    (root / "__init__.py").write_text("")
+    source = root / "part.py"
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    monkeypatch.setattr(code, "ROOT", root)
+    monkeypatch.setattr(code, "PACKAGE", "nucleation_like")
+    monkeypatch.syspath_prepend(tmp_path)
+    moment = time.time()
+    source.write_text("X = 1\n")
+    os.utime(source, (moment, moment))
+    importlib.import_module("nucleation_like.part")
+    code._refuse_outdated_bytecode(source)
+    source.write_text("X = 2\n")
+    os.utime(source, (moment, moment))
+    with pytest.raises(code.CodeError, match="outdated bytecode"):
+        code._refuse_outdated_bytecode(source)

@@ -1,0 +1,132 @@
+"""Results are used exactly when parameters, code and content vouch for them, however they came."""
+
+import dataclasses
+import os
+import re
+import shutil
+
+import pytest
+
+from nucleation.configuration.strict_yaml import read_yaml
+
+SIMULATIONS = 6  # of the quick configuration
+
+
+@pytest.fixture
+def plain(checkout, tmp_path_factory):
+    """A checkout to edit, over a plain copy of the results without Snakemake's notes."""
+    directory = tmp_path_factory.mktemp("plain")
+    results = checkout.directory / "results"
+    shutil.copytree(results, directory / "results", copy_function=shutil.copyfile)
+    return dataclasses.replace(checkout, directory=directory)
+
+
+def edit(workflow, path, old, new):
+    file = workflow.checkout / path
+    text = file.read_text()
+    assert text.count(old) >= 1, path
+    file.write_text(text.replace(old, new))
+
+
+def test_without_notes_changed_parameters_and_code_are_seen(plain):
+    assert plain.planned() == {}
+    values = read_yaml(plain.config)
+    values["friction"] = {"aging_coefficient": 0.085}
+    assert plain.configured(values, "friction.yaml").planned("lengths")["simulate"] == SIMULATIONS
+    edit(plain, "src/nucleation/simulation/control.py", "SAFETY = 0.85", "SAFETY = 0.86")
+    planned = plain.planned()
+    assert planned["simulate"] == SIMULATIONS and planned["extract"] == 2
+    edit(plain, "src/nucleation/simulation/control.py", "SAFETY = 0.86", "SAFETY = 0.85")
+    assert plain.planned() == {}, "back to the first code, its results are used again"
+
+
+def test_units_of_variables_are_part_of_every_dataset(plain):
+    edit(plain, "src/nucleation/datasets/variables.py", '"slip rate", "v"', '"slip rate", "V"')
+    planned = plain.planned()
+    assert planned["simulate"] == SIMULATIONS and {"theory", "dispersion"} <= planned.keys()
+
+
+@pytest.mark.parametrize(
+    "place",
+    [lambda d: "results/quick/", lambda d: "./results//quick", lambda d: str(d / "results/quick")],
+    ids=["slash", "dots", "absolute"],
+)
+def test_the_same_place_by_another_name(plain, place):
+    values = {**read_yaml(plain.config), "results": place(plain.directory)}
+    assert plain.configured(values, "place.yaml").planned() == {}
+
+
+def test_renamed_study_runs_no_simulation_again(plain):
+    values = read_yaml(plain.config)
+    values["studies"] = {
+        {"converged": "fine"}.get(name, name): study for name, study in values["studies"].items()
+    }
+    planned = plain.configured(values, "renamed.yaml").planned("lengths")
+    assert "simulate" not in planned and planned["extract"] == 1
+
+
+def rename(workflow, old, new):
+    """Rename a module and every mention of it, as an editor would."""
+    package = workflow.checkout / "src/nucleation"
+    (package / new).parent.mkdir(exist_ok=True)
+    (package / f"{old}.py").rename(package / f"{new}.py")
+    before, after = old.split("/")[-1], new.split("/")[-1]
+    for path in [*workflow.checkout.rglob("*.py"), *workflow.checkout.rglob("*.smk")]:
+        text = path.read_text()
+        changed = re.sub(rf"\b{before}\b(?=[.\s]|$)", after, text)
+        if changed != text:
+            path.write_text(changed)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("fem/kernels", "fem/loops"), ("patch/hops", "patch/jumps")]
+)
+def test_renamed_module_makes_nothing_stale(plain, old, new):
+    rename(plain, old, new)
+    shutil.rmtree(plain.checkout / "src/nucleation/__pycache__", ignore_errors=True)
+    assert plain.planned() == {}
+
+
+def test_moved_wing_makes_nothing_stale(plain):
+    package = plain.checkout / "src/nucleation"
+    (package / "stepping").rename(package / "integration")
+    for path in plain.checkout.rglob("*.py"):
+        text = path.read_text()
+        changed = text.replace("..stepping.", "..integration.").replace(
+            "nucleation.stepping", "nucleation.integration"
+        )
+        path.write_text(changed)
+    assert plain.planned() == {}
+
+
+def test_new_law_makes_nothing_stale(plain):
+    laws = plain.checkout / "src/nucleation/model/friction/evolutions"
+    shutil.copy(laws / "aging.py", laws / "another.py")
+    assert plain.planned() == {}
+    file = laws / "slip.py"
+    file.write_text(file.read_text() + "\nSPARE = 1\n")
+    assert plain.planned("simulations")["simulate"] == 1, "the one run of the slip law"
+
+
+def test_times_of_files_do_not_matter(plain):
+    for number, path in enumerate(sorted((plain.directory / "results").rglob("*"))):
+        os.utime(path, (1e9 + number % 7, 1e9 + number % 7))
+    assert plain.planned() == {}
+
+
+def test_code_edited_after_planning_is_refused(plain, tmp_path):
+    """The edit is made by the first job itself, between planning and the simulations."""
+    edit(plain, "workflow/scripts/table_s1.py", "with Job(",
+         "import pathlib\n"
+         "_f = pathlib.Path(__file__).parents[2] / 'src/nucleation/simulation/control.py'\n"
+         "_f.write_text(_f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5'))\n\n"
+         "with Job(")  # fmt: skip
+    values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},
+              "runs": [{"height": 0.1, "tolerance": 0.1}]}}}  # fmt: skip
+    mine = plain.configured(values, "edited.yaml")
+    done = mine("table_s1", "lengths", "--cores", "1", "--prioritize", "write_table_s1")
+    assert done.returncode != 0
+    assert "has changed since this job was planned" in done.stdout
+    assert not list((plain.directory / "new" / "simulations").glob("*.nc"))
+    done = mine("lengths")
+    assert done.returncode == 0, done.stdout
