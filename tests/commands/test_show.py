@@ -12,10 +12,10 @@ from nucleation.analysis.lengths import gather
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
 from nucleation.model.friction.law import Friction
-from nucleation.model.friction.registry import plugins
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
 from nucleation.theory.curves import Curves, theory_dataset
 
@@ -37,7 +37,7 @@ def files(tmp_path_factory):
     folder = tmp_path_factory.mktemp("datasets")
     whole = simulate(PARAMETERS)
     values = PARAMETERS.to_dict()
-    digest = provenance.digest("nucleation.simulation.run", *plugins(PARAMETERS))
+    digest = simulation_code(PARAMETERS)
     short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
     row = {"id": "a-run", "study": "mine", "parameters": values, "theory_length": 0.238}
     curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))

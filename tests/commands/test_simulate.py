@@ -10,11 +10,11 @@ import pytest
 
 from nucleation.analysis.extraction import extract
 from nucleation.configuration.study_names import other_names, study_parameters
-from nucleation.datasets import netcdf, provenance
+from nucleation.datasets import netcdf
 from nucleation.model.friction.law import Friction
-from nucleation.model.friction.registry import plugins
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.quantities import declarations
+from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
@@ -37,9 +37,7 @@ def test_record_is_that_of_the_library(nucleation, tmp_path):
     for name in expected.variables:
         np.testing.assert_array_equal(dataset[name], expected[name])
     assert parameters_of(output) == PARAMETERS
-    assert dataset.attrs["code_digest"] == provenance.digest(
-        "nucleation.simulation.run", *plugins(PARAMETERS)
-    )
+    assert dataset.attrs["code_digest"] == simulation_code(PARAMETERS)
     assert [path.name for path in output.parent.iterdir()] == ["run.nc"]  # no checkpoint is left
 
 

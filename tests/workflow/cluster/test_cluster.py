@@ -28,20 +28,20 @@ CONFIG = {**QUICK, "studies": {"paper": STUDY}}
 RUNS = configure(CONFIG).runs
 
 
-def result(id):
-    return f"results/quick/simulations/{id}.nc"
+def log_files(workflow):
+    """The logs of simulations by id, as far as they exist."""
+    paths = (workflow.directory / "results/quick/logs/simulate").glob("*.log")
+    return {path.stem.rpartition(".")[0]: path for path in paths}
 
 
 def logs(workflow):
-    """The logs of simulations by id, as far as they exist."""
-    paths = (workflow.directory / "results/quick/logs/simulate").glob("*.log")
-    return {path.stem: path.read_text() for path in paths}
+    """What stands in them."""
+    return {id: path.read_text() for id, path in log_files(workflow).items()}
 
 
 def hold(workflow):
     """Suspend each simulation that is at work, so that none ends before all are; all suspended."""
-    begun = [id for id, log in logs(workflow).items() if FIRST in log]
-    wanted = {str(workflow.directory / f"results/quick/logs/simulate/{id}.log") for id in begun}
+    wanted = {str(path) for path in log_files(workflow).values() if FIRST in path.read_text()}
     held = []
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
@@ -63,7 +63,7 @@ def let_go(held):
 def assert_same_variables(made, local, ids):
     """Simulations of a cluster are those made here, to the last bit."""
     for id in ids:
-        cluster, here = (netcdf.read(workflow.directory / result(id)) for workflow in (made, local))
+        cluster, here = (netcdf.read(ran.dataset("simulations", id)) for ran in (made, local))
         assert set(cluster.variables) == set(here.variables)
         for name, variable in here.variables.items():
             assert cluster[name].attrs == variable.attrs
@@ -164,7 +164,8 @@ def test_generic_profile(slurm, workflow_type, tmp_path, local, stopped):
     """Two simulations in a job that is cancelled, and the theory in another."""
     made = workflow_type(tmp_path, profile="generic").configured(CONFIG)
     ids = [run.id for run in RUNS[:2]]
-    process = made.start("theory", *map(result, ids))
+    wanted = [local.dataset("simulations", id).relative_to(local.directory) for id in ids]
+    process = made.start("theory", *map(str, wanted))
     try:
         wait_for(lambda: len(hold(made)) == 2 or process.poll() is not None)
         assert process.poll() is None, process.stdout.read()
