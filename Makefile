@@ -19,7 +19,7 @@ CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
-	check bundle restore torture
+	check prune bundle restore torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -73,6 +73,9 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(LAUNCH) check $(OPTIONS) $(CONFIGURED)
+
+prune: $(STAMP) ## Remove datasets of earlier parameters or code, which nothing uses
+	$(LAUNCH) prune $(OPTIONS) $(CONFIGURED)
 
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
 	@$(BIN)/python -m nucleation.pipeline.bundle write "$(or $(FILE),results.tar)" "$(CONFIG)"
