@@ -16,9 +16,10 @@ from urllib.parse import quote
 import yaml
 
 from ..configuration.load import Configuration
-from ..datasets.provenance import PACKAGE, ROOT, versions
+from ..datasets.provenance import PACKAGE, versions
 from ..model.quantities import declarations
 from .archives import CONFIGURATION, CRATE, MANIFEST, BundleError
+from .code import ROOT
 
 CHECKOUT = ROOT.parent.parent
 CONTEXT = ["https://w3id.org/ro/crate/1.1/context", {"sha256": "https://schema.org/sha256"}]
