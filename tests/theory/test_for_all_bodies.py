@@ -20,6 +20,7 @@ from nucleation.theory.closed_forms import (
 )
 from nucleation.theory.critical import NoInstability, critical_length, critical_wavenumber
 from nucleation.theory.spectrum import growth_rates
+from nucleation.theory.stiffness import FAR_SIDES, Pair
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 
@@ -30,7 +31,7 @@ def powers(low, high):
 
 materials = st.builds(Material, powers(6, 12), st.floats(-0.9, 0.49))
 heights = powers(-3, 2) | st.just(math.inf)
-bodies = st.builds(Body, materials, heights, st.sampled_from(["velocity", "traction"]))
+bodies = st.builds(Body, materials, heights, st.sampled_from(sorted(FAR_SIDES)))
 wavenumbers = powers(-3, 5)
 interfaces = st.builds(
     InterfaceState,
@@ -42,7 +43,7 @@ interfaces = st.builds(
 @given(wavenumbers, st.floats(0.0, 0.3), st.floats(0.0, 1.0), bodies, bodies | st.just(RIGID))
 def test_bounds_hold_anywhere_in_their_interval(k, width, place, upper, lower):
     ends = np.array([k]), np.array([k * (1.0 + width)])
-    bounds = transfer_bounds(*ends, upper, lower)
+    bounds = transfer_bounds(*ends, Pair(upper.layers, lower.layers))
     g1, g2 = transfer_functions(k * (1.0 + place * width), upper, lower)
     rounding = 1e-9 * bounds.g1_high[0]
     assert bounds.g1_low[0] - rounding <= g1 <= bounds.g1_high[0] + rounding

@@ -98,7 +98,8 @@ def largest_crossings(systems: Systems) -> Array:
     heights = [body.height for body in systems.pair if body is not None]
     k = half_space_crossings(systems)
     layered = np.flatnonzero(np.isfinite(np.minimum.reduce(heights)) & (systems.b > 0.0))
-    for chosen in np.array_split(layered, -(-layered.size // TOGETHER) or 1):
+    for start in range(0, layered.size, TOGETHER):
+        chosen = layered[start : start + TOGETHER]
         part = systems.at(chosen)
         low, high = _brackets(part)
         k[chosen] = _refined(part, low, high)
