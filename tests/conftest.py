@@ -4,6 +4,7 @@ Each file is run by one worker (make test). Were a long one begun last, the othe
 """
 
 import os
+from collections import Counter
 from pathlib import Path
 
 import hypothesis
@@ -21,14 +22,39 @@ hypothesis.settings.register_profile(
 )
 hypothesis.settings.load_profile("project")
 
+SYSTEM = ("workflow", "faults")
+"""Directories of tests that start the whole workflow."""
+
 LONG = ("workflow/cluster", "faults", "workflow", "docs", "verification")
 """Directories by the time that their longest file takes; all others take less."""
 
 
+@pytest.hookimpl(tryfirst=True)  # marks are chosen from afterwards
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=_rank)  # within a rank the order stays
+    for item in items:
+        if any(_path(item).is_relative_to(name) for name in SYSTEM):
+            item.add_marker("system")
+
+
+def _path(item: pytest.Item) -> Path:
+    return item.path.relative_to(Path(__file__).parent)
 
 
 def _rank(item: pytest.Item) -> int:
-    path = item.path.relative_to(Path(__file__).parent)
+    path = _path(item)
     return next((rank for rank, name in enumerate(LONG) if path.is_relative_to(name)), len(LONG))
+
+
+def pytest_terminal_summary(
+    terminalreporter: pytest.TerminalReporter, config: pytest.Config
+) -> None:
+    """What was not run, why, and how to have it run."""
+    reports = terminalreporter.stats.get("skipped", [])
+    reasons = Counter(str(report.longrepr[2]).removeprefix("Skipped: ") for report in reports)
+    if reasons or config.option.markexpr:
+        terminalreporter.section("not run")
+    for reason, number in sorted(reasons.items()):
+        terminalreporter.line(f"{number} skipped: {reason}")
+    if config.option.markexpr:
+        terminalreporter.line(f"all but '{config.option.markexpr}' left out: make test runs them")

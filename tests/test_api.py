@@ -246,6 +246,7 @@ def test_example_of_the_module():
     assert doctest.testmod(api).failed == 0
 
 
+@pytest.mark.system
 def test_the_theory_does_not_load_the_solver():
     """Nor xarray, scipy and matplotlib, which take longer to load than to answer."""
     code = (

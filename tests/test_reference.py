@@ -35,6 +35,7 @@ def test_reference_has_the_runs_of_the_configuration():
         assert LENGTHS[identifier]["status"].startswith("completed")
 
 
+@pytest.mark.slow
 def test_fresh_simulation_gives_the_reference():
     """The run of Figure S2 at the paper's mesh, whole, up to its event."""
     run = RUNS["paper-aging-H0.005-phi1"]

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.system
+
 ROOT = Path(__file__).parents[1]
 
 SOLVER = ("numba", "nucleation.fem", "nucleation.simulation.step", "nucleation.simulation.run")

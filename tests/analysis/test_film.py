@@ -10,6 +10,8 @@ from nucleation.analysis import film
 from nucleation.fem.grid import Grid
 from nucleation.figures.beyond import animation
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def filmed(simulation, table):

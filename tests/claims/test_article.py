@@ -19,6 +19,7 @@ def given():
     return table.evaluate(on), on.lengths
 
 
+@pytest.mark.slow
 def test_article_follows_the_numbers(given):
     rows, lengths = given
     text = render(TEMPLATE, rows, lengths)

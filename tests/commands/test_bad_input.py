@@ -145,6 +145,7 @@ def test_number_of_bad_command_lines():
     assert len(LINES) >= 60
 
 
+@pytest.mark.system
 def test_as_a_program(program):
     """The exit code and the message as a shell sees them."""
     ended = subprocess.run(

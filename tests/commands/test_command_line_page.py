@@ -5,7 +5,11 @@ import re
 import shlex
 from pathlib import Path
 
+import pytest
+
 from nucleation import commands
+
+pytestmark = pytest.mark.system
 
 PAGE = Path(__file__).parents[2] / "docs" / "command_line.md"
 CHECKER = doctest.OutputChecker()

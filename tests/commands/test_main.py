@@ -47,6 +47,7 @@ def test_completion():
     assert complete("simulate", "--law", "s") == ["slip"]
 
 
+@pytest.mark.system
 def test_script_of_the_completion(program):
     """The line of the help."""
     environment = os.environ | {"_NUCLEATION_COMPLETE": "bash_source"}
@@ -80,6 +81,7 @@ def test_what_the_system_refuses(nucleation, monkeypatch, error, words):
     assert ended.code == 2 and ended.err == f"Error: {words}\n"
 
 
+@pytest.mark.system
 def test_a_reader_that_leaves_is_no_failure_with_a_traceback(program):
     ended = subprocess.run(
         f"{shlex.join(program)} simulate --help | head -1",

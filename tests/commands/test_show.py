@@ -102,6 +102,7 @@ def test_variables_of_other_datasets(nucleation, files):
     assert "hop_time" in said and "2 hop; 1 to 2 s" in said and "2 hop; 0.1 m" in said
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if name != "hops"])
 def test_plot(nucleation, files, tmp_path, name):
     plot = tmp_path / "plot.png"
@@ -111,6 +112,7 @@ def test_plot(nucleation, files, tmp_path, name):
     assert min(image.shape[:2]) > 500 and image[..., :3].std() > 0.02
 
 
+@pytest.mark.slow
 def test_plot_as_pdf(nucleation, files, tmp_path):
     words = ["show", files["patch"], "--plot", tmp_path / "plot.pdf"]
     assert nucleation(*words).code == 0

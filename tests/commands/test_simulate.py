@@ -63,6 +63,7 @@ def test_existing_files_are_kept_unless_forced(nucleation, tmp_path):
     assert parameters_of(output) == PARAMETERS
 
 
+@pytest.mark.slow
 def test_an_event_is_reported(nucleation, tmp_path):
     output = tmp_path / "run.nc"
     ended = nucleation(
@@ -182,6 +183,7 @@ __main__.start()
 """
 
 
+@pytest.mark.system
 def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     """A signal leaves a checkpoint; the same command goes on to the same record."""
     output = tmp_path / "run.nc"

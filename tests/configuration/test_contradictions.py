@@ -154,6 +154,7 @@ YAML = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("content", "fragment"), YAML.values(), ids=YAML.keys())
 def test_bad_file_is_named(tmp_path, content, fragment):
     path = tmp_path / "config.yaml"

@@ -33,7 +33,7 @@ def values(entry):
 
 
 @pytest.mark.parametrize("key", DECLARED)
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(data=st.data())
 def test_schema_allows_what_the_library_allows(key, data):
     node, entry = DECLARED[key]

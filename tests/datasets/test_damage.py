@@ -89,6 +89,7 @@ def outcome(path, written):
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", [numbers, texts])
 def test_damage_is_refused_in_one_way(make, tmp_path):
     path = tmp_path / "record.nc"

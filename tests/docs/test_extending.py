@@ -11,6 +11,8 @@ import pandas as pd
 import pytest
 from docs.samples import ROOT, commands, samples
 
+pytestmark = pytest.mark.system
+
 PAGE = ROOT / "docs" / "extending.md"
 
 

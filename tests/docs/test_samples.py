@@ -83,6 +83,7 @@ def shell_samples():
     return [pytest.param(page, text, id=place) for text, (page, place) in places.items()]
 
 
+@pytest.mark.system
 @pytest.mark.parametrize(("page", "command"), shell_samples())
 def test_shell(page, command, tmp_path):
     program, *arguments = shlex.split(command)
@@ -110,6 +111,7 @@ def targets_by_configuration():
     return found
 
 
+@pytest.mark.system
 def test_targets(tmp_path):
     """One dry run for all targets that are named anywhere, and one per configuration shown."""
     for mine, targets in targets_by_configuration().items():
@@ -121,6 +123,7 @@ def test_targets(tmp_path):
              "--directory", tmp_path, "--configfile", config])  # fmt: skip
 
 
+@pytest.mark.system
 @pytest.mark.parametrize("page", [page for page in PAGES if any(printed(samples(page)))],
                          ids=lambda page: page.name)  # fmt: skip
 def test_python(page, tmp_path, monkeypatch):

@@ -8,6 +8,8 @@ import sys
 import pytest
 from docs.samples import ROOT
 
+pytestmark = pytest.mark.system
+
 DOCS = ROOT / "docs"
 TUTORIALS = sorted((DOCS / "tutorials").glob("*.ipynb"))
 

@@ -58,6 +58,7 @@ def test_onsets_are_marked(drawn):
     assert marks == {(ONSETS[0], 0.1), (ONSETS[1], 0.098)}
 
 
+@pytest.mark.slow
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(drawn):
     assert drawn_layout.overlaps(drawn) == []
     assert drawn_layout.cut_off(drawn) == []

@@ -16,6 +16,8 @@ from matplotlib.image import imread
 from nucleation.figures import style
 from nucleation.figures.paper import figure_1, figure_2, figure_3, figure_s1, figure_s2
 
+pytestmark = pytest.mark.slow
+
 FIGURES = ("figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2")
 SOURCE = Path(style.__file__).parents[2]
 

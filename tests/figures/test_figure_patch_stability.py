@@ -133,6 +133,7 @@ def test_theory_and_its_half(extended, theory):
     np.testing.assert_array_equal(dashed.get_ydata(), 0.5 * theory["critical_length"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["drawn", "extended"])
 def test_figures_are_legible_and_their_files_reproducible(name, request, tmp_path):
     figure = request.getfixturevalue(name)

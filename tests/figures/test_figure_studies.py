@@ -78,6 +78,7 @@ def test_study_in_which_nothing_happens():
     assert figure.axes[0].get_legend_handles_labels()[1] == ["theory", "no event"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["curve", "map", "points"])
 def test_nothing_is_cut_or_overlaps(kind, tmp_path):
     heights = np.geomspace(0.005, 0.1, 5)

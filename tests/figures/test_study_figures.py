@@ -99,12 +99,14 @@ def drawn(request, table, hops, patch, sensitivity):
     return figure_sensitivity.draw(sensitivity)
 
 
+@pytest.mark.slow
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(drawn):
     assert drawn_layout.overlaps(drawn) == []
     assert drawn_layout.cut_off(drawn) == []
     assert drawn_layout.sizes(drawn).min() >= style.SMALL
 
 
+@pytest.mark.slow
 def test_files_embed_their_fonts(drawn, tmp_path):
     pdf, png = style.save(drawn, tmp_path / "figure")
     content = pdf.read_bytes()

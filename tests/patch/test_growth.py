@@ -19,6 +19,8 @@ from nucleation.patch.growth import (
 )
 from nucleation.simulation.run import simulate
 
+pytestmark = pytest.mark.slow
+
 PARAMETERS = Parameters(
     geometry=Geometry(height=0.02, length=1.8),
     mesh=Mesh(n_x=120, n_y=6),

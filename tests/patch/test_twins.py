@@ -12,6 +12,8 @@ from nucleation.patch.twins import difference, fitted_rate, follow_twins, gather
 from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run
 
+pytestmark = pytest.mark.slow
+
 PARAMETERS = Parameters(
     geometry=Geometry(height=0.1, length=3.2),
     mesh=Mesh(n_x=120, n_y=8, grading=4.0),

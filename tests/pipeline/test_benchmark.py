@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import pytest
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from nucleation.fem.block import Block
@@ -12,6 +13,8 @@ from nucleation.figures.checks import work_precision
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.pipeline import benchmark
+
+pytestmark = pytest.mark.slow
 
 
 def test_banded_matrix_is_that_of_the_solver():

@@ -7,6 +7,7 @@ import re
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.pipeline import progress
@@ -25,6 +26,7 @@ class Terminal(io.StringIO):
         return True
 
 
+@pytest.mark.slow
 def test_log_gets_lines_with_what_one_wants_to_know(monkeypatch):
     monkeypatch.setattr(progress, "PAUSE", 0.0)
     log = io.StringIO()

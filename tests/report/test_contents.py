@@ -39,6 +39,7 @@ def html(report):
 # ---- Files that can be taken out of the page
 
 
+@pytest.mark.slow
 def test_tables_can_be_downloaded_with_units_and_all_values(html, content):
     files = downloads(html)
     assert files["figure_2.pdf"].startswith(b"%PDF")

@@ -12,6 +12,8 @@ from nucleation.report import explorer, page
 from nucleation.theory.critical import critical_length, critical_wavenumber
 from nucleation.theory.transfer import RIGID, Body
 
+pytestmark = pytest.mark.system
+
 THEORY_TRACE = 2
 PARAMETER_OF = {slider.key: slider for slider in explorer.SLIDERS}
 

@@ -69,6 +69,7 @@ def whole():
     return record, [arrays for arrays in offered + more if arrays is not None]
 
 
+@pytest.mark.slow
 def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
     record, stored = whole
     assert len(stored) == 7
@@ -78,11 +79,13 @@ def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
         assert_same(simulate(COARSE, start=one.load()), record)
 
 
+@pytest.mark.slow
 def test_restart_is_exact_with_the_slip_law(tmp_path):
     record, offered = kept_at(SLIP, (150,))
     assert_same(simulate(SLIP, start=offered[150]), record)
 
 
+@pytest.mark.slow
 def test_wall_time_is_that_of_all_parts(whole):
     record, stored = whole
     late = dict(stored[-1], wall_seconds=np.array(1e4))
@@ -90,6 +93,7 @@ def test_wall_time_is_that_of_all_parts(whole):
     assert record.attrs["wall_seconds"] < 1e4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", SIGNALS)
 def test_signal_leaves_a_checkpoint_to_go_on_from(whole, tmp_path, number):
     record, _ = whole
@@ -151,6 +155,7 @@ def test_checkpoint_of_another_run_is_refused(tmp_path):
     assert checkpoint(tmp_path / "none.npz")[0].load() is None
 
 
+@pytest.mark.slow
 def test_no_damage_goes_unnoticed(tmp_path):
     """Bits flipped and ends cut off anywhere: refused with a message, or without effect."""
     path = tmp_path / "run.npz"

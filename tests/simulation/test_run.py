@@ -26,6 +26,7 @@ def coarse_run():
     return simulate(COARSE)
 
 
+@pytest.mark.slow
 def test_run_ends_after_its_event(coarse_run):
     assert coarse_run.attrs["status"] == Outcome.AFTER_EVENT.value
     assert coarse_run.attrs["completed"] == 1
@@ -86,6 +87,7 @@ def test_runs_repeat_to_the_last_bit():
     assert first.attrs["status"] == Outcome.END_TIME.value
 
 
+@pytest.mark.slow
 def test_block_length_plays_no_role():
     """L >> L_c: the same nodes near the loaded edge slip the same (Text S2)."""
     short = dataclasses.replace(COARSE, stepping=Stepping(end_time=3.0))
@@ -98,6 +100,7 @@ def test_block_length_plays_no_role():
     )
 
 
+@pytest.mark.slow
 def test_quasi_static_run_covers_its_event(coarse_run):
     """Friction strengthens at high rates and bounds the slip rate in place of inertia."""
     stepping = dataclasses.replace(COARSE.stepping, time_after_event=0.0)

@@ -103,6 +103,7 @@ class Reference:
         return v, psi, reaction
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["aging", "slip"])
 def test_steps_equal_the_assembled_problem(law):
     parameters = small(law)

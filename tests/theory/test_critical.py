@@ -106,6 +106,7 @@ def random_system(rng):
     return *pair, InterfaceState(rng.uniform(0.1, 1.5), a, zeta, slip_length)
 
 
+@pytest.mark.slow
 def test_largest_crossing_of_random_systems():
     """Against a scan of the roots of Eq. (5) over 14 decades; some have two or three crossings."""
     rng = np.random.default_rng(7)

@@ -21,6 +21,8 @@ from nucleation.simulation.run import simulate
 from nucleation.verification.crosscheck import compare, freefem
 from nucleation.verification.crosscheck.plan import CrosscheckSettings
 
+pytestmark = pytest.mark.system
+
 SCRIPT = Path(__file__).parents[2] / "workflow" / "crosscheck" / "block.edp"
 END = 2.0  # s
 PARAMETERS = Parameters(

@@ -10,6 +10,8 @@ from verification.order_tables import levels, print_orders
 
 from nucleation.verification.orders import ROWS, SCALE, manufactured, mesh_errors, orders
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("refinement", ["mesh", "step"])
 def test_second_order(convergence, refinement):

@@ -26,6 +26,8 @@ from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation.run import run
 from nucleation.stepping.bdf import Formula, beta_of_step
 
+pytestmark = pytest.mark.slow
+
 
 def coarse(law, tolerance):
     return Parameters(

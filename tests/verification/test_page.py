@@ -51,6 +51,7 @@ def test_orders_are_those_of_the_reference(heading, refinement, number):
         assert cells[-1].split(", ") == expected
 
 
+@pytest.mark.slow
 def test_reference_orders_are_measured_today(convergence):
     """To two digits of the errors: they are no round-off."""
     text = orders.to_csv(convergence)
@@ -90,6 +91,7 @@ def vanishing(modes):
     return ratio[i] + (ratio[i + 1] - ratio[i]) * fastest[i] / (fastest[i] - fastest[i + 1])
 
 
+@pytest.mark.slow
 def test_reference_bridge_is_measured_today():
     rows_now = dispersion.to_csv(dispersion.dispersion_dataset(Parameters(), [0.1], [1.25]))
     for now in csv.DictReader(io.StringIO(rows_now)):

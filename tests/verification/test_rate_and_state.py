@@ -20,6 +20,8 @@ from nucleation.verification.orders import (
     step_sizes,
 )
 
+pytestmark = pytest.mark.slow
+
 LAWS = ("aging", "slip")
 # errors of displacement, slip rate and log(phi) with the finest mesh and the shortest step
 BOUNDS = {
