@@ -37,10 +37,7 @@ def named(requirements):
 
 
 CORE = named(PROJECT["dependencies"])
-BEYOND = {
-    "report": "report", "claims/article.py": "report",
-    "pipeline/cache.py": "workflow", "pipeline/repairs.py": "workflow",
-}  # fmt: skip
+BEYOND = {"report": "report", "claims/article.py": "report", "pipeline": "workflow"}
 """Parts of the package that need one of the extras as well."""
 
 
@@ -177,6 +174,9 @@ for point in importlib.metadata.distribution("nucleation").entry_points:
 def test_library_and_command_work_with_what_is_declared(installed, tmp_path):
     assert outside(installed, tmp_path, "-c", LIBRARY) == "2.513\n"
     assert "slip_rate" in outside(installed, tmp_path, "-m", "nucleation", "show", "run.nc")
+    small = "simulate again.nc --n-x 16 --n-y 2 --end-time 0.02"
+    outside(installed, tmp_path, "-m", "nucleation", *small.split())
+    assert (tmp_path / "again.nc").stat().st_size > 10_000
     fault = "--shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa --a 0.010 --b 0.015"
     words = ["length", *fault.split(), "--slip-distance", "5um"]
     assert "2.51" in outside(installed, tmp_path, "-m", "nucleation", *words)

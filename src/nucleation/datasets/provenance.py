@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import hashlib
 import importlib.metadata
@@ -18,9 +19,15 @@ NUMERICAL_LIBRARIES = ("numpy", "scipy", "numba")
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python, of this package and of the libraries that results depend on."""
+    """Versions of Python, of this package and of the libraries that results depend on.
+
+    Those that are installed: the library needs no Snakemake.
+    """
     libraries = (*NUMERICAL_LIBRARIES, "xarray", "netCDF4", "matplotlib", "snakemake")
-    found = {library: importlib.metadata.version(library) for library in libraries}
+    found = {}
+    for library in libraries:
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            found[library] = importlib.metadata.version(library)
     return {PACKAGE: __version__, "python": platform.python_version(), **found}
 
 
