@@ -99,7 +99,7 @@ def full_disk_of_the_workflow(place, reference, random):
 
 
 @contextlib.contextmanager
-def _read_only(directory: Path) -> Iterator[None]:
+def read_only(directory: Path) -> Iterator[None]:
     """A directory that can't be written to: not even by root, who may mount it so."""
     if os.geteuid() != 0:
         directory.chmod(0o555)
@@ -125,7 +125,7 @@ def read_only_results(place, reference, random):
     id = random.choice(IDS)
     place.simulation(id).unlink()
     with place.unharmed():
-        with _read_only(place.results):
+        with read_only(place.results):
             says(place.run(), "is not writable", "Read-only file system", "Permission denied")
         place.finish()
     return CLEAR_ERROR
@@ -137,7 +137,7 @@ def read_only_simulations(place, reference, random):
     id = random.choice(IDS)
     place.simulation(id).unlink()
     with place.unharmed():
-        with _read_only(place.results / "simulations"):
+        with read_only(place.results / "simulations"):
             done = place.start_alone(id).end()
             said = done.output + place.log(id)
             clear = ("Read-only file system", "Permission denied", "Operation not permitted")

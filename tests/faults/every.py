@@ -4,7 +4,8 @@ import company
 import damage
 import disks
 import kills
+import reuse
 from registry import FAULTS
 
 __all__ = ["FAULTS"]
-MODULES = (kills, disks, damage, company)
+MODULES = (kills, disks, damage, company, reuse)

@@ -94,12 +94,16 @@ class Place:
         return (self.results / "logs" / "simulate" / name).read_text(errors="replace")
 
     def start(
-        self, *arguments: str, prepare: Callable[[], object] | None = None, **environment: str
+        self,
+        *arguments: str,
+        prepare: Callable[[], object] | None = None,
+        checkout: Path = ROOT,
+        **environment: str,
     ) -> Running:
-        """Start snakemake."""
+        """Start snakemake, by the code of a checkout."""
         command = [sys.executable, "-m", "snakemake", *(arguments or ("lengths",))]
-        command += ["--snakefile", str(ROOT / "Snakefile"), "--configfile", "config.yaml"]
-        command += ["--workflow-profile", str(ROOT / "workflow/profiles/default")]
+        command += ["--snakefile", str(checkout / "Snakefile"), "--configfile", "config.yaml"]
+        command += ["--workflow-profile", str(checkout / "workflow/profiles/default")]
         return Running(command, self.directory, prepare, **environment)
 
     def start_alone(

@@ -142,7 +142,7 @@ def test_change_of_one_run_reruns_it_alone(quick):
     config["studies"]["paper"]["runs"][1]["tolerance"] = 0.04
     config["studies"]["paper"]["runs"][2]["density"] = 1200.0  # the value it has, by another name
     planned = quick.configured(config, "one.yaml").planned("simulations")
-    assert planned["simulate"] == 2  # both have new names, the others are kept
+    assert planned["simulate"] == 1  # the other's name changes, its parameters do not
 
 
 SPARE = "\nSPARE = 1\n"
