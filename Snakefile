@@ -38,12 +38,12 @@ from nucleation.configuration.contradictions import directory_problem
 from nucleation.pipeline import cache, keys
 from nucleation.pipeline.planning import Planner, decide_by_keys
 from nucleation.model.friction.registry import plugins
+from nucleation.model.friction.law import Friction
 from nucleation.model.quantities import ParameterError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.configuration.studies import varied
-from nucleation.model.parameters import Parameters
 
 show_why_groups_fail()  # such as a partition that Slurm doesn't know
 suggest_targets(lambda: workflow.rules)
@@ -84,6 +84,10 @@ SHARED = [name for name, study in settings.studies.items() if study.table == "le
 THEORY = f"{RESULTS}/theory.nc"
 LENGTHS = f"{RESULTS}/lengths.nc"
 DEFAULT = default_target(settings)
+
+
+EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
+"""Code of the paper's law with either evolution, for what computes with both."""
 
 
 def script_path(script):

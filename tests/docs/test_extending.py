@@ -28,7 +28,7 @@ def run(arguments, checkout):
 
 LAW = "src/nucleation/model/friction/laws/dieterich_ruina.py"
 ADDED = ["src/nucleation/model/friction/evolutions/halfway.py", LAW]
-ADDED += ["src/nucleation/figures/beyond/figure_laws.py", "workflow/scripts/figure_laws.py"]
+ADDED += ["src/nucleation/figures/beyond/figure_laws.py"]
 
 
 @pytest.fixture(scope="module")

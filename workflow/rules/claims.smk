@@ -33,7 +33,7 @@ rule evaluate_claims:
         extraction=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
         patch_ids=[run.id for run in runs_in(JUDGED)],
-        **made_by("claims.py", plugins(settings.base)),
+        **made_by("claims.py", [*plugins(settings.base), *EVOLUTIONS]),
     log:
         f"{RESULTS}/logs/claims.log",
     threads: 1

@@ -30,7 +30,7 @@ rule verification:
         dataset=VERIFICATION,
         table=f"{RESULTS}/verification.csv",
     params:
-        **made_by("verification.py", plugins(Parameters())),
+        **made_by("verification.py", EVOLUTIONS),
     log:
         f"{RESULTS}/logs/verification.log",
     threads: 1
