@@ -6,7 +6,7 @@ import dataclasses
 import itertools
 import math
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,10 +18,8 @@ from ..model.linearised import (
 )
 from ..model.parameters import Parameters, names
 from ..model.quantities import Checked, ParameterError, Quantity, quantity
-from ..theory.critical import (
-    NoInstability,
-    theory_length,
-)
+from ..theory.critical import NoInstability, theory_length, theory_lengths
+from ..theory.transfer import RIGID, Body
 from .study_names import by_study_name, identifier, study_parameters
 
 RANGE: dict[str, Quantity] = {
@@ -157,31 +155,45 @@ def study_runs(
         The main text's rounded interface.
     """
     settings = study_settings(study)
+    defaults = study.get("defaults", {})
+    prepared: list[tuple[str, _Prepared | str]] = []
     for number, entry in enumerate(study["runs"]):
         key = f"studies.{name}.runs[{number}]"
         for values in itertools.product(*(expand(v) for v in entry.values())):
             varied = dict(zip(entry, values, strict=True))
             try:
-                yield key, _run(name, settings, study.get("defaults", {}), varied, base, main_text)
-            except (ParameterError, NoInstability) as error:
-                yield key, str(error)
+                prepared.append((key, _prepared(settings, defaults, varied, base, main_text)))
+            except ParameterError as error:
+                prepared.append((key, str(error)))
+    lengths = _theory_lengths(run for _, run in prepared if isinstance(run, _Prepared))
+    for key, run in prepared:
+        try:
+            yield key, run if isinstance(run, str) else _run(name, settings, run, next(lengths))
+        except (ParameterError, NoInstability) as error:
+            yield key, str(error)
 
 
-def _run(
-    study: str,
+class _Prepared(NamedTuple):
+    """A run whose block has no length yet."""
+
+    varied: dict[str, Any]
+    values: dict[str, Any]  # all that the study gives
+    parameters: Parameters
+    interface: InterfaceState
+
+
+def _prepared(
     settings: StudySettings,
     defaults: dict[str, Any],
     varied: dict[str, Any],
     base: Parameters,
     main_text: InterfaceState,
-) -> Run:
-    """One run; its length, unless given, is a multiple of the theory's critical length."""
+) -> _Prepared:
     varied = by_study_name(varied)
     values = by_study_name(defaults) | varied
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     parameters = base.replaced({k: v for k, v in values.items() if k not in CONSTANTS})
-    height = parameters.geometry.height
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = dataclasses.replace(parameters, friction=friction)
@@ -189,13 +201,30 @@ def _run(
         interface = loaded(main_text, loading)
     else:
         interface = linearised(parameters.friction, loading)
-    critical = theory_length(height, parameters.material, interface)
+    return _Prepared(varied, values, parameters, interface)
+
+
+def _theory_lengths(runs: Iterable[_Prepared]) -> Iterator[float]:
+    """The theory's lengths (m) of all runs of a study in one call, NaN where sliding is stable."""
+    cases = [
+        (Body(r.parameters.material, r.parameters.geometry.height, "traction"), RIGID, r.interface)
+        for r in runs
+    ]
+    return iter(theory_lengths(cases).tolist() if cases else [])
+
+
+def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: float) -> Run:
+    """One run; its length, unless given, is a multiple of the theory's critical length."""
+    varied, values, parameters, interface = prepared
+    if math.isnan(critical):  # which says why, or raises
+        critical = theory_length(parameters.geometry.height, parameters.material, interface)
     length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
     if length <= critical:
         raise ParameterError(
             f"length = {length:g} m is not allowed: the block must be longer than the critical "
             f"nucleation length of the theory, {critical:.3g} m, better 6 times as long"
         )
-    parameters = parameters.replaced({"length": float(length)})
+    geometry = dataclasses.replace(parameters.geometry, length=float(length))
+    parameters = dataclasses.replace(parameters, geometry=geometry)
     run = Run("", study, parameters, critical, values)
     return dataclasses.replace(run, id=identifier(study, run.labels, varied))

@@ -11,6 +11,7 @@ import dataclasses
 import math
 import numbers
 from collections.abc import Collection
+from functools import cache
 from typing import Any
 
 
@@ -73,6 +74,11 @@ def quantity(description: str, *, default: Any = dataclasses.MISSING, **declarat
 
 def declarations(cls: type) -> dict[str, Quantity]:
     """The declared quantities of a dataclass, by field name, with the kind of each field."""
+    return dict(_declarations(cls))
+
+
+@cache  # a study of thousands of runs asks for each group of each run
+def _declarations(cls: Any) -> dict[str, Quantity]:
     return {
         f.name: dataclasses.replace(
             f.metadata["quantity"], kind=getattr(f.type, "__name__", f.type)
