@@ -37,9 +37,9 @@ def test_group_that_is_told_nothing_says_what_it_did_before(group, caplog):
 
 
 def test_file_for_the_report_is_its_makers_alone():
-    made = IOFile(flag("figure.png", "report", "its caption"), rule=None)
-    inputs = [made, IOFile("table.csv", rule=None), lambda wildcards: "a"]
-    target = SimpleNamespace(input=inputs, pathvars=SimpleNamespace(apply=str))
+    made = IOFile(flag(flag("figure.png", "report", "its caption"), "ensure", "x"), rule=None)
+    named = IOFile(made._file, rule=None)
+    target = SimpleNamespace(input=[named, IOFile("table.csv", rule=None), lambda wildcards: "a"])
     caption_where_made([target])
-    assert target.input[:2] == ["figure.png", "table.csv"]
-    assert not is_flagged(target.input[0], "report") and is_flagged(made, "report")
+    assert target.input[0] is named and named == "figure.png" and is_flagged(named, "ensure")
+    assert not is_flagged(named, "report") and is_flagged(made, "report")

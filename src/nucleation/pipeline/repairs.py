@@ -12,7 +12,7 @@ import snakemake.api  # first: its parts import each other
 import snakemake.dag
 import snakemake.jobs
 from snakemake.exceptions import MissingRuleException
-from snakemake.io import IOFile, is_flagged
+from snakemake.io import AnnotatedString, is_flagged
 from snakemake.logging import logger
 
 from .targets import unknown_target
@@ -67,6 +67,9 @@ def caption_where_made(rules: Iterable[Any]) -> None:
     job was then filled in from the parameters of another, which has none.
     """
     for rule in rules:
-        for number, file in enumerate(rule.input):
+        for file in rule.input:
             if isinstance(file, str) and is_flagged(file, "report"):
-                rule.input[number] = IOFile(str(file), rule=rule)
+                # in place, as inputs with a name are listed under it too; flags are shared
+                others = {name: value for name, value in file.flags.items() if name != "report"}
+                file._file = AnnotatedString(str(file))
+                file._file.flags = others
