@@ -12,7 +12,7 @@ import snakemake.api  # first: its parts import each other
 import snakemake.dag
 import snakemake.jobs
 from snakemake.exceptions import MissingRuleException
-from snakemake.io import AnnotatedString, is_flagged
+from snakemake.io import AnnotatedString, _IOFile, is_flagged
 from snakemake.logging import logger
 
 from .targets import unknown_target
@@ -68,7 +68,7 @@ def caption_where_made(rules: Iterable[Any]) -> None:
     """
     for rule in rules:
         for file in rule.input:
-            if isinstance(file, str) and is_flagged(file, "report"):
+            if isinstance(file, _IOFile) and is_flagged(file, "report"):
                 # in place, as inputs with a name are listed under it too; flags are shared
                 others = {name: value for name, value in file.flags.items() if name != "report"}
                 file._file = AnnotatedString(str(file))
