@@ -64,6 +64,10 @@ FOREIGN = {
     "device": member("results/mine/a.csv", tarfile.CHRTYPE, devmajor=1, devminor=3),
     "twice": member(CSV, content=b"y"),
     "note on another file": member(note_on("src/nucleation/api.py")),
+    "record of no result": member("results/mine/.made/evil.py.json"),
+    "program among records": member("results/mine/.made/lengths.csv.py"),
+    "record of a record": member("results/mine/.made/.made/lengths.csv.json.json"),
+    "record of the reference set": member("results/mine/.made/reference/lengths.csv.json"),
     "note outside": member(note_on("results/mine/../../a.csv")),
     "no note": member(f"{NOTES}/a.json"),
     "beside the notes": member(".snakemake/scripts/a.py"),
@@ -82,10 +86,12 @@ def test_foreign_file_is_refused_by_name(foreign, tmp_path):
 
 def test_plain_results_are_put_in_place_and_can_not_be_run(tmp_path):
     future = member("results/mine/logs/a.log", mtime=2**40)
-    archive = packed(tmp_path / "good.tar", future)
+    records = [member("results/mine/.made/lengths.csv.json", content=b"{}"),
+               member("results/mine/quick/.made/figures/a.png.json", content=b"{}")]  # fmt: skip
+    archive = packed(tmp_path / "good.tar", future, *records)
     old = os.umask(0o027)
     try:
-        assert bundle.restore(archive, "./results/mine/", tmp_path / "checkout") == 3
+        assert bundle.restore(archive, "./results/mine/", tmp_path / "checkout") == 5
     finally:
         os.umask(old)
     put = tmp_path / "checkout" / CSV

@@ -2,7 +2,7 @@
 
 A checkout executes much of what is in it: modules, git's hooks, profiles, ``sitecustomize.py``. So
 an archive's names, kinds and sizes are looked at before anything of it is written, and what is not
-a plain result or one of Snakemake's notes on a result is refused by name. Nothing in it is
+a plain result, its record or one of Snakemake's notes on it is refused by name. Nothing in it is
 followed, executed or parsed here; it only gets copied, and its checksums compared.
 """
 
@@ -18,6 +18,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path, PurePosixPath
 
 from ..configuration.contradictions import CODE
+from .keys import RECORDS
 
 NOTES = ".snakemake/metadata"  # Snakemake's, of what made each file
 CHECKSUMS = "manifest-sha256.txt"
@@ -102,6 +103,11 @@ def _problem(member: tarfile.TarInfo, results: str) -> str | None:
     return _problem_of_place(member.name, results)
 
 
+def is_note(name: str) -> bool:
+    """Whether a file of an archive tells of a result and is none: Snakemake's notes, records."""
+    return name.startswith(f"{NOTES}/") or RECORDS in PurePosixPath(name).parts
+
+
 def is_taken(name: str, results: str) -> bool:
     """Whether a file belongs into an archive, and may come out of one."""
     return _problem_of_place(name, results) is None
@@ -136,6 +142,10 @@ def _problem_of_result(name: str, results: str) -> str | None:
     if _problem_of_name(name) or not name.startswith(f"{results}/"):
         return f"it does not lie below the configuration's results, {results}"
     below = path.relative_to(results).parts
+    if below[:-1].count(RECORDS) == 1 and path.suffix == ".json":  # of the file whose name it has
+        number = below.index(RECORDS)
+        vouched = PurePosixPath(results, *below[:number], *below[number + 1 :]).with_suffix("")
+        return _problem_of_result(str(vouched), results)
     if below[0] == "reference":
         return "the reference set belongs to the checkout"
     if any(part.startswith(".") for part in below) or path.suffix not in RESULTS:

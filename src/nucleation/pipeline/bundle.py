@@ -1,8 +1,8 @@
 """All results in one archive with a manifest, and a checkout that starts from such an archive.
 
-The archive is a plain tar file: results with their times (links to a cache are followed),
-Snakemake's notes on them, the configuration, ``codecheck.yml`` (https://codecheck.org.uk/spec/) and
-``ro-crate-metadata.json`` that say what they are, and a checksum of each file. After
+The archive is a plain tar file: results with their times (links to a cache are followed), their
+records, Snakemake's notes on them, the configuration, ``codecheck.yml``
+(https://codecheck.org.uk/spec/) and ``ro-crate-metadata.json`` that say what they are, and a checksum of each file. After
 :func:`restore` the workflow finds nothing to be done.
 """
 
@@ -36,6 +36,7 @@ from .archives import (
     MANIFEST,
     NOTES,
     BundleError,
+    is_note,
     is_taken,
     place,
     refuse_foreign,
@@ -110,7 +111,7 @@ def _descriptions(
     packed |= {
         name: Packed(checksum, (directory / name).stat().st_size)
         for name, checksum in checksums.items()
-        if not name.startswith(NOTES)
+        if not is_note(name)
     }
     return texts | {CRATE: crate.text(settings, packed, created)}
 
@@ -159,7 +160,7 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
         names = [name for name in checksums if name not in DESCRIPTIONS]
         refuse_links(names, directory)
         there = [name for name in names if os.path.lexists(directory / name)]
-        _refuse_others([name for name in there if not name.startswith(NOTES)], checksums, directory)
+        _refuse_others([name for name in there if not is_note(name)], checksums, directory)
         new = [name for name in names if name not in there]
         for name in new:
             (directory / name).parent.mkdir(parents=True, exist_ok=True)
@@ -213,7 +214,7 @@ def _result_files(directory: Path, results: str) -> Iterator[Path]:
 
 def _manifest(checksums: dict[str, str], created: str) -> str:
     """The text of ``codecheck.yml``."""
-    named = [name for name in checksums if not name.startswith(NOTES)]
+    named = [name for name in checksums if not is_note(name)]
     about = {
         "version": "https://codecheck.org.uk/spec/config/1.0/",
         "paper": {
