@@ -2,8 +2,8 @@
 
 The archive is a plain tar file: results with their times (links to a cache are followed), their
 records, Snakemake's notes on them, the configuration, ``codecheck.yml``
-(https://codecheck.org.uk/spec/) and ``ro-crate-metadata.json`` that say what they are, and a checksum of each file. After
-:func:`restore` the workflow finds nothing to be done.
+(https://codecheck.org.uk/spec/) and ``ro-crate-metadata.json`` that say what they are, and a
+checksum of each file. After :func:`restore` the workflow finds nothing to be done.
 """
 
 from __future__ import annotations
