@@ -24,7 +24,7 @@ from nucleation.simulation.run import simulate
 COARSE = Parameters(
     geometry=Geometry(height=0.005, length=0.9),
     mesh=Mesh(n_x=60, n_y=6, grading=2.0),
-    stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.1),
+    stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.25),
 )
 SLIP = dataclasses.replace(
     COARSE,
