@@ -19,7 +19,7 @@ CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
-	check prune bundle restore torture
+	targets check prune bundle restore torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -70,6 +70,9 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 		results/figures/*.png results/figures/animation.gif \
 		results/tables/claims.csv results/tables/claims.md results/reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
+
+targets: $(STAMP) ## List what TARGETS may name
+	@$(LAUNCH) targets --quiet all $(OPTIONS) $(CONFIGURED)
 
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(LAUNCH) check $(OPTIONS) $(CONFIGURED)

@@ -21,8 +21,10 @@ min_version("9.0")
 # group, which the plugin omits (its issue 469): they would run one after the other.
 slurm_settings.pass_group_args = True
 
+BASE = Path(workflow.current_basedir)  # of this file, also where it is a module of another
+
 # The one place that says where the package is, for this file and for the scripts of all jobs.
-SOURCE = str(Path(workflow.basedir, "src"))
+SOURCE = str(Path(BASE, "src"))
 sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
 
@@ -50,7 +52,7 @@ suggest_targets(lambda: workflow.rules)
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
 if not workflow.overwrite_configfiles:
-    configfile: str(Path(workflow.basedir, "config", "config.yaml"))
+    configfile: str(Path(BASE, "config", "config.yaml"))
 
 
 try:
@@ -91,7 +93,7 @@ EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Frictio
 
 
 def script_path(script):
-    return Path(workflow.basedir, "workflow", "scripts", script)
+    return Path(BASE, "workflow", "scripts", script)
 
 
 def made_by(script, modules=()):
@@ -188,10 +190,10 @@ def captioned(path, name):
 
 
 def caption_file(name):
-    return str(Path(workflow.basedir, "workflow", "report", f"{name}.rst"))
+    return str(Path(BASE, "workflow", "report", f"{name}.rst"))
 
 
-report: str(Path(workflow.basedir, "workflow", "report", "workflow.rst"))
+report: str(Path(BASE, "workflow", "report", "workflow.rst"))
 
 
 localrules:
@@ -224,6 +226,7 @@ workflow.localrules(*(rule.name for rule in workflow.rules if rule.name.startswi
 # measured(): after one failed or vanished, what was made from it would otherwise still count as up
 # to date. A test goes through all targets.
 rule paper:
+    """Every figure, table and verdict of the paper."""
     default_target: DEFAULT == "paper"
     input:
         rules.figure_1.input,
@@ -240,6 +243,7 @@ rule paper:
 
 # The default of a configuration that does not have the paper's runs.
 rule studies:
+    """Tables and figures of all studies that share lengths.csv."""
     default_target: DEFAULT == "studies"
     input:
         [figure(f"study_{study}") for study in settings.studies],

@@ -10,6 +10,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+import yaml
 
 ROOT = Path(__file__).parents[2]
 JOB = re.compile(r"^(?:local)?rule (\w+):\n((?: {4}.+\n)+)", re.M)
@@ -71,3 +72,34 @@ def test_wrong_target_is_told_the_nearest(workflow):
     assert done.returncode != 0
     assert "no target figure_33: did you mean figure_3" in done.stdout
     assert "Traceback" not in done.stdout
+
+
+MODULE = """
+configfile: "mine.yaml"
+
+module nucleation:
+    snakefile: "{snakefile}"
+    config: config["fault"]
+
+use rule * from nucleation as fault_*
+
+rule all:
+    default_target: True
+    input: rules.fault_lengths.input
+"""
+
+
+def test_the_workflow_is_usable_as_a_module_of_another(workflow, tmp_path):
+    (tmp_path / "Snakefile").write_text(MODULE.format(snakefile=ROOT / "Snakefile"))
+    (tmp_path / "workflow").symlink_to(ROOT / "workflow")
+    study = {"defaults": {"n_x": 40, "n_y": 4}, "runs": [{"height": [0.05, 0.1]}]}
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump({"fault": {"studies": {"s": study}}}))
+    other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    expected = {"fault_simulate": 2, "fault_extract": 1, "fault_gather_lengths": 1, "all": 1}
+    assert other.planned() == expected
+
+
+def test_every_target_has_a_text(workflow):
+    listed = re.findall(r"^(\w+)  +\S", workflow("targets", "--quiet", "all").stdout, re.M)
+    assert {"paper", "lengths", "figure_3", "report", "check"} <= set(listed)
+    assert not {"simulate", "extract", "draw_figure_3"} & set(listed)

@@ -4,7 +4,7 @@ from nucleation.pipeline.check import files as result_files
 
 
 localrules:
-    check, prune,
+    check, prune, targets,
 
 
 def wanted_keys(wildcards):
@@ -20,6 +20,7 @@ def expected_parts(wildcards):
 
 
 rule check:
+    """List what is stale, incomplete, damaged or foreign."""
     params:
         results=RESULTS,
         expected=expected_parts,
@@ -31,6 +32,7 @@ rule check:
 
 
 rule prune:
+    """Remove datasets of earlier parameters or code."""
     params:
         results=RESULTS,
         wanted=wanted_keys,
@@ -38,3 +40,11 @@ rule prune:
         f"Datasets in {RESULTS} that the configuration does not ask for are removed"
     script:
         "../scripts/prune.py"
+
+
+# What there is to ask for: rules with a text of their own. The others are steps on the way.
+rule targets:
+    params:
+        listing=lambda wildcards: {r.name: r.docstring for r in workflow.rules if r.docstring},
+    script:
+        "../scripts/targets.py"

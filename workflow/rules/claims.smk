@@ -5,7 +5,7 @@ from nucleation.claims.evidence import JUDGED, PAPERS
 
 CLAIMS = f"{RESULTS}/claims.json"
 ARTICLE = f"{RESULTS}/article.md"
-TEMPLATE = Path(workflow.basedir, "docs", "article.md.in")
+TEMPLATE = Path(BASE, "docs", "article.md.in")
 CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
 """Studies that claims are about."""
 
@@ -61,6 +61,7 @@ rule write_article:
 
 
 rule claims:
+    """A verdict on every statement of the paper."""
     input:
         rules.evaluate_claims.output,
         THEORY,
@@ -72,6 +73,7 @@ rule claims:
 
 
 rule article:
+    """The replication as a short article."""
     input:
         ARTICLE,
         rules.claims.input,

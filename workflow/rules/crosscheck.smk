@@ -3,7 +3,7 @@
 from nucleation.verification.crosscheck import freefem, plan
 
 CROSSCHECKS = plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
-FREEFEM_SCRIPT = Path(workflow.basedir, "workflow", "crosscheck", "block.edp")
+FREEFEM_SCRIPT = Path(BASE, "workflow", "crosscheck", "block.edp")
 
 
 def freefem_script(wildcards):
@@ -113,6 +113,7 @@ localrules:
 
 
 rule figure_crosscheck:
+    """The figure of both solvers."""
     input:
         rules.draw_figure_crosscheck.output,
         rules.compare_crosscheck.output,
@@ -123,6 +124,7 @@ rule figure_crosscheck:
 
 
 rule crosscheck:
+    """The same runs by an independent solver."""
     input:
         table=rules.compare_crosscheck.output.table,
         figure=rules.figure_crosscheck.input,

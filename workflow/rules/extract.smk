@@ -51,6 +51,7 @@ rule gather_lengths:
 
 
 rule lengths:
+    """Onset and critical length of each of their runs."""
     input:
         rules.gather_lengths.output,
         measured(*SHARED),

@@ -125,8 +125,11 @@ for _name, _behind in TARGETS.items():
         message:
             f"{FIGURES[_name].title} is in {{input[0]}}"
 
+    list(workflow.rules)[-1].docstring = f"{FIGURES[_name].title}."
+
 
 rule table_s1:
+    """Table S1: parameters of the friction law."""
     input:
         rules.write_table_s1.output,
     message:

@@ -77,6 +77,7 @@ rule draw_animation:
 
 
 rule animation:
+    """Creep, nucleation and rupture as an animation."""
     input:
         rules.draw_animation.output,
         FILM,
@@ -115,6 +116,7 @@ rule write_report:
 
 
 rule report:
+    """Everything on one page, results/report.html."""
     input:
         rules.write_report.output,
         rules.claims.input,

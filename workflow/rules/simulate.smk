@@ -16,6 +16,8 @@ rule simulate:
         **made_by("simulate.py", lambda wildcards: plugins(simulated(wildcards).parameters)),
     log:
         f"{RESULTS}/logs/simulate/{{name}}.{{key}}.log",
+    benchmark:
+        f"{RESULTS}/logs/simulate/{{name}}.{{key}}.tsv"
     threads: 1
     priority: 1  # before the short jobs, which then fill all cores at the end
     resources:
@@ -28,6 +30,7 @@ rule simulate:
 
 
 rule simulations:
+    """The simulations of those studies."""
     input:
         needed(simulations(*SHARED), "study with table: lengths"),
     message:

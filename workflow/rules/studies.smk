@@ -53,8 +53,11 @@ for _study in settings.studies:
         message:
             "The study's figure is in {input[0]}"
 
+    list(workflow.rules)[-1].docstring = f"Figure of the study {_study}."
+
 
 rule figure_studies:
+    """A figure of each study, simulations and theory."""
     input:
         needed([path for study in SHARED for path in figure(f"study_{study}")],
                "study with table: lengths"),

@@ -57,6 +57,9 @@ def fetch(directory: Path, wanted: str, output: Path) -> bool:
     entry = directory / f"{wanted}.nc"
     if not entry.is_file():
         return False
+    if not os.access(entry, os.R_OK):
+        print(f"The cache's entry {entry} can't be read: it is left alone", file=sys.stderr)
+        return False
     try:
         found = netcdf.read(entry).attrs.get("key")
         if found != wanted:
