@@ -13,7 +13,7 @@ import pytest
 pytest_plugins = ("coarse_run",)
 
 # make test hands its own settings (VENV=...) to every make below it
-for name in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL"):
+for name in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "VENV", "PYTHON", "CORES", "TARGETS"):
     os.environ.pop(name, None)
 
 # No deadline: machines are busy. In CI the same examples at every run, elsewhere new ones.
