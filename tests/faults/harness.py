@@ -149,7 +149,7 @@ class Place:
 
     def contents(self) -> dict[Path, xr.Dataset]:
         """All datasets below the results, by path."""
-        paths = [path for path in self.results.rglob("*.nc") if not path.name.startswith(".")]
+        paths = [*self.results.glob("[!.]*.nc"), *self.results.glob("[!.]*/[!.]*.nc")]
         return {path.relative_to(self.directory): netcdf.read(path) for path in paths}
 
     def findings(self) -> list[Finding]:
