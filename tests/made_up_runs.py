@@ -26,6 +26,7 @@ def record(period=0.1, parameters=PARAMETERS, onset=ONSET):
             "slip_rate": (("time", "x"), rate),
             "driving_force": ("step", force),
             "step_time": ("step", time),
+            "maximal_slip_rate": ("step", rate.max(axis=1)),
         },
         coords={"time": time, "x": x},
         attrs={"parameters": parameters.to_json(), "status": "completed: made up"},

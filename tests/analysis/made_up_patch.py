@@ -29,6 +29,7 @@ def synthetic_simulation(onset=10.0, decay=0.05):
             "slip_rate": (("time", "x"), rate),
             "step_time": ("step", step_time),
             "driving_force": ("step", -force),
+            "maximal_slip_rate": ("step", np.where(step_time < onset, 1.0, 1e5) * VELOCITY),
         },
         coords={"time": time, "x": x},
         attrs={"parameters": Parameters().to_json()},

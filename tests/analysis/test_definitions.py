@@ -37,6 +37,35 @@ def test_the_first_of_two_events_counts():
     assert time[onset.start] == pytest.approx(10.0, abs=0.0101)
 
 
+def test_small_rises_on_the_way_down_belong_to_the_drop():
+    time, force = force_record(fall=0.04, size=0.5)
+    shaken = force * (1 + 0.008 * (-1.0) ** np.arange(time.size))
+    onset = find_onset(time, shaken, MEMORY_TIME, 0.2)
+    assert time[onset.start] == pytest.approx(10.0, abs=0.011)
+    between = shaken[onset.start : onset.end + 1]
+    assert (np.diff(between) > 0.0).any()
+    assert between[0] == between.max()
+
+
+def test_a_force_that_follows_its_load_is_no_event():
+    time, force = force_record()
+    before = time < 10.0
+    force[before] *= 1 + 0.03 * np.sin(60.0 * time[before])
+    fast = time > 10.0002
+    early = find_onset(time, force, MEMORY_TIME, 0.02)
+    onset = find_onset(time, force, MEMORY_TIME, 0.02, fast)
+    assert time[early.end] < 1.0
+    assert time[onset.end] == pytest.approx(10.0, abs=0.004)
+    assert fast[onset.end]
+
+
+def test_drop_watch_counts_a_fall_once_slip_is_fast():
+    watch = DropWatch(window=1.0, drop=0.1)
+    assert not watch.dropped(0.0, 100.0, fast=False)
+    assert not watch.dropped(0.1, 80.0, fast=False)
+    assert watch.dropped(0.2, 81.0, fast=True)
+
+
 def test_drop_watch_forgets_what_left_the_window():
     watch = DropWatch(window=1.0, drop=0.1)
     assert not watch.dropped(0.0, 100.0)

@@ -1,9 +1,9 @@
 """Definitions: the onset of the event, and the length of the creep patch.
 
-Onset is the start of the abrupt drop: the instant from which ``|f_d|`` falls without rising again
-until the event. The patch extends to the furthest point at which the slip rate has exceeded a
-fraction of the imposed velocity V so far: what has crept belongs to the patch, though its slip rate
-oscillates before the onset.
+Onset is the start of the abrupt drop: the maximum from which ``|f_d|`` falls into the event, but
+for rises too small to count, as loads that fluctuate make them. The patch extends to the furthest
+point at which the slip rate has exceeded a fraction of the imposed velocity V so far: what has
+crept belongs to the patch, though its slip rate oscillates before the onset.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from ..simulation.event import DROP, DropWatch
 
 Array = NDArray[np.float64]
 
+REBOUND = 0.1  # a rise by this part of the fall that follows belongs to the fall
 SEARCHED = 0.5  # part of the block, from the loaded edge, in which the patch's edge is sought
 
 
@@ -45,32 +46,43 @@ class ExtractionSettings(Checked):
 class Onset:
     """Indices into the steps of a run that mark its first event."""
 
-    start: int  # the last maximum of |f_d| before the drop
+    start: int  # the maximum of |f_d| from which it falls into the event
     steep: int  # from here |f_d| falls faster than loading has raised it on average
     end: int  # the drop is complete
 
 
-def find_onset(time: Array, force: Array, window: float, drop: float) -> Onset | None:
+def find_onset(
+    time: Array, force: Array, window: float, drop: float, fast: NDArray[np.bool_] | None = None
+) -> Onset | None:
     """The first abrupt drop of a force magnitude (N/m) over time (s), or None.
 
     Parameters
     ----------
     time, force : of every step, shape (steps,).
     window, drop : of :class:`~nucleation.simulation.event.DropWatch`, in s and as a fraction.
+    fast : whether the interface slips fast at these times, always by default.
     """
     watch = DropWatch(window, drop)
-    end = next(
-        (i for i, at in enumerate(zip(time, force, strict=True)) if watch.dropped(*at)), None
-    )
+    fast = np.ones(time.size, dtype=bool) if fast is None else fast
+    steps = enumerate(zip(time, force, fast, strict=True))
+    end = next((i for i, at in steps if watch.dropped(*at)), None)
     if end is None:
         return None
-    start = end
-    while start > 0 and force[start - 1] >= force[start]:
-        start -= 1
+    start = _last_maximum(force, end)
     loading_rate = (force[start] - force[0]) / max(time[start] - time[0], 1e-300)
     falling = -np.diff(force[start : end + 1]) / np.diff(time[start : end + 1])
     steep = start + int(np.argmax(falling > loading_rate)) if falling.size else end
     return Onset(start, steep, end)
+
+
+def _last_maximum(force: Array, end: int) -> int:
+    """Index of the maximum from which a force falls to its value at `end`, small rises apart."""
+    start = i = end
+    while i > 0 and force[i - 1] >= force[start] - REBOUND * (force[start] - force[end]):
+        i -= 1
+        if force[i] >= force[start]:
+            start = i
+    return start
 
 
 def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:

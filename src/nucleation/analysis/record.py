@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
-from ..simulation.event import WINDOW
+from ..simulation.event import FAST, WINDOW
 from .definitions import ExtractionSettings, Onset, find_onset, slipping_edge
 
 Array = NDArray[np.float64]
@@ -71,7 +71,8 @@ class Record:
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
         window = WINDOW * self.parameters.memory_time
-        return find_onset(self.step_time, self.force, window, self.settings.drop)
+        fast = self.simulation["maximal_slip_rate"].values > FAST * self.velocity
+        return find_onset(self.step_time, self.force, window, self.settings.drop, fast)
 
     @property
     def drop_times(self) -> Array:

@@ -2,8 +2,9 @@
 
 While the patch creeps, the magnitude of the driving force changes over seconds; in the event it
 falls within milliseconds. The event is found when the force has fallen by a given fraction below
-its largest value of a short time window, the memory time D/V of friction: a slow decrease, as in
-an oscillation of the creeping patch that decays again, is no event.
+its largest value of a short time window, the memory time D/V of friction, while the interface slips
+fast somewhere: a slow decrease, as in an oscillation of the creeping patch that decays again, is no
+event, nor is a force that follows a fluctuating load.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ Array = NDArray[np.float64]
 
 DROP = 0.02  # fraction of the force
 WINDOW = 1.0  # in units of D/V
+FAST = 10.0  # slip rate over V that the creeping patch does not reach
 
 
 class DropWatch:
@@ -36,11 +38,14 @@ class DropWatch:
     def maxima(self, values: Array) -> None:
         self._largest = deque((time, force) for time, force in values.tolist())
 
-    def dropped(self, time: float, force: float) -> bool:
-        """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop."""
+    def dropped(self, time: float, force: float, fast: bool = True) -> bool:
+        """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop.
+
+        `fast` tells whether the interface now slips faster than :data:`FAST` anywhere.
+        """
         while self._largest and self._largest[-1][1] <= force:
             self._largest.pop()
         self._largest.append((time, force))
         while self._largest[0][0] < time - self._window:
             self._largest.popleft()
-        return force < (1.0 - self._drop) * self._largest[0][1]
+        return bool(fast) and force < (1.0 - self._drop) * self._largest[0][1]

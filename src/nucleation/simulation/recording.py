@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
-from .event import WINDOW, DropWatch
+from .event import FAST, WINDOW, DropWatch
 from .state import State
 from .step import Dynamics, StepReport
 
@@ -57,7 +57,8 @@ class Recorder:
         self._rows.append(
             (state.time, state.last_step, report.driving_force, fastest, interface.iterations)
         )
-        if self._watch.dropped(state.time, abs(report.driving_force)):
+        fast = fastest > FAST * self._velocity
+        if self._watch.dropped(state.time, abs(report.driving_force), fast):
             self._event_time = min(self._event_time, self._time)
         self._maybe_frame(state, report)
         self._maybe_snapshot(state, fastest)
