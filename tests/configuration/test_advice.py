@@ -77,6 +77,12 @@ WARNED = {
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
         "start above the strength (",
     ),
+    "roughness": (
+        GOOD | {"perturbation": "state", "strength": 1e-3, "correlation_length": 0.01},
+        "roughness not resolved (s-aging-H0.005-phi1-n_x400-perturbationstate-"
+        "correlation_length0.01-strength0.001): correlation_length = 0.01 m has 2.8 elements of "
+        "0.00352 m, which sample some other roughness; recommended is n_x = 564 or more",
+    ),
 }  # fmt: skip
 
 

@@ -54,6 +54,20 @@ BAD = {
     "a study is nothing": ({"studies": {"s": None}}, ["studies.s = None must be a mapping"]),
     "studies are nothing": ({"studies": None}, ["studies = None must be a mapping"]),
     "description is nothing": (study(TALL, description=None), ["description = None"]),
+    "a strength of nothing": (
+        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "kind one of"],
+    ),
+    "roughness finer than elements": (
+        study({**TALL, "perturbation": "strength", "strength": 1e-3, "correlation_length": 1e-4}),
+        [f"{RUN}: correlation_length = 0.0001 m is not allowed", "at least an element"],
+    ),
+    "noise faster than the shortest step": (
+        study({**TALL, "perturbation": "state", "strength": 1e-3, "correlation_time": 1e-12}),
+        [f"{RUN}: shortest_step = 1e-12 s is not allowed", "longest one, 1e-13 D/V = 5e-15 s"],
+    ),
+    "a kind that is none": (
+        study({**TALL, "perturbation": "noise"}), ["must be one of none, drive_velocity"],
+    ),
     # names and places
     "truth as a name": ({"studies": {True: {"runs": [TALL]}}}, ["studies: True", "as a name"]),
     "number as a name": ({"studies": {2017: {"runs": [TALL]}}}, ["studies: 2017", "as a name"]),

@@ -251,8 +251,8 @@ def test_newton_converges_quadratically():
         errors.append(np.max(np.abs(change) / (np.abs(v) + 1e-9)))
         return updated(self, v, change)
 
-    load = dynamics._load_with_past(state, step, state.time + step.length)
     imposed = dynamics.drive.at(state.time + step.length)
+    load = dynamics._load_with_past(state, step, imposed)
     past = Past.of(state, step.body, imposed, step.first)
     guess = state.past_slip_rates[0][1:] * 1.05
     response = operator.respond(load, past.w + past.beta * (guess - 1e-3))

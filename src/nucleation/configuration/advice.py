@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
+from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION
 from ..theory.estimates import (
     growth_time,
     process_zone,
@@ -78,6 +79,7 @@ def _about(run: Run) -> Iterator[Advice]:
     yield from _span(run)
     yield from _block(run)
     yield from _start(run)
+    yield from _roughness(run)
 
 
 def _mesh(run: Run) -> Iterator[Advice]:
@@ -144,4 +146,16 @@ def _start(run: Run) -> Iterator[Advice]:
             "start above the strength", loading.initial_shear_stress / strength,
             f"initial_shear_stress = {loading.initial_shear_stress:g} Pa, while the interface "
             f"slips at V under {strength:.3g} Pa: it slips everywhere from the start",
+        )  # fmt: skip
+
+
+def _roughness(run: Run) -> Iterator[Advice]:
+    declared, (along, _) = run.parameters.perturbation, element_sizes(run.parameters)
+    scale = declared.correlation_length
+    if declared.acts and declared.kind in ALONG_X and scale < ELEMENTS_PER_CORRELATION * along:
+        least = math.ceil(run.parameters.mesh.n_x * ELEMENTS_PER_CORRELATION * along / scale)
+        yield Advice(
+            "roughness not resolved", along / scale,
+            f"correlation_length = {scale:g} m has {scale / along:.2g} elements of {along:.3g} m, "
+            f"which sample some other roughness; recommended is n_x = {least} or more",
         )  # fmt: skip

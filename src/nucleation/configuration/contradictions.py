@@ -9,6 +9,7 @@ from pathlib import Path, PurePosixPath
 from ..analysis.definitions import ExtractionSettings
 from ..model.linearised import InterfaceState
 from ..model.parameters import FIRST_STEP, Mesh, Parameters
+from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, theory_length
 from ..theory.settings import Curves
@@ -62,24 +63,41 @@ def setting_problems(
 def run_problems(key: str, run: Run, limits: Limits) -> Iterator[str]:
     """Contradictions among the parameters of one run, which stands at a key."""
     stepping, loading = run.parameters.stepping, run.parameters.loading
-    longest = stepping.longest_step * run.parameters.memory_time
-    first = FIRST_STEP * run.parameters.memory_time
+    longest, memory = run.parameters.longest_step, run.parameters.memory_time
+    first = FIRST_STEP * memory
     if stepping.shortest_step >= min(longest, first):
         yield (
             f"{key}: shortest_step = {stepping.shortest_step:g} s is not allowed: it must be less "
-            f"than the first step, {first:.3g} s, and longest_step D/V = {longest:.3g} s"
+            f"than the first step, {first:.3g} s, and the longest one, {longest / memory:.3g} D/V "
+            f"= {longest:.3g} s"
         )
     if loading.initial_shear_stress and loading.initial_stress == "no_slip":
         yield (
             f"{key}: initial_shear_stress = {loading.initial_shear_stress:g} Pa is not allowed "
             "with initial_stress = no_slip: it must be 0 Pa, or initial_stress uniform_shear"
         )
+    yield from _perturbation_problems(key, run.parameters)
     if len(run.id) > LONGEST_ID:
         yield (
             f"{key}: {run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
             f"characters, more than {LONGEST_ID}; put what does not vary into the study's defaults"
         )
     yield from memory_problems(key, run.parameters.mesh, limits)
+
+
+def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
+    """A strength of nothing, and a roughness that the mesh can't have."""
+    declared, element = parameters.perturbation, parameters.geometry.length / parameters.mesh.n_x
+    if declared.kind == "none" and declared.strength > 0.0:
+        yield (
+            f"{key}: strength = {declared.strength:g} is not allowed with kind = none, which "
+            f"perturbs nothing: it must be 0, or kind one of {', '.join(KINDS[1:])}"
+        )
+    if declared.acts and declared.kind in ALONG_X and declared.correlation_length < element:
+        yield (
+            f"{key}: correlation_length = {declared.correlation_length:g} m is not allowed: it "
+            f"must be at least an element, {element:.3g} m, better {ELEMENTS_PER_CORRELATION:g}"
+        )
 
 
 def memory_problems(key: str, mesh: Mesh, limits: Limits) -> Iterator[str]:

@@ -113,7 +113,8 @@ def configure(values: Any) -> Configuration:
         groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
     except ParameterError as error:  # what the chosen friction law does not have
         _stop_on([str(error)])
-    base = Parameters(**{k: groups.pop(k) for k in ("material", "friction", "loading", "stepping")})
+    own = [f.name for f in dataclasses.fields(Parameters) if f.name in groups]
+    base = Parameters(**{name: groups.pop(name) for name in own})
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():

@@ -12,6 +12,7 @@ from ..model.friction.registry import law_declarations
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading, Stepping
+from ..model.perturbation import Perturbation
 from ..model.quantities import Quantity, declarations
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
@@ -27,6 +28,7 @@ GROUPS: dict[str, type] = {
     "friction": Friction,
     "loading": Loading,
     "stepping": Stepping,
+    "perturbation": Perturbation,
     "main_text_interface": InterfaceState,
     "curves": Curves,
     "extraction": ExtractionSettings,

@@ -38,6 +38,7 @@ VARIABLES: dict[str, Variable] = {
     "driving_force": Variable("N/m", "force per depth on the loaded edge", "f_d"),
     "maximal_slip_rate": Variable("m/s", "maximal slip rate", "max v"),
     "newton_iterations": Variable("1", "Newton iterations of the step"),
+    "perturbation": Variable("1", "declared relative perturbation, as realised", "eps xi"),
     # Simulation: snapshots in the bulk
     "snapshot_time": Variable("s", "time of the snapshot", "t"),
     "displacement_x": Variable("m", "displacement along x", "u_x"),

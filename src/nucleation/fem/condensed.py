@@ -108,6 +108,13 @@ class Body(Protocol):
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of a body at rest, seen from its driven edge that moves at a velocity."""
 
+    @property
+    def total_mass(self) -> float:
+        """Mass (kg/m) that moves with the driven edge."""
+
+    def translation_load(self, acceleration: float) -> Field:
+        """Inertia (N/m) against an acceleration (m/s^2) of the driven edge and all with it."""
+
     def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
         """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``."""
 

@@ -22,6 +22,10 @@ class Field:
     modes: Array
     edge: Array
 
+    def plus(self, other: Field) -> Field:
+        """The sum of two fields."""
+        return Field(self.modes + other.modes, self.edge + other.edge)
+
     def to_arrays(self, name: str) -> dict[str, Array]:
         """The field as plain arrays, their names beginning with `name`."""
         return {f"{name}_modes": self.modes, f"{name}_edge": self.edge}

@@ -83,6 +83,22 @@ class SeparableBody(ABC):
         n = self.grid.n_y + 1
         return Field(np.zeros((n, 2, self.grid.n_x)), np.zeros(n))
 
+    @property
+    def total_mass(self) -> float:
+        """Mass of the body (kg/m)."""
+        return self.material.density * self.grid.length * self.grid.height
+
+    def translation_load(self, acceleration: float) -> Field:
+        """Inertia (N/m) against an acceleration (m/s^2) of the whole body along x.
+
+        In the scaling of all loads, per mode times 2/n_x.
+        """
+        load = self.zero_field()
+        per_level = -self.material.density * acceleration * self.stacked.mass.sum(axis=0)
+        per_mode = self.sine_amplitudes(np.full(self.grid.n_x, self.grid.dx))
+        load.modes[:, 0] = per_level[:, None] * per_mode
+        return load
+
     def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
         """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`.
 

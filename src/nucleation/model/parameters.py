@@ -11,6 +11,7 @@ from .friction.law import Friction
 from .friction.registry import LAWS, law_declarations
 from .material import Material
 from .names import Names
+from .perturbation import Perturbation
 from .quantities import Checked, ParameterError, Quantity, declarations, quantity
 
 
@@ -98,11 +99,18 @@ class Parameters:
     geometry: Geometry = Geometry()
     mesh: Mesh = Mesh()
     stepping: Stepping = Stepping()
+    perturbation: Perturbation = Perturbation()
 
     @property
     def memory_time(self) -> float:
         """Time ``D/V`` (s) over which friction forgets at the imposed velocity."""
         return self.friction.characteristic_slip_distance / self.loading.velocity
+
+    @property
+    def longest_step(self) -> float:
+        """Longest time step (s), that of the stepping or what the perturbation asks for."""
+        memory = self.memory_time
+        return min(self.stepping.longest_step * memory, self.perturbation.longest_step(memory))
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """The parameters as nested plain dictionaries."""
@@ -115,7 +123,11 @@ class Parameters:
 
     @classmethod
     def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
-        """The inverse of :meth:`to_dict`; raises ParameterError for a bad value."""
+        """The inverse of :meth:`to_dict`; raises ParameterError for a bad value.
+
+        The perturbation may be left out, as in records older than it, which are quiet.
+        """
+        values = {"perturbation": {}} | values
         return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
@@ -153,7 +165,7 @@ class Parameters:
 
 GROUPS: dict[str, type] = {
     "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
-    "mesh": Mesh, "stepping": Stepping,
+    "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
 }  # fmt: skip
 """The groups of :class:`Parameters` and their classes."""
 
@@ -161,6 +173,7 @@ ALIASES = {
     "law": "friction.evolution",
     "friction_law": "friction.law",
     "phi0": "loading.initial_state",
+    "perturbation": "perturbation.kind",
 }
 """Short names by agreement: ``law`` was the evolution's before the coefficient had one."""
 

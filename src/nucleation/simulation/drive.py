@@ -2,9 +2,9 @@
 
 A :class:`Drive` says what is imposed on the body and on its interface at an instant; a step asks
 for the instant at which it ends. It must be a function of time alone, whatever the steps are, and
-the same in a run that goes on from a checkpoint. A perturbed drive is another class here: an edge
-velocity V(t) with its integral U(t), a normal stress in :meth:`Drive.load`, a strength that varies
-along x, a forcing of the state.
+the same in a run that goes on from a checkpoint. Drives that are not steady are other classes
+(:mod:`.forcing`): an edge velocity V(t) with its integral U(t), a normal stress in
+:meth:`Drive.load`, a strength that varies along x, a forcing of the state.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ class Imposed:
     velocity: float  # m/s, V(t)
     strength: Array | None = None  # factor on the friction coefficient, nodes 0..n_x; None: 1
     state_forcing: Array | None = None  # added to d log(phi)/dt (1/s), nodes 0..n_x; None: 0
+    acceleration: float = 0.0  # m/s^2, U''(t) of the driven edge
 
 
 class Drive(Protocol):

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
 from .event import FAST, WINDOW, DropWatch
+from .forcing import Perturbed
 from .state import State
 from .step import Dynamics, StepReport
 
@@ -137,5 +138,8 @@ class Recorder:
         data |= {name: (("step",), row) for name, row in zip(row_names, rows, strict=True)}  # type: ignore[misc]
         data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(bulk_names)}  # type: ignore[misc]
         data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))  # type: ignore[assignment]
+        if isinstance(self._drive, Perturbed):
+            frame_times = np.array([t for t, _ in self._frames])
+            data["perturbation"] = self._drive.realised(rows[0], frame_times)  # type: ignore[assignment]
         coords = {"time": [t for t, _ in self._frames], "x": self.grid.x, "y": self.grid.y}
         return xr.Dataset(data, coords=coords, attrs={"parameters": self.parameters.to_json()})

@@ -49,7 +49,7 @@ def run(
         longer step ends in tension.
     """
     dynamics = composed(parameters) if dynamics is None else dynamics
-    longest_step = parameters.stepping.longest_step * parameters.memory_time
+    longest_step = parameters.longest_step
     longest = dynamics.scheme.coefficient(longest_step, longest_step)
     if start is None:
         state, report = at_rest(dynamics, parameters.loading)

@@ -18,8 +18,8 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     dynamics : what is to start.
     loading : its ``initial_state`` (s), ``initial_stress`` and ``initial_shear_stress`` (Pa).
     """
-    body, grid, drive = dynamics.body, dynamics.grid, dynamics.drive
-    n, operator, load = grid.n_x, body.operator(0.0), drive.load(0.0)
+    body, grid, imposed = dynamics.body, dynamics.grid, dynamics.drive.at(0.0)
+    n, operator, load = grid.n_x, body.operator(0.0), dynamics.load(imposed)
     response = operator.respond(load, np.zeros(n))
     if loading.initial_stress == "uniform_shear":
         forces = -loading.initial_shear_stress * grid.nodal_lengths[1:]
@@ -27,14 +27,14 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
         slipped = np.linalg.solve(stiffness, forces - response.tangential)
         response = operator.respond(load, slipped)
     balance = operator.balance(response, response.w)
-    velocity = drive.at(0.0).velocity
-    slip_rate = np.append(velocity, np.zeros(n))
+    slip_rate = np.append(imposed.velocity, np.zeros(n))
     log_state = np.full(n + 1, float(np.log(loading.initial_state)))
-    motion = body.at_rest(balance.displacement, velocity)
+    motion = body.at_rest(balance.displacement, imposed.velocity)
     state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
     # at rest no friction acts on the driven edge's own node
     tangential = np.append(0.0, response.tangential)
     interface = InterfaceSolution(
         slip_rate, log_state, tangential, response.normal, response.w, 0
     )  # fmt: skip
-    return state, StepReport(interface, float(tangential.sum()), 0.0)
+    force = float(tangential.sum()) - dynamics.frame_inertia(imposed)
+    return state, StepReport(interface, force, 0.0)

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..fem.condensed import Body, Expectation, Operator
 from ..fem.field import Field, Motion
 from ..stepping.scheme import Scheme, Step
-from .drive import Drive
+from .drive import Drive, Imposed
 from .interface import Friction, InterfaceSolution, Past, Solver
 from .state import State, pushed
 
@@ -50,6 +50,11 @@ class Dynamics:
     interface : what holds the body back; the simulation's is frictional.
     drive : the loads.
     scheme : the time integrator.
+
+    Notes
+    -----
+    With ``u_x = U(t) + w_x`` the body is seen from its driven edge: where that accelerates, inertia
+    acts as a body force ``-rho U''`` along x.
     """
 
     def __init__(self, body: Body, interface: Solver, drive: Drive, scheme: Scheme) -> None:
@@ -68,7 +73,7 @@ class Dynamics:
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
         operator, imposed = self.operator(step.s), self.drive.at(time)
-        load = self._load_with_past(state, step, time)
+        load = self._load_with_past(state, step, imposed)
         guess = extrapolated(state, step, self.drive.velocity, self.interface.friction)
         past = Past.of(state, step.interface, imposed, step.first)
         w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
@@ -84,7 +89,8 @@ class Dynamics:
         motion = self.body.motion(formula.past, formula.beta, balance.displacement, motions)
         new = self._pushed(state, time, solution, motion, balance.memory)
         # discrete balance along x: the driven edge carries what friction and inertia leave
-        force = float(solution.tangential.sum() - _rate_of_momentum(step, motion, motions))
+        rate = _rate_of_momentum(step, motion, motions)
+        force = float(solution.tangential.sum() - rate) - self.frame_inertia(imposed)
         return new, StepReport(solution, force, step.error(guess.distance(solution)))
 
     def operator(self, s: float) -> Operator:
@@ -98,12 +104,23 @@ class Dynamics:
         self._operators.move_to_end(s)
         return self._operators[s]
 
-    def _load_with_past(self, state: State, step: Step, time: float) -> Field:
+    def load(self, imposed: Imposed) -> Field:
+        """The load (N/m) at an instant, the inertia of an accelerated frame included."""
+        load = self.drive.load(imposed.time)
+        if imposed.acceleration == 0.0:
+            return load
+        return load.plus(self.body.translation_load(imposed.acceleration))
+
+    def frame_inertia(self, imposed: Imposed) -> float:
+        """What the driven edge needs to accelerate the whole body with it (N/m)."""
+        return self.body.total_mass * imposed.acceleration
+
+    def _load_with_past(self, state: State, step: Step, imposed: Imposed) -> Field:
         """The load at the end of the step and the inertia that its formula takes from the past."""
         terms = []
         for c, motion in zip(step.body.past, state.motions, strict=False):
             terms += [(c, motion.displacement), (c * step.body.beta, motion.velocity)]
-        return self.body.inertia_load(step.s, terms, self.drive.load(time))
+        return self.body.inertia_load(step.s, terms, self.load(imposed))
 
     def _pushed(
         self, state: State, time: float, solution: InterfaceSolution, motion: Motion, memory: Array

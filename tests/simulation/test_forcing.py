@@ -1,0 +1,193 @@
+"""Perturbed runs: each kind acts as declared, is the same on every restart, and none is none."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import KINDS, Perturbation
+from nucleation.model.quantities import ParameterError
+from nucleation.simulation.composition import composed
+from nucleation.simulation.realisation import profile
+from nucleation.simulation.run import run, simulate
+
+QUIET = Parameters(
+    geometry=Geometry(height=0.005, length=0.9),
+    mesh=Mesh(n_x=60, n_y=4, grading=2.0),
+    stepping=Stepping(end_time=1.0, tolerance=5e-2, longest_step=0.1),
+)
+ACTING = KINDS[1:]
+
+
+def perturbed(kind, strength=1e-2, base=QUIET, **others):
+    declared = Perturbation(kind=kind, strength=strength, seed=7, **others)
+    return dataclasses.replace(base, perturbation=declared)
+
+
+def assert_same(one, other, *without):
+    assert set(one.variables) - set(without) == set(other.variables) - set(without)
+    for name in set(other.variables) - set(without):
+        np.testing.assert_array_equal(one[name].values, other[name].values, err_msg=str(name))
+
+
+@pytest.fixture(scope="module")
+def quiet():
+    return simulate(QUIET)
+
+
+@pytest.fixture(scope="module")
+def records():
+    return {kind: simulate(perturbed(kind)) for kind in ACTING}
+
+
+def test_strength_zero_is_the_quiet_run(quiet):
+    assert_same(simulate(perturbed("drive_velocity", strength=0.0)), quiet)
+    assert_same(simulate(perturbed("none", strength=0.1)), quiet)
+    assert "perturbation" not in quiet
+
+
+@pytest.mark.parametrize("kind", ACTING)
+def test_a_vanishing_perturbation_is_nearly_the_quiet_run(kind, quiet):
+    almost = simulate(perturbed(kind, strength=1e-13))
+    np.testing.assert_allclose(almost["step_time"].values, quiet["step_time"].values, rtol=1e-9)
+    np.testing.assert_allclose(almost["slip"].values, quiet["slip"].values, rtol=1e-6, atol=1e-13)
+
+
+@pytest.mark.parametrize("kind", ACTING)
+def test_every_kind_changes_the_run_by_about_its_strength(kind, quiet, records):
+    force = quiet["driving_force"].values[-1]
+    change = np.abs(records[kind]["driving_force"].values[-1] / force - 1.0)
+    assert records[kind].attrs["completed"]
+    assert 1e-5 < change < 3e-2
+
+
+@pytest.mark.parametrize("kind", ACTING)
+def test_restart_is_exact(kind, records):
+    offered = []
+
+    def keep(arrays):
+        offered.append(arrays() if len(offered) in (0, 1, 2, 40) else None)
+
+    parameters = perturbed(kind)
+    simulate(parameters, keep=keep)
+    for number in (0, 1, 2, 40):
+        assert_same(simulate(parameters, start=offered[number]), records[kind])
+
+
+def test_the_drive_moves_as_declared(records):
+    record, parameters = records["drive_velocity"], perturbed("drive_velocity")
+    drive = composed(parameters).drive
+    velocity = 1e-5 * (1.0 + record["perturbation"].values)
+    assert velocity.std() == pytest.approx(1e-7, rel=0.8)
+    assert [drive.at(t).velocity for t in record["step_time"].values] == pytest.approx(velocity)
+    time = record["time"].values
+    np.testing.assert_allclose(
+        record["slip_rate"].values[:, 0], [drive.at(t).velocity for t in time], rtol=1e-14
+    )
+    np.testing.assert_allclose(
+        record["slip"].values[:, 0], [drive.at(t).displacement for t in time], rtol=1e-13
+    )
+    stuck = np.abs(record["slip"].values[:, 30])  # slip there is that of the drive less w
+    assert stuck.max() < 2e-3 * drive.at(time[-1]).displacement
+
+
+def test_the_load_acts_as_declared(records):
+    record = records["normal_load"]
+    lengths = np.full(61, 0.015)
+    lengths[[0, -1]] *= 0.5
+    carried = -record["normal_stress"].values @ lengths / 0.9
+    at = np.searchsorted(record["step_time"].values, record["time"].values)
+    applied = 1e6 * (1.0 + record["perturbation"].values[at])
+    np.testing.assert_allclose(carried, applied, rtol=1e-9)
+
+
+def test_strength_varies_as_declared(records):
+    x = records["strength"]["x"].values
+    stated = records["strength"]["perturbation"]
+    assert stated.dims == ("x",)
+    np.testing.assert_allclose(stated.values, 1e-2 * profile(7, 0.02, x), rtol=1e-12, atol=1e-16)
+
+
+def test_friction_of_slipping_nodes_is_the_uneven_law(records):
+    record, law = records["strength"], QUIET.friction
+    last = record.isel(time=-1)
+    slipping = last["slip_rate"].values > 1e-7
+    friction = last["shear_stress"] / -last["normal_stress"]
+    even = law.coefficient(last["slip_rate"].values, last["state"].values)
+    uneven = even * (1.0 + record["perturbation"].values)
+    np.testing.assert_allclose(friction.values[slipping], uneven[slipping], rtol=1e-6)
+
+
+def test_state_is_forced_as_declared():
+    # of a fault at rest in the slip law nothing changes but by the source
+    parameters = perturbed("state").replaced({"evolution": "slip", "longest_step": 0.02})
+    record = simulate(parameters)
+    even = simulate(dataclasses.replace(parameters, perturbation=Perturbation()))
+    x, time = record["x"].values, record["time"].values
+    drive, far = composed(parameters).drive, x > 0.6
+    fine = np.linspace(0.0, time[-1], 4001)
+    source = np.array([drive.at(t).state_forcing[far] for t in fine])
+    expected = np.trapezoid(source, fine, axis=0)
+    grown = np.log(record["state"].values[-1, far] / even["state"].values[-1, far])
+    np.testing.assert_allclose(grown, expected, rtol=0.02, atol=2e-2 * np.abs(expected).max())
+    assert record["perturbation"].dims == ("time", "x")
+
+
+def test_steps_resolve_the_correlation_time():
+    declared = {"correlation_time": 0.2}
+    short = simulate(perturbed("normal_load", **declared).replaced({"end_time": 0.2}))
+    assert short["step_size"].values.max() <= 0.1 * 0.2 * 0.05 * (1 + 1e-12)
+
+
+def test_step_error_falls_with_the_second_order_of_the_steps():
+    def last(longest):
+        values = {"longest_step": longest, "end_time": 0.6, "tolerance": 0.9}
+        return simulate(perturbed("drive_velocity", 0.1).replaced(values))
+
+    runs = [last(step) for step in (0.08, 0.04, 0.005)]
+    at = [np.interp(0.5, r["step_time"].values, r["driving_force"].values) for r in runs]
+    assert abs(at[1] - at[2]) < 0.5 * abs(at[0] - at[2])
+
+
+def test_realisation_does_not_depend_on_mesh_or_steps():
+    fine = perturbed("strength").replaced({"n_x": 240, "longest_step": 0.01})
+    coarse, refined = (
+        composed(each).drive.at(0.0).strength for each in (perturbed("strength"), fine)
+    )
+    np.testing.assert_allclose(coarse, refined[::4], rtol=1e-12)
+
+
+def test_inertia_of_the_drive_is_that_of_the_mass():
+    parameters = perturbed("drive_velocity", 0.1)
+    body = composed(parameters).body
+    load = body.translation_load(2.0)
+    nodal = body.sine_values(load.modes[:, 0] * body.grid.n_x / 2.0)
+    # back to forces: the basis' last node counts by one half
+    mass = body.total_mass
+    assert mass == pytest.approx(1200.0 * 0.9 * 0.005)
+    first = 0.5 * body.grid.dx / 0.9  # share of the driven edge's own nodes
+    weights = np.append(np.ones(59), 0.5) * 2.0 / 60
+    assert (nodal @ weights).sum() == pytest.approx(-2.0 * mass * (1.0 - first), rel=1e-9)
+
+
+def test_bad_declarations_are_refused():
+    with pytest.raises(ParameterError, match="one of none, drive_velocity"):
+        Perturbation(kind="noise")
+    with pytest.raises(ParameterError, match=r"Perturbation\.strength"):
+        Perturbation(strength=0.5)
+    with pytest.raises(ParameterError, match=r"Perturbation\.seed"):
+        Perturbation(seed=-1)
+
+
+def test_records_without_a_perturbation_are_quiet():
+    values = QUIET.to_dict()
+    del values["perturbation"]
+    assert Parameters.from_dict(values) == QUIET
+
+
+def test_run_yields_perturbed_rates_at_the_driven_edge():
+    for instant, _ in zip(run(perturbed("drive_velocity")), range(5), strict=False):
+        rate = instant.report.interface.slip_rate[0]
+        assert rate != 1e-5
+        assert rate == pytest.approx(1e-5, rel=0.1)

@@ -1,0 +1,69 @@
+"""With a declared perturbation the drop does not hang on the last bits of the arithmetic."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.extraction import extract
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import Perturbation
+from nucleation.simulation.composition import composed
+from nucleation.simulation.recording import Recorder
+from nucleation.simulation.run import run
+from nucleation.simulation.step import Dynamics
+
+
+class Rounded(Dynamics):
+    """Each accepted state's log(phi) is off, at random, by some units in the last place."""
+
+    def __init__(self, usual, units):
+        super().__init__(usual.body, usual.interface, usual.drive, usual.scheme)
+        self.units, self.generator = units, np.random.default_rng(1)
+
+    def advance(self, state, rung):
+        new, report = super().advance(state, rung)
+        states = new.past_log_states.copy()
+        signs = self.generator.choice([-1.0, 1.0], states.shape[1])
+        states[0] += self.units * signs * np.spacing(states[0])
+        return dataclasses.replace(new, past_log_states=states), report
+
+
+def drop(parameters, units=0):
+    """Onset (s) and length (m) of a run, with so many units in the last place at random."""
+    dynamics = composed(parameters)
+    if units:
+        dynamics = Rounded(dynamics, units)
+    recorder = Recorder(parameters, dynamics)
+    for instant in run(parameters, dynamics=dynamics):
+        recorder.record(instant.state, instant.report)
+        if recorder.covers_event:
+            break
+    found = extract(recorder.dataset())
+    return np.array([found["onset_time"], found["length"]])
+
+
+SILENT = Parameters(
+    geometry=Geometry(height=0.02, length=0.85),
+    mesh=Mesh(n_x=250, n_y=4, grading=20.0),
+    stepping=Stepping(end_time=30.0, time_after_event=0.0),
+)
+NINE_DIGITS = 2**20  # units in the last place: arithmetic with nine digits
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["drive_velocity", "normal_load", "state"])
+def test_a_declared_perturbation_makes_one_number(kind):
+    declared = Perturbation(kind=kind, strength=1e-5, seed=1)
+    parameters = dataclasses.replace(SILENT, perturbation=declared)
+    exact = drop(parameters)
+    for units in (1, NINE_DIGITS):
+        np.testing.assert_allclose(drop(parameters, units), exact, rtol=3e-3)
+
+
+@pytest.mark.slow
+def test_in_numerical_silence_the_last_digits_decide():
+    """On a mesh and with steps that shake the patch by less than that."""
+    finer = SILENT.replaced({"n_x": 330, "longest_step": 0.04})
+    exact, rounded = drop(finer), drop(finer, NINE_DIGITS)
+    assert abs(rounded[0] / exact[0] - 1.0) > 1e-2

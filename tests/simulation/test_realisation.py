@@ -1,0 +1,122 @@
+"""The realisations: what they are made of, their statistics, and that any part stands alone."""
+
+import numpy as np
+import pytest
+from scipy.interpolate import BSpline
+from scipy.stats import kstest
+
+from nucleation.simulation.realisation import (
+    MEAN_SQUARE,
+    Series,
+    Sheet,
+    normals,
+    profile,
+    spectral_density,
+    spline,
+)
+
+SPLINE = BSpline.basis_element(np.arange(-2.0, 3.0), extrapolate=False)
+
+
+def test_numbers_are_standard_normal_and_independent():
+    rows = np.array([normals(5, 1, row, 4000) for row in range(5)])
+    assert kstest(rows.ravel(), "norm").pvalue > 1e-3
+    others = np.array([normals(6, 1, 0, 4000), normals(5, 2, 0, 4000)])
+    correlation = np.corrcoef(np.vstack((rows, others))) - np.eye(7)
+    assert np.abs(correlation).max() < 0.06
+
+
+def test_more_numbers_begin_with_the_same_ones():
+    np.testing.assert_array_equal(normals(3, 2, 7, 500)[:9], normals(3, 2, 7, 9))
+
+
+def test_numbers_never_change():
+    # from version to version and machine to machine; the last digits are those of ndtri
+    np.testing.assert_allclose(
+        normals(1, 1, 0, 3), [-0.48155270891676, 0.68738093117408, 0.10638599016041], rtol=1e-12
+    )
+
+
+def test_splines_are_the_cubic_ones():
+    u = np.linspace(0.0, 0.999, 11)
+    expected = [SPLINE(u - i) for i in (-1, 0, 1, 2)]
+    np.testing.assert_allclose(spline(u), np.nan_to_num(expected), atol=1e-15)
+    fine = np.linspace(-2.0, 2.0, 4001)
+    assert np.trapezoid(SPLINE(fine) ** 2, fine) == pytest.approx(MEAN_SQUARE, rel=1e-9)
+
+
+def test_series_does_not_depend_on_what_was_asked_before():
+    times = np.linspace(0.0, 60.0, 500)
+    forth = Series(8, 0.05)
+    values = [forth.value(t) for t in times]
+    back = Series(8, 0.05)
+    assert values == [back.value(t) for t in times[::-1]][::-1]
+    assert Series(8, 0.05).value(times[300]) == values[300]
+    assert Series(9, 0.05).value(times[300]) != values[300]
+
+
+def test_slope_and_integral_belong_to_the_series():
+    series, step = Series(2, 0.3), 1e-4
+    for time in (0.0005, 0.7, 12.34):
+        slope = (series.value(time + step) - series.value(time - step)) / (2 * step)
+        assert series.slope(time) == pytest.approx(slope, rel=1e-5, abs=1e-6)
+    times = np.linspace(0.0, 40.0, 40001)
+    values = np.array([series.value(t) for t in times])
+    by_parts = np.trapezoid(values, times)
+    assert series.integral(0.0) == 0.0
+    assert series.integral(40.0) == pytest.approx(by_parts, abs=1e-6)
+
+
+def test_variance_and_correlation_over_seeds():
+    lags = np.arange(0.0, 4.0, 0.5) * MEAN_SQUARE
+    start = 3.21
+    seen = np.array(
+        [[Series(seed, 1.0).value(start + lag) for lag in lags] for seed in range(2000)]
+    )
+    septic = BSpline.basis_element(np.arange(-4.0, 5.0), extrapolate=False)
+    expected = np.nan_to_num(septic(lags / MEAN_SQUARE)) / MEAN_SQUARE
+    assert expected[0] == pytest.approx(1.0)
+    found = (seen[:, :1] * seen).mean(axis=0)
+    np.testing.assert_allclose(found, expected, atol=4.0 / np.sqrt(2000))
+
+
+def test_spectral_density_is_that_of_unit_variance():
+    omega = np.linspace(-4000.0, 4000.0, 400001)
+    density = spectral_density(omega, 0.05)
+    assert np.trapezoid(density, omega) / (2 * np.pi) == pytest.approx(1.0, rel=1e-5)
+    assert spectral_density(0.0, 0.05) == pytest.approx(0.05)  # the correlation time
+    series, fine = Series(1, 0.05), np.arange(0.0, 400.0, 0.004)
+    values = np.array([series.value(t) for t in fine])
+    power = np.abs(np.fft.rfft(values)) ** 2 * 0.004 / values.size
+    slow = 2 * np.pi * np.fft.rfftfreq(values.size, 0.004)
+    band = (slow > 5.0) & (slow < 60.0)
+    expected = spectral_density(slow[band], 0.05).mean()
+    assert power[band].mean() == pytest.approx(expected, rel=4.0 / np.sqrt(band.sum()))
+
+
+def test_profile_is_the_same_on_every_mesh():
+    coarse, fine = np.linspace(0.0, 2.4, 401), np.linspace(0.0, 4.8, 3201)
+    np.testing.assert_allclose(profile(4, 0.01, coarse), profile(4, 0.01, fine)[:1601:4], atol=1e-9)
+    assert profile(4, 0.01, fine).std() == pytest.approx(1.0, abs=0.15)
+
+
+def test_sheet_is_the_same_on_every_mesh_and_in_every_order():
+    coarse, fine = np.linspace(0.0, 2.4, 401), np.linspace(0.0, 2.4, 1601)
+    one, other = Sheet(4, 0.05, 0.1, coarse), Sheet(4, 0.05, 0.1, fine)
+    times = (0.0, 3.3, 1.1, 40.0)
+    seen = {t: one.values(t) for t in times}
+    for time in reversed(times):
+        np.testing.assert_allclose(seen[time], other.values(time)[::4], atol=1e-9)
+        np.testing.assert_array_equal(seen[time], Sheet(4, 0.05, 0.1, coarse).values(time))
+
+
+def test_sheet_is_correlated_in_time_and_along_x():
+    x = np.linspace(0.0, 400.0, 1001)  # the spacing is 0.4 correlation lengths
+    sheet = Sheet(3, 1.0, 1.0, x)
+    rows = np.array([sheet.values(t) for t in np.arange(0.0, 400.0, 0.4)])
+    septic = BSpline.basis_element(np.arange(-4.0, 5.0), extrapolate=False)
+    near = float(septic(0.4 / MEAN_SQUARE)) / MEAN_SQUARE
+    assert rows.var() == pytest.approx(1.0, abs=0.02)
+    assert (rows[1:] * rows[:-1]).mean() == pytest.approx(near, abs=0.02)
+    assert (rows[:, 1:] * rows[:, :-1]).mean() == pytest.approx(near, abs=0.02)
+    assert (rows[1:, 1:] * rows[:-1, :-1]).mean() == pytest.approx(near**2, abs=0.02)
