@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 from .model.friction.law import Friction
 from .model.material import Material
 from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from .model.perturbation import Perturbation
 from .model.quantities import ParameterError
 from .theory.arrays import (
     CriticalMode,
@@ -40,6 +41,7 @@ from .theory.literature_table import lengths_in_use
 if TYPE_CHECKING:
     from .analysis.extraction import extract
     from .datasets.netcdf import read, write
+    from .patch.expected_drop import expected_drop
     from .simulation.run import run, simulate
 
 __all__ = [
@@ -52,9 +54,11 @@ __all__ = [
     "Mesh",
     "ParameterError",
     "Parameters",
+    "Perturbation",
     "Stepping",
     "critical_length",
     "critical_mode",
+    "expected_drop",
     "extract",
     "lengths_in_use",
     "read",
@@ -69,6 +73,7 @@ __all__ = [
 _LATER = {
     "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
     "run": ".simulation.run", "simulate": ".simulation.run",
+    "expected_drop": ".patch.expected_drop",
 }  # fmt: skip
 
 

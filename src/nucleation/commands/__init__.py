@@ -20,6 +20,7 @@ DONE = 0
 FAILED = 1
 REFUSED = 2
 STABLE = 3
+UNKNOWN = 4
 INTERRUPTED = 128 + signal.SIGINT
 
 EXIT_CODES = f"""\b
@@ -28,6 +29,7 @@ Exit codes:
   {FAILED}    the simulation failed numerically; its record is kept beside
   {REFUSED}    a value, an option or a file is wrong, or can't be written
   {STABLE}    homogeneous sliding is stable: there is no critical length
+  {UNKNOWN}    the law of the drop does not reach this fault
   {INTERRUPTED}  interrupted
 """
 
@@ -38,6 +40,7 @@ Completion of commands and options in bash (zsh and fish in the same way):
 
 COMMANDS = {
     "length": "Critical nucleation length of a fault: the theory's, and others in use.",
+    "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
     "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
 }

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import shlex
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,47 +15,17 @@ import click
 
 from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from ..configuration.advice import advise
-from ..configuration.load import configure
 from ..configuration.settings import Limits, estimated_megabytes
 from ..configuration.studies import Run, StudySettings
 from ..configuration.study_names import study_parameters
-from ..model.friction.constants import CONSTANTS, with_constants
-from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS
-from ..model.parameters import Parameters, names
+from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, declarations
 from .given import of_dataset, of_file, of_run
-from .text import event_lines, parameter_lines, with_unit
-
-STUDY = "command"  # name of the study of one run that a command line amounts to
-
-
-def _flat(parameters: Parameters) -> dict[str, Any]:
-    """Parameters by their names in studies."""
-    known = names()
-    return {known.short(full): value for full, value in parameters.named().items()}
-
-
-def _defaults() -> dict[str, Any]:
-    """The usual values by their names in studies, those of other friction laws among them."""
-    laws = [_flat(Parameters(friction=Friction(law=law))) for law in LAWS]
-    return {k: v for law in laws for k, v in law.items()} | _flat(Parameters())
-
+from .options import STUDY, flat, given_of, merged, parameter_options, planned
+from .text import event_lines, parameter_lines
 
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
-
-
-def _parameter_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """One option for each parameter of a simulation, from its declaration; also by full name."""
-    known, defaults = names(), _defaults()
-    for name, entry in reversed(study_parameters().items()):
-        note = f"default {with_unit(defaults[name], entry)}" if name in defaults else ""
-        note = "6 critical lengths if left out" if name == "length" else note
-        called = [name] if name in CONSTANTS else [known.full(name), name]
-        words = [f"--{word.replace('_', '-')}" for word in dict.fromkeys(called)]
-        function = units.option(*words, key=name, entry=entry, note=note)(function)
-    return function
 
 
 @click.command("simulate", epilog=EXIT_CODES)
@@ -71,7 +40,7 @@ def _parameter_options(function: Callable[..., Any]) -> Callable[..., Any]:
     "--config", type=click.Path(dir_okay=False), default="config/config.yaml",
     show_default=True, help="the configuration that --run is in",
 )  # fmt: skip
-@_parameter_options
+@parameter_options(study_parameters())
 @units.option("--length-over-critical", key="length_over_critical", entry=RATIO)
 @units.option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
 @click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
@@ -101,9 +70,9 @@ def command(
         base = of_dataset(file)
     elif file:
         given = of_file(file)
-    values = _merged(base, given | _given(options))
-    study = _given({"length_over_critical": length_over_critical})
-    run = planned(values, study, _given({"memory": memory}), str(output.absolute().parent))
+    values = merged(base, given | given_of(options))
+    study = given_of({"length_over_critical": length_over_critical})
+    run = planned(values, study, given_of({"memory": memory}), str(output.absolute().parent))
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo(f"Warning: {text}", err=True)
@@ -112,47 +81,6 @@ def command(
         return DONE
     click.echo("\n".join(_plan_lines(run)))
     return _simulate(run, output, _command(output, run))
-
-
-def _merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
-    """All values, from a base or the defaults, and those given; constants of friction set its law.
-
-    Without a base, the block's length is left out unless it is given: it follows from the theory.
-    """
-    plain = {name: value for name, value in given.items() if name not in CONSTANTS}
-    parameters = (base or Parameters()).replaced(plain)
-    friction = with_constants(parameters.friction, parameters.loading.velocity, given)
-    values = _flat(dataclasses.replace(parameters, friction=friction))
-    if base is None and "length" not in given:
-        del values["length"]
-    return values
-
-
-def planned(
-    values: dict[str, Any], study: dict[str, Any], limits: dict[str, Any], results: str
-) -> Run:
-    """The run that values by their names in studies stand for, checked as a configuration.
-
-    Raises
-    ------
-    ParameterError
-        With all that is wrong with it.
-    """
-    defaults = dict(values)
-    runs = [{"height": defaults.pop("height")}]
-    study = study | {"defaults": defaults, "runs": runs}
-    try:
-        settings = configure({"studies": {STUDY: study}, "limits": limits, "results": results})
-    except ParameterError as error:
-        text = str(error)
-        for place in (f"studies.{STUDY}.runs[0]", f"studies.{STUDY}.defaults"):
-            text = text.replace(f"{place}: ", "").replace(f"{place}.", "")
-        raise ParameterError(text) from None
-    return settings.runs[0]
-
-
-def _given(values: dict[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in values.items() if value is not None}
 
 
 def _check_output(output: Path, force: bool) -> None:
@@ -178,7 +106,7 @@ def _plan_lines(run: Run) -> list[str]:
 
 def _command(output: Path, run: Run) -> str:
     """A command line that makes the dataset again: what differs from the defaults."""
-    values, usual = _flat(run.parameters), _flat(Parameters())
+    values, usual = flat(run.parameters), flat(Parameters())
     changed = {k: v for k, v in values.items() if k == "length" or v != usual.get(k)}
     words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
     return shlex.join(["nucleation", "simulate", str(output), *words])

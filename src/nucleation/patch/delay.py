@@ -1,0 +1,212 @@
+"""The length at the drop under a declared perturbation, from one quiet run and without a fit.
+
+At L_s the creeping patch turns unstable, in a slow passage through a Hopf bifurcation. The drop
+follows once its oscillating mode has grown to the size of the loading: the amplitude A of
+:mod:`.mode_history`, driven by a perturbation of relative strength eps, reaches one. Where the
+fluctuations near the mode's own frequency have the spectral density S, its mean square is
+
+    sigma(t)^2 = eps^2 int_0^t abs(g)^2 S(Im Lambda) exp(2 int_s^t Re Lambda) ds.
+
+At late times A is a complex Gaussian number times a growing exponential, and so ``|A| / sigma`` is
+Rayleigh distributed: a part P of the realisations has dropped by the length where
+``sigma = 1/sqrt(-log(P))``. With Re Lambda linear in L and a steady front that is, in one line,
+
+    L_d = L_s + sqrt(2 (dL/dt) log(1/eps_eff) / (d Re Lambda/dL)),
+    eps_eff = eps sqrt(abs(g)^2 S log 2) [pi / ((d Re Lambda/dL) dL/dt)]^(1/4)      (the median).
+
+The law ends where its own assumption does: a burst of slip at a rate of a few V may come to rest
+again, the more often the shorter the patch. The drop is then one or more bursts late.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.perturbation import Perturbation
+from ..simulation.realisation import Series, Sheet, correlation, profile, spectral_density
+from .continued import Path, complex_trend, continued, exponent_of, roughness_weights, trend
+from .mode_history import ModeHistory
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+NEAR = 1.3  # lengths over L_s through which the closed form lays its straight lines
+SAMPLED = 8.0  # points of a roughness in its correlation length
+TINY = 1e-300  # in place of zero, of which there is no logarithm
+MEDIAN, EARLY, LATE = 0.5, 0.16, 0.84  # parts of the realisations that have dropped by then
+
+
+class Drop(NamedTuple):
+    """The drop to be expected: its median, and what 16 and 84 % of the realisations are below."""
+
+    length: float  # m
+    low: float
+    high: float
+    time: float  # s
+    time_low: float
+    time_high: float
+
+
+class ClosedForm(NamedTuple):
+    """The drop in one line: L_s (m), and median length (m) from the three numbers of the line."""
+
+    stability_length: float  # m
+    length: float  # m
+    front_speed: float  # dL/dt, m/s
+    growth_slope: float  # d Re Lambda/dL, 1/(m s)
+    effective: float  # eps_eff
+
+
+@dataclasses.dataclass(frozen=True)
+class Growth:
+    """Amplitude of the mode per strength, over the patch's length and time."""
+
+    time: Array  # s
+    length: Array  # m
+    log_amplitude: Array  # log(sigma / eps), or log(|A| / eps) of one realisation
+    exponent: Array  # int Re Lambda dt
+
+    def at(self, amplitude: float) -> tuple[float, float]:
+        """Length (m) and time (s) where the amplitude per strength last passes a value, or NaN."""
+        above = self.log_amplitude >= np.log(amplitude)
+        if not above[-1] or above.all():
+            return float("nan"), float("nan")
+        i = int(np.flatnonzero(~above)[-1])
+        ends = self.log_amplitude[i : i + 2]
+        length, time = (
+            float(np.interp(np.log(amplitude), ends, values[i : i + 2]))
+            for values in (self.length, self.time)
+        )
+        return length, time
+
+    def drop(self, strength: float) -> Drop:
+        """The drop to be expected at a relative strength; NaN where the law does not reach."""
+        found = [
+            self.at(1.0 / (strength * np.sqrt(-np.log(part)))) for part in (MEDIAN, EARLY, LATE)
+        ]
+        lengths, times = zip(*found, strict=True)
+        return Drop(*lengths, *times)
+
+    def closed_form(self, history: ModeHistory, strength: float) -> ClosedForm:
+        """The median drop at a relative strength in one line."""
+        i = int(np.argmin(self.exponent))  # where growth begins
+        start = float(self.length[i])
+        near = (self.length >= start) & (self.length <= NEAR * start)
+        rate = trend(history, history.rate.real)(self.length[near])
+        slope = float(np.polyfit(self.length[near], rate, 1)[0])
+        speed = float(np.polyfit(self.time[near], self.length[near], 1)[0])
+        at = np.flatnonzero(near)[-1]
+        seed = self.log_amplitude[at] - (self.exponent[at] - self.exponent[i])
+        effective = float(strength * np.sqrt(np.log(2.0)) * np.exp(seed))
+        delay = np.sqrt(max(2.0 * speed * np.log(1.0 / effective) / slope, 0.0))
+        return ClosedForm(start, start + float(delay), speed, slope, effective)
+
+
+def growth(history: ModeHistory, declared: Perturbation) -> Growth:
+    """How the mode grows under a kind of forcing of a given correlation, in the mean square.
+
+    The run is carried on beyond its own drop by the trends of L(t) and Lambda(L).
+
+    Parameters
+    ----------
+    history : of a quiet run.
+    declared : kind and correlation; strength and seed are not used.
+
+    Raises
+    ------
+    ValueError
+        If nothing is declared to be perturbed.
+    """
+    path = continued(history)
+    if declared.kind == "strength":
+        return _growth(path, _log_gathered(history, path, declared))
+    log_power = trend(history, np.log(_power(history, declared)))(path.length)
+    return _growth(path, 0.5 * _log_variance(path, log_power))
+
+
+def _power(history: ModeHistory, declared: Perturbation) -> Array:
+    """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
+    memory, omega = history.parameters.memory_time, history.rate.imag
+    spectrum = spectral_density(omega, declared.correlation_time * memory)
+    if declared.kind == "normal_load":
+        return np.abs(history.normal_load) ** 2 * spectrum
+    if declared.kind == "drive_velocity":
+        # displacement follows velocity by 1/(i omega)
+        velocity = history.parameters.loading.velocity
+        return np.abs(history.drive * velocity / omega) ** 2 * spectrum
+    if declared.kind == "state":
+        covariance = correlation(history.x[:, None] - history.x, declared.correlation_length)
+        shares = np.einsum("ix,xy,iy->i", history.state, covariance, history.state.conj()).real
+        return shares / memory**2 * spectrum
+    raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
+
+
+def _log_gathered(history: ModeHistory, path: Path, declared: Perturbation) -> Array:
+    """log(sigma / eps) under roughness of the strength, which the front runs over."""
+    x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
+    covariance = correlation(x[:, None] - x, declared.correlation_length)
+    squares = (
+        (log, float((a @ covariance @ a.conj()).real))
+        for log, a in roughness_weights(history, path, x)
+    )
+    return np.array([log + 0.5 * np.log(max(square, TINY)) for log, square in squares])
+
+
+def realised(history: ModeHistory, declared: Perturbation) -> Growth:
+    """How the mode grows in one realisation, that of the declared seed; its strength is not used.
+
+    Raises
+    ------
+    ValueError
+        If nothing is declared to be perturbed.
+    """
+    path = continued(history)
+    if declared.kind == "strength":
+        x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
+        rough = profile(declared.seed, declared.correlation_length, x)
+        sums = ((log, float(abs(a @ rough))) for log, a in roughness_weights(history, path, x))
+        return _growth(path, np.array([log + np.log(max(s, TINY)) for log, s in sums]))
+    return _growth(path, _log_integrated(path, _forcing(history, path, declared)))
+
+
+def _forcing(history: ModeHistory, path: Path, declared: Perturbation) -> ComplexArray:
+    """``g xi`` (1/s) at the times of a path, for the seed of a forcing in time."""
+    memory, seed = history.parameters.memory_time, declared.seed
+    time = declared.correlation_time * memory
+    if declared.kind == "state":
+        sheet = Sheet(seed, time, declared.correlation_length, history.x)
+        state = complex_trend(history, history.state / memory)
+        places = zip(path.length, path.time, strict=True)
+        return np.array([state(length) @ sheet.values(t) for length, t in places])
+    series = Series(seed, time)
+    if declared.kind == "normal_load":
+        weights = complex_trend(history, history.normal_load)
+        return weights(path.length) * [series.value(t) for t in path.time]
+    if declared.kind == "drive_velocity":
+        weights = complex_trend(history, history.drive * history.parameters.loading.velocity)
+        return weights(path.length) * [series.integral(t) for t in path.time]
+    raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
+
+
+def _log_integrated(path: Path, forcing: ComplexArray) -> Array:
+    """log|A| (per strength) from ``dA/dt = Lambda A + forcing``, from zero on, without overflow."""
+    exponent, step = exponent_of(path), path.time[1] - path.time[0]
+    seeds = np.cumsum(step * forcing * np.exp(-exponent))
+    return exponent.real + np.log(np.maximum(np.abs(seeds), TINY))
+
+
+def _growth(path: Path, log_amplitude: Array) -> Growth:
+    at = np.linspace(0, path.time.size - 1, log_amplitude.size)
+    every = np.interp(np.arange(path.time.size), at, log_amplitude)
+    return Growth(path.time, path.length, every, exponent_of(path).real)
+
+
+def _log_variance(path: Path, log_power: Array) -> Array:
+    """``log int exp(log_power + 2 int_s^t Re Lambda) ds``, without overflow."""
+    exponent = 2.0 * exponent_of(path).real
+    terms = log_power - exponent + np.log(path.time[1] - path.time[0])
+    return exponent + np.logaddexp.accumulate(terms)

@@ -1,0 +1,141 @@
+"""The drop that a user's fault is to be expected to have, from one quick quiet run.
+
+The quiet run is made on a mesh just fine enough, without its event: the creep alone is asked for,
+up to a patch length at which its mode has long been unstable. Its trends carry the law beyond.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..analysis.definitions import Extent, ExtractionSettings
+from ..model.parameters import Mesh, Parameters
+from ..model.perturbation import Perturbation
+from ..simulation.composition import composed
+from ..simulation.event import FAST
+from ..simulation.recording import Recorder
+from ..simulation.run import run
+from ..theory.estimates import growth_time
+from .continued import trend
+from .delay import ClosedForm, Drop, growth
+from .mode_history import ModeHistory, follow_mode
+
+QUICK = Mesh(n_x=300, n_y=8, grading=20.0)
+BLOCK = 3.0  # longest block of the quiet run, over the theory's length: its end is not felt
+QUICK_STEP = 0.1  # longest, over D/V
+REACH = 0.7  # of the theory's length, up to which the quiet run is followed
+OVERDUE = 3.0  # times the time that it is expected to take
+FEWEST = 8  # instants with an oscillating mode
+STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
+
+
+class NoDrop(ValueError):
+    """The law can't say where the fault drops."""
+
+
+class ExpectedDrop(NamedTuple):
+    """What is to be expected of a fault under its declared perturbation; lengths in m."""
+
+    drop: Drop
+    closed_form: ClosedForm
+    doubt: str  # why the law should not be relied upon here, empty if it should
+
+    @property
+    def trusted(self) -> bool:
+        """Whether the law holds as far as its own numbers tell."""
+        return not self.doubt
+
+
+def expected_drop(
+    parameters: Parameters, theory_length: float,
+    settings: ExtractionSettings = ExtractionSettings(), mesh: Mesh = QUICK,
+) -> ExpectedDrop:  # fmt: skip
+    """L_s and the length at the drop of a fault under its declared perturbation.
+
+    Parameters
+    ----------
+    parameters : the fault, its loads, the block and the perturbation; its own mesh is not used.
+    theory_length : the theory's critical length (m), which bounds the quiet run.
+    settings : definition of the patch's edge.
+    mesh : of the quiet run.
+
+    Raises
+    ------
+    NoDrop
+        Nothing is perturbed, or the patch has no oscillating mode that begins to grow within the
+        quiet run.
+    """
+    declared = parameters.perturbation
+    if not declared.acts:
+        raise NoDrop("nothing is perturbed: without a strength the drop depends on round-off")
+    length = min(parameters.geometry.length, BLOCK * theory_length)
+    record = quick_run(
+        parameters.replaced({"geometry.length": length}), REACH * theory_length, settings, mesh
+    )
+    try:
+        history = follow_mode(record, settings)
+    except ValueError as error:
+        raise NoDrop(str(error)) from None
+    if not _begins_to_grow(history):
+        longest = history.length[-1] / theory_length
+        raise NoDrop(
+            "the creeping patch has no oscillating mode that begins to grow up to "
+            f"{longest:.2g} L_c, where the quiet run ends"
+        )
+    return _expected(history, declared)
+
+
+def _begins_to_grow(history: ModeHistory) -> bool:
+    """By the trend: on a coarse mesh the front's hops take growth to and fro."""
+    if history.time.size < FEWEST:
+        return False
+    first, last = trend(history, history.rate.real)(history.length[[0, -1]])
+    return bool(first < 0.0 < last)
+
+
+def _expected(history: ModeHistory, declared: Perturbation) -> ExpectedDrop:
+    found = growth(history, declared)
+    drop, closed = found.drop(declared.strength), found.closed_form(history, declared.strength)
+    doubt = ""
+    if closed.effective >= STRONGEST:
+        doubt = (
+            f"the perturbation is strong (eps_eff = {closed.effective:.2g}, the law holds below "
+            f"{STRONGEST:g}): bursts that come to rest may make the drop later"
+        )
+    elif not np.isfinite([drop.length, drop.low, drop.high]).all():
+        doubt = "the drop lies beyond the lengths that the quiet run's trends are carried on to"
+    return ExpectedDrop(drop, closed, doubt)
+
+
+def quick_run(
+    parameters: Parameters,
+    longest: float,
+    settings: ExtractionSettings = ExtractionSettings(),
+    mesh: Mesh = QUICK,
+) -> xr.Dataset:
+    """The record of a quiet run up to a patch length (m), or to its event if that comes first.
+
+    However long it is asked to run: it ends when it should have been there for long.
+    """
+    stepping = dataclasses.replace(parameters.stepping, longest_step=QUICK_STEP)
+    quiet = dataclasses.replace(
+        parameters, mesh=mesh, perturbation=Perturbation(), stepping=stepping
+    )
+    dynamics, velocity = composed(quiet), quiet.loading.velocity
+    recorder = Recorder(quiet, dynamics)
+    latest = OVERDUE * growth_time(quiet, longest)
+    patch = Extent(dynamics.grid.x, settings.edge_threshold * velocity)
+    for instant in run(quiet, dynamics=dynamics):
+        recorder.record(instant.state, instant.report)
+        rates = instant.report.interface.slip_rate
+        if (
+            patch.reach(rates) >= longest
+            or rates.max() > FAST * velocity
+            or instant.state.time >= latest
+        ):
+            break
+    return recorder.dataset()

@@ -1,0 +1,136 @@
+"""The oscillating mode of the creeping patch along a quiet run, and how a forcing stirs it.
+
+With the frozen patch of :mod:`.frozen`, the mode's complex amplitude A obeys
+
+    dA/dt = Lambda A + eps g(t) xi,
+
+scaled such that A = 1 where the slip rate swings by V. The left eigenvector gives g: linearised
+force balance at the slipping nodes, ``(D + f N) dw + R (f_v dv + f_psi dpsi) + q = 0``, makes of
+each kind of forcing (:mod:`nucleation.model.perturbation`)
+
+    normal_load      q = (p_0 + f R_0) eps xi(t), of the forces by which the load acts at fixed w
+    drive_velocity   q = -(D + f N) 1 eps V int xi dt, in the frame of the stuck fault
+    strength         q = f R eps xi(x)
+    state            eps (V/D) xi(x, t) in d(dpsi)/dt
+
+Left out is what freezing leaves out: dl/dt, and the nodes at the front that begin to slip
+(docs/patch_stability.md). Either changes growth by some 0.2 1/s, where Re Lambda comes to 3 1/s.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..analysis.definitions import ExtractionSettings
+from ..analysis.record import Record
+from ..fem.block import Block
+from ..fem.operator import BlockOperator
+from ..model.parameters import Parameters
+from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+INSTANTS = 80  # at which the patch is frozen, evenly in length
+FROM = 0.6  # they begin at this part of the length at the end of the creep
+
+
+@dataclasses.dataclass(frozen=True)
+class ModeHistory:
+    """The oscillating mode along a quiet run, on (instant) or (instant, x).
+
+    The weights are those of ``A`` in each kind of forcing, for a mode whose slip rate swings by V.
+    """
+
+    parameters: Parameters
+    x: Array  # m
+    time: Array  # s
+    length: Array  # m
+    rate: ComplexArray  # Lambda (1/s)
+    normal_load: ComplexArray  # g (1/s) of a relative change of the load
+    drive: ComplexArray  # g (1/(m s)) of a displacement of the driven edge
+    strength: ComplexArray  # g (1/s) of a relative change of friction at each node
+    state: ComplexArray  # g (1) of a source in d log(phi)/dt at each node
+
+
+class _Loads(NamedTuple):
+    """Forces (N/m) at the nodes 0..n_x per unit of a forcing: tangential and normal ones."""
+
+    load: tuple[Array, Array]  # the load on the top, at fixed w
+    shift: tuple[Array, Array]  # w = 1 m everywhere
+
+
+def follow_mode(
+    simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+) -> ModeHistory:
+    """The oscillating mode of a quiet run up to its onset, and how each forcing stirs it.
+
+    Parameters
+    ----------
+    simulation : of :func:`nucleation.simulation.run.simulate`, or of a recorder stopped before the
+        event; without a perturbation that changes the path.
+    settings : definitions of the patch's edge and of the drop.
+
+    Raises
+    ------
+    ValueError
+        If the patch has no oscillating mode at any instant.
+    """
+    record = Record(simulation, settings)
+    parameters, grid = record.parameters, record.grid
+    operator = Block(grid, parameters.material).operator(0.0)
+    creep, threshold = record.simulation.isel(time=record.creep), record.threshold
+    time, length = record.time[record.creep], record.lengths[record.creep]
+    wanted = np.linspace(FROM * length[-1], length[-1], INSTANTS)
+    frames = np.unique(np.searchsorted(length, wanted).clip(0, length.size - 1))
+    loads = _loads(operator, parameters)
+    rows = []
+    for i in frames:
+        rate, state, stress = (
+            creep[name].values[i] for name in ("slip_rate", "state", "normal_stress")
+        )
+        force = -stress * grid.nodal_lengths
+        patch = frozen_patch(operator, parameters.friction, rate, state, force, threshold)
+        pair = patch.oscillating(OSCILLATING / parameters.memory_time)
+        if np.isfinite(pair):
+            weights = _weights(patch, pair, parameters, (rate, state, force), loads)
+            rows.append((time[i], length[i], pair, *weights))
+    if not rows:
+        raise ValueError("the creeping patch has no oscillating mode")
+    columns = [np.array(column) for column in zip(*rows, strict=True)]
+    return ModeHistory(parameters, grid.x, *columns)
+
+
+def _loads(operator: BlockOperator, parameters: Parameters) -> _Loads:
+    body = operator.body
+    at_rest = operator.respond(
+        body.top_load(parameters.loading.normal_stress), np.zeros(body.grid.n_x)
+    )
+    tangential, normal = operator.apply(np.ones(body.grid.n_x))
+    return _Loads(
+        (np.append(0.0, at_rest.tangential), at_rest.normal), (np.append(0.0, tangential), normal)
+    )
+
+
+def _weights(
+    patch: FrozenPatch, rate: complex, parameters: Parameters, fields: tuple[Array, Array, Array],
+    loads: _Loads,
+) -> tuple[complex, complex, ComplexArray, ComplexArray]:  # fmt: skip
+    """The weights of a :class:`ModeHistory` at one instant, from the fields at all nodes."""
+    n, nodes = patch.nodes.size, patch.nodes
+    v, phi, force = (field[nodes] for field in fields)
+    law = parameters.friction
+    f, (f_v, _) = law.coefficient(v, phi), law.derivatives(v, phi)
+    # a mode of largest displacement 1 and its conjugate swing the slip rate by 2 |Lambda|
+    left = 2.0 * abs(rate) / parameters.loading.velocity * patch.amplitude(rate)
+    by_rate = left[:n] + patch.evolution_by_rate * left[n:]  # of what is added to dv
+    by_force = -by_rate / (force * f_v)
+    along_x = np.zeros((2, parameters.mesh.n_x + 1), dtype=complex)
+    along_x[0, nodes], along_x[1, nodes] = by_force * f * force, left[n:]
+    load, shift = (p[nodes] + f * normal[nodes] for p, normal in loads)
+    return complex(by_force @ load), complex(-by_force @ shift), along_x[0], along_x[1]

@@ -1,0 +1,86 @@
+"""``nucleation drop``: what it asks of the law, what it prints of the answer, what it refuses."""
+
+import json
+
+import pytest
+
+from nucleation.patch import expected_drop as module
+from nucleation.patch.delay import ClosedForm, Drop
+from nucleation.patch.expected_drop import ExpectedDrop, NoDrop
+
+DROP = Drop(0.32, 0.31, 0.33, 14.0, 13.5, 14.5)
+CLOSED = ClosedForm(0.25, 0.322, 0.014, 50.0, 1e-5)
+WORDS = ("drop", "--height", "2cm", "--strength", "1e-4")
+
+
+class Law:
+    """In place of the law of the drop: an answer, and what was asked for it."""
+
+    answer = ExpectedDrop(DROP, CLOSED, "")
+    parameters = None
+    theory_length = None
+
+    def __call__(self, parameters, theory_length):
+        self.parameters, self.theory_length = parameters, theory_length
+        if isinstance(self.answer, Exception):
+            raise self.answer
+        return self.answer
+
+
+@pytest.fixture
+def law(monkeypatch):
+    made = Law()
+    monkeypatch.setattr(module, "expected_drop", made)
+    return made
+
+
+def test_it_asks_for_the_fault_that_is_given(nucleation, law):
+    assert nucleation(*WORDS, "--law", "slip", "--perturbation", "state", "--seed", 3).code == 0
+    assert law.parameters.geometry.height == 0.02
+    assert law.parameters.friction.evolution == "slip"
+    declared = law.parameters.perturbation
+    assert (declared.kind, declared.strength, declared.seed) == ("state", 1e-4, 3)
+    assert 0.4 < law.theory_length < 0.5
+    nucleation("drop", "--height", "2cm")
+    assert (law.parameters.perturbation.kind, law.parameters.perturbation.strength) == (
+        "normal_load", 1e-3
+    )  # fmt: skip
+
+
+def test_text(nucleation, law):
+    ended = nucleation(*WORDS)
+    assert (ended.code, ended.err) == (0, "")
+    assert f"L_c    {law.theory_length:.4g} m" in ended.out
+    assert f"L_s    0.25 m      {0.25 / law.theory_length:.3g} L_c" in ended.out
+    assert f"L_d    0.32 m      {0.32 / law.theory_length:.3g} L_c" in ended.out
+    assert "0.31 m" in ended.out and "0.33 m" in ended.out and "13.5 to 14.5 s" in ended.out
+    assert "normal_load, relative strength 0.0001, correlated over 1 D/V" in ended.out
+    assert "docs/drop.md" in ended.out and "DO NOT" not in ended.out
+
+
+def test_doubt_is_said_in_words(nucleation, law):
+    law.answer = ExpectedDrop(DROP, CLOSED, "the perturbation is strong")
+    assert "DO NOT RELY ON IT: the perturbation is strong." in nucleation(*WORDS).out
+
+
+def test_json(nucleation, law):
+    found = json.loads(nucleation(*WORDS, "--json").out)
+    assert found["stability_length"] == 0.25
+    assert found["drop"]["length"] == 0.32 and found["closed_form"]["effective"] == 1e-5
+    assert found["trusted"] is True and found["doubt"] == ""
+    assert found["perturbation"]["kind"] == "normal_load"
+
+
+@pytest.mark.parametrize("words", [(), ("--json",)])
+def test_a_fault_that_the_law_does_not_reach(nucleation, law, words):
+    law.answer = NoDrop("no mode grows")
+    ended = nucleation(*WORDS, *words)
+    assert ended.code == 4
+    assert "no mode grows" in ended.out
+
+
+def test_without_a_perturbation_there_is_nothing_to_say(nucleation, law):
+    ended = nucleation("drop", "--perturbation", "none")
+    assert ended.code == 2
+    assert "round-off" in ended.err
+    assert law.parameters is None

@@ -1,0 +1,108 @@
+"""The law of the drop against its closed form, against realisations, and against a simulation."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.extraction import extract
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import Perturbation
+from nucleation.patch.continued import trend
+from nucleation.patch.delay import growth, realised
+from nucleation.patch.mode_history import ModeHistory, follow_mode
+from nucleation.simulation.realisation import spectral_density
+from nucleation.simulation.run import simulate
+
+PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.7), mesh=Mesh(n_x=400, n_y=8))
+START, SPEED, SLOPE, FREQUENCY = 0.25, 0.014, 50.0, 11.0  # L_s, dL/dt, d Re Lambda/dL, Im Lambda
+LOAD = Perturbation(kind="normal_load", strength=1e-5)
+
+
+def history(share=600.0):
+    """A mode whose growth is linear in the length of a patch that grows steadily."""
+    x = np.linspace(0.0, 2.7, 401)
+    length = np.linspace(0.18, 0.33, 40)
+    along_x = np.zeros((40, 401), dtype=complex)
+    along_x[:, :30] = 0.1
+    rate = SLOPE * (length - START) + 1j * FREQUENCY
+    constant = np.full(40, share, dtype=complex)
+    time = (length - 0.18) / SPEED
+    return ModeHistory(PARAMETERS, x, time, length, rate, constant, constant, along_x, along_x)
+
+
+def exact_median(strength, share=600.0):
+    density = spectral_density(FREQUENCY, 0.05)
+    gathered = np.sqrt(np.log(2.0) * density) * (np.pi / (SLOPE * SPEED)) ** 0.25
+    effective = strength * share * gathered
+    return START + np.sqrt(2.0 * SPEED * np.log(1.0 / effective) / SLOPE)
+
+
+@pytest.mark.parametrize("strength", [1e-10, 1e-7, 1e-5])
+def test_linear_growth_gives_the_closed_form(strength):
+    found = growth(history(), LOAD)
+    drop, closed = found.drop(strength), found.closed_form(history(), strength)
+    assert drop.length == pytest.approx(exact_median(strength), rel=2e-3)
+    assert closed.length == pytest.approx(exact_median(strength), rel=2e-3)
+    assert closed.stability_length == pytest.approx(START, rel=1e-3)
+    assert closed.front_speed == pytest.approx(SPEED, rel=1e-6)
+    assert closed.growth_slope == pytest.approx(SLOPE, rel=1e-6)
+    assert drop.low < drop.length < drop.high
+    assert drop.time == pytest.approx((drop.length - 0.18) / SPEED)
+
+
+def test_realisations_are_distributed_as_the_law_says():
+    found = growth(history(), LOAD).drop(1e-6)
+    drops = [
+        realised(history(), dataclasses.replace(LOAD, seed=seed)).at(1e6)[0] for seed in range(48)
+    ]
+    low, middle, high = np.quantile(drops, [0.16, 0.5, 0.84])
+    spread = found.high - found.low
+    assert middle == pytest.approx(found.length, abs=0.4 * spread)
+    assert high - low == pytest.approx(spread, rel=0.5)
+
+
+@pytest.mark.parametrize("kind", ["drive_velocity", "state"])
+def test_mean_square_of_realisations(kind):
+    declared = Perturbation(kind=kind, strength=1e-5, correlation_length=0.05)
+    mean = growth(history(), declared)
+    late = int(0.8 * mean.time.size)
+    squares = [
+        np.exp(2 * realised(history(), dataclasses.replace(declared, seed=s)).log_amplitude[late])
+        for s in range(24)
+    ]
+    assert np.mean(squares) == pytest.approx(np.exp(2 * mean.log_amplitude[late]), rel=0.6)
+
+
+def test_no_drop_where_the_law_does_not_reach():
+    found = growth(history(), LOAD)
+    assert np.isnan(found.drop(1e-300).length)
+
+
+def test_trend_goes_on_in_a_straight_line():
+    own = history()
+    at = trend(own, own.rate.real)
+    assert at(np.array([0.4, 0.5])) == pytest.approx([SLOPE * 0.15, SLOPE * 0.25], rel=1e-6)
+
+
+@pytest.fixture(scope="module")
+def quiet():
+    stepping = Stepping(end_time=60.0, time_after_event=0.0, longest_step=0.1)
+    mesh = Mesh(n_x=400, n_y=6, grading=20.0)
+    return dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping)
+
+
+def test_a_run_and_its_mode(quiet):
+    own = follow_mode(simulate(quiet))
+    assert own.rate.real[0] < 0.0 < own.rate.real[-1]
+    # less friction everywhere is as more load: R follows the load but for the block's ends
+    uniform = own.strength.sum(axis=1)
+    np.testing.assert_allclose(np.abs(own.normal_load), np.abs(uniform), rtol=0.05)
+
+
+def test_a_perturbed_run_drops_where_its_own_realisation_says(quiet):
+    own = follow_mode(simulate(quiet))
+    declared = Perturbation(kind="state", strength=1e-3, seed=4)
+    measured = extract(simulate(dataclasses.replace(quiet, perturbation=declared)))
+    expected, _ = realised(own, declared).at(1e3)
+    assert measured["length"] == pytest.approx(expected, rel=0.05)
