@@ -6,7 +6,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
 
+import numpydoc.numpydoc  # noqa: E402
+
 from nucleation import __version__  # noqa: E402
+
+# It looks for signatures in docstrings, where ours have none, and those of builtins that a module
+# imports (deque) make Sphinx fail.
+numpydoc.numpydoc.mangle_signature = lambda *_: None
 
 project = "nucleation"
 author = "The nucleation developers"
