@@ -134,7 +134,7 @@ def test_results_in_the_place_of_a_file_stop_before_any_job(workflow):
 @pytest.mark.parametrize(
     ("arguments", "fragment"),
     [
-        (["figure_4"], "No rule to produce figure_4"),
+        (["figure_4"], "no target figure_4: did you mean figure_"),
         (["table_s1", "--cores", "0"], "--cores must be 1 or more"),
         (["table_s1", "--config", "results="], "results = None is not allowed"),
     ],
