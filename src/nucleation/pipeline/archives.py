@@ -28,7 +28,9 @@ CONFIGURATION = "config.yaml"
 DESCRIPTIONS = (CONFIGURATION, MANIFEST, CRATE, CHECKSUMS)
 """Files at the top of an archive, which tell about it and stay in it."""
 
-RESULTS = (".nc", ".csv", ".json", ".md", ".html", ".pdf", ".png", ".gif", ".log", ".txt", ".tex")
+RESULTS = (
+    ".nc", ".csv", ".json", ".md", ".html", ".pdf", ".png", ".gif", ".log", ".tsv", ".txt", ".tex",
+)  # fmt: skip
 """Endings of the files that the workflow makes; none that Python, a shell or git would run."""
 
 LARGEST_DESCRIPTION = 2**26  # bytes; the checksums of a hundred thousand files take 15 MB
