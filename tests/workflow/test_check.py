@@ -1,6 +1,7 @@
 """The target `check`: what is not current is found from the files alone."""
 
 import dataclasses
+import json
 import re
 import shutil
 
@@ -135,4 +136,4 @@ def test_every_damage_of_a_record_is_a_finding(tmp_path):
 
 def test_sources_and_units_stand_in_datasets(quick):
     dataset = netcdf.read(quick.directory / "results/quick/lengths/paper.nc")
-    assert all(keys.key_in(path) for path in eval(dataset.attrs["sources"]))
+    assert all(keys.key_in(path) for path in json.loads(dataset.attrs["sources"]))

@@ -25,6 +25,9 @@ LENGTH = 16
 KEYED = re.compile(rf"\.([0-9a-f]{{{LENGTH}}})\.nc$")
 """The end of a name that bears its key."""
 
+PARTS = ("code", "parameters", "sources")
+"""What makes a result."""
+
 RECORDS = ".made"
 """Directory below the results with the records of files with plain names."""
 
@@ -48,7 +51,7 @@ def parts(code: str, parameters: Any, sources: Mapping[str, Sequence[str]]) -> d
     """Digests of what makes a result: the arguments of :func:`key`, one by one."""
     return {
         name: hashlib.sha256(plain(values).encode()).hexdigest()
-        for name, values in (("code", code), ("parameters", parameters), ("sources", sources))
+        for name, values in zip(PARTS, (code, parameters, sources), strict=True)
     }
 
 
@@ -126,10 +129,16 @@ class Store:
 
     def key_of(self, path: str | Path) -> str | None:
         """The key that a file's record vouches for; None without a record that fits the file."""
+        record = self._record(path)
+        if record is None or record.pop("content") != content(path):
+            return None
+        return joined(record)
+
+    def _record(self, path: str | Path) -> dict[str, str] | None:
+        """What a file's record says: its parts and its content; None if it can't be told."""
         try:
             record = json.loads(self.record_of(path).read_text("utf-8"))
-            made = {name: record[name] for name in ("code", "parameters", "sources")}
-            return joined(made) if record["content"] == content(path) else None
+            return {name: record[name] for name in (*PARTS, "content")}
         except (OSError, ValueError, KeyError, TypeError):
             return None
 
@@ -137,10 +146,8 @@ class Store:
         """Why a file with a plain name is not what :func:`parts` says, or None if it is."""
         if not Path(path).is_file():
             return "it is missing"
-        try:
-            record = json.loads(self.record_of(path).read_text("utf-8"))
-            found = {name: record[name] for name in (*wanted, "content")}
-        except (OSError, ValueError, KeyError, TypeError):
+        found = self._record(path)
+        if found is None:
             return "nothing vouches for it: there is no record of how it was made"
         if found.pop("content") != content(path):
             return "it is not what was written"

@@ -32,13 +32,14 @@ class Planner:
 
     Parameters
     ----------
-    workflow : Snakemake's, whose rules may still be added.
+    workflow : Snakemake's; rules that make a file are there before it is asked for.
     store : of the results.
     """
 
     def __init__(self, workflow: Any, store: Store) -> None:
         self._workflow, self.store = workflow, store
         self._parts: dict[str, dict[str, str]] = {}
+        self._producers: dict[str, Any] = {}
 
     def made_by(
         self, script: str | Path, modules: Sequence[str] | Callable[[Any], Sequence[str]] = ()
@@ -116,10 +117,14 @@ class Planner:
 
     def _producer(self, path: str) -> Any:
         """The rule that makes a file, with its wildcards; None if no rule does."""
-        for rule in self._workflow.rules:
-            if not rule.norun and hasattr(rule.params, "code") and rule.is_producer(path):
-                return rule, Wildcards(fromdict=rule.get_wildcards(path))
-        return None
+        if path not in self._producers:
+            found = (
+                (rule, Wildcards(fromdict=rule.get_wildcards(path)))
+                for rule in self._workflow.rules
+                if not rule.norun and hasattr(rule.params, "code") and rule.is_producer(path)
+            )
+            self._producers[path] = next(found, None)
+        return self._producers[path]
 
     def problem(self, path: str) -> str | None:
         """Why a file is not what the rules would make now; None if it is, or no rule makes it."""
