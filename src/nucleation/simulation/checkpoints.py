@@ -146,5 +146,5 @@ def _digest(arrays: Arrays) -> str:
     summary = hashlib.sha256()
     for name, values in sorted(arrays.items()):
         summary.update(f"{name} {values.dtype} {values.shape}\n".encode())
-        summary.update(np.ascontiguousarray(values))  # type: ignore[arg-type]
+        summary.update(np.ascontiguousarray(values).tobytes())
     return summary.hexdigest()
