@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nucleation.model.material import Material
-from nucleation.theory.fields import block_displacement, layer_displacement
+from nucleation.theory.fields import block_displacement
 from nucleation.theory.transfer import RIGID, Body, response_matrix, transfer_functions
 
 MU, NU, HEIGHT = 3.1e9, 0.29, 0.2
@@ -23,6 +23,21 @@ def stresses(field, k, y, step):
     strain_xx, strain_yy, strain_xy = -1j * k * u[0], du[1], 0.5 * (du[0] - 1j * k * u[1])
     modulus = 2 * MU / (1 - 2 * NU)
     return 2 * MU * strain_xy, modulus * ((1 - NU) * strain_yy + NU * strain_xx)
+
+
+def layer_displacement(k, y, height, nu, amplitudes):
+    """A layer held at its far side, ``u_x = sigma_yy = 0`` at y = H, as printed (Eq. S-sol_BC).
+
+    The amplitudes are B1 and B2 of the paper times ``exp(|H k|)``, so that nothing overflows.
+    """
+    b1, b2 = amplitudes
+    q, t = height * k, np.asarray(y, dtype=float) / height
+    depth = q * (1 - t)
+    grow, decay = np.exp(depth - abs(q)), np.exp(-depth - abs(q))
+    sinh, cosh = 0.5 * (grow - decay), 0.5 * (grow + decay)
+    u_x = b1 * sinh - b2 * q * (decay - t * cosh)
+    u_y = -1j * b1 * cosh - 1j * b2 * ((3 - 4 * nu) * cosh + q * (decay + t * sinh))
+    return np.stack([u_x, u_y])
 
 
 def layer(k):

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory import closed_forms, conventional, literature
+from nucleation.theory import closed_forms, literature
 from nucleation.theory.arrays import critical_length
 from nucleation.theory.fault import Fault
 from nucleation.theory.literature_table import (
@@ -37,14 +37,19 @@ def one(key, **changes):
     return lengths_in_use(**fault)[key].values
 
 
-@pytest.mark.parametrize("eta", [2 / math.pi, 1.0, 4 / 3])
-def test_conventional_length_balances_the_stiffnesses(eta):
-    area = 0.2
-    length = literature.conventional_length(eta, 3.1e9, 1e6, 0.016, 5e-7)
-    patch = conventional.effective_stiffness(length, area, Material(3.1e9, 1 / 3), eta)
-    critical = conventional.critical_spring_stiffness(1e6 * area, InterfaceState())
-    assert patch == pytest.approx(critical)
-    assert length == pytest.approx(eta * 3.1e9 * 5e-7 / (0.016 * 1e6))  # Eq. (3)
+@pytest.mark.parametrize("eta", [*literature.CONVENTIONAL_ETA, 1.0])
+def test_conventional_length_makes_a_slider_marginal(eta):
+    """Its stiffness ``eta mu/L`` is that of a spring (Pa/m) at which steady sliding is neutral."""
+    s, mu = InterfaceState(), 3.1e9
+    length = literature.conventional_length(eta, mu, s.normal_stress, s.zeta, s.slip_length)
+    by_rate = s.normal_stress * s.a / s.velocity
+    steady_state = s.slip_length / s.velocity
+    by_state = s.normal_stress * (s.a + s.zeta) / steady_state
+    slip_rate = np.array([-eta * mu / length / by_rate, -by_state / by_rate])
+    aging = np.array([0, -1 / steady_state]) - slip_rate / s.velocity
+    rates = np.linalg.eigvals([slip_rate, aging])
+    assert_allclose(rates.real, 0.0, atol=1e-12 * abs(rates[0]))
+    assert rates[0].imag != 0.0
 
 
 def test_closed_forms_of_the_paper():

@@ -6,7 +6,7 @@ import pytest
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.spectrum import growth_rates, spectrum_branches
+from nucleation.theory.spectrum import growth_rates
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 INTERFACE = InterfaceState(
@@ -89,40 +89,6 @@ def test_reversed_wavenumber_conjugates(upper, lower):
     k = np.geomspace(1e-3, 1e4, 60)
     forward, backward = (growth_rates(sign * k, upper, lower, INTERFACE) for sign in (1, -1))
     assert np.all(distance(backward, forward.conj()) < 1e-13)
-
-
-@pytest.mark.parametrize(("upper", "lower"), PAIRS)
-@pytest.mark.parametrize("order", [1, -1])
-def test_branches_are_continuous(upper, lower, order):
-    k = np.geomspace(1e-2, 1e4, 6000)[::order]
-    branches = spectrum_branches(k, upper, lower, INTERFACE)
-    pairs = growth_rates(k, upper, lower, INTERFACE)
-    assert np.all(distance(branches, pairs) == 0.0)
-    steps = np.abs(np.diff(branches, axis=1))
-    exchanged = np.abs(branches[::-1, 1:] - branches[:, :-1])
-    assert np.all(steps.sum(0) <= exchanged.sum(0))
-    smallest = np.argmin(k)
-    assert branches[0, smallest].real > branches[1, smallest].real
-    # refining the grid keeps the identity of a branch
-    coarse = spectrum_branches(k[::3], upper, lower, INTERFACE)
-    assert upper == lower or np.array_equal(coarse, branches[:, ::3])  # else a true double root
-
-
-def test_branches_cross_in_growth_rate():
-    """On a block on a rigid base the branches swap their order of growth."""
-    upper, lower = PAIRS[0]
-    interface = InterfaceState(friction=0.41, a=0.0068, zeta=-0.003)
-    k = np.geomspace(1e-2, 1e5, 4000)
-    branches = spectrum_branches(k, upper, lower, interface)
-    difference = np.sign((branches[0] - branches[1]).real)
-    assert np.any(difference != difference[0])
-    assert np.all(np.abs(np.diff(np.log(branches), axis=1)) < 0.05)
-
-
-@pytest.mark.parametrize("k", [[1.0, 3.0, 2.0], [-1.0, 1.0], [[1.0, 2.0]], [1.0, 1.0]])
-def test_branches_need_a_path_in_k(k):
-    with pytest.raises(ValueError, match="wavenumber"):
-        spectrum_branches(k, *PAIRS[0], INTERFACE)
 
 
 @pytest.mark.parametrize(

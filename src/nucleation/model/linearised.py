@@ -38,11 +38,6 @@ class InterfaceState(Checked):
         "compressive normal stress", unit="Pa", low=0.0, high=1e13, symbol="sigma0", default=1.0e6
     )
 
-    @property
-    def state_coefficient(self) -> float:
-        """``b = a + zeta``, the coefficient of the logarithm of the state variable."""
-        return self.a + self.zeta
-
 
 def interface_state(parameters: Parameters) -> InterfaceState:
     """The full friction law expanded about sliding at the imposed velocity."""

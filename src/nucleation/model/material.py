@@ -36,12 +36,4 @@ class Material(Checked):
     @property
     def shear_wave_speed(self) -> float:
         """``sqrt(mu / rho)`` (m/s), infinite without inertia."""
-        return self._wave_speed(self.shear_modulus)
-
-    @property
-    def p_wave_speed(self) -> float:
-        """``sqrt((lambda + 2 mu) / rho)`` (m/s), infinite without inertia."""
-        return self._wave_speed(self.p_wave_modulus)
-
-    def _wave_speed(self, modulus: float) -> float:
-        return math.sqrt(modulus / self.density) if self.density else math.inf
+        return math.sqrt(self.shear_modulus / self.density) if self.density else math.inf

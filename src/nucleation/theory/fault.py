@@ -178,11 +178,6 @@ class Fault:
             | (FAR_SIDES[self.far_side] is not FAR_SIDES[self.second_far_side])  # type: ignore[index]
         )
 
-    @property
-    def second_rigid(self) -> Any:
-        """Whether the second body is rigid (bool array)."""
-        return np.isinf(self.second_shear_modulus)
-
     def evaluate(
         self, function: Callable[..., Any], *arrays: Values, rows: int = 1, dtype: type = float
     ) -> Any:

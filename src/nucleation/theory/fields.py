@@ -1,47 +1,9 @@
-"""Displacement fields of one Fourier mode in the upper body (Eqs. S-sol_BC and S-sol_inf)."""
+"""Displacement field of one Fourier mode in a block on a rigid base (Eq. S-sol_inf)."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-
-def layer_displacement(
-    wavenumber: float,
-    y: ArrayLike,
-    height: float,
-    poisson_ratio: float,
-    amplitudes: tuple[complex, complex],
-) -> NDArray[np.complex128]:
-    """Field of a layer held at the far side, ``u_x = sigma_yy = 0`` at ``y = H`` (Eq. S-sol_BC).
-
-    Parameters
-    ----------
-    wavenumber : float
-        k (1/m), either sign.
-    y : array_like
-        Height above the interface (m), ``0 <= y <= height``.
-    height : float
-        H (m), finite.
-    poisson_ratio : float
-    amplitudes : tuple of complex
-        ``B1 exp(|q|)`` and ``B2 exp(|q|)`` (m) with the paper's B1, B2 and ``q = H k``; the factor
-        keeps the field finite for large Hk.
-
-    Returns
-    -------
-    displacement : ndarray
-        ``(u_x, u_y)`` (m) without ``exp(Lambda t - i k x)``, shape ``(2,) + y.shape``.
-    """
-    b1, b2 = amplitudes
-    q, t = height * wavenumber, np.asarray(y, dtype=float) / height
-    kappa = 3.0 - 4.0 * poisson_ratio
-    depth = q * (1.0 - t)
-    grow, decay = np.exp(depth - abs(q)), np.exp(-depth - abs(q))
-    sinh, cosh = 0.5 * (grow - decay), 0.5 * (grow + decay)
-    u_x = b1 * sinh - b2 * q * (decay - t * cosh)
-    u_y = -1j * b1 * cosh - 1j * b2 * (kappa * cosh + q * (decay + t * sinh))
-    return np.stack([u_x, u_y])
 
 
 def block_displacement(

@@ -13,8 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from .conventional import CONVENTIONAL_ETA
 from .fault import Values, where
+
+CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
+"""Range of the prefactor eta of Eq. (3) (Dieterich, 1992, Table 1)."""
 
 LOCALISED_LIMIT = 0.3781
 """Largest a/b at which a patch of fixed length accelerates (Rubin and Ampuero, 2005)."""
