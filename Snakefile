@@ -45,7 +45,7 @@ from nucleation.model.quantities import ParameterError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
-from nucleation.configuration.studies import varied
+from nucleation.configuration.studies import theory_curves, varied
 
 show_why_groups_fail()  # such as a partition that Slurm doesn't know
 suggest_targets(lambda: workflow.rules)
@@ -215,6 +215,12 @@ include: "workflow/rules/check.smk"
 
 onsuccess:
     cache.release(Path(RESULTS))
+    from nucleation.analysis.events import in_table
+
+    for study in settings.studies:
+        ids = [run.id for run in settings.runs_of(study)]
+        for line in in_table(Path(study_lengths(study)).with_suffix(".csv"), ids):
+            logger.warning(f"Study {study}: {line}")
 
 
 # These take seconds, and run where snakemake runs. Everything else is for a cluster's jobs.

@@ -23,7 +23,18 @@ def record() -> xr.Dataset:
     )
 
 
-TEXTS = ("id", "study", "law", "status", "problem", "refinement", "varied", "variation")
+TEXTS = (
+    "id",
+    "study",
+    "law",
+    "friction_law",
+    "initial_stress",
+    "status",
+    "problem",
+    "refinement",
+    "varied",
+    "variation",
+)
 
 
 def test_every_variable_of_the_table_is_described():

@@ -42,7 +42,7 @@ def test_one_number_is_a_curve():
 
 
 def test_words_tell_curves_apart():
-    figure = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], law=list("aabb"))
+    figure = draw([1, 2, 1.1, 2.1], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], law=list("aabb"))
     labels = figure.axes[0].get_legend_handles_labels()[1]
     assert set(labels) == {"theory, a", "theory, b", "simulation, a", "simulation, b"}
 
@@ -62,8 +62,10 @@ def test_two_numbers_on_a_grid_are_maps():
 
 def test_three_numbers_are_points_about_equality():
     figure = draw([1, 2, 3], [0.9, 1.6, np.nan], height=[1, 2, 3], n_x=[8, 9, 9], phi0=[1, 1, 2])
-    assert {(1.0, 0.9), (2.0, 1.6), (3.0, 3.0)} < points(figure)
-    assert figure.axes[0].get_xlabel() == "Theory's critical length (m)"
+    axes, strip = figure.axes
+    assert {(1.0, 0.9), (2.0, 1.6)} < points(figure)
+    assert strip.get_xlabel() == "Theory's critical length (m)"
+    assert axes.get_title("left") == "varied: height, elements along x, initial state"
     line = next(li for li in figure.axes[0].lines if li.get_label() == "equality")
     np.testing.assert_array_equal(line.get_xdata(), line.get_ydata())
 
@@ -75,7 +77,30 @@ def test_numbers_off_a_grid_and_single_runs_are_points():
 
 def test_study_in_which_nothing_happens():
     figure = draw([1, 2], [np.nan, np.nan], height=[1, 2])
-    assert figure.axes[0].get_legend_handles_labels()[1] == ["theory", "no event"]
+    axes, strip = figure.axes
+    assert axes.get_legend_handles_labels()[1] == ["theory"]
+    assert [text.get_text() for text in strip.get_yticklabels()] == ["no event\n(2 of 2)"]
+
+
+@pytest.mark.parametrize("numbers", [["height"], ["height", "n_x", "phi0"]])
+def test_runs_without_an_event_have_no_length(numbers):
+    """They stood on the line of equality, or on the theory's curve."""
+    values = {name: [1.0, 2.0, 4.0] for name in numbers}
+    axes, strip = draw([1.0, 2.0, 3.0], [0.9, np.nan, 2.5], **values).axes
+    curves = ("theory", "equality")
+    shown = [line for line in axes.lines if line.get_label() not in curves]
+    assert 2.0 not in np.concatenate([line.get_xdata() for line in shown])
+    np.testing.assert_array_equal(strip.lines[0].get_xdata(), [2.0])
+
+
+def test_theory_is_a_smooth_curve_where_it_is_given():
+    x = np.linspace(1.0, 2.0, 81)
+    entries = {"height": study_parameters()["height"]}
+    varied = {"height": [1.0, 2.0]}
+    theory = {"": {"x": x, "length": np.sqrt(x)}}
+    figure = figure_studies.draw(table([1, 1.4], [0.9, 1.3]), varied, entries, theory)
+    curve = next(line for line in figure.axes[0].lines if line.get_label() == "theory")
+    np.testing.assert_array_equal(curve.get_ydata(), np.sqrt(x))
 
 
 @pytest.mark.slow
@@ -95,3 +120,9 @@ def test_nothing_is_cut_or_overlaps(kind, tmp_path):
     assert drawn_layout.cut_off(figure) == []
     paths = style.save(figure, tmp_path / "study")
     assert all(path.stat().st_size > 1000 for path in paths)
+
+
+def test_one_theory_for_all_words_is_drawn_once():
+    figure = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], law=list("aabb"))
+    labels = figure.axes[0].get_legend_handles_labels()[1]
+    assert [label for label in labels if label.startswith("theory")] == ["theory"]

@@ -32,6 +32,10 @@ rule draw_figure_study:
         study="|".join(settings.studies),
     params:
         varied=lambda wildcards: varied(settings.runs_of(wildcards.study)),
+        theory=lambda wildcards: theory_curves(
+            settings.runs_of(wildcards.study), settings.studies[wildcards.study], settings.base,
+            settings.main_text_interface,
+        ),
         **made_by("figure_studies.py"),
     log:
         f"{RESULTS}/logs/draw/study_{{study}}.log",

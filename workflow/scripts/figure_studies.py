@@ -10,5 +10,5 @@ from nucleation.pipeline.job import Job
 with Job(snakemake, __file__) as job:
     varied = job.params.varied
     entries = {name: study_parameters()[name] for name in varied}
-    drawn = figure_studies.draw(job.read(job.input.table), varied, entries)
+    drawn = figure_studies.draw(job.read(job.input.table), varied, entries, job.params.theory)
     style.save(drawn, Path(job.output[0]).with_suffix(""), job.key)

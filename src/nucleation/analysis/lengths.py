@@ -10,6 +10,7 @@ import xarray as xr
 
 from .definitions import ExtractionSettings
 from .extraction import extract
+from .record import Record
 
 MEASURED = (
     "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",
@@ -22,8 +23,11 @@ DIAGNOSTICS = ("status", "steps", "wall_seconds", "peak_megabytes")
 COLUMNS = (
     "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
     "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
-    "applied_stress",
+    "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
+    "velocity_weakening", "friction_law", "initial_stress", "initial_shear_stress",
+    "simulated_time", "reached_length",
 )  # fmt: skip
+"""Which simulation a row is about, what was measured, what it cost, and what it was given."""
 
 
 def gather(
@@ -81,14 +85,35 @@ def description(run: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+def _given(run: dict[str, Any]) -> dict[str, Any]:
+    """What else a run was given: material, friction of the theory, start."""
+    parameters, interface = run["parameters"], run["interface"]
+    return {
+        "shear_modulus": parameters["material"]["shear_modulus"],
+        "poisson_ratio": parameters["material"]["poisson_ratio"],
+        "friction_coefficient": interface["friction"],
+        "direct_effect": interface["a"],
+        "velocity_weakening": interface["zeta"],
+        "friction_law": parameters["friction"]["law"],
+        "initial_stress": parameters["loading"]["initial_stress"],
+        "initial_shear_stress": parameters["loading"]["initial_shear_stress"],
+    }
+
+
 def _row(
     run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
 ) -> dict[str, Any]:
     measured = extract(simulation, settings)
+    reached = measured["length"]
+    if np.isnan(reached):
+        reached = Record(simulation, settings).lengths[-1]
     return {
         **description(run),
+        **_given(run),
         **{name: float(measured[name]) for name in MEASURED},
         **{name: simulation.attrs[name] for name in DIAGNOSTICS},
+        "simulated_time": float(simulation["step_time"].values[-1]),
+        "reached_length": float(reached),
     }
 
 

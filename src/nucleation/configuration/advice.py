@@ -52,16 +52,21 @@ def element_sizes(parameters: Parameters) -> tuple[float, float]:
 
 
 def advise(runs: Iterable[Run]) -> list[str]:
-    """The warnings about some runs: one for each study and topic, with its worst case."""
+    """The warnings about some runs: one for each study and topic, with all runs, the worst first.
+
+    The numbers are those of the worst.
+    """
     found: dict[tuple[str, str], list[tuple[Advice, Run]]] = {}
     for run in runs:
         for advice in _about(run):
             found.setdefault((run.study, advice.topic), []).append((advice, run))
     texts = []
     for (study, topic), cases in found.items():
-        advice, run = max(cases, key=lambda case: case[0].badness)
-        where = run.id if len(cases) == 1 else f"{len(cases)} runs, the worst {run.id}"
-        texts.append(f"studies.{study}: {topic} ({where}): {advice.text}")
+        cases.sort(key=lambda case: -case[0].badness)
+        ids = [run.id for _, run in cases]
+        where = ids[0] if len(ids) == 1 else f"{len(ids)} runs, the worst {ids[0]}"
+        others = f" [also {', '.join(ids[1:])}]" if ids[1:] else ""
+        texts.append(f"studies.{study}: {topic} ({where}): {cases[0][0].text}{others}")
     return texts
 
 

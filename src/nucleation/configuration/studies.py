@@ -61,6 +61,7 @@ class Run:
     study: str
     parameters: Parameters
     theory_length: float
+    interface: InterfaceState = InterfaceState()  # friction of the theory
     given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
 
     def to_dict(self) -> dict[str, Any]:
@@ -97,6 +98,48 @@ def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
     given.sort(key=lambda name: name != "height")  # first
     values = {name: [run.value(name) for run in runs] for name in given}
     return {name: found for name, found in values.items() if len(set(found)) > 1}
+
+
+CURVE_POINTS = 81
+"""Values of a varied number at which a study's figure has the theory."""
+
+
+def theory_curves(
+    runs: list[Run], settings: StudySettings, base: Parameters, main_text: InterfaceState
+) -> dict[str, dict[str, list[float]]]:
+    """The theory's length over the one number that a study varies, closely spaced.
+
+    Parameters
+    ----------
+    runs, settings : the study's.
+    base, main_text : of the configuration, see :func:`study_runs`.
+
+    Returns
+    -------
+    dict
+        By the words that runs differ in (``"slip"``, or ``""``): the number (``x``) and the lengths
+        there (``length``, m; NaN where sliding is stable), to eight digits. Empty if the study
+        varies several numbers or none, or one that counts things.
+    """
+    declared, found = study_parameters(), varied(runs)
+    numbers = [name for name in found if not declared[name].choices]
+    if len(numbers) != 1 or declared[numbers[0]].kind != "float":
+        return {}
+    (name,), words = numbers, [word for word in found if word not in numbers]
+    curves = {}
+    for i, run in enumerate(runs):
+        kind = ", ".join(str(found[word][i]) for word in words)
+        ends = [x for j, x in enumerate(found[name])
+                if all(found[word][j] == found[word][i] for word in words)]  # fmt: skip
+        if kind in curves or name not in run.given or len(ends) < 2:
+            continue
+        low, high = min(ends), max(ends)
+        spaced = np.geomspace if low > 0.0 else np.linspace
+        x = spaced(low, high, CURVE_POINTS).tolist()
+        cases = [_prepared(settings, {}, run.given | {name: value}, base, main_text) for value in x]
+        rounded = [float(f"{length:.8g}") for length in _theory_lengths(cases)]
+        curves[kind] = {"x": [float(f"{value:.8g}") for value in x], "length": rounded}
+    return curves
 
 
 def expand(value: Any) -> tuple[Any, ...]:
@@ -226,5 +269,5 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
         )
     geometry = dataclasses.replace(parameters.geometry, length=float(length))
     parameters = dataclasses.replace(parameters, geometry=geometry)
-    run = Run("", study, parameters, critical, values)
+    run = Run("", study, parameters, critical, interface, values)
     return dataclasses.replace(run, id=identifier(study, run.labels, varied))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import textwrap
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import xarray as xr
 from matplotlib import ticker
@@ -16,6 +19,7 @@ from ..beyond import figure_sensitivity
 Array = NDArray[np.float64]
 Values = dict[str, list[float] | list[str]]
 Look = tuple[str, str, str]
+Curves = Mapping[str, Mapping[str, Sequence[float]]]
 
 LOOKS = (
     ("o", style.AGING, "-"), ("s", style.SLIP, "--"), ("D", style.OLD_AGE, "-."),
@@ -31,14 +35,23 @@ SYMBOLS = figure_sensitivity.SYMBOLS | {
     "xi": r"\xi",
 }  # fmt: skip
 
-WORDS = {"phi0": "Initial state", "zeta_over_a": "Weakening over direct effect"}
+WORDS = {
+    "phi0": "initial state", "zeta_over_a": "weakening over direct effect",
+    "n_x": "elements along x", "n_y": "elements along y",
+}  # fmt: skip
 """Names of parameters whose name in studies is a symbol."""
 
 RATIO_MAP = "cividis"  # made to look alike to all colour vision
 
+STRIP = 0.09
+"""Height of the strip of runs without an event, which have no place on the axis of lengths."""
+
 
 @style.styled
-def draw(table: xr.Dataset, varied: Values, entries: dict[str, Quantity]) -> Figure:
+def draw(
+    table: xr.Dataset, varied: Values, entries: dict[str, Quantity],
+    theory: Curves | None = None,
+) -> Figure:  # fmt: skip
     """Draw one study: a curve, two maps, or points about equality, by what it varies.
 
     Parameters
@@ -50,45 +63,80 @@ def draw(table: xr.Dataset, varied: Values, entries: dict[str, Quantity]) -> Fig
         order of the table.
     entries : dict
         Declarations of these parameters.
+    theory : mapping
+        With one number varied, by the words of the runs: the number (``x``) and the theory's
+        lengths there (``length``, m), closely spaced. Without, the theory is drawn from run to run.
 
     Returns
     -------
     Figure
         Critical lengths in m. With one number varied: simulations with error bars and theory over
         it; with two on a full grid: maps of the length and of its ratio to the theory's; otherwise
-        simulations against theory. Words, such as the evolution law, tell markers apart. Runs
-        without an event are marked.
+        simulations against theory, with what is varied above. Words, such as the evolution law,
+        tell markers apart. Runs without an event stand in a strip of their own, counted.
     """
     numbers = [name for name, entry in entries.items() if not entry.choices]
     words = [name for name in entries if name not in numbers]
     if len(numbers) == 2 and not words:
-        axes = [np.unique(varied[name]) for name in numbers]
-        if axes[0].size * axes[1].size == table.sizes["run"]:
-            return _maps(table, varied, entries, numbers, axes)
+        grid = [np.unique(varied[name]) for name in numbers]
+        if grid[0].size * grid[1].size == table.sizes["run"]:
+            return _maps(table, varied, entries, numbers, grid)
     figure = style.new_figure(style.SINGLE_COLUMN, 0.85 * style.SINGLE_COLUMN)
-    axes = figure.subplots()  # type: ignore[assignment]
-    for i, (kind, chosen) in enumerate(_kinds(varied, words, table.sizes["run"])):
-        look = LOOKS[i % len(LOOKS)]
-        part = table.isel(run=chosen)
-        if len(numbers) == 1:
-            x = np.asarray(varied[numbers[0]], dtype=float)[chosen]
-            _curve(axes, part, x, kind, look)
-        else:
-            _points(axes, part, part["theory_length"].values, kind, look)
+    quiet = ~np.isfinite(table["length"].values)
+    axes, strip = _axes(figure, int(quiet.sum()), quiet.size)
     if len(numbers) == 1:
-        axes.set_xlabel(label(numbers[0], entries[numbers[0]]))  # type: ignore[attr-defined]
-        _scale(axes, "x", np.asarray(varied[numbers[0]], dtype=float))
+        across = np.asarray(varied[numbers[0]], dtype=float)
+    else:
+        across = table["theory_length"].values
+    kinds = _kinds(varied, words, table.sizes["run"])
+    if len(numbers) == 1:
+        given = theory or {}
+        _curves(axes, {kind: given.get(kind, _between(table.isel(run=chosen), across[chosen]))
+                       for kind, chosen in kinds})  # fmt: skip
+    for i, (kind, chosen) in enumerate(kinds):
+        look = LOOKS[i % len(LOOKS)]
+        part, x = table.isel(run=chosen), across[chosen]
+        _points(axes, part, x, kind, look)
+        if strip is not None:
+            lost = x[quiet[chosen]]
+            strip.plot(lost, np.zeros(lost.size), look[0], color=look[1], mfc="white")
+    if len(numbers) == 1:
+        (strip or axes).set_xlabel(label(numbers[0], entries[numbers[0]]))
+        _scale(axes, "x", across)
     else:
         _equality(axes, table)
-    axes.set_ylabel("Critical length $L_c$ (m)")  # type: ignore[attr-defined]
-    _scale(axes, "y", _lengths(table))
-    axes.legend()  # type: ignore[attr-defined]
+        (strip or axes).set_xlabel("Theory's critical length (m)")
+        if varied:
+            axes.set_title(textwrap.fill(f"varied: {', '.join(map(named, entries))}", 48),
+                           loc="left", fontsize=style.SMALL)  # fmt: skip
+    axes.set_ylabel("Critical length $L_c$ (m)")
+    if _lengths(table).size:
+        _scale(axes, "y", _lengths(table))
+    axes.legend()
     return figure
+
+
+def _axes(figure: Figure, quiet: int, runs: int) -> tuple[Axes, Axes | None]:
+    """Axes of lengths; below a strip of the runs without an event, if there are any."""
+    if not quiet:
+        return figure.subplots(), None
+    axes, strip = figure.subplots(2, 1, sharex=True, height_ratios=[1.0, STRIP])
+    strip.set_yticks([0.0], [f"no event\n({quiet} of {runs})"], fontsize=style.SMALL)
+    strip.set_ylim(-1.0, 1.0)
+    strip.tick_params(which="both", left=False, right=False, top=False)
+    return axes, strip
+
+
+def named(name: str) -> str:
+    """A parameter's name in words, as within a sentence."""
+    words = WORDS.get(name, name.rpartition(".")[2].replace("_", " "))
+    return words[0].lower() + words[1:]
 
 
 def label(name: str, entry: Quantity) -> str:
     """Name, symbol and unit of a parameter, from its declaration."""
-    words = WORDS.get(name, name.replace("_", " ").capitalize())
+    words = named(name)
+    words = words[0].upper() + words[1:]
     symbol = SYMBOLS.get(entry.symbol, entry.symbol)
     text = f"{words} ${symbol}$" if symbol else words
     return text if entry.unit == "1" else f"{text} ({entry.unit})"
@@ -126,43 +174,44 @@ def _scale(axes: Axes, which: str, values: Array) -> None:
             axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def _curve(axes: Axes, part: xr.Dataset, x: Array, kind: str, look: Look) -> None:
-    """Simulations and theory over one number."""
+def _between(part: xr.Dataset, x: Array) -> Mapping[str, Array]:
+    """The theory's lengths of some runs, in the order of a number."""
     order = np.argsort(x, kind="stable")
-    suffix = f", {kind}" if kind else ""
-    axes.plot(
-        x[order], part["theory_length"].values[order], look[2], color=style.THEORY,
-        label=f"theory{suffix}",
-    )  # fmt: skip
-    _points(axes, part, x, kind, look)
+    return {"x": x[order], "length": part["theory_length"].values[order]}
+
+
+def _curves(axes: Axes, theory: Mapping[str, Mapping[str, Sequence[float] | Array]]) -> None:
+    """The theory over one number, by the words of the runs; once if it is the same for all."""
+    first = next(iter(theory.values()))
+    if all(np.array_equal(curve[n], first[n]) for curve in theory.values() for n in first):
+        theory = {"": first}
+    for i, (kind, curve) in enumerate(theory.items()):
+        axes.plot(
+            curve["x"], curve["length"], LOOKS[i % len(LOOKS)][2], color=style.THEORY,
+            label=f"theory, {kind}" if kind else "theory",
+        )  # fmt: skip
 
 
 def _points(axes: Axes, part: xr.Dataset, x: Array, kind: str, look: Look) -> None:
-    """Simulations with their error bars; those without an event as crosses at the theory's."""
+    """Simulations with their error bars."""
     marker, colour, _ = look
-    suffix = f", {kind}" if kind else ""
     length = part["length"].values
     event = np.isfinite(length)
     bars = np.abs(np.stack([part["length_low"].values, part["length_high"].values]) - length)
     if event.any():
         axes.errorbar(
             x[event], length[event], bars[:, event], fmt=marker, color=colour, markersize=4.0,
-            elinewidth=0.8, label=f"simulation{suffix}",
+            elinewidth=0.8, label=f"simulation, {kind}" if kind else "simulation",
         )  # fmt: skip
-    if not event.all():
-        theory = part["theory_length"].values
-        axes.plot(
-            x[~event], theory[~event], "x", color=colour, label=f"no event{suffix}", markersize=6.0
-        )
 
 
 def _equality(axes: Axes, table: xr.Dataset) -> None:
-    """The line of equality and the label of theory."""
+    """The line of equality, over the lengths of the theory and those of simulations."""
     values = _lengths(table)
-    ends = [0.95 * values.min(), 1.05 * values.max()]
-    axes.plot(ends, ends, color=style.GUIDE, linewidth=0.8, label="equality")
-    axes.set_xlabel("Theory's critical length (m)")
-    _scale(axes, "x", values)
+    if values.size:
+        ends = [0.95 * values.min(), 1.05 * values.max()]
+        axes.plot(ends, ends, color=style.GUIDE, linewidth=0.8, label="equality")
+        _scale(axes, "x", values)
 
 
 def _maps(
@@ -182,8 +231,11 @@ def _maps(
         image = np.full((axes[1].size, axes[0].size), np.nan)
         image[at] = values
         mesh = panel.pcolormesh(*_edges(axes), np.ma.masked_invalid(image), cmap=colours)
-        lost = ~np.isfinite(values)
-        panel.plot(x[lost], y[lost], "x", color=style.VERMILLION, label="no event")
+        lost = ~np.isfinite(length)
+        panel.plot(
+            x[lost], y[lost], "x", color=style.VERMILLION,
+            label=f"no event ({lost.sum()} of {lost.size})",
+        )  # fmt: skip
         figure.colorbar(mesh, ax=panel, pad=0.02)
         panel.set_title(title, loc="left")
         panel.set_xlabel(label(names[0], entries[names[0]]))

@@ -1,0 +1,67 @@
+"""Runs without an event: how many there are, and why, from the table of lengths."""
+
+from __future__ import annotations
+
+import csv
+import math
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from .definitions import SEARCHED
+
+NEARLY = 0.98
+"""Part of the searched half of the block from which on the patch counts as having filled it."""
+
+
+def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """How many of some runs had no event, and a line with the reason for each of these.
+
+    Parameters
+    ----------
+    rows : rows of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`), of numbers or
+        of their text in a CSV.
+
+    Returns
+    -------
+    list of str
+        Empty if every run had its event.
+    """
+    rows = list(rows)
+    quiet = [row for row in rows if not math.isfinite(_number(row["onset_time"]))]
+    if not quiet:
+        return []
+    head = f"{len(quiet)} of {len(rows)} runs had no event, and so give no length:"
+    return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
+
+
+def in_table(path: Path, ids: list[str]) -> list[str]:
+    """The same from the CSV of a study's table; empty if it isn't there, or is of other runs."""
+    if not path.exists():
+        return []
+    with path.open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    known = rows and "reached_length" in rows[0]
+    return without_event(rows) if known and [row["id"] for row in rows] == ids else []
+
+
+def why(row: Mapping[str, Any]) -> str:
+    """Why a run had no event, as far as its row of the table of lengths tells."""
+    if not str(row["status"]).startswith("completed"):
+        return str(row["status"])
+    names = ("velocity_weakening", "theory_length", "reached_length", "simulated_time")
+    zeta, theory, reached, end = (_number(row[name]) for name in names)
+    patch = f"after {end:.4g} s its patch was {reached:.3g} m long"
+    if not math.isfinite(theory):
+        return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
+    patch += f", {reached / theory:.2g} of the theory's critical length"
+    if reached > NEARLY * SEARCHED * _number(row["block_length"]):
+        return f"{patch}, and filled the half of the block in which it is followed"
+    if reached < theory:
+        return f"{patch}: a longer end_time may show it"
+    return f"{patch}, and the force has not dropped"
+
+
+def _number(value: Any) -> float:
+    """A number, NaN for the empty cell of a CSV."""
+    return float(value) if value != "" else math.nan

@@ -1,0 +1,44 @@
+"""Runs without an event are counted, and each is told why."""
+
+import pytest
+
+from nucleation.analysis.events import in_table, why, without_event
+
+ROW = {
+    "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),
+    "velocity_weakening": 0.016, "theory_length": 0.5, "reached_length": 0.1,
+    "simulated_time": 5.0, "block_length": 2.0,
+}  # fmt: skip
+
+
+def test_runs_with_an_event_need_no_words():
+    assert without_event([ROW | {"onset_time": 3.0}]) == []
+
+
+def test_all_are_named_and_counted():
+    lines = without_event([ROW, ROW | {"id": "s", "onset_time": 1.0}, ROW | {"id": "t"}])
+    assert lines[0].startswith("2 of 3 runs had no event")
+    assert [line.partition(":")[0] for line in lines[1:]] == ["r", "t"]
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({}, "after 5 s its patch was 0.1 m long, 0.2 of the theory's critical length: a longer"),
+        ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
+        ({"reached_length": 0.999}, "filled the half of the block"),
+        ({"theory_length": float("nan"), "velocity_weakening": -0.01}, "stable by the theory"),
+        ({"status": "failed: tension"}, "failed: tension"),
+    ],
+)
+def test_reasons(changed, said):
+    assert said in why(ROW | changed)
+
+
+def test_table_of_other_runs_says_nothing(tmp_path):
+    path = tmp_path / "lengths.csv"
+    assert in_table(path, ["r"]) == []
+    text = {name: "" if name == "onset_time" else str(value) for name, value in ROW.items()}
+    path.write_text(",".join(text) + "\n" + ",".join(text.values()) + "\n")
+    assert in_table(path, ["other"]) == []
+    assert in_table(path, ["r"])[0].startswith("1 of 1 runs")
