@@ -3,9 +3,12 @@
 import numpy as np
 import pytest
 from analysis.made_up_patch import synthetic_simulation
+from configurations import messages, study
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
+from nucleation.configuration.load import configure
+from nucleation.simulation.run import simulate
 
 
 def test_extract_reads_the_length_at_onset():
@@ -43,3 +46,26 @@ def test_no_event_gives_nan():
     simulation = synthetic_simulation(onset=50.0).isel(step=slice(0, 900))
     measured = extract(simulation)
     assert all(np.isnan(value) for value in measured.values())
+
+
+@pytest.mark.slow
+def test_a_larger_drop_is_recorded_without_time_after_the_event():
+    """The recorder had a drop of its own: with any larger one there was no length, in silence."""
+    run = {"height": 0.005, "n_x": 60, "n_y": 4, "end_time": 30.0, "tolerance": 0.1}
+    config = study(run | {"longest_step": 0.3, "time_after_event": 0.0}, length_over_critical=3.0)
+    asked = configure(config | {"extraction": {"drop": 0.1}})
+    (own,) = asked.runs
+    assert own.parameters.stepping.event_drop == 0.1
+    found = extract(simulate(own.parameters), asked.extraction)
+    assert 0.1 < found["length"] < own.theory_length
+    usual = simulate(own.parameters.replaced({"event_drop": 0.02}))
+    with pytest.warns(UserWarning, match="before it fell by drop = 0.1: simulate with a larger"):
+        assert np.isnan(extract(usual, asked.extraction)["length"])
+    assert extract(usual)["length"] > 0.1
+
+
+def test_a_study_may_not_stop_before_the_drop_that_is_asked_for():
+    run = {"height": 0.005, "event_drop": 0.05}
+    assert "event_drop = 0.05 is not allowed with extraction.drop = 0.1" in messages(
+        study(run) | {"extraction": {"drop": 0.1}}
+    )

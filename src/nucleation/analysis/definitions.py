@@ -13,8 +13,9 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.parameters import EVENT_DROP
 from ..model.quantities import Checked, quantity
-from ..simulation.event import DROP, DropWatch
+from ..simulation.event import DropWatch
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ class ExtractionSettings(Checked):
     )
     drop: float = quantity(
         "abrupt drop of the driving force that makes an event, as a fraction", low=0.0, high=1.0,
-        default=DROP,
+        default=EVENT_DROP,
     )  # fmt: skip
 
 

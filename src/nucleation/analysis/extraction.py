@@ -7,11 +7,16 @@ complete.
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import xarray as xr
 
+from ..simulation.control import Outcome
 from .definitions import ExtractionSettings
 from .record import Record
+
+AFTER_EVENT = Outcome.AFTER_EVENT.value
 
 NAMES = (
     "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",
@@ -31,10 +36,20 @@ def extract(
     Returns
     -------
     ``onset_time``, ``onset_time_low``, ``onset_time_high`` (s) and ``length``, ``length_low``,
-    ``length_high`` (m); all NaN if the run has no event.
+    ``length_high`` (m); all NaN if the run has no event, with a warning if it had one and ended
+    before the force fell by the settings' drop.
     """
     record = Record(simulation, settings)
     if record.onset is None:
+        recorded = record.parameters.stepping.event_drop
+        if settings.drop > recorded and simulation.attrs.get("status") == AFTER_EVENT:
+            warnings.warn(
+                f"the run ended after its event, a drop of the force by {recorded:g}, and before "
+                f"it fell by drop = {settings.drop:g}: simulate with a larger stepping.event_drop "
+                "or time_after_event",
+                UserWarning,
+                stacklevel=2,
+            )
         return dict.fromkeys(NAMES, float("nan"))
     instants = record.drop_times
     edges = np.array([lengths[record.frames_at(instants)] for lengths in record.all_lengths])

@@ -60,7 +60,9 @@ def setting_problems(
         yield from memory_problems("crosscheck", run.mesh, limits)
 
 
-def run_problems(key: str, run: Run, limits: Limits) -> Iterator[str]:
+def run_problems(
+    key: str, run: Run, limits: Limits, extraction: ExtractionSettings
+) -> Iterator[str]:
     """Contradictions among the parameters of one run, which stands at a key."""
     stepping, loading = run.parameters.stepping, run.parameters.loading
     longest, memory = run.parameters.longest_step, run.parameters.memory_time
@@ -75,6 +77,13 @@ def run_problems(key: str, run: Run, limits: Limits) -> Iterator[str]:
         yield (
             f"{key}: initial_shear_stress = {loading.initial_shear_stress:g} Pa is not allowed "
             "with initial_stress = no_slip: it must be 0 Pa, or initial_stress uniform_shear"
+        )
+    stepping = run.parameters.stepping
+    if stepping.event_drop < extraction.drop:
+        yield (
+            f"{key}: event_drop = {stepping.event_drop:g} is not allowed with extraction.drop = "
+            f"{extraction.drop:g}: the run may end before the force has fallen so far; it must lie "
+            f"in [{extraction.drop:g}, 1), or be left out"
         )
     yield from _perturbation_problems(key, run.parameters)
     if len(run.id) > LONGEST_ID:

@@ -114,7 +114,7 @@ def configure(values: Any) -> Configuration:
     except ParameterError as error:  # what the chosen friction law does not have
         _stop_on([str(error)])
     own = [f.name for f in dataclasses.fields(Parameters) if f.name in groups]
-    base = Parameters(**{name: groups.pop(name) for name in own})
+    base = _until_the_drop(Parameters(**{name: groups.pop(name) for name in own}), groups)
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
@@ -122,7 +122,7 @@ def configure(values: Any) -> Configuration:
     settings = {k: v for k, v in groups.items() if k != "figures"}
     _stop_on(
         [
-            *_run_problems(found, groups["limits"]),
+            *_run_problems(found, groups["limits"], groups["extraction"]),
             *setting_problems(base, interface, **settings),
         ]
     )
@@ -263,7 +263,15 @@ def _range_problems(values: dict[str, Any]) -> Iterator[str]:
             yield f"{key_text(path)}: {problem}"
 
 
-def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterator[str]:
+def _until_the_drop(base: Parameters, groups: dict[str, Any]) -> Parameters:
+    """The parameters with which runs go on until the drop that is asked for is recorded."""
+    drop = max(base.stepping.event_drop, groups["extraction"].drop)
+    return dataclasses.replace(base, stepping=dataclasses.replace(base.stepping, event_drop=drop))
+
+
+def _run_problems(
+    found: list[tuple[str, Run | str]], limits: Limits, extraction: ExtractionSettings
+) -> Iterator[str]:
     """Runs that can't be made, stand twice or contradict themselves."""
     seen: dict[Any, str] = {}
     for key, run in found:
@@ -274,7 +282,7 @@ def _run_problems(found: list[tuple[str, Run | str]], limits: Limits) -> Iterato
             if mark in seen:
                 yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
             seen[mark] = key
-        yield from run_problems(key, run, limits)
+        yield from run_problems(key, run, limits, extraction)
 
 
 if __name__ == "__main__":  # python -m nucleation.configuration.load > config/schema.yaml

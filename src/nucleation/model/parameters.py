@@ -14,6 +14,9 @@ from .names import Names
 from .perturbation import Perturbation
 from .quantities import Checked, ParameterError, Quantity, declarations, quantity
 
+EVENT_DROP = 0.02
+"""Fall of the driving force, as a fraction, that makes an event unless another is asked for."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Loading(Checked):
@@ -74,6 +77,11 @@ class Stepping(Checked):
     time_after_event: float = quantity(
         "time simulated after the event's onset before the run may end", unit="s", low=0.0,
         high=1e12, closed="low", default=1e12 / 2,
+    )  # fmt: skip
+    event_drop: float = quantity(
+        "fall of the driving force with which the event has begun, as a fraction; in the workflow "
+        "extraction.drop if that is larger",
+        low=0.0, high=1.0, default=EVENT_DROP,
     )  # fmt: skip
     tolerance: float = quantity(
         "tolerance of the local error of log slip rate and log state per step", low=0.0, high=1.0,

@@ -14,9 +14,10 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.parameters import EVENT_DROP
+
 Array = NDArray[np.float64]
 
-DROP = 0.02  # fraction of the force
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach
 
@@ -24,7 +25,7 @@ FAST = 10.0  # slip rate over V that the creeping patch does not reach
 class DropWatch:
     """Tells when the force has dropped abruptly; fed with one value after another."""
 
-    def __init__(self, window: float, drop: float = DROP) -> None:
+    def __init__(self, window: float, drop: float = EVENT_DROP) -> None:
         """`window` in seconds, `drop` as a fraction of the force."""
         self._window, self._drop = window, drop
         self._largest: deque[tuple[float, float]] = deque()  # falling maxima of the window

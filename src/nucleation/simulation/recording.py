@@ -36,7 +36,7 @@ class Recorder:
         self._last_scaled = np.empty(0)
         self._last_frame_step = 0
         self._next_snapshot_rate = 0
-        self._watch = DropWatch(WINDOW * parameters.memory_time)
+        self._watch = DropWatch(WINDOW * parameters.memory_time, parameters.stepping.event_drop)
         self._event_time = np.inf
         self._time = 0.0
 
