@@ -9,7 +9,8 @@ REPORT_FILES = [
     str(Path(SOURCE, "nucleation", "report", name))
     for name in ("template.html", "page.css", "page.js", "theory.js")
 ]
-REPORTED = catalogue.drawable(list(settings.studies))
+OF_THE_PAPER = DEFAULT == "paper"
+REPORTED = catalogue.drawable(list(settings.studies), papers=OF_THE_PAPER)
 OWN_STUDIES = {
     study: settings.studies[study].description
     for study in SHARED
@@ -17,6 +18,16 @@ OWN_STUDIES = {
 }
 """What the studies are for that the paper does not have and that share lengths.csv."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
+"""What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
+the paper's figures nor the verdicts, which are about the paper's runs."""
+
+
+def explored():
+    """Material and interface that the page's controls begin with: the paper's, or the first run's."""
+    own = [run for run in runs_in(*OWN_STUDIES) if run.interface.zeta > 0.0]
+    if OF_THE_PAPER or not own:
+        return settings.base.material, settings.main_text_interface
+    return own[0].parameters.material, own[0].interface
 
 
 localrules:
@@ -92,7 +103,7 @@ rule write_report:
         captions=[caption_file(name if name in FIGURES else "figure_studies") for name in ENTRIES],
         datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
         player=player_input,
-        claims=CLAIMS,
+        claims=CLAIMS if OF_THE_PAPER else [],
         page=REPORT_FILES,
     output:
         f"{RESULTS}/report.html",
@@ -100,9 +111,14 @@ rule write_report:
         figures=list(ENTRIES),
         studies=OWN_STUDIES,
         captions=caption_params,
-        material=asdict(settings.base.material),
+        material=asdict(explored()[0]),
         friction=asdict(settings.base.friction),
-        main_text_interface=asdict(settings.main_text_interface),
+        main_text_interface=asdict(explored()[1]),
+        warnings={} if OF_THE_PAPER else {
+            study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
+            for study in OWN_STUDIES
+        },
+        leads=not OF_THE_PAPER,
         extraction=asdict(settings.extraction),
         config=config,
         player=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
@@ -119,7 +135,7 @@ rule report:
     """Everything on one page, results/report.html."""
     input:
         rules.write_report.output,
-        rules.claims.input,
+        rules.claims.input if OF_THE_PAPER else [],
         [getattr(rules, name).input for name in REPORTED],
         [getattr(rules, f"figure_study_{study}").input for study in OWN_STUDIES],
         rules.lengths.input if OWN_STUDIES else [],

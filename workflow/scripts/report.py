@@ -11,6 +11,7 @@ from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.pipeline.job import Job
 from nucleation.report import page
+from nucleation.report.own import OwnStudies
 from nucleation.report.player import player_dataset
 
 with Job(snakemake, __file__) as job:
@@ -43,7 +44,8 @@ with Job(snakemake, __file__) as job:
         provenance=job.attributes(params.config),
         results=results,
         pictures=pictures,
-        claims=json.loads(Path(given.claims).read_text(encoding="utf-8")),
+        claims=json.loads(Path(given.claims).read_text(encoding="utf-8")) if given.claims else None,
         player=player,
+        own=OwnStudies(params.studies, params.warnings) if params.leads else None,
     )
     job.write_text(page.build(content), job.output[0])

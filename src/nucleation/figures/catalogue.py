@@ -87,9 +87,16 @@ def of_studies(descriptions: dict[str, str]) -> dict[str, Entry]:
     }
 
 
-def drawable(studies: list[str]) -> list[str]:
-    """The figures that a configuration with these studies can make, in the report's order."""
-    return [name for name, entry in FIGURES.items() if set(entry.studies) <= set(studies)]
+def drawable(studies: list[str], papers: bool = True) -> list[str]:
+    """The figures that a configuration with these studies can make, in the report's order.
+
+    Those of the paper's category are left out unless the configuration is the paper's.
+    """
+    return [
+        name
+        for name, entry in FIGURES.items()
+        if set(entry.studies) <= set(studies) and (papers or entry.category != PAPER)
+    ]
 
 
 def datasets_of(entries: Iterable[Entry]) -> list[str]:

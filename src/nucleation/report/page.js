@@ -85,14 +85,18 @@ for (const choice of choices) {
 // ---- The theory's curve
 
 // A control is a slider and a number in the unit shown; the number is exact, the slider coarse.
-function makeControl({ key, factor, low, high, log, value }, changed) {
+function makeControl({ key, factor, low, high, log, value, label = "Height", unit = "m" }, changed) {
   const slider = element(`range-${key}`);
   const field = element(`number-${key}`);
   const place = (v) => (log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));
   const at = (part) => (log ? low * (high / low) ** part : low + part * (high - low));
-  const control = { key, current: value, si: () => control.current * factor, set, reset: () => set(value) };
+  const range = `${label} must lie in ${low} to ${high} ${unit}`.trimEnd();
+  const control = {
+    key, current: value, refused: "", si: () => control.current * factor, set, reset: () => set(value),
+  };
   function set(v) {
     control.current = v;
+    control.refused = "";
     field.value = String(v);
     slider.value = String(Math.round(1000 * place(v)));
     slider.setAttribute("aria-valuetext", field.value);
@@ -106,7 +110,11 @@ function makeControl({ key, factor, low, high, log, value }, changed) {
     const v = field.valueAsNumber;
     const good = v >= low && v <= high;
     field.setAttribute("aria-invalid", String(!good));
-    if (!good) return;
+    control.refused = good ? "" : range;
+    if (!good) {
+      changed();
+      return;
+    }
     control.current = v;
     slider.value = String(Math.round(1000 * place(v)));
     slider.setAttribute("aria-valuetext", field.value);
@@ -117,7 +125,8 @@ function makeControl({ key, factor, low, high, log, value }, changed) {
 }
 
 const heights = data.heights;
-const HEIGHT = { key: "H", factor: 1, low: 0.001, high: 10, log: true, value: 0.1 };
+const [lowest, highest] = [heights[0], heights[heights.length - 1]];
+const HEIGHT = { key: "H", factor: 1, low: lowest, high: highest, log: true, value: data.start };
 const controls = [...data.controls, HEIGHT].map((control) => makeControl(control, showTheory));
 const plot = element("theory-plot");
 
@@ -173,11 +182,12 @@ function line(name, y, style, more = {}) {
 function theoryLayout() {
   const linear = element("linear").checked;
   const type = linear ? "linear" : "log";
-  const seen = heights.map((height, i) => (height <= 0.112 ? plotted.length[i] : 0));
+  const end = data.linear; // of the linear axes
+  const seen = heights.map((height, i) => (height <= end ? plotted.length[i] : 0));
   const shown = data.points.flatMap((series) => series.length_high);
   const top = 1.15 * Math.max(...seen, ...shown);
   const ticks = linear ? {} : { dtick: "D2" };
-  const ranges = linear ? [[0, 0.112], [0, top]] : [[Math.log10(0.002), 0]];
+  const ranges = linear ? [[0, end], [0, top]] : [data.seen.map(Math.log10)];
   return layout({
     title: heading("Critical nucleation length L<sub>c</sub> (m)"),
     xaxis: axis("Height of the block H (m)", { type, range: ranges[0], ...ticks }),
@@ -193,22 +203,35 @@ function theoryLayout() {
 let plotted = { length: [], thin: [] };
 const configured = curves(data.base);
 
+// The theory of each fault, where there are several.
+const own = data.faults.filter((fault) => fault.values.zeta > 0).slice(0, 12)
+  .map((fault) => ({ ...fault, length: curves(fault.values).length }));
+
+function ownTraces() {
+  return own.map(({ label, length, colour }) =>
+    line(`theory, ${label}`, length, { color: (dark.matches && BRIGHTER[colour]) || colour, width: 1.2 }));
+}
+
 function drawTheory() {
   const p = parameters();
+  const refused = controls.map((control) => control.refused).filter(Boolean);
   plotted = curves(p);
+  if (refused.length) plotted = { length: heights.map(() => null), thin: heights.map(() => null) };
   const blue = colour("theory");
   const at = Theory.solver(p)(p.H);
   const traces = [
     line("theory, as configured", configured.length, { color: colour("soft"), width: 1, dash: "dot" }),
     line("theory, H k → 0", plotted.thin, { color: blue, width: 1.3, dash: "dash" }),
     line("theory", plotted.length, { color: blue, width: 2.5 }),
-    { name: "values below", x: [p.H], y: [at.length], mode: "markers", showlegend: false,
+    { name: "values below", x: [p.H], y: [refused.length ? null : at.length], mode: "markers", showlegend: false,
       marker: { symbol: "cross-thin-open", size: 16, color: blue, line: { width: 2 } },
       hoverinfo: "skip" },
+    ...ownTraces(),
     ...pointTraces(),
   ];
   Plotly.react(plot, traces, theoryLayout(), SETTINGS);
-  showValues(p, at);
+  if (refused.length) element("values").innerHTML = `<dt>No values: ${refused.join("; ")}</dt><dd></dd>`;
+  else showValues(p, at);
 }
 
 function showValues(p, at) {

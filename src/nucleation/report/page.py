@@ -13,6 +13,7 @@ import plotly.offline
 import xarray as xr
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from ..analysis.record import parameters_of
 from ..datasets import netcdf
@@ -21,12 +22,17 @@ from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..report import encode, explorer, tables
+from ..report import encode, explorer, faults, own, tables
 from .captions import caption_html
 
+Array = NDArray[np.float64]
+
 HERE = Path(__file__).parent
-HEIGHTS = np.geomspace(1e-3, 10.0, 241)
-"""Heights (m) of the theory's curve in the page."""
+HEIGHTS = np.geomspace(1e-3, 10.0, 721)
+"""Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""
+
+SEEN = (2e-3, 1.0)
+"""Heights (m) that the page shows first; so close that the curve looks smooth on either axes."""
 
 CURVES = ("slip_rate", "stress_ratio", "state")
 
@@ -62,6 +68,7 @@ class Content(NamedTuple):
     pictures: list[Picture]
     claims: list[dict[str, Any]] | None = None
     player: Player | None = None
+    own: own.OwnStudies | None = None  # with which the page begins
 
 
 def build(content: Content) -> str:
@@ -77,14 +84,24 @@ def build(content: Content) -> str:
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
     lengths = content.results.get("lengths")
+    groups, data = _groups(content), _data(content, lengths)
+    pictures = {p["name"]: p for group in groups.values() for p in group}
+    if content.own is not None:
+        groups.pop(catalogue.OWN, None)
     return environment.get_template("template.html").render(
         styles=_source("page.css"),
         scripts=[Markup(plotly.offline.get_plotlyjs()), _source("theory.js"), _source("page.js")],
-        data=Markup(encode.script_json(_data(content, lengths))),
+        data=Markup(encode.script_json(data)),
         claims=tables.claim_rows(content.claims or []),
         counts=tables.verdict_counts(content.claims or []),
         controls=explorer.controls(content.material, content.interface),
-        groups=_groups(content),
+        groups=groups,
+        studies=own.sections(content.own, lengths) if content.own and lengths is not None else [],
+        ends=data["heights"][:: len(data["heights"]) - 1],
+        run_columns=own.RUN_COLUMNS,
+        fault_columns=faults.FAULT,
+        faults=own.fault_rows(lengths) if content.own and lengths is not None else [],
+        pictures=pictures,
         table_s1=table_s1.rows(content.friction),
         value_text=table_s1.value_text,
         length_columns=tables.LENGTH_COLUMNS,
@@ -100,10 +117,16 @@ def _source(name: str) -> Markup:
 
 def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
     """What the page's code reads."""
+    heights, seen = _heights(content, lengths)
+    known = faults.faults(lengths) if lengths is not None else []
     return {
+        "faults": [fault.in_page() for fault in known] if len(known) > 1 else [],
+        "seen": seen,
+        "linear": 0.112 if content.own is None else seen[1] / 2.5,
+        "start": 0.1 if content.own is None else float(f"{np.sqrt(seen[0] * seen[1]):.2g}"),
         "controls": explorer.controls(content.material, content.interface),
         "base": explorer.si_values(content.material, content.interface),
-        "heights": HEIGHTS.tolist(),
+        "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": _player(content),
         "colours": {
@@ -112,6 +135,16 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
             "fields": [style.BLUE, style.GREEN, style.PURPLE],
         },
     }
+
+
+def _heights(content: Content, lengths: xr.Dataset | None) -> tuple[Array, list[float]]:
+    """Heights (m) of the theory's curves, and the ends of those that are shown first."""
+    if content.own is None or lengths is None:
+        return HEIGHTS, list(SEEN)
+    low, high = float(lengths["height"].min()), float(lengths["height"].max())
+    ends = min(HEIGHTS[0], low / 10.0), max(HEIGHTS[-1], high * 10.0)
+    points = int(HEIGHTS.size * np.log(ends[1] / ends[0]) / np.log(HEIGHTS[-1] / HEIGHTS[0]))
+    return np.geomspace(*ends, points), [low / 3.0, 3.0 * high]
 
 
 def _player(content: Content) -> dict[str, Any] | None:

@@ -12,6 +12,7 @@ import xarray as xr
 
 from ..datasets.variables import VARIABLES
 from ..figures.paper import figure_3
+from .faults import faults
 
 VERDICTS = {
     "replicated": ("✓", "yes"),
@@ -118,29 +119,35 @@ SYMBOLS = {"o": "circle", "^": "triangle-up", "s": "square", "v": "triangle-down
 def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
     """The simulated lengths as series of points, one for each study, law and initial state.
 
-    Markers and colours are those of Figure 3.
+    Markers and colours are those of Figure 3; of the faults if there are several.
     """
+    known = faults(lengths)
+    of_run = {i: fault for fault in known for i in fault.runs}
     names, laws = (lengths[n].values.astype(str) for n in ("study", "law"))
-    ages, usable = lengths["phi0"].values, np.isfinite(lengths["length"].values)
-    kinds = zip(names[usable], laws[usable], ages[usable], strict=True)
+    ages, usable = lengths["phi0"].values, np.flatnonzero(np.isfinite(lengths["length"].values))
+    kinds: dict[tuple[str, str, float, str], list[int]] = {}
+    for i in usable.tolist():
+        kinds.setdefault((names[i], laws[i], ages[i], of_run[i].letter), []).append(i)
     result = []
-    for study, law, age in dict.fromkeys(kinds):
-        runs = lengths.isel(
-            run=np.flatnonzero(usable & (names == study) & (laws == law) & (ages == age))
-        )
+    for (study, law, age, letter), chosen in kinds.items():
+        runs, fault = lengths.isel(run=chosen), of_run[chosen[0]]
         aged = not np.isclose(age, figure_3.USUAL_AGE)
         kind = figure_3.KINDS[law, aged]
+        look = (SYMBOLS[kind.marker], kind.colour, study == "paper")
+        if len(known) > 1:
+            look = (fault.symbol, fault.colour, law == "aging")
         columns = ("height", "length", "length_low", "length_high", "onset_time", "theory_length")
         result.append(
             {
-                "label": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else ""),
-                "symbol": SYMBOLS[kind.marker],
-                "colour": kind.colour,
-                "filled": study == "paper",
+                "label": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else "")
+                + (f", fault {letter}" if len(known) > 1 else ""),
+                "symbol": look[0],
+                "colour": look[1],
+                "filled": look[2],
                 "id": runs["id"].values.astype(str).tolist(),
                 **{name: runs[name].values.tolist() for name in columns},
             }
-        )
+        )  # fmt: skip
     return result
 
 

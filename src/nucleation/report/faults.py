@@ -1,0 +1,83 @@
+"""The faults of a table of lengths: what differs to the theory, each with a look of its own."""
+
+from __future__ import annotations
+
+import string
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+from ..figures import style
+
+
+class Column(NamedTuple):
+    """A column of the table of faults: the variable, what is shown, and its unit."""
+
+    variable: str
+    label: str
+    unit: str
+    factor: float  # SI over the unit
+    key: str  # the parameter's name in the page's code, or nothing
+
+
+FAULT = (
+    Column("shear_modulus", "μ", "GPa", 1e9, "mu"),
+    Column("poisson_ratio", "ν", "", 1.0, "nu"),
+    Column("density", "ρ", "kg/m³", 1.0, ""),
+    Column("friction_coefficient", "f", "", 1.0, "f"),
+    Column("direct_effect", "a", "", 1.0, "a"),
+    Column("velocity_weakening", "ζ", "", 1.0, "zeta"),
+    Column("slip_distance", "D", "µm", 1e-6, "ell"),
+    Column("applied_stress", "σ₀", "MPa", 1e6, "sigma0"),
+    Column("velocity", "V", "µm/s", 1e-6, "V"),
+)
+"""What makes a fault of its own for the theory, with the density, which the theory doesn't need."""
+
+LOOKS = (
+    ("circle", "●", style.VERMILLION), ("square", "■", style.BLACK), ("diamond", "◆", style.PURPLE),
+    ("triangle-up", "▲", style.GREEN), ("triangle-down", "▼", style.OLD_AGE),
+    ("star", "★", style.SKY_BLUE),
+)  # fmt: skip
+"""Markers and colours of faults, in turn: of the page's plot, and as text."""
+
+
+class Fault(NamedTuple):
+    """One fault of a table of lengths: its letter, its look, its values and its runs."""
+
+    letter: str
+    symbol: str
+    sign: str
+    colour: str
+    values: dict[str, float]  # by variable, SI
+    runs: list[int]
+
+    def in_page(self) -> dict[str, Any]:
+        """The fault as the page's code reads it; its curve has no points below zeta = 0."""
+        return {
+            "label": f"fault {self.letter}",
+            "colour": self.colour,
+            "values": {c.key: self.values[c.variable] for c in FAULT if c.key},
+        }
+
+
+def faults(lengths: xr.Dataset) -> list[Fault]:
+    """The faults of a table of lengths, in the order of their first runs."""
+    found: dict[tuple[float, ...], list[int]] = {}
+    for i in range(lengths.sizes["run"]):
+        mark = tuple(float(f"{float(lengths[c.variable][i]):.10g}") for c in FAULT)
+        found.setdefault(mark, []).append(i)
+    return [
+        Fault(_letter(n), *LOOKS[n % len(LOOKS)],
+              dict(zip((c.variable for c in FAULT), mark, strict=True)), runs)
+        for n, (mark, runs) in enumerate(found.items())
+    ]  # fmt: skip
+
+
+def _letter(number: int) -> str:
+    """A, B, ... Z, AA, AB, ..."""
+    text = ""
+    number += 1
+    while number:
+        number, digit = divmod(number - 1, 26)
+        text = string.ascii_uppercase[digit] + text
+    return text

@@ -1,0 +1,79 @@
+"""The report's part on studies of one's own: faults, runs, what had no event, warnings."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..analysis.events import without_event
+from .faults import FAULT, faults
+from .tables import Cell, number
+
+
+class OwnStudies(NamedTuple):
+    """Studies that the paper does not have, with which the report begins.
+
+    Attributes
+    ----------
+    descriptions : what each study is for, by name.
+    warnings : of each, given before the runs (:mod:`nucleation.configuration.advice`).
+    """
+
+    descriptions: dict[str, str]
+    warnings: dict[str, list[str]]
+
+
+def fault_rows(lengths: xr.Dataset) -> list[dict[str, Any]]:
+    """The faults as rows of a table: look, letter, cells of :data:`FAULT`, number of runs."""
+    return [
+        {
+            "sign": fault.sign,
+            "colour": fault.colour,
+            "letter": fault.letter,
+            "cells": [number(fault.values[c.variable] / c.factor) for c in FAULT],
+            "runs": len(fault.runs),
+        }
+        for fault in faults(lengths)
+    ]
+
+
+RUN_COLUMNS = (
+    "Simulation", "Fault", "H (m)", "Onset (s)", "Length (m)", "Range (m)", "Theory (m)",
+    "Over theory",
+)  # fmt: skip
+
+
+def sections(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
+    """Each study's words and rows (:data:`RUN_COLUMNS`), for the page's template."""
+    letters = {i: fault.letter for fault in faults(lengths) for i in fault.runs}
+    result = []
+    for study, description in own.descriptions.items():
+        chosen = np.flatnonzero(lengths["study"].values == study).tolist()
+        rows = [{str(n): lengths[n].values[i] for n in lengths.data_vars} for i in chosen]
+        result.append(
+            {
+                "name": study,
+                "description": description,
+                "rows": [
+                    _row(row, letters[i]) for i, row in zip(chosen, rows, strict=True)
+                ],
+                "quiet": without_event(rows),
+                "warnings": own.warnings.get(study, []),
+            }
+        )  # fmt: skip
+    return result
+
+
+def _row(row: dict[str, Any], letter: str) -> list[Cell]:
+    low, high = (number(row[name], 3) for name in ("length_low", "length_high"))
+    event = bool(np.isfinite(row["onset_time"]))
+    return [
+        Cell(str(row["id"]), str(row["id"])),
+        Cell(letter, letter),
+        *(number(row[name]) for name in ("height", "onset_time", "length")),
+        Cell(f"{low.text} to {high.text}" if event else "–", low.key),
+        number(row["theory_length"]),
+        number(row["length"] / row["theory_length"], 3),
+    ]
