@@ -34,14 +34,15 @@ Array = NDArray[np.float64]
 class Block(SeparableBody):
     """One deformable rectangular block on the interface y = 0."""
 
-    def __init__(self, grid: Grid, material: Material) -> None:
+    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
         theta = (np.arange(grid.n_x) + 0.5) * np.pi / grid.n_x
         self._alternating = (-1.0) ** np.arange(grid.n_x)
         # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
         edge_weights = self._alternating * np.array(
             [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
         )
-        super().__init__(grid, material, theta, 0.5 * grid.dx / np.tan(theta / 2.0), edge_weights)
+        x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
+        super().__init__(grid, material, theta, x_integral, edge_weights, far_side)
 
     @property
     def no_memory(self) -> Array:

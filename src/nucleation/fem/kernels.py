@@ -20,8 +20,13 @@ compiled = njit(cache=True, fastmath={"contract", "reassoc", "nsz"}, error_model
 
 
 @compiled
-def factorise(kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, pivot, inverse, lower):
+def factorise(
+    kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, held, pivot, inverse, lower
+):
     """Eliminate from the top down; fill `pivot` (level 0), `inverse` and `lower`.
+
+    `held` says which components, x and y, are zero on the top: none, both, or y on rollers. What
+    is held has no compliance, zeros in `inverse`.
 
     The blocks are ``A_xx = kxx M + mxx K``, ``A_yy = kyy M + myy K`` and
     ``A_xy = cxy (lame C - shear C^T)`` with the y-matrices `mass`, `stiff`, `deriv`, each of
@@ -63,6 +68,11 @@ def factorise(kxx, mxx, kyy, myy, cxy, mass, stiff, deriv, lame, shear, pivot, i
                 inverse[j, 0, m] = pivot[2, m] * det
                 inverse[j, 1, m] = -pivot[1, m] * det
                 inverse[j, 2, m] = pivot[0, m] * det
+            if j == top and held[1]:
+                for m in range(n):
+                    inverse[j, 0, m] = 0.0 if held[0] else 1.0 / pivot[0, m]
+                    inverse[j, 1, m] = 0.0
+                    inverse[j, 2, m] = 0.0
 
 
 @compiled
@@ -249,3 +259,24 @@ def interface_blocks(d, h, n, nodes, stiffness, coupling):
             stiffness[a, b] = stiffness[b, a] = half * (d[i - j] - d[i + j])
             coupling[a, b] = 0.0 if i == n else half * (h[i + j] - h[i - j])
             coupling[b, a] = half * (h[i + j] + h[i - j]) if j < n else 0.0
+
+
+@compiled
+def load_couple(compliance, forces, upper, lower, held, start):
+    """What two bodies' reduced loads (2, n), the lower one's mirrored, do at zero slip, per mode.
+
+    `held` is what they take from the forces on the upper body, ``S2 T^-1 r1 - S1 T^-1 r2``, and
+    `start` the interface's displacement ``T^-1 (r1 + r2)``; `compliance` is T^-1 (xx, xy, yy) and
+    `forces` holds S1 T^-1 and S2 T^-1 (xx, xy, yx, yy each).
+    """
+    for m in range(upper.shape[1]):
+        x1, y1, x2, y2 = upper[0, m], upper[1, m], lower[0, m], -lower[1, m]
+        held[0, m] = (forces[4, m] * x1 + forces[5, m] * y1) - (
+            forces[0, m] * x2 + forces[1, m] * y2
+        )
+        held[1, m] = (forces[6, m] * x1 + forces[7, m] * y1) - (
+            forces[2, m] * x2 + forces[3, m] * y2
+        )
+        x, y = x1 + x2, y1 + y2
+        start[0, m] = compliance[0, m] * x + compliance[1, m] * y
+        start[1, m] = compliance[1, m] * x + compliance[2, m] * y

@@ -7,6 +7,7 @@ interface falls exponentially over some heights of the block.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -28,7 +29,65 @@ ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition
 NEGLIGIBLE = 1e-13  # of the edge's largest force on a node; below is round-off
 
 
-class RightEdge:
+class EdgeValues(ABC):
+    """What the interface feels of the edge values of ``u_y``, all else in balance."""
+
+    @property
+    @abstractmethod
+    def schur(self) -> Array:
+        """Stiffness of the edge values (N/m per m), all else eliminated at fixed w.
+
+        Its first row and column belong to the upper body's corner, whose normal force on the
+        interface they give.
+        """
+
+    @property
+    @abstractmethod
+    def compliance(self) -> Array:
+        """Its inverse on the free values (m per N/m), zero on those that are held."""
+
+    @property
+    @abstractmethod
+    def to_interface(self) -> tuple[Array, Array]:
+        """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
+
+        Tangential, with a row per edge value, at nodes 1..n_x, which is also the force on each edge
+        value per unit of w, and normal at nodes 0..n_x - 1 (N/m per m).
+        """
+
+    def change(self, w: Array) -> Array:
+        """Change of the edge values (m) in balance, for a change of w at the nodes 1..n_x (m)."""
+        near = self.felt[0]
+        return self.response[:, near:] @ w[near:]
+
+    def correction(self, residual: Array) -> Array:
+        """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
+        return self.compliance @ residual
+
+    @cached_property
+    def response(self) -> Array:
+        """Edge values per unit of w at each node, bulk and edge in balance, (n_y + 1, n_x)."""
+        return -self.compliance @ self.to_interface[0]
+
+    @cached_property
+    def diagonal(self) -> Array:
+        """The edge's share of the diagonal of D at the nodes 1..n_x (N/m per m)."""
+        return np.einsum("ji,ji->i", self.to_interface[0], self.response)
+
+    @cached_property
+    def felt(self) -> tuple[int, Array, Array]:
+        """Where :attr:`to_interface` rises above round-off: first column, and the rest."""
+        tangential, normal = self.to_interface
+        largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
+        near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
+        return (
+            near,
+            np.ascontiguousarray(tangential[:, near:]),
+            np.ascontiguousarray(normal[:, near:]),
+        )
+
+
+class RightEdge(EdgeValues):
     """The rows of the edge values in ``K + s M``, given the factors of the bulk's elimination."""
 
     def __init__(self, body: Block, s: float, inverse: Array, lower: Array) -> None:
@@ -74,15 +133,6 @@ class RightEdge:
         condition = (self.body.grid.height / np.diff(self.body.grid.y).min()) ** 2
         return ROUND_OFF * np.finfo(float).eps * condition
 
-    def change(self, w: Array) -> Array:
-        """Change of the edge values (m) in balance, for a change of w at the nodes 1..n_x (m)."""
-        near = self.felt[0]
-        return self.response[:, near:] @ w[near:]
-
-    def correction(self, residual: Array) -> Array:
-        """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
-        return self._compliance @ residual
-
     @cached_property
     def schur(self) -> Array:
         """Stiffness of the edge values, bulk eliminated and interface held (n_y + 1, n_y + 1).
@@ -114,22 +164,22 @@ class RightEdge:
         return schur
 
     @cached_property
-    def _compliance(self) -> Array:
+    def compliance(self) -> Array:
         """Inverse of :attr:`schur` on its free values, zero at the corner."""
-        compliance = np.zeros_like(self.schur)
-        identity = np.eye(compliance.shape[0] - 1)
-        compliance[1:, 1:] = cho_solve(cho_factor(self.schur[1:, 1:]), identity)
-        return compliance
+        return inverse_within(self.schur, slice(1, None))
 
     @cached_property
     def to_interface(self) -> tuple[Array, Array]:
-        """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
+        """Nodal forces on the interface, bulk eliminated, per unit of each edge value."""
+        return self.body.interface_forces((2.0 / self.body.grid.n_x) * self.to_modes())
 
-        Tangential (n_y + 1, n_x) at nodes 1..n_x, which is also the force on each edge value per
-        unit of w, and normal (n_y + 1, n_x) at nodes 0..n_x - 1 (N/m per m).
+    def to_modes(self) -> Array:
+        """Generalised forces on the interface's modes, bulk eliminated, per unit of an edge value.
+
+        Along x and y, with a row per edge value and a column per mode (N/m per m). They are also
+        the forces on the edge values per unit of amplitude.
         """
-        body = self.body
-        weights, scale = body.edge_weights, 2.0 / body.grid.n_x
+        body, weights = self.body, self.body.edge_weights
         rows = np.empty((2, body.grid.n_y + 1, body.grid.n_x))
         for component in (0, 1):
             modes = np.zeros((body.grid.n_y + 1, 2, body.grid.n_x))
@@ -138,29 +188,14 @@ class RightEdge:
             rows[component] = weights[0] * (self._x[0] @ modes[:, 0])
             rows[component] += weights[1] * (self._x[1] @ modes[:, 0])
             rows[component] += weights[2] * (self._y @ modes[:, 1])
-        return body.interface_forces(scale * rows)
+        return rows
 
-    @cached_property
-    def response(self) -> Array:
-        """Edge values per unit of w at each node, bulk and edge in balance, (n_y + 1, n_x)."""
-        return -self._compliance @ self.to_interface[0]
 
-    @cached_property
-    def diagonal(self) -> Array:
-        """The edge's share of the diagonal of D at the nodes 1..n_x (N/m per m)."""
-        return np.einsum("ji,ji->i", self.to_interface[0], self.response)
-
-    @cached_property
-    def felt(self) -> tuple[int, Array, Array]:
-        """Where :attr:`to_interface` rises above round-off: first column, and the rest."""
-        tangential, normal = self.to_interface
-        largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
-        near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
-        return (
-            near,
-            np.ascontiguousarray(tangential[:, near:]),
-            np.ascontiguousarray(normal[:, near:]),
-        )
+def inverse_within(stiffness: Array, free: slice) -> Array:
+    """The inverse of a stiffness on its free values, zero on the others."""
+    compliance, own = np.zeros_like(stiffness), stiffness[free, free]
+    compliance[free, free] = cho_solve(cho_factor(own), np.eye(own.shape[0]))
+    return compliance
 
 
 def predicted(expected: Expectation) -> Array:

@@ -38,21 +38,27 @@ def _stacked(matrix: Tridiagonal) -> Array:
     return np.array([matrix.lower, matrix.diagonal, matrix.upper])
 
 
+HELD = {"free": (False, False), "clamped": (True, True), "roller": (False, True)}
+"""Which of u_x and u_y are zero on the far side, by its condition; the others bear loads."""
+
+
 class SeparableBody(ABC):
     """A layer of a material on a grid.
 
     Parameters
     ----------
     grid, material : of the layer.
+    far_side : condition on the side away from the interface, one of :data:`HELD`.
     theta : angle of each mode per element, shape (n_x,).
     x_integral : integral along x (m) of each mode of u_x, for the momentum.
     edge_weights : of each mode in the forces on an edge that has unknowns of its own, (3, n_x).
     """
 
     def __init__(
-        self, grid: Grid, material: Material, theta: Array, x_integral: Array, edge_weights: Array
-    ) -> None:
-        self.grid, self.material = grid, material
+        self, grid: Grid, material: Material, theta: Array, x_integral: Array,
+        edge_weights: Array, far_side: str = "free",
+    ) -> None:  # fmt: skip
+        self.grid, self.material, self.far_side = grid, material, far_side
         self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
         self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
@@ -130,11 +136,7 @@ class SeparableBody(ABC):
 
         Its velocity is the rate by ``u = sum_i past_i u_i + beta du/dt``, newest value first.
         """
-        c1, c2 = past
-        u, u_past = motions[0].displacement, motions[-1].displacement
-        rates = np.empty_like(displacement.modes)
-        kernels.rate_of_change(c1, c2, beta, displacement.modes, u.modes, u_past.modes, rates)
-        velocity = Field(rates, (displacement.edge - c1 * u.edge - c2 * u_past.edge) / beta)
+        velocity = rate_of_change(past, beta, displacement, motions)
         return Motion(displacement, velocity, self.momentum_x(velocity))
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
@@ -147,6 +149,17 @@ class SeparableBody(ABC):
         """Momentum along x of the velocity field w_t (kg/s per unit depth)."""
         along_y = self.stacked.mass.sum(axis=0)
         return self.material.density * float(along_y @ (velocity.modes[:, 0] @ self.x_integral))
+
+
+def rate_of_change(
+    past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+) -> Field:
+    """The rate (m/s) of a displacement by ``u = c1 u_1 + c2 u_2 + beta du/dt``, newest first."""
+    c1, c2 = past
+    u, u_past = motions[0].displacement, motions[-1].displacement
+    rates = np.empty_like(displacement.modes)
+    kernels.rate_of_change(c1, c2, beta, displacement.modes, u.modes, u_past.modes, rates)
+    return Field(rates, (displacement.edge - c1 * u.edge - c2 * u_past.edge) / beta)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -166,14 +179,15 @@ class SeparableOperator:
             material.lame_modulus, material.shear_modulus, material.p_wave_modulus,
         )  # fmt: skip
         rho_s = s * material.density
-        self._pivot = np.empty((3, grid.n_x))
+        # stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy
+        self.pivot = np.empty((3, grid.n_x))
         self._inverse = np.zeros((grid.n_y + 1, 3, grid.n_x))
         self._lower = np.empty((grid.n_y, 4, grid.n_x))
         kernels.factorise(
             p_modulus * body.x_stiffness + rho_s * body.x_mass, shear * body.x_mass,
             shear * body.x_stiffness + rho_s * body.x_mass, p_modulus * body.x_mass,
             body.sine, body.stacked.mass, body.stacked.stiffness, body.stacked.derivative,
-            lame, shear, self._pivot, self._inverse, self._lower,
+            lame, shear, HELD[body.far_side], self.pivot, self._inverse, self._lower,
         )  # fmt: skip
 
     def solve(self, load: Field, w_amplitudes: Array, edge: Array) -> tuple[Array, Array]:
@@ -182,15 +196,22 @@ class SeparableOperator:
         Returns the mode amplitudes (n_y + 1, 2, n_x) and the reduced load at the interface
         (2, n_x); all loads in the scaling of a body's ``top_load`` (N/m).
         """
-        modes = self._swept(load, edge)
+        modes = self.swept(load, edge)
         reduced = modes[0].copy()
         modes[0, 0], modes[0, 1] = w_amplitudes, 0.0
-        kernels.substitute(self._inverse, self._lower, modes)
+        self.substitute(modes)
         return modes, reduced
 
-    def _swept(self, load: Field, edge: Array) -> Array:
-        """The forward sweep from the top down to the interface."""
-        modes = np.empty_like(load.modes)
+    def substitute(self, modes: Array) -> None:
+        """The backward sweep from the interface, whose displacement is known, in place.
+
+        Of `modes` only some lowest levels may be given, at least two.
+        """
+        kernels.substitute(self._inverse[: len(modes)], self._lower[: len(modes) - 1], modes)
+
+    def swept(self, load: Field, edge: Array, modes: Array | None = None) -> Array:
+        """The forward sweep from the top down to the interface, into `modes` if they are given."""
+        modes = np.empty_like(load.modes) if modes is None else modes
         kernels.eliminate(
             self._lower, load.modes, self._profiles(edge), self.body.edge_weights,
             2.0 / self.body.grid.n_x, modes,
@@ -201,7 +222,7 @@ class SeparableOperator:
         self, w_amplitudes: Array, reduced: Array | float = 0.0
     ) -> tuple[Array, Array]:
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
-        return self.body.interface_forces(self._pivot[:2] * w_amplitudes - reduced)
+        return self.body.interface_forces(self.pivot[:2] * w_amplitudes - reduced)
 
     def _profiles(self, edge: Array) -> Array:
         """What given edge values do to the modes, as profiles along y: nothing without an edge."""

@@ -1,0 +1,381 @@
+"""Two elastic blocks on one another, condensed on their common interface y = 0.
+
+Both blocks have the modes of :mod:`.block`, on grids with the same elements along x. The lower one,
+``-H2 <= y <= 0``, is stored mirrored, as a block that stands on the interface: ``y -> -y`` and
+``u_y -> -u_y``. A field of the pair holds the levels of the upper block, then those of the lower.
+
+Seen from the driven edge of the upper block, ``w1 = u_x - U(t)`` above and ``w2 = u_x`` below: the
+lower block's left edge is fixed. With ``w = w1 - w2``, the slip less that of the driven edge, with
+one ``u_y`` for both (no opening) and the stiffness ``S = [[a, b], [b, c]]`` and the reduced load r
+of each block per mode, b2 and the y of r2 with the sign that the mirror gives them,
+
+    (w1, u_y) = T^-1 [S2 (w, 0) + r1 + r2],    T = S1 + S2,
+    (p, R) = S1 (w1, u_y) - r1 .
+
+So ``D = (det S2 a1 + det S1 a2) / det T`` and ``N = (det S2 b1 + det S1 b2) / det T`` per mode; N
+of identical blocks vanishes exactly. On the right edge, free in both, the corner ``u_y(L, 0)`` is
+an unknown that both blocks share. With it all of ``u_y`` may shift if no far side holds it: inertia
+fixes that in motion, and in statics, where no force acts on it, the corner stays.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import kernels
+from .block import Block
+from .condensed import Balance, Expectation
+from .condensed_nodes import CondensedOnNodes
+from .field import Field, Motion, Terms
+from .operator import BlockOperator
+from .right_edge import EdgeValues, inverse_within, predicted, relative_error
+from .separable import LoadedResponse, rate_of_change
+
+Array = NDArray[np.float64]
+
+
+class Parts(NamedTuple):
+    """Views of a pair's field: that of the upper block, that of the lower one, mirrored."""
+
+    upper: Field
+    lower: Field
+
+
+class Pair:
+    """Two deformable blocks, the upper one driven at its left edge, the lower one held there.
+
+    Parameters
+    ----------
+    upper : the block above, its far side under the applied normal stress.
+    lower : the block below, mirrored. Where its far side is ``free`` it bears the same stress.
+
+    Raises
+    ------
+    ValueError
+        If the blocks do not have the same nodes along x.
+    """
+
+    def __init__(self, upper: Block, lower: Block) -> None:
+        one, other = upper.grid, lower.grid
+        if (one.n_x, one.length) != (other.n_x, other.length):
+            raise ValueError(
+                f"a pair needs the same elements along x: the upper block has n_x = {one.n_x} "
+                f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
+            )
+        self.upper, self.lower, self.grid = upper, lower, one
+
+    @property
+    def crossing_time(self) -> float:
+        """Time (s) in which shear waves cross the slower block."""
+        return max(self.upper.crossing_time, self.lower.crossing_time)
+
+    @property
+    def no_memory(self) -> Array:
+        """What it remembers before its first step: no error of the right edge's prediction."""
+        return self.upper.no_memory
+
+    @property
+    def total_mass(self) -> float:
+        """Mass (kg/m) that moves with the driven edge: the upper block's."""
+        return self.upper.total_mass
+
+    def operator(self, s: float) -> PairOperator:
+        """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
+        return PairOperator(self, s)
+
+    def parts(self, field: Field) -> Parts:
+        """The two blocks' fields in one of the pair, not copied."""
+        n = self.grid.n_y + 1
+        return Parts(
+            Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:])
+        )  # fmt: skip
+
+    def joined(self, upper: Field, lower: Field) -> Field:
+        """The pair's field of two blocks' fields."""
+        return Field(
+            np.concatenate((upper.modes, lower.modes)), np.concatenate((upper.edge, lower.edge))
+        )
+
+    def zero_field(self) -> Field:
+        """A field of zeros."""
+        return self.joined(self.upper.zero_field(), self.lower.zero_field())
+
+    def top_load(self, normal_stress: float) -> Field:
+        """Nodal forces (N/m) of the compressive stress (Pa) on the far sides that are free."""
+        below = self.lower.top_load(normal_stress)
+        if self.lower.far_side != "free":
+            below = self.lower.zero_field()
+        return self.joined(self.upper.top_load(normal_stress), below)
+
+    def translation_load(self, acceleration: float) -> Field:
+        """Inertia (N/m) against an acceleration (m/s^2) of the driven edge and the upper block."""
+        return self.joined(self.upper.translation_load(acceleration), self.lower.zero_field())
+
+    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, as of either block."""
+        coefficients = [c for c, _ in terms]
+        split = [self.parts(field) for _, field in terms]
+        loads = self.parts(load) if load is not None else (None, None)
+        return self.joined(
+            *(
+                block.inertia_load(s, list(zip(coefficients, fields, strict=True)), own)
+                for block, fields, own in zip(
+                    (self.upper, self.lower), zip(*split, strict=True), loads, strict=True
+                )
+            )
+        )
+
+    def motion(
+        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+    ) -> Motion:
+        """The motion at a new displacement; its momentum is the driven block's alone."""
+        velocity = rate_of_change(past, beta, displacement, motions)
+        return Motion(displacement, velocity, self.momentum_x(velocity))
+
+    def at_rest(self, displacement: Field, velocity: float) -> Motion:
+        """The motion of the pair at rest, seen from the driven edge (velocity in m/s)."""
+        own = self.upper.at_rest(self.parts(displacement).upper, velocity)
+        rates = self.joined(own.velocity, self.lower.zero_field())
+        return Motion(displacement, rates, own.momentum)
+
+    def momentum_x(self, velocity: Field) -> float:
+        """Momentum along x of the upper block's velocity field w_t (kg/s per unit depth)."""
+        return self.upper.momentum_x(self.parts(velocity).upper)
+
+    def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
+        return self.upper.sine_amplitudes(nodal)
+
+    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+        """Nodal w_x and u_y of the upper block, each of shape (n_y + 1, n_x + 1)."""
+        return self.upper.nodal_values(self.parts(field).upper)
+
+    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
+        """Nodal u_x and u_y of the lower block, its levels from the interface down."""
+        x, y = self.lower.nodal_values(self.parts(field).lower)
+        return x, -y
+
+
+@dataclasses.dataclass(frozen=True)
+class PairResponse(LoadedResponse):
+    """A pair's response to a load, with the edge values (m) in balance of both blocks.
+
+    Where the edge values were given and not found, `swept` holds the sweep down to the interface.
+    """
+
+    edge: Array
+    reduced: Array  # T^-1 (r1 + r2) of the sweep, (2, n_x): the interface at w = 0
+    swept: Array | None = None
+
+
+class PairOperator(CondensedOnNodes):
+    """``K + s M`` of a :class:`Pair` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
+
+    def __init__(self, body: Pair, s: float) -> None:
+        self.body, self.s = body, s
+        self.upper, self.lower = body.upper.operator(s), body.lower.operator(s)
+        (a1, b1, c1), (a2, b2, c2) = self.upper.pivot, self.lower.pivot
+        b2 = -b2  # by the mirror
+        # not in a compiled loop: fused products would leave identical bodies a coupling
+        det1, det2 = a1 * c1 - b1 * b1, a2 * c2 - b2 * b2
+        det = det1 + det2 + a1 * c2 + a2 * c1 - 2.0 * (b1 * b2)
+        self._modal = np.array([det2 * a1 + det1 * a2, det2 * b1 + det1 * b2]) / det
+        # T^-1: xx, xy, yy; then S1 T^-1 and S2 T^-1, each xx, xy, yx, yy
+        self.compliance = np.array([c1 + c2, -(b1 + b2), a1 + a2]) / det
+        xx, xy, yy = self.compliance
+        self.forces = np.array(
+            [
+                row
+                for a, b, c in ((a1, b1, c1), (a2, b2, c2))
+                for row in (a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy)
+            ]
+        )
+        self.edge: PairEdge = PairEdge(self)
+
+    @property
+    def along_x(self) -> Block:
+        """The upper block."""
+        return self.body.upper
+
+    @property
+    def modal(self) -> Array:
+        """D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x)."""
+        return self._modal
+
+    @property
+    def megabytes(self) -> float:
+        """Memory that this operator holds once all of its parts are in use (MB)."""
+        levels = self.body.grid.n_y + self.body.lower.grid.n_y + 2
+        own = 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
+        return self.upper.megabytes + self.lower.megabytes + own
+
+    def interface_forces(self, amplitudes: Array, reduced: Array | float = 0.0) -> tuple:
+        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
+        return self.along_x.interface_forces(self.modal * amplitudes - reduced)
+
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> PairResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
+
+        Given edge values (m) are taken to be in balance, which saves half of the work.
+        """
+        body, amplitudes = self.body, self.body.sine_amplitudes(w)
+        given = np.zeros_like(load.edge) if edge is None else edge
+        swept = self._swept(load, given)
+        loads, modes = body.parts(load), body.parts(Field(swept, given))
+        held, start = np.empty((2, body.grid.n_x)), np.empty((2, body.grid.n_x))
+        kernels.load_couple(
+            self.compliance, self.forces, modes.upper.modes[0], modes.lower.modes[0], held, start
+        )
+        tangential, normal = self.interface_forces(amplitudes, held)
+        if edge is not None:
+            lowest = modes.upper.modes[:2].copy()
+            lowest[0] = self._interface(amplitudes, start)
+            self.upper.substitute(lowest)
+            corner = self.upper.edge.corner_reaction(loads.upper, lowest, modes.upper.edge)
+            return PairResponse(
+                w, tangential, np.append(normal, corner), load, given, start, swept
+            )  # fmt: skip
+        self._substitute(swept, amplitudes, start)
+        residual = self.edge.residual(load, swept, given)
+        found = self.edge.correction(residual)
+        near, edge_tangential, edge_normal = self.edge.felt
+        tangential[near:] += found @ edge_tangential
+        normal[near:] += found @ edge_normal
+        corner = self.edge.schur[0] @ found - residual[0]
+        return PairResponse(w, tangential, np.append(normal, corner), load, found, start)
+
+    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[PairResponse]:
+        """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
+
+        As of a block: where the right edge has moved as predicted in the last step, to round-off,
+        the first response takes that for granted.
+        """
+        if float(expected.memory) < self.edge.round_off:
+            yield self.respond(load, w, predicted(expected))
+        yield self.respond(load, w)
+
+    def balance(
+        self, response: PairResponse, w: Array, expected: Expectation | None = None
+    ) -> Balance:
+        """The pair at nodal `w` (m) under the load of a response, which is used up by it."""
+        edge, modes, start = response.edge, response.swept, response.reduced
+        if w is not response.w:
+            edge = edge + self.edge.change(w - response.w)
+        amplitudes = self.body.sine_amplitudes(w)
+        if modes is None:
+            start = np.empty_like(start)
+            modes = self._swept(response.load, edge)
+            first = self.body.parts(Field(modes, edge))
+            kernels.load_couple(
+                self.compliance, self.forces, first.upper.modes[0], first.lower.modes[0],
+                np.empty_like(start), start,
+            )  # fmt: skip
+            self._substitute(modes, amplitudes, start)
+            displacement, foreseen = Field(modes, edge), None
+        else:
+            self._substitute(modes, amplitudes, start)
+            foreseen = response.edge
+            residual = self.edge.residual(response.load, modes, foreseen)
+            displacement = Field(modes, foreseen + self.edge.correction(residual))
+        if expected is None:
+            return Balance(displacement, self.body.no_memory, True)
+        assumed = predicted(expected) if foreseen is None else foreseen
+        error = relative_error(displacement.edge, assumed, edge)
+        holds = foreseen is None or error < self.edge.round_off
+        return Balance(displacement, np.array(error), holds)
+
+    def _swept(self, load: Field, edge: Array) -> Array:
+        """Both blocks swept down to the interface, stacked."""
+        modes = np.empty_like(load.modes)
+        into = self.body.parts(Field(modes, edge))
+        for operator, own, to in zip(
+            (self.upper, self.lower), self.body.parts(load), into, strict=True
+        ):
+            operator.swept(own, to.edge, to.modes)
+        return modes
+
+    def _interface(self, amplitudes: Array, start: Array) -> Array:
+        """Modes of (w1, u_y) on the interface at given amplitudes of w, (2, n_x)."""
+        a, b, _ = self.lower.pivot
+        xx, xy, yy = self.compliance
+        # b changes sign as the lower block is mirrored
+        along, across = (xx * a - xy * b) * amplitudes, (xy * a - yy * b) * amplitudes
+        return start + np.array([along, across])
+
+    def _substitute(self, modes: Array, amplitudes: Array, start: Array) -> None:
+        """Both blocks back from the interface, in place."""
+        upper, lower = (part.modes for part in self.body.parts(Field(modes, np.empty(0))))
+        upper[0] = self._interface(amplitudes, start)
+        lower[0, 0], lower[0, 1] = upper[0, 0] - amplitudes, -upper[0, 1]
+        self.upper.substitute(upper)
+        self.lower.substitute(lower)
+
+
+class PairEdge(EdgeValues):
+    """The free right edges of both blocks: their values stacked, the corner among both of them."""
+
+    def __init__(self, operator: PairOperator) -> None:
+        self._operator = operator
+        self._parts = operator.upper.edge, operator.lower.edge
+        self._first_below = operator.body.grid.n_y + 1  # where the lower block's values begin
+
+    @cached_property
+    def round_off(self) -> float:
+        """Relative error of the edge values in any solve."""
+        return max(edge.round_off for edge in self._parts)
+
+    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+        """Unbalanced force on the edge values (N/m), stacked."""
+        body = self._operator.body
+        both = zip(self._parts, body.parts(load), body.parts(Field(modes, edge)), strict=True)
+        return np.concatenate([part.residual(own, f.modes, f.edge) for part, own, f in both])
+
+    @cached_property
+    def _to_modes(self) -> tuple[Array, Array]:
+        """Forces on the modes of w1 and u_y, and on those of w2, per unit of each edge value."""
+        above, below = (edge.to_modes() for edge in self._parts)
+        joint = np.concatenate((above, below * np.array([1.0, -1.0])[:, None, None]), axis=1)
+        lower = np.concatenate((np.zeros_like(above[0]), below[0]))
+        return joint, lower
+
+    @cached_property
+    def schur(self) -> Array:
+        """Stiffness of the edge values (N/m per m), all else eliminated at fixed w."""
+        joint, n = self._to_modes[0], self._first_below
+        stiffness = np.zeros((joint.shape[1], joint.shape[1]))
+        for part, own in zip(self._parts, (slice(n), slice(n, None)), strict=True):
+            stiffness[own, own] = part.schur
+        xx, xy, yy = self._operator.compliance
+        released = np.array([xx * joint[0] + xy * joint[1], xy * joint[0] + yy * joint[1]])
+        scale = 2.0 / joint.shape[2]
+        return stiffness - scale * (joint[0] @ released[0].T + joint[1] @ released[1].T)
+
+    @cached_property
+    def compliance(self) -> Array:
+        """Inverse of :attr:`schur` on its free values: the corner once, and what no side holds."""
+        body, n = self._operator.body, self._first_below
+        number = self.schur.shape[0]
+        held = body.lower.far_side != "free"
+        independent = np.delete(np.eye(number), n, axis=1)
+        independent[n, 0] = -1.0  # the corner, mirrored
+        masses = body.upper.material.density + body.lower.material.density
+        fixed = held or self._operator.s * masses > 0.0
+        free = slice(None if fixed else 1, -1 if held else None)
+        inverse = inverse_within(independent.T @ self.schur @ independent, free)
+        return independent @ inverse @ independent.T
+
+    @cached_property
+    def to_interface(self) -> tuple[Array, Array]:
+        """Nodal forces on the interface, all else eliminated, per unit of each edge value."""
+        (x, y), lower = self._to_modes
+        above = y.copy()
+        above[self._first_below :] = 0.0  # the upper block's own
+        f = self._operator.forces
+        modal = np.array([f[4] * x + f[5] * y - lower, above - (f[2] * x + f[3] * y)])
+        return self._operator.along_x.interface_forces((2.0 / x.shape[1]) * modal)

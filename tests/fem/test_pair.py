@@ -1,0 +1,191 @@
+"""Two blocks on one another against the assembled matrix, and what must hold for any pair."""
+
+import numpy as np
+import pytest
+from fem.assembled_pair import AssembledPair
+
+from nucleation.fem.block import Block
+from nucleation.fem.grid import Grid
+from nucleation.fem.pair import Pair
+from nucleation.model.material import Material
+from nucleation.theory.transfer import Body, transfer_functions
+
+UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
+LOWER = Material(shear_modulus=9.0e9, poisson_ratio=0.21, density=2700.0)
+GRIDS = [
+    (Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 12, 4)),
+    (Grid(1.0, 0.3, 9, 3, grading=2.0), Grid(1.0, 0.5, 9, 6, grading=4.0)),
+]
+BOTTOMS = ("free", "clamped", "roller")
+STATIC, SLOW, FAST = 0.0, 1e6, 1e13  # s in 1/s^2: statics, elasticity and inertia alike, inertia
+
+
+def pair_of(grids, bottom="free", upper=UPPER, lower=LOWER):
+    return Pair(Block(grids[0], upper), Block(grids[1], lower, bottom))
+
+
+def random_field(body, rng):
+    field = body.zero_field()
+    field.modes[:] = rng.normal(size=field.modes.shape)
+    field.edge[:] = rng.normal(size=field.edge.shape)
+    return field
+
+
+def relative(value, reference):
+    return np.abs(value - reference).max() / np.abs(reference).max()
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW, FAST])
+@pytest.mark.parametrize("bottom", BOTTOMS)
+@pytest.mark.parametrize("grids", GRIDS, ids=["uniform", "graded"])
+def test_equals_assembled_matrix(grids, bottom, s):
+    """Displacement of both blocks and forces on the upper one, any loads."""
+    rng = np.random.default_rng(1)
+    body = pair_of(grids, bottom)
+    assembled = AssembledPair((grids[0], UPPER), (grids[1], LOWER), bottom)
+    load, w = random_field(body, rng), 1e-9 * rng.normal(size=grids[0].n_x)
+    gauge = s == STATIC and bottom == "free"
+    operator = body.operator(s)
+    response = operator.respond(load, w)
+    field = operator.balance(response, w).displacement
+    forces = assembled.forces(body, load)
+    u, left = assembled.solve(s, forces, w, pinned=gauge)
+    bound = 1e-10 if gauge else 1e-12  # soft bending modes cost digits
+    assert relative(assembled.values(body, field), u) < bound
+    assert relative(response.tangential, left[assembled.x[0, 1:]]) < bound
+    assert relative(response.normal, left[assembled.y[0]]) < bound
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW, FAST])
+@pytest.mark.parametrize("bottom", BOTTOMS)
+def test_condensed_operator(bottom, s):
+    """apply() is the response of respond(), tangent() and diagonal are its matrix, D is SPD."""
+    rng = np.random.default_rng(4)
+    body = pair_of(GRIDS[0], bottom)
+    operator, n = body.operator(s), body.grid.n_x
+    w = rng.normal(size=n)
+    response = operator.respond(body.zero_field(), w)
+    p, reaction = operator.apply(w)
+    assert relative(p, response.tangential) < 1e-11
+    assert relative(reaction, response.normal) < 1e-10
+    columns = [operator.apply(unit) for unit in np.eye(n)]
+    d, c = (np.array([column[i] for column in columns]).T for i in (0, 1))
+    nodes = np.array([1, 2, 5, n - 1, n])
+    stiffness, coupling = operator.tangent(nodes)
+    assert relative(stiffness, d[np.ix_(nodes - 1, nodes - 1)]) < 1e-7
+    assert relative(coupling, c[np.ix_(nodes, nodes - 1)]) < 1e-7
+    assert relative(operator.diagonal, np.diag(d)) < 1e-11
+    assert relative(d, d.T) < 1e-11
+    assert np.linalg.eigvalsh(d).min() > 0.0
+
+
+@pytest.mark.parametrize("bottom", BOTTOMS)
+def test_one_sweep_with_the_right_edge_values_is_two_solves(bottom):
+    rng = np.random.default_rng(5)
+    body = pair_of(GRIDS[1], bottom)
+    operator, w = body.operator(SLOW), rng.normal(size=body.grid.n_x)
+    load = random_field(body, rng)
+    whole = operator.respond(load, w)
+    swept = operator.respond(load, w, whole.edge)
+    assert relative(swept.tangential, whole.tangential) < 1e-11
+    assert relative(swept.normal, whole.normal) < 1e-11
+    one, other = (operator.balance(response, w).displacement for response in (whole, swept))
+    assert relative(other.modes, one.modes) < 1e-10
+    assert relative(other.edge, one.edge) < 1e-10
+
+
+@pytest.mark.parametrize("bottom", BOTTOMS)
+def test_inertia_equals_assembled(bottom):
+    body = pair_of(GRIDS[0], bottom)
+    assembled = AssembledPair((GRIDS[0][0], UPPER), (GRIDS[0][1], LOWER), bottom)
+    field = random_field(body, np.random.default_rng(2))
+    field.edge[body.grid.n_y + 1] = -field.edge[0]
+    ours = assembled.forces(body, body.inertia_load(7.0, [(1.0, field)]))
+    theirs = 7.0 * assembled.mass @ assembled.values(body, field)
+    theirs[assembled.x[:, 0]] = theirs[assembled.below_x[:, 0]] = 0.0
+    assert relative(ours, theirs) < 1e-12
+    momentum = assembled.mass @ assembled.values(body, field)
+    assert body.momentum_x(field) == pytest.approx(momentum[assembled.x].sum())
+
+
+@pytest.mark.parametrize(
+    ("bottom", "s"), [("free", STATIC), *((b, s) for b in BOTTOMS[1:] for s in (STATIC, SLOW))]
+)
+def test_a_rigid_base_is_the_limit(bottom, s):
+    """A lower block 1e6 times stiffer is the rigid base; the error falls with the stiffness.
+
+    In motion a free bottom lets even a rigid block be lifted, by its inertia and not its stiffness.
+    """
+    grids, soft = GRIDS[0], Material(3.1e6, 0.29, 1.2)
+    block = Block(grids[0], soft).operator(s)
+    w = np.random.default_rng(6).normal(size=grids[0].n_x)
+    expected = block.apply(w)
+    errors = []
+    for factor in (1e4, 1e6):
+        stiff = Material(soft.shear_modulus * factor, LOWER.poisson_ratio, LOWER.density)
+        found = pair_of(grids, bottom, soft, stiff).operator(s).apply(w)
+        errors.append([relative(a, b) for a, b in zip(found, expected, strict=True)])
+    assert np.max(errors[1]) < 1e-4
+    np.testing.assert_allclose(np.divide(*errors), 100.0, rtol=0.1)
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW])
+def test_identical_blocks_do_not_couple_slip_to_normal_stress(s):
+    """N = 0 exactly, and D of both is half of that of a block whose face is free: (a - b^2/c)/2."""
+    grid = GRIDS[0][0]
+    operator = pair_of((grid, grid), lower=UPPER).operator(s)
+    a, b, c = operator.upper.pivot
+    assert (operator.modal[1] == 0.0).all()
+    np.testing.assert_allclose(operator.modal[0], 0.5 * (a - b**2 / c), rtol=1e-8)
+    w = np.random.default_rng(7).normal(size=grid.n_x)
+    p, normal = operator.apply(w)
+    assert np.abs(normal).max() < 1e-12 * np.abs(p).max()
+
+
+@pytest.mark.parametrize("s", [STATIC, SLOW])
+def test_swapped_bodies_have_the_opposite_coupling(s):
+    w = np.random.default_rng(8).normal(size=GRIDS[0][0].n_x)
+    one = pair_of(GRIDS[0]).operator(s).apply(w)
+    other = pair_of(GRIDS[0][::-1], upper=LOWER, lower=UPPER).operator(s).apply(w)
+    assert relative(other[0], one[0]) < 1e-11
+    assert relative(other[1], -one[1]) < 1e-11
+
+
+@pytest.mark.parametrize("bottom", BOTTOMS)
+def test_long_blocks_have_the_transfer_functions(bottom):
+    """D and N per mode tend to mu k G1 and mu k G2 of the theory, with the square of the mesh."""
+    heights, errors = (0.03, 0.05), []
+    for n in (1, 2, 4):
+        grids = [Grid(1.0, h, 60 * n, 6 * n) for h in heights]
+        modal = pair_of(grids, bottom).operator(STATIC).modal
+        k = (np.array([2, 5, 9]) + 0.5) * np.pi  # of modes (m + 1/2) pi / L
+        g1, g2 = transfer_functions(
+            k, Body(UPPER, heights[0], "free"), Body(LOWER, heights[1], bottom)
+        )
+        # modes have the force 2/n_x sum of nodal ones: per length of the interface
+        found = modal[:, [2, 5, 9]] / (UPPER.shear_modulus * k * grids[0].dx)
+        errors.append(np.abs(found / np.array([g1, g2]) - 1.0).max())
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert errors[-1] < 0.02
+    assert (np.abs(orders - 2.0) < 0.15).all(), (errors, orders)
+
+
+def test_bonded_identical_blocks_expand_as_one_under_the_load():
+    """Nothing holds them along x: sigma_yy = -sigma0 alone, and a strain of (1 - nu) sigma0/2 mu."""
+    grids = (Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 12, 4, grading=3.0))
+    body = pair_of(grids, lower=UPPER)
+    operator = body.operator(STATIC)
+    response = operator.respond(body.top_load(1e6), np.zeros(12))
+    np.testing.assert_allclose(response.normal, 1e6 * grids[0].nodal_lengths, rtol=1e-9)
+    assert np.abs(response.tangential).max() < 1e-9 * 1e6 * grids[0].dx
+    x, y = body.nodal_values(operator.balance(response, response.w).displacement)
+    nu, across = UPPER.poisson_ratio, 1e6 / (2.0 * UPPER.shear_modulus)
+    np.testing.assert_allclose(x, np.tile(nu * across * grids[0].x, (6, 1)), atol=1e-14)
+    np.testing.assert_allclose(
+        y - y[:1], np.tile(-(1 - nu) * across * grids[0].y[:, None], 13), atol=1e-14
+    )
+
+
+def test_other_elements_along_x_are_refused():
+    with pytest.raises(ValueError, match="n_x = 12"):
+        pair_of((Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 13, 4)))
