@@ -167,7 +167,7 @@ def test_every_parameter_has_an_option(nucleation):
     for group in PARAMETERS.to_dict():
         for field in declarations(type(getattr(PARAMETERS, group))):
             assert f"{group}.{field}" in other_names()
-            assert f"--{group}.{field.replace('_', '-')}, " in text
+            assert f"--{group}.{field}, ".replace("_", "-") in text
 
 
 STEPS = 10  # after which a run is stopped

@@ -44,7 +44,8 @@ def test_element_sizes_are_the_grids(mesh):
     parameters = Parameters(geometry=Geometry(0.02, 2.0), mesh=mesh)
     grid = Grid(2.0, 0.02, mesh.n_x, mesh.n_y, mesh.grading)
     x, y = grid.x, grid.y
-    assert element_sizes(parameters) == pytest.approx((x[1] - x[0], y[1] - y[0]), rel=1e-9)
+    found = element_sizes(parameters.mesh, parameters.geometry)
+    assert found == pytest.approx((x[1] - x[0], y[1] - y[0]), rel=1e-9)
 
 
 WARNED = {

@@ -114,17 +114,28 @@ def test_bad_names_and_laws_are_named(config, fragments):
     assert text.startswith("the configuration has one problem:\n")
 
 
-def test_a_second_body_would_be_named(monkeypatch):
-    """With another ``height``, the short name is an error that lists both; full ones work."""
+def test_an_ambiguous_name_lists_what_it_may_be(monkeypatch):
+    """With another ``end_time``, the short name is an error that lists both; full ones work."""
     entries = dict(parameters.names())
-    names = Names(entries | {"second_body.height": entries["geometry.height"]}, parameters.ALIASES)
+    names = Names(entries | {"other.end_time": entries["stepping.end_time"]}, parameters.ALIASES)
     monkeypatch.setattr("nucleation.configuration.load.names", lambda: names)
     monkeypatch.setattr("nucleation.configuration.study_names.names", lambda: names)
-    text = messages(study({"height": 0.1}))
+    text = messages(study({"height": 0.1, "end_time": 3.0}))
     assert text.endswith(
-        "studies.s.runs[0].height = 0.1 is not allowed: "
-        "it may be geometry.height or second_body.height"
+        "studies.s.runs[0].end_time = 3.0 is not allowed: "
+        "it may be stepping.end_time or other.end_time"
     )
+
+
+def test_a_second_body_is_named():
+    """By its full name or with ``second_``; what has neither is the first body's."""
+    short = {"second_body": "deformable", "second_height": [0.1, 0.2], "height": 0.3}
+    full = {"second_body.kind": "deformable", "second_body.height": [0.1, 0.2], "height": 0.3}
+    assert runs_of(short) == runs_of(full)
+    one, other = runs_of(short)
+    assert one.parameters.below.geometry.height == 0.1
+    assert other.parameters.geometry.height == 0.3
+    assert one.id == "s-aging-H0.3-phi1-second_bodydeformable-second_height0.1"
 
 
 def test_laws_are_compared_by_one_study():

@@ -11,7 +11,7 @@ HELD = {"free": (), "clamped": ("x", "y"), "roller": ("y",)}
 
 
 class AssembledPair:
-    """All nodes of both blocks; those of the interface are in both, and tied by slip and no opening.
+    """All nodes of both blocks; those of the interface are in both, tied by slip and no opening.
 
     The lower block is assembled upside down, on a grid that goes up from the interface, and its
     u_y is turned round.
@@ -70,7 +70,7 @@ class AssembledPair:
         return values
 
     def solve(self, s, forces, w, pinned=False):
-        """All unknowns at a slip `w`, and what is left of the forces; `pinned`: the corner stays."""
+        """All unknowns at a slip `w`, and the forces left; `pinned`: the corner stays."""
         matrix = (self.stiffness + s * self.mass).tocsr()
         slipped = np.zeros(matrix.shape[0])
         slipped[self.below_x[0, 1:]] = -w

@@ -171,7 +171,7 @@ def test_long_blocks_have_the_transfer_functions(bottom):
 
 
 def test_bonded_identical_blocks_expand_as_one_under_the_load():
-    """Nothing holds them along x: sigma_yy = -sigma0 alone, and a strain of (1 - nu) sigma0/2 mu."""
+    """Nothing holds them along x: sigma_yy = -sigma0 alone, a strain of (1 - nu) sigma0/2 mu."""
     grids = (Grid(1.0, 0.3, 12, 5), Grid(1.0, 0.2, 12, 4, grading=3.0))
     body = pair_of(grids, lower=UPPER)
     operator = body.operator(STATIC)

@@ -48,7 +48,9 @@ def test_names_of_a_run():
         group, _, field = full.partition(".")
         assert group in GROUPS and known[full].description
         assert known.full(known.short(full)) == full
-        if full not in ("friction.law",):
+        if group == "second_body":
+            assert known.full(f"second_{field}") == full
+        elif full != "friction.law":
             assert known.full(field) == full
     assert known.short("friction.evolution") == "law" and known.full("phi0") in known
     assert known.short("friction.law") == "friction_law"

@@ -21,7 +21,7 @@ def test_banded_matrix_is_that_of_the_solver():
     """Its compliance at the interface is the inverse of the solver's condensed stiffness."""
     body, s = Block(Grid(0.7, 0.2, 9, 5, grading=3.0), Material()), 1e10
     factor = cholesky_banded(benchmark.banded_matrix(body, s), lower=True)
-    pivot = BlockOperator(body, s)._pivot
+    pivot = BlockOperator(body, s).pivot
     for mode in range(9):
         right = np.zeros(factor.shape[1])
         first = mode * 2 * 6

@@ -211,7 +211,7 @@ def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
         monkeypatch.setattr("nucleation.fem.right_edge.ROUND_OFF", round_off)
         sweeps = []
         monkeypatch.setattr(
-            "nucleation.fem.operator.BlockOperator._swept",
+            "nucleation.fem.operator.BlockOperator.swept",
             lambda self, load, edge: sweeps.append(0) or sweep(self, load, edge),
         )
         dynamics = composed(parameters)
@@ -222,7 +222,7 @@ def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
             reports.append(report)
         return state, reports, len(sweeps) / len(LADDER)
 
-    sweep = BlockOperator._swept
+    sweep = BlockOperator.swept
     (state, found, sweeps), (expected_state, expected, all_sweeps) = swept(4.0), swept(0.0)
     assert all_sweeps > 2.0 > 1.5 > sweeps
     for one, two in zip(found, expected, strict=True):

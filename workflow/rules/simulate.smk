@@ -5,7 +5,7 @@ from math import ceil
 
 def memory(run, attempt):
     """Memory (MB) of a cluster job with one simulation: two Snakemakes in it need 150 MB each."""
-    return attempt * ceil(300 + estimated_megabytes(run.parameters.mesh))
+    return attempt * ceil(300 + estimated_megabytes(run.parameters))
 
 
 rule simulate:

@@ -82,12 +82,15 @@ def variation(case: Case, base: Case) -> tuple[str, str]:
 def _field(name: str, known: Names) -> str:
     """The last part of a full name, if no other parameter has it; ``law`` is the evolution's."""
     last = name.rpartition(".")[2]
-    return last if last not in ALIASES and last not in known.ambiguous else name
+    meant = ALIASES.get(last, name) == name
+    return last if meant and last not in known.ambiguous else name
 
 
 def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:
     """A changed value in words: a multiple of the usual one where there is one."""
     symbol = entry.symbol or name
+    if value is None:
+        return f"{symbol} as the first body's"
     if isinstance(value, str):
         return f"{symbol} = {value}"
     if value and usual:

@@ -21,9 +21,9 @@ STUDY = "command"  # name of the study of one run that a command line amounts to
 
 
 def flat(parameters: Parameters) -> dict[str, Any]:
-    """Parameters by their names in studies."""
-    known = names()
-    return {known.short(full): value for full, value in parameters.named().items()}
+    """Parameters by their names in studies, but for those that are left out."""
+    known, given = names(), parameters.named().items()
+    return {known.short(full): value for full, value in given if value is not None}
 
 
 def _defaults() -> dict[str, Any]:

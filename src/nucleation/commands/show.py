@@ -18,7 +18,7 @@ from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..pipeline.running import simulation_code
-from ..theory.critical import theory_length
+from ..theory.critical import run_length
 
 SHOWN_ROWS = 60
 
@@ -106,7 +106,7 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
 def _simulation_lines(dataset: xr.Dataset) -> list[str]:
     attributes, parameters = dataset.attrs, parameters_of(dataset)
     interface = linearised(parameters.friction, parameters.loading)
-    theory = theory_length(parameters.geometry.height, parameters.material, interface)
+    theory = run_length(parameters, interface)
     wall = f"{attributes['wall_seconds']:.4g} s of wall time"
     return [
         *text.parameter_lines(parameters),

@@ -95,12 +95,11 @@ def _check_output(output: Path, force: bool) -> None:
 
 
 def _plan_lines(run: Run) -> list[str]:
-    mesh = run.parameters.mesh
-    element = run.parameters.geometry.length / mesh.n_x
+    element = run.parameters.geometry.length / run.parameters.mesh.n_x
     return [
         f"theory: critical length {run.theory_length:.4g} m, {run.theory_length / element:.4g} "
         f"elements of {element:.4g} m",
-        f"memory: about {estimated_megabytes(mesh):.0f} MB",
+        f"memory: about {estimated_megabytes(run.parameters):.0f} MB",
     ]
 
 

@@ -17,6 +17,8 @@ def parameter_lines(parameters: Parameters) -> list[str]:
         own = getattr(parameters, group)
         lines.append(f"{group}:")
         for name, entry in declarations(type(own)).items():
+            if getattr(own, name) is None:
+                continue  # what a rigid base does not have, or a second block has like the first
             value = with_unit(getattr(own, name), entry)
             meaning = re.split("[;:,]", entry.description)[0]
             lines.append(f"  {name:<28} {value:<16} {meaning}")

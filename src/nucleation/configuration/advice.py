@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from ..model.linearised import linearised
-from ..model.parameters import Parameters
+from ..model.parameters import Geometry, Mesh
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION
 from ..theory.estimates import (
     growth_time,
@@ -43,9 +43,8 @@ class Advice(NamedTuple):
     text: str
 
 
-def element_sizes(parameters: Parameters) -> tuple[float, float]:
-    """Length of the elements, and height of those at the interface (m)."""
-    mesh, geometry = parameters.mesh, parameters.geometry
+def element_sizes(mesh: Mesh, geometry: Geometry) -> tuple[float, float]:
+    """Length of a block's elements, and height of those at the interface (m)."""
     growth = mesh.grading ** (1.0 / (mesh.n_y - 1))
     rows = sum(growth**row for row in range(mesh.n_y))
     return geometry.length / mesh.n_x, geometry.height / rows
@@ -88,8 +87,9 @@ def _about(run: Run) -> Iterator[Advice]:
 
 
 def _mesh(run: Run) -> Iterator[Advice]:
-    mesh, zone = run.parameters.mesh, process_zone(run.parameters)
-    along, across = element_sizes(run.parameters)
+    parameters, zone = run.parameters, process_zone(run.parameters)
+    mesh, below = parameters.mesh, parameters.below
+    along, _ = element_sizes(mesh, parameters.geometry)
     if along > zone / ELEMENTS_PER_ZONE:
         least, best = (
             math.ceil(mesh.n_x * along / zone * n) for n in (ELEMENTS_PER_ZONE, CONVERGED_ELEMENTS)
@@ -100,13 +100,17 @@ def _mesh(run: Run) -> Iterator[Advice]:
             f"zone of {zone:.3g} m; recommended is n_x = {least} or more, and about {best} for "
             "lengths that no longer depend on the mesh",
         )  # fmt: skip
-    if across > zone / ELEMENTS_PER_ZONE:
-        yield Advice(
-            "mesh too coarse along y", across / zone,
-            f"n_y = {mesh.n_y} and grading = {mesh.grading:g} make elements of {across:.3g} m at "
-            f"the interface, {zone / across:.2g} to a process zone of {zone:.3g} m; recommended "
-            f"are {zone / ELEMENTS_PER_ZONE:.3g} m or less",
-        )  # fmt: skip
+    blocks = [("", mesh, parameters.geometry)]
+    blocks += [("second_", below.mesh, below.geometry)] if below else []
+    for which, own, geometry in blocks:
+        _, across = element_sizes(own, geometry)
+        if across > zone / ELEMENTS_PER_ZONE:
+            yield Advice(
+                "mesh too coarse along y", across / zone,
+                f"{which}n_y = {own.n_y} and {which}grading = {own.grading:g} make elements of "
+                f"{across:.3g} m at the interface, {zone / across:.2g} to a process zone of "
+                f"{zone:.3g} m; recommended are {zone / ELEMENTS_PER_ZONE:.3g} m or less",
+            )  # fmt: skip
 
 
 def _steps(run: Run, period: float) -> Iterator[Advice]:
@@ -155,7 +159,8 @@ def _start(run: Run) -> Iterator[Advice]:
 
 
 def _roughness(run: Run) -> Iterator[Advice]:
-    declared, (along, _) = run.parameters.perturbation, element_sizes(run.parameters)
+    declared = run.parameters.perturbation
+    along, _ = element_sizes(run.parameters.mesh, run.parameters.geometry)
     scale = declared.correlation_length
     if declared.acts and declared.kind in ALONG_X and scale < ELEMENTS_PER_CORRELATION * along:
         least = math.ceil(run.parameters.mesh.n_x * ELEMENTS_PER_CORRELATION * along / scale)

@@ -8,7 +8,7 @@ from pathlib import Path, PurePosixPath
 
 from ..analysis.definitions import ExtractionSettings
 from ..model.linearised import InterfaceState
-from ..model.parameters import FIRST_STEP, Mesh, Parameters
+from ..model.parameters import FIRST_STEP, Parameters
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, theory_length
@@ -57,7 +57,7 @@ def setting_problems(
         yield f"crosscheck: {error}"
         return
     for run in parameters.values():
-        yield from memory_problems("crosscheck", run.mesh, limits)
+        yield from memory_problems("crosscheck", run, limits)
 
 
 def run_problems(
@@ -91,7 +91,7 @@ def run_problems(
             f"{key}: {run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
             f"characters, more than {LONGEST_ID}; put what does not vary into the study's defaults"
         )
-    yield from memory_problems(key, run.parameters.mesh, limits)
+    yield from memory_problems(key, run.parameters, limits)
 
 
 def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
@@ -109,13 +109,14 @@ def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
         )
 
 
-def memory_problems(key: str, mesh: Mesh, limits: Limits) -> Iterator[str]:
-    """A mesh whose simulation would need more memory than allowed."""
-    need = estimated_megabytes(mesh)
+def memory_problems(key: str, parameters: Parameters, limits: Limits) -> Iterator[str]:
+    """Meshes whose simulation would need more memory than allowed."""
+    need, mesh, below = estimated_megabytes(parameters), parameters.mesh, parameters.below
     if need > limits.memory:
+        second = f", second_n_y = {below.mesh.n_y}" if below else ""
         yield (
-            f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y} is not allowed: the simulation would "
-            f"need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
+            f"{key}: n_x = {mesh.n_x}, n_y = {mesh.n_y}{second} is not allowed: the simulation "
+            f"would need about {need:.0f} MB, more than limits.memory = {limits.memory:g} MB"
         )
 
 

@@ -150,7 +150,8 @@ def _group(name: str, values: dict[str, Any]) -> Any:
         if entries[key].many:
             typed[key] = tuple(float(x) for x in expand(value))
         else:
-            typed[key] = float(value) if entries[key].kind == "float" else value  # type: ignore[assignment]
+            number = entries[key].kind == "float" and value is not None
+            typed[key] = float(value) if number else value  # type: ignore[assignment]
     return schema.GROUPS[name](**typed)
 
 

@@ -14,6 +14,7 @@ from ..model.material import Material
 from ..model.parameters import Loading, Stepping
 from ..model.perturbation import Perturbation
 from ..model.quantities import Quantity, declarations
+from ..model.second_body import SecondBody
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .settings import FigureSettings, Limits
@@ -29,6 +30,7 @@ GROUPS: dict[str, type] = {
     "loading": Loading,
     "stepping": Stepping,
     "perturbation": Perturbation,
+    "second_body": SecondBody,
     "main_text_interface": InterfaceState,
     "curves": Curves,
     "extraction": ExtractionSettings,
@@ -128,13 +130,14 @@ def _leaf(entry: Quantity) -> Node:
     if entry.symbol:
         node["symbol"] = entry.symbol
     if entry.choices:
-        return node | {"enum": list(entry.choices)}
+        return node | {"enum": [*entry.choices, *([None] if entry.optional else [])]}
     if entry.kind == "str":
         return node | {"type": "string", "minLength": 1}
     low = "minimum" if entry.closed in ("low", "both") else "exclusiveMinimum"
     high = "maximum" if entry.closed in ("high", "both") else "exclusiveMaximum"
     kind = "integer" if entry.kind == "int" else "number"
-    return node | {"type": kind, low: entry.low, high: entry.high}
+    types = [kind, "null"] if entry.optional else kind
+    return node | {"type": types, low: entry.low, high: entry.high}
 
 
 def _any_leaf(entry: Quantity) -> Node:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 
-from ..model.parameters import Mesh
+from ..model.parameters import Parameters
 from ..model.quantities import Checked, quantity
 
 
@@ -35,12 +35,13 @@ class Limits(Checked):
     )  # fmt: skip
 
 
-def estimated_megabytes(mesh: Mesh) -> float:
-    """Memory (MB) that a simulation on this mesh needs, rounded up from measured runs.
+def estimated_megabytes(parameters: Parameters) -> float:
+    """Memory (MB) that a simulation needs, rounded up from measured runs.
 
-    Libraries, some hundred vectors of the body (mostly the factors kept for step sizes in use)
+    Libraries, some hundred vectors of the bodies (mostly the factors kept for step sizes in use)
     and some dense matrices of the interface.
     """
-    vector = 8e-6 * 2 * mesh.n_x * mesh.n_y
+    mesh, below = parameters.mesh, parameters.below
+    vector = 8e-6 * 2 * mesh.n_x * (mesh.n_y + (below.mesh.n_y if below else 0))
     matrix = 8e-6 * mesh.n_x**2
     return 250.0 + 400.0 * vector + 8.0 * matrix

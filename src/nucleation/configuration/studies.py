@@ -18,8 +18,8 @@ from ..model.linearised import (
 )
 from ..model.parameters import Parameters, names
 from ..model.quantities import Checked, ParameterError, Quantity, quantity
-from ..theory.critical import NoInstability, theory_length, theory_lengths
-from ..theory.transfer import RIGID, Body
+from ..theory.critical import NoInstability, run_length, theory_lengths
+from ..theory.transfer import bodies_of
 from .study_names import by_study_name, identifier, study_parameters
 
 RANGE: dict[str, Quantity] = {
@@ -249,10 +249,7 @@ def _prepared(
 
 def _theory_lengths(runs: Iterable[_Prepared]) -> Iterator[float]:
     """The theory's lengths (m) of all runs of a study in one call, NaN where sliding is stable."""
-    cases = [
-        (Body(r.parameters.material, r.parameters.geometry.height, "traction"), RIGID, r.interface)
-        for r in runs
-    ]
+    cases = [(*bodies_of(run.parameters), run.interface) for run in runs]
     return iter(theory_lengths(cases).tolist() if cases else [])
 
 
@@ -260,7 +257,7 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
     """One run; its length, unless given, is a multiple of the theory's critical length."""
     varied, values, parameters, interface = prepared
     if math.isnan(critical):  # which says why, or raises
-        critical = theory_length(parameters.geometry.height, parameters.material, interface)
+        critical = run_length(parameters, interface)
     length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
     if length <= critical:
         raise ParameterError(

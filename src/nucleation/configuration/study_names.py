@@ -42,7 +42,8 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
         name = given if given in CONSTANTS else known.short(known.full(given))
         if name in found:
             raise ParameterError(f"{given} = {value!r} is not allowed: {name} is given already")
-        found[name] = float(value) if declared[name].kind == "float" else value
+        number = declared[name].kind == "float" and value is not None
+        found[name] = float(value) if number else value
     return found
 
 
@@ -73,6 +74,8 @@ def identifier(study: str, labels: dict[str, Any], varied: dict[str, Any]) -> st
 
 def _text(value: Any) -> str:
     """A number in its shortest form without a plus sign, ``4e9`` for 4.0e+9."""
+    if value is None:
+        return "same"  # as the first body's
     if isinstance(value, str):
         return value
     mantissa, _, exponent = f"{value:.12g}".partition("e")

@@ -45,6 +45,11 @@ VARIABLES: dict[str, Variable] = {
     "displacement_y": Variable("m", "displacement along y", "u_y"),
     "velocity_x": Variable("m/s", "velocity along x", "du_x/dt"),
     "velocity_y": Variable("m/s", "velocity along y", "du_y/dt"),
+    "second_y": Variable("m", "position in the second body, negative below the interface", "y"),
+    "second_displacement_x": Variable("m", "displacement along x in the second body", "u_x"),
+    "second_displacement_y": Variable("m", "displacement along y in the second body", "u_y"),
+    "second_velocity_x": Variable("m/s", "velocity along x in the second body", "du_x/dt"),
+    "second_velocity_y": Variable("m/s", "velocity along y in the second body", "du_y/dt"),
     # Film of a run
     "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy"),
     # Table of nucleation lengths, one row per simulation

@@ -95,6 +95,10 @@ class Body(Protocol):
     grid: Grid  # whose lowest nodes are those of the interface
 
     @property
+    def grid_below(self) -> Grid | None:
+        """The mesh of a second body, upside down: its lowest nodes are those of the interface."""
+
+    @property
     def crossing_time(self) -> float:
         """Time (s) in which shear waves cross the body."""
 
@@ -124,4 +128,7 @@ class Body(Protocol):
         """The motion at a new displacement, its rate by ``u = sum_i past_i u_i + beta du/dt``."""
 
     def nodal_values(self, field: Field) -> tuple[Array, Array]:
-        """Nodal w_x and u_y."""
+        """Nodal w_x and u_y of the (upper) body, levels from the interface up."""
+
+    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
+        """Nodal u_x and u_y of a second body, levels from the interface down."""

@@ -45,6 +45,12 @@ class CondensedOnNodes(ABC):
     def modal(self) -> Array:
         """D and N per mode, the right edge held, times 2/n_x (N/m per m); (2, n_x) or more."""
 
+    @abstractmethod
+    def interface_forces(
+        self, amplitudes: Array, reduced: Array | float = 0.0
+    ) -> tuple[Array, Array]:
+        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
+
     def apply(self, w: Array) -> tuple[Array, Array]:
         """``D w``, shape (n_x,), and ``N w``, (n_x + 1,), for nodal w at nodes 1..n_x (m)."""
         near, tangential, normal = self.edge.felt

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+
 @dataclasses.dataclass(frozen=True)
 class BlockResponse(LoadedResponse):
     """A block's response to a load, with the edge values (m) in balance at the levels 0..n_y.
@@ -36,7 +37,7 @@ class BlockResponse(LoadedResponse):
     swept: Array | None = None
 
 
-class BlockOperator(CondensedOnNodes, SeparableOperator):
+class BlockOperator(SeparableOperator, CondensedOnNodes):
     """``K + s M`` of a :class:`Block` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
     def __init__(self, body: Block, s: float) -> None:

@@ -33,7 +33,7 @@ from .block import Block
 from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
 from .field import Field, Motion, Terms
-from .operator import BlockOperator
+from .grid import Grid
 from .right_edge import EdgeValues, inverse_within, predicted, relative_error
 from .separable import LoadedResponse, rate_of_change
 
@@ -69,6 +69,11 @@ class Pair:
                 f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
             )
         self.upper, self.lower, self.grid = upper, lower, one
+
+    @property
+    def grid_below(self) -> Grid:
+        """The lower block's mesh, its levels from the interface down."""
+        return self.lower.grid
 
     @property
     def crossing_time(self) -> float:
@@ -215,7 +220,9 @@ class PairOperator(CondensedOnNodes):
         own = 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
         return self.upper.megabytes + self.lower.megabytes + own
 
-    def interface_forces(self, amplitudes: Array, reduced: Array | float = 0.0) -> tuple:
+    def interface_forces(
+        self, amplitudes: Array, reduced: Array | float = 0.0
+    ) -> tuple[Array, Array]:
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
         return self.along_x.interface_forces(self.modal * amplitudes - reduced)
 

@@ -80,6 +80,15 @@ class SeparableBody(ABC):
         return self.grid.height / self.material.shear_wave_speed
 
     @property
+    def grid_below(self) -> Grid | None:
+        """No second body: it stands on a rigid base."""
+        return None
+
+    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
+        """There is no second body to have any."""
+        raise NotImplementedError
+
+    @property
     def no_memory(self) -> Array:
         """What it remembers before its first step."""
         return np.empty(0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from .friction.law import Friction
 from .friction.registry import LAWS, law_declarations
@@ -13,6 +13,7 @@ from .material import Material
 from .names import Names
 from .perturbation import Perturbation
 from .quantities import Checked, ParameterError, Quantity, declarations, quantity
+from .second_body import SecondBody
 
 EVENT_DROP = 0.02
 """Fall of the driving force, as a fraction, that makes an event unless another is asked for."""
@@ -97,6 +98,15 @@ class Stepping(Checked):
     )  # fmt: skip
 
 
+class Below(NamedTuple):
+    """A second deformable block, with all that it has like the first one filled in."""
+
+    material: Material
+    geometry: Geometry
+    mesh: Mesh
+    bottom: str
+
+
 @dataclasses.dataclass(frozen=True)
 class Parameters:
     """Everything one simulation depends on; two equal objects give the same result."""
@@ -108,6 +118,21 @@ class Parameters:
     mesh: Mesh = Mesh()
     stepping: Stepping = Stepping()
     perturbation: Perturbation = Perturbation()
+    second_body: SecondBody = SecondBody()
+
+    @property
+    def below(self) -> Below | None:
+        """The second block, or None on a rigid base."""
+        second = self.second_body
+        if not second.deformable:
+            return None
+
+        def like_the_first(own: Any) -> Any:
+            given = {f.name: getattr(second, f.name, None) for f in dataclasses.fields(own)}
+            return dataclasses.replace(own, **{k: v for k, v in given.items() if v is not None})
+
+        material, geometry, mesh = map(like_the_first, (self.material, self.geometry, self.mesh))
+        return Below(material, geometry, mesh, second.bottom or "free")
 
     @property
     def memory_time(self) -> float:
@@ -133,9 +158,10 @@ class Parameters:
     def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value.
 
-        The perturbation may be left out, as in records older than it, which are quiet.
+        Perturbation and second body may be left out, as in records older than they are, which are
+        quiet and on a rigid base.
         """
-        values = {"perturbation": {}} | values
+        values = {"perturbation": {}, "second_body": {}} | values
         return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
@@ -174,6 +200,7 @@ class Parameters:
 GROUPS: dict[str, type] = {
     "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
     "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
+    "second_body": SecondBody,
 }  # fmt: skip
 """The groups of :class:`Parameters` and their classes."""
 
@@ -181,9 +208,19 @@ ALIASES = {
     "law": "friction.evolution",
     "friction_law": "friction.law",
     "phi0": "loading.initial_state",
+    "kind": "perturbation.kind",
     "perturbation": "perturbation.kind",
+    "shear_modulus": "material.shear_modulus",
+    "poisson_ratio": "material.poisson_ratio",
+    "density": "material.density",
+    "height": "geometry.height",
+    "n_y": "mesh.n_y",
+    "grading": "mesh.grading",
+    **{f"second_{name}": f"second_body.{name}" for name in declarations(SecondBody)},
+    "second_body": "second_body.kind",
 }
-"""Short names by agreement: ``law`` was the evolution's before the coefficient had one."""
+"""Short names by agreement: ``law`` was the evolution's before the coefficient had one; those
+without ``second_`` are the first body's."""
 
 
 def group_declarations(group: str) -> dict[str, Quantity]:

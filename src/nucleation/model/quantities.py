@@ -31,6 +31,7 @@ class Quantity:
     symbol: str = ""
     choices: Collection[str] = ()
     kind: str = "float"  # the field's annotation: "float", "int", "str" or "tuple[float, ...]"
+    optional: bool = False  # whether it may be left out, None, for what its description says
 
     @property
     def many(self) -> bool:
@@ -39,6 +40,8 @@ class Quantity:
 
     def allows(self, value: Any) -> bool:
         """Whether `value` lies in the allowed range (never for NaN, bool or a string number)."""
+        if value is None:
+            return self.optional
         if self.many:
             return isinstance(value, tuple) and value != () and all(map(self._allows_one, value))
         return self._allows_one(value)
@@ -79,13 +82,14 @@ def declarations(cls: type) -> dict[str, Quantity]:
 
 @cache  # a study of thousands of runs asks for each group of each run
 def _declarations(cls: Any) -> dict[str, Quantity]:
-    return {
-        f.name: dataclasses.replace(
-            f.metadata["quantity"], kind=getattr(f.type, "__name__", f.type)
-        )
-        for f in dataclasses.fields(cls)
-        if "quantity" in f.metadata
-    }
+    found = {}
+    for field in dataclasses.fields(cls):
+        if "quantity" in field.metadata:
+            annotation = getattr(field.type, "__name__", str(field.type))
+            kind = annotation.removesuffix(" | None")
+            entry = field.metadata["quantity"]
+            found[field.name] = dataclasses.replace(entry, kind=kind, optional=kind != annotation)
+    return found
 
 
 class Checked:

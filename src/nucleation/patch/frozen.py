@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from ..analysis.definitions import SEARCHED
-from ..fem.operator import BlockOperator
+from ..fem.bodies import BodyOperator
 from ..model.friction.law import Friction
 
 Array = NDArray[np.float64]
@@ -120,14 +120,14 @@ def log_state_derivatives(law: Friction, slip_rate: Array, state: Array) -> tupl
 
 
 def frozen_patch(
-    operator: BlockOperator, law: Friction, slip_rate: Array, state: Array, normal_force: Array,
+    operator: BodyOperator, law: Friction, slip_rate: Array, state: Array, normal_force: Array,
     slowest: float,
 ) -> FrozenPatch:  # fmt: skip
     """Linearise the patch whose fields along the interface (n_x + 1,) are given.
 
     Parameters
     ----------
-    operator : the static stiffness of the block (``s = 0``).
+    operator : the static stiffness of the body or bodies (``s = 0``).
     law : friction law.
     slip_rate, state, normal_force : at the nodes 0..n_x (m/s, s, N/m; positive in compression).
     slowest : nodes that slip more slowly (m/s) are taken as stuck.

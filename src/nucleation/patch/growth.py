@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.lengths import description
 from ..analysis.record import Record
-from ..fem.block import Block
+from ..fem.bodies import body_of
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 Array = NDArray[np.float64]
@@ -70,7 +70,7 @@ class _Creep:
 
     def __init__(self, record: Record) -> None:
         self.parameters, self.grid = record.parameters, record.grid
-        self._operator = Block(self.grid, self.parameters.material).operator(0.0)
+        self._operator = body_of(self.parameters).operator(0.0)
         self._threshold = record.threshold
         self._slowest_oscillation = OSCILLATING / self.parameters.memory_time
         before = record.simulation.isel(time=record.creep)

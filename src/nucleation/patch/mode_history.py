@@ -28,8 +28,7 @@ from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record
-from ..fem.block import Block
-from ..fem.operator import BlockOperator
+from ..fem.bodies import BodyOperator, body_of
 from ..model.parameters import Parameters
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
@@ -83,7 +82,7 @@ def follow_mode(
     """
     record = Record(simulation, settings)
     parameters, grid = record.parameters, record.grid
-    operator = Block(grid, parameters.material).operator(0.0)
+    operator = body_of(parameters).operator(0.0)
     creep, threshold = record.simulation.isel(time=record.creep), record.threshold
     time, length = record.time[record.creep], record.lengths[record.creep]
     wanted = np.linspace(FROM * length[-1], length[-1], INSTANTS)
@@ -106,7 +105,7 @@ def follow_mode(
     return ModeHistory(parameters, grid.x, *columns)
 
 
-def _loads(operator: BlockOperator, parameters: Parameters) -> _Loads:
+def _loads(operator: BodyOperator, parameters: Parameters) -> _Loads:
     body = operator.body
     at_rest = operator.respond(
         body.top_load(parameters.loading.normal_stress), np.zeros(body.grid.n_x)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ..analysis.definitions import Extent, ExtractionSettings
 from ..analysis.lengths import description
-from ..fem.block import Block
+from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.composition import composed
@@ -54,7 +54,7 @@ class Patches:
 
     def __init__(self, parameters: Parameters, settings: ExtractionSettings) -> None:
         self.grid = Grid.of(parameters.geometry, parameters.mesh)
-        self._operator = Block(self.grid, parameters.material).operator(0.0)
+        self._operator = body_of(parameters).operator(0.0)
         self._law = parameters.friction
         self._threshold = settings.edge_threshold * parameters.loading.velocity
         self._extent = Extent(self.grid.x, self._threshold)

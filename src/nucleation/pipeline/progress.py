@@ -14,7 +14,7 @@ from ..fem.grid import Grid
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..simulation.control import Instant
-from ..theory.critical import NoInstability, theory_length
+from ..theory.critical import NoInstability, run_length
 
 PAUSE = 10.0  # s of wall time between the lines of a log
 PAUSE_ON_TERMINAL = 0.2
@@ -103,7 +103,7 @@ def _expected_length(parameters: Parameters) -> float | None:
     """The linear theory's critical length (m), None if it knows no instability."""
     interface = linearised(parameters.friction, parameters.loading)
     try:
-        return theory_length(parameters.geometry.height, parameters.material, interface)
+        return run_length(parameters, interface)
     except NoInstability:
         return None
 

@@ -1,9 +1,8 @@
-"""The usual composition of a run: one block, friction, the declared drive, BDF."""
+"""The usual composition of a run: one block or two, friction, the declared drive, BDF."""
 
 from __future__ import annotations
 
-from ..fem.block import Block
-from ..fem.grid import Grid
+from ..fem.bodies import body_of
 from ..model.parameters import Parameters
 from ..stepping.scheme import BDF
 from .forcing import drive_of
@@ -12,8 +11,8 @@ from .step import Dynamics
 
 
 def composed(parameters: Parameters) -> Dynamics:
-    """The dynamics that parameters ask for: here a further body, drive or scheme is chosen."""
-    body = Block(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
+    """The dynamics that parameters ask for: here a further drive or scheme is chosen."""
+    body = body_of(parameters)
     return Dynamics(
         body,
         Interface(parameters.friction),

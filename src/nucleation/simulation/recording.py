@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
+BULK = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
 FRAME_STEPS = 40  # and at least every so many steps
 SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
 
@@ -33,6 +34,7 @@ class Recorder:
         self._rows: list[tuple[float, float, float, float, int]] = []
         self._frames: list[tuple[float, Array]] = []
         self._snapshots: list[tuple[float, Array]] = []
+        self._snapshots_below: list[Array] = []  # at the same times, on a second body
         self._last_scaled = np.empty(0)
         self._last_frame_step = 0
         self._next_snapshot_rate = 0
@@ -89,6 +91,8 @@ class Recorder:
         if not self._snapshots or exceeded:
             self._next_snapshot_rate += exceeded
             self._snapshots.append((state.time, self._bulk(state)))
+            if self._body.grid_below is not None:
+                self._snapshots_below.append(self._bulk_below(state))
 
     def _bulk(self, state: State) -> Array:
         """Displacement and velocity at the nodes, shape (4, n_y + 1, n_x + 1)."""
@@ -96,6 +100,11 @@ class Recorder:
         x, y = self._body.nodal_values(state.displacement)
         rate_x, rate_y = self._body.nodal_values(state.velocity)
         return np.array([x + edge.displacement, y, rate_x + edge.velocity, rate_y])
+
+    def _bulk_below(self, state: State) -> Array:
+        """The same of a second body, its levels from the interface down."""
+        fields = state.displacement, state.velocity
+        return np.array([v for field in fields for v in self._body.nodal_values_below(field)])
 
     def to_arrays(self) -> dict[str, NDArray]:
         """Everything recorded, as plain arrays by name, to be stored; exact."""
@@ -106,6 +115,7 @@ class Recorder:
             "last_frame_step": np.array(self._last_frame_step),
             "snapshot_times": np.array([t for t, _ in self._snapshots]),
             "snapshots": np.array([fields for _, fields in self._snapshots]),
+            "snapshots_below": np.array(self._snapshots_below),
             "next_snapshot_rate": np.array(self._next_snapshot_rate),
             "watched": self._watch.maxima,
             "event_time": np.array(self._event_time),
@@ -119,6 +129,7 @@ class Recorder:
         self._last_frame_step = int(arrays["last_frame_step"])
         times = arrays["snapshot_times"].tolist()
         self._snapshots = list(zip(times, arrays["snapshots"], strict=True))
+        self._snapshots_below = list(arrays["snapshots_below"])
         self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
         self._watch.maxima = arrays["watched"]
         self._event_time = float(arrays["event_time"])
@@ -127,7 +138,6 @@ class Recorder:
     def dataset(self) -> xr.Dataset:
         """Everything recorded, without metadata of the variables."""
         frame_names = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
-        bulk_names = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
         row_names = (
             "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
         )  # fmt: skip
@@ -136,10 +146,15 @@ class Recorder:
         rows = [np.array(column) for column in zip(*self._rows, strict=True)]
         data = {name: (("time", "x"), frames[:, i]) for i, name in enumerate(frame_names)}
         data |= {name: (("step",), row) for name, row in zip(row_names, rows, strict=True)}  # type: ignore[misc]
-        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(bulk_names)}  # type: ignore[misc]
+        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(BULK)}  # type: ignore[misc]
         data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))  # type: ignore[assignment]
         if isinstance(self._drive, Perturbed):
             frame_times = np.array([t for t, _ in self._frames])
             data["perturbation"] = self._drive.realised(rows[0], frame_times)  # type: ignore[assignment]
         coords = {"time": [t for t, _ in self._frames], "x": self.grid.x, "y": self.grid.y}
+        below = self._body.grid_below
+        if below is not None:
+            coords["second_y"] = -below.y
+            for i, values in enumerate(np.moveaxis(np.array(self._snapshots_below), 1, 0)):
+                data[f"second_{BULK[i]}"] = ("snapshot", "second_y", "x"), values  # type: ignore[assignment]
         return xr.Dataset(data, coords=coords, attrs={"parameters": self.parameters.to_json()})

@@ -16,10 +16,11 @@ from numpy.typing import ArrayLike
 
 from ..model.linearised import InterfaceState
 from ..model.material import Material
+from ..model.parameters import Parameters
 from .crossings import largest_crossings, marginal_frequencies
 from .spectrum import Systems, system
 from .stiffness import Array, Layers, Pair
-from .transfer import RIGID, Body, RigidBody
+from .transfer import RIGID, Body, RigidBody, bodies_of
 
 _Case = tuple[Body | RigidBody, Body | RigidBody, InterfaceState]
 """A system of the theory: the upper body, the lower body and their interface."""
@@ -165,6 +166,18 @@ def critical_length(height: ArrayLike, material: Material, interface: InterfaceS
     for case in np.flatnonzero(np.isnan(lengths))[:1]:
         raise NoInstability(stability_reason(system(*cases[case])))
     return lengths.reshape(height.shape)
+
+
+@cache
+def run_length(parameters: Parameters, interface: InterfaceState) -> float:
+    """The critical length (m) of a run's own bodies and far sides, for friction linearised.
+
+    Raises
+    ------
+    NoInstability
+        If sliding is stable.
+    """
+    return critical_wavenumber(*bodies_of(parameters), interface).length
 
 
 @cache

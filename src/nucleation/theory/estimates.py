@@ -3,9 +3,41 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
+from .stiffness import SATURATION, Pair
+from .transfer import bodies_of
+
+THIN = 1e-3  # layer number k H at which a body is thin
+
+
+class Stiffness(NamedTuple):
+    """How bodies resist slip of wavenumber k: ``thick k`` if they are thick, ``thin k^2`` if thin.
+
+    For a block on a rigid base the customary ``mu/(1 - nu)`` (Pa) and ``2 mu H/(1 - nu)`` (Pa m);
+    for two blocks ``mu k G1`` of the theory in both limits, the softer one's in the main. Thin
+    blocks that slip on one another bend as well, which makes them four times as soft.
+    """
+
+    thick: float
+    thin: float
+
+
+def stiffness_of(parameters: Parameters) -> Stiffness:
+    """The stiffness of a run's bodies."""
+    if parameters.below is None:
+        material = parameters.material
+        thick = material.shear_modulus / (1.0 - material.poisson_ratio)
+        return Stiffness(thick, 2.0 * parameters.geometry.height * thick)
+    pair = Pair(*(body.layers for body in bodies_of(parameters)))
+    heights = parameters.geometry.height, parameters.below.geometry.height
+    short, long = SATURATION / min(heights), THIN / max(heights)
+    resistance = pair.modulus * pair.stiffness(np.array([short, long])).xx
+    return Stiffness(float(resistance[0]), float(resistance[1]) / long)
 
 
 def process_zone(parameters: Parameters) -> float:
@@ -15,16 +47,17 @@ def process_zone(parameters: Parameters) -> float:
     -----
     The wavelength over 2 pi at which the body's stiffness equals friction's fastest weakening
     ``b sigma0/D``, ``b = a + zeta``: in a thick body ``L_b = mu D/((1 - nu) b sigma0)`` (Dieterich,
-    1992; Rubin and Ampuero, 2005), in a thin block ``sqrt(2 H L_b)``. The smaller of both.
+    1992; Rubin and Ampuero, 2005), in a thin block ``sqrt(2 H L_b)``. The smaller of both; of two
+    blocks with the stiffness of both (:class:`Stiffness`).
     """
-    material, friction, loading = parameters.material, parameters.friction, parameters.loading
+    friction, loading = parameters.friction, parameters.loading
     interface = linearised(friction, loading)
     weakening = (interface.a + interface.zeta) * loading.normal_stress
     if weakening <= 0.0:
         return math.inf
-    stiffness = material.shear_modulus / (1.0 - material.poisson_ratio)
-    thick = stiffness * friction.characteristic_slip_distance / weakening
-    return min(thick, math.sqrt(2.0 * parameters.geometry.height * thick))
+    stiffness = stiffness_of(parameters)
+    scale = friction.characteristic_slip_distance / weakening
+    return min(stiffness.thick * scale, math.sqrt(stiffness.thin * scale))
 
 
 def growth_time(parameters: Parameters, length: float) -> float:
@@ -33,12 +66,12 @@ def growth_time(parameters: Parameters, length: float) -> float:
     Notes
     -----
     The edge's displacement ``V t`` that moves a patch against ``f sigma0``: ``(1 - nu)/mu f sigma0
-    [L^2/(4 H) + L]``, the first term compressing a thin block, the second a thick one. In the
+    [L^2/(4 H) + L]``, the first term compressing a thin block, the second a thick one; of two
+    blocks with the stiffness of both (:class:`Stiffness`). In the
     simulations of the paper's study the force drops at 0.5 to 0.8 of the time for the theory's
     critical length.
     """
-    loading, material = parameters.loading, parameters.material
+    loading, stiffness = parameters.loading, stiffness_of(parameters)
     strength = linearised(parameters.friction, loading).friction * loading.normal_stress
-    reach = length**2 / (4.0 * parameters.geometry.height) + length
-    compliance = (1.0 - material.poisson_ratio) / material.shear_modulus
-    return compliance * strength * reach / loading.velocity
+    moved = length**2 / (2.0 * stiffness.thin) + length / stiffness.thick
+    return strength * moved / loading.velocity

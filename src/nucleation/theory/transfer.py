@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..model.material import Material
+from ..model.parameters import Parameters
 from ..model.quantities import Checked, quantity
 from .stiffness import FAR_SIDES, Array, Layers, Pair
 from .waves import Waves
@@ -63,6 +64,15 @@ class RigidBody:
 
 
 RIGID = RigidBody()
+
+
+def bodies_of(parameters: Parameters) -> tuple[Body, Body | RigidBody]:
+    """The upper and the lower body of a run, with its own far sides."""
+    upper = Body(parameters.material, parameters.geometry.height, "free")
+    below = parameters.below
+    if below is None:
+        return upper, RIGID
+    return upper, Body(below.material, below.geometry.height, below.bottom)
 
 
 def as_wavenumber(wavenumber: ArrayLike) -> Array:

@@ -112,7 +112,7 @@ def test_pairs_of_simulations_on_both_nodes(disturbed):
     assert [job["NumCPUs"] for job in pairs] == ["2"] * len(pairs)
     assert {job["TimeLimit"] for job in pairs} == {"01:00:00"}
     smallest, largest = (
-        2 * (300 + f(estimated_megabytes(run.parameters.mesh) for run in RUNS)) for f in (min, max)
+        2 * (300 + f(estimated_megabytes(run.parameters) for run in RUNS)) for f in (min, max)
     )
     for job in pairs:
         attempt = 2 if job["JobId"] not in first_submissions(pairs) else 1

@@ -8,6 +8,7 @@ from ...model.linearised import InterfaceState
 from ...model.material import Material
 from ...model.parameters import Parameters
 from ...model.quantities import Checked, quantity
+from ...model.second_body import SecondBody
 from ...theory.critical import theory_length
 
 FIXED = {
@@ -67,6 +68,7 @@ def runs(
     settings : heights, meshes and time after the event.
     interface : of the linear theory, in whose critical length the block's length is measured.
     """
+    base = dataclasses.replace(base, second_body=SecondBody())  # the other solver has one block
     common = base.replaced(FIXED | {"stepping.time_after_event": settings.time_after_event})
     found = {}
     for height in settings.heights:

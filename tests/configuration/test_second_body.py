@@ -1,0 +1,115 @@
+"""A second body in configurations: what it is, its own theory, what is refused and warned of."""
+
+import math
+
+import pytest
+from configurations import changed, messages, study
+
+from nucleation.configuration.advice import advise
+from nucleation.configuration.load import configure
+from nucleation.configuration.settings import estimated_megabytes
+from nucleation.model.parameters import Parameters
+from nucleation.theory.arrays import critical_length
+from nucleation.theory.estimates import growth_time, process_zone, stiffness_of
+
+RUN = "studies.s.runs[0]"
+RIGID = "is not allowed with second_body.kind = rigid"
+PAIR = {"height": 0.02, "second_body": "deformable"}
+
+REFUSED = {
+    "density of a rigid body": (
+        study({"height": 0.1, "second_density": 2000.0}),
+        f"{RUN}: second_body.density = 2000.0 kg/m^3 {RIGID}",
+    ),
+    "a rigid base on rollers": (
+        study({"height": 0.1, "second_bottom": "roller"}),
+        f"{RUN}: second_body.bottom = 'roller' {RIGID}",
+    ),
+    "in a section": (
+        changed("second_body.bottom", "clamped"), f"second_body.bottom = 'clamped' {RIGID}",
+    ),
+    "under a study that fixes the rigid base": (
+        study({"height": 0.1, "second_body.height": [0.1, 0.2]}, defaults={"second_body": "rigid"}),
+        f"{RUN}: second_body.height = 0.1 m {RIGID}",
+    ),
+    "negative": (
+        study({**PAIR, "second_shear_modulus": -1e9}),
+        f"{RUN}.second_shear_modulus = -1000000000.0 Pa is not allowed",
+    ),
+    "no elements": (
+        study({**PAIR, "second_n_y": 0}), f"{RUN}.second_n_y = 0 is not allowed",
+    ),
+    "another bottom": (
+        study({**PAIR, "second_bottom": "glued"}), "must be one of free, clamped, roller",
+    ),
+    "kind and bottom in one": (
+        study({"height": 0.1, "second_body": "free"}), "must be one of rigid, deformable",
+    ),
+    "too large": (
+        study({**PAIR, "n_x": 3000, "n_y": 20, "second_n_y": 2000}),
+        "n_x = 3000, n_y = 20, second_n_y = 2000 is not allowed: the simulation would need about",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_nonsense_is_refused(case):
+    config, expected = REFUSED[case]
+    assert expected in messages(config)
+
+
+def test_what_is_left_out_is_as_of_the_first_body():
+    below = configure(study({**PAIR, "second_shear_modulus": 6e9})).runs[0].parameters.below
+    parameters = Parameters().replaced({"height": 0.02})
+    assert below.geometry.height == 0.02 and below.bottom == "free"
+    assert below.mesh == parameters.mesh
+    assert (below.material.shear_modulus, below.material.density) == (6e9, 1200.0)
+    assert Parameters().below is None
+
+
+def test_a_record_without_a_second_body_is_on_a_rigid_base():
+    values = Parameters().to_dict()
+    del values["second_body"]
+    assert Parameters.from_dict(values) == Parameters()
+
+
+@pytest.mark.parametrize("bottom", ["free", "clamped", "roller"])
+def test_each_run_has_the_theory_of_its_own_far_sides(bottom):
+    entry = {**PAIR, "second_bottom": bottom, "second_shear_modulus": 6e9, "second_height": 0.03}
+    (run,) = configure(study(entry)).runs
+    friction = run.parameters.friction.expansion(1e-5)
+    expected = critical_length(
+        shear_modulus=3.1e9, poisson_ratio=1 / 3, height=0.02, second_shear_modulus=6e9,
+        second_height=0.03, second_far_side=bottom, friction=friction.f0, a=friction.a,
+        zeta=friction.zeta, slip_distance=5e-7, normal_stress=1e6,
+    )  # fmt: skip
+    assert run.theory_length == pytest.approx(float(expected), rel=1e-9)
+    assert run.parameters.geometry.length == pytest.approx(6 * run.theory_length, rel=1e-3)
+
+
+def test_memory_counts_both_meshes():
+    one = Parameters().replaced({"n_x": 400, "n_y": 20})
+    pair = one.replaced({"second_body": "deformable", "second_n_y": 30})
+    assert estimated_megabytes(pair) == estimated_megabytes(one.replaced({"n_y": 50}))
+
+
+def test_estimates_go_with_the_softer_body():
+    """In the limits of the theory, by hand: thick bodies share, thin ones bend on one another."""
+    thick = Parameters().replaced({"height": 50.0, "second_body": "deformable"})
+    soft = thick.replaced({"second_shear_modulus": 3.1e7})
+    own = 3.1e9 / (1.0 - 1.0 / 3.0)
+    assert stiffness_of(thick).thick == pytest.approx(own / 2.0, rel=1e-6)
+    assert process_zone(soft) < 0.03 * process_zone(thick)
+    thin = Parameters().replaced({"height": 0.01, "second_body": "deformable"})
+    assert stiffness_of(thin).thin == pytest.approx(own * 2 * 0.01 / 8.0, rel=1e-4)
+    assert stiffness_of(thin.replaced({"second_bottom": "clamped"})).thin == pytest.approx(
+        own * 2 * 0.01, rel=1e-4
+    )
+    assert growth_time(soft, 0.1) > 20 * growth_time(thick, 0.1)
+
+
+def test_warned_of_the_second_mesh():
+    entry = {**PAIR, "second_height": 1.0, "second_n_y": 4, "n_x": 800, "n_y": 20, "end_time": 60.0}
+    (warning,) = advise(configure(study(entry)).runs)
+    assert "second_n_y = 4 and second_grading = 1 make elements of 0.25 m" in warning
+    assert math.isfinite(configure(study(entry)).runs[0].theory_length)

@@ -1,0 +1,82 @@
+"""Runs of two deformable blocks: records, checkpoints, and the rigid base as the limit."""
+
+import numpy as np
+import pytest
+
+from nucleation.fem.bodies import body_of
+from nucleation.model.parameters import Parameters
+from nucleation.patch.frozen import frozen_patch
+from nucleation.simulation.run import run, simulate
+
+COARSE = Parameters().replaced(
+    {"height": 0.02, "length": 1.2, "n_x": 60, "n_y": 4, "grading": 2.0, "end_time": 30.0,
+     "time_after_event": 0.0, "longest_step": 0.2, "tolerance": 0.05}
+)  # fmt: skip
+BOTTOMS = ("free", "clamped", "roller")
+
+
+def pair(bottom="free", **changed):
+    second = {"second_body": "deformable", "second_bottom": bottom, "second_n_y": 5}
+    return COARSE.replaced(second | changed)
+
+
+@pytest.mark.parametrize("bottom", BOTTOMS)
+def test_goes_on_from_a_checkpoint_to_the_last_bit(bottom):
+    parameters = pair(bottom, second_shear_modulus=5e9, end_time=0.5)
+    kept = []
+    whole = simulate(parameters, keep=lambda arrays: kept.append(arrays()))
+    continued = simulate(parameters, start=kept[len(kept) // 2])
+    for name in whole.variables:
+        np.testing.assert_array_equal(continued[name].values, whole[name].values, err_msg=name)
+
+
+def test_records_both_bodies():
+    dataset = simulate(pair(second_height=0.03, second_density=2400.0, end_time=0.3))
+    np.testing.assert_allclose(dataset["second_y"][[0, -1]], [0.0, -0.03])
+    assert Parameters.from_json(dataset.attrs["parameters"]).below.material.density == 2400.0
+    assert dataset["second_displacement_x"].dims == ("snapshot", "second_y", "x")
+    above, below = (dataset[f"{name}displacement_y"].values for name in ("", "second_"))
+    np.testing.assert_allclose(above[:, 0], below[:, 0], atol=1e-18)  # no opening
+    state = next(iter(run(pair(second_height=0.03)))).state
+    slip = above[0, 0] * 0 + dataset["displacement_x"].values[0, 0]
+    slip = slip - dataset["second_displacement_x"].values[0, 0]
+    np.testing.assert_allclose(slip[1:], state.past_w[0], atol=1e-18)
+    assert "second_y" not in simulate(COARSE.replaced({"end_time": 0.05}))
+
+
+def test_identical_blocks_under_the_same_load_keep_sigma0():
+    """Slip does not change the normal stress of identical blocks, whatever happens."""
+    dataset = simulate(pair(second_n_y=4, time_after_event=0.002))
+    assert dataset["maximal_slip_rate"].max() > 1e-3  # through the event
+    np.testing.assert_allclose(dataset["normal_stress"], -1e6, rtol=1e-6)
+
+
+def test_a_stiff_clamped_block_is_the_rigid_base():
+    """Force and slip rates are the same, but for the base's own compliance."""
+    short = {"end_time": 2.0, "longest_step": 0.4}
+    rigid = simulate(COARSE.replaced(short))
+    stiff = simulate(
+        pair("clamped", **short, second_shear_modulus=9e12, second_height=0.001, second_n_y=2)
+    )
+    force = [float(run["driving_force"][-1]) for run in (rigid, stiff)]
+    assert force[1] == pytest.approx(force[0], rel=1e-4)
+    rates = [run["slip_rate"].values[-1] for run in (rigid, stiff)]
+    np.testing.assert_allclose(rates[1], rates[0], rtol=2e-3, atol=1e-9)
+
+
+@pytest.mark.parametrize("bottom", BOTTOMS)
+def test_the_frozen_patch_of_a_pair(bottom):
+    """Its static stiffness is the pair's, normal stress included."""
+    operator = body_of(pair(bottom, second_shear_modulus=9e9)).operator(0.0)
+    n = operator.body.grid.n_x
+    rate, state = np.zeros(n + 1), np.full(n + 1, 0.05)
+    rate[:20] = 1e-5
+    force = 1e6 * operator.body.grid.nodal_lengths
+    patch = frozen_patch(operator, COARSE.friction, rate, state, force, 1e-7)
+    w = np.zeros(n)
+    w[patch.nodes - 1] = np.random.default_rng(3).normal(size=patch.nodes.size)
+    p, normal = operator.apply(w)
+    law = COARSE.friction
+    f, (f_v, _) = law.coefficient(1e-5, 0.05), law.derivatives(1e-5, 0.05)
+    expected = -(p[patch.nodes - 1] + f * normal[patch.nodes]) / (f_v * force[patch.nodes])
+    np.testing.assert_allclose(patch.by_w @ w[patch.nodes - 1], expected, rtol=1e-9)
