@@ -112,3 +112,9 @@ def test_a_warning_names_every_run_the_worst_first():
     ids = [f"s-aging-H{height}-phi1-n_x{n_x}" for n_x in (60, 80) for height in (0.005, 0.006)]
     assert all(identifier in text for identifier in ids)
     assert "(4 runs, the worst s-aging-H0.00" in text and "n_x60" in text.partition(")")[0]
+
+
+def test_a_warning_about_very_many_runs_stays_readable():
+    heights = {"start": 0.005, "stop": 0.01, "num": 150}
+    text = next(t for t in advice({"height": heights, "n_x": 40}) if "150 runs" in t)
+    assert text.endswith(" and 49 more]") and text.count("s-aging-H") == 101

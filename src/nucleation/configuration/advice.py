@@ -34,6 +34,9 @@ UNSTABLE = 0.55
 SHORT_BLOCK = 2.0
 """Block length over the critical length below which the far end is felt by the patch."""
 
+NAMED = 100
+"""Most runs that a warning names besides the worst: maps have thousands."""
+
 
 class Advice(NamedTuple):
     """One warning about one run: what it is about, how bad it is, and its text."""
@@ -51,7 +54,7 @@ def element_sizes(mesh: Mesh, geometry: Geometry) -> tuple[float, float]:
 
 
 def advise(runs: Iterable[Run]) -> list[str]:
-    """The warnings about some runs: one for each study and topic, with all runs, the worst first.
+    """The warnings about some runs: one for each study and topic, with the runs, the worst first.
 
     The numbers are those of the worst.
     """
@@ -64,9 +67,15 @@ def advise(runs: Iterable[Run]) -> list[str]:
         cases.sort(key=lambda case: -case[0].badness)
         ids = [run.id for _, run in cases]
         where = ids[0] if len(ids) == 1 else f"{len(ids)} runs, the worst {ids[0]}"
-        others = f" [also {', '.join(ids[1:])}]" if ids[1:] else ""
+        others = f" [also {_listed(ids[1:])}]" if ids[1:] else ""
         texts.append(f"studies.{study}: {topic} ({where}): {cases[0][0].text}{others}")
     return texts
+
+
+def _listed(ids: list[str]) -> str:
+    """Names of runs: all, or of very many the first and how many more."""
+    rest = len(ids) - NAMED
+    return ", ".join(ids) if rest <= 0 else f"{', '.join(ids[:NAMED])} and {rest} more"
 
 
 def _about(run: Run) -> Iterator[Advice]:
