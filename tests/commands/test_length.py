@@ -144,3 +144,12 @@ def test_stable_sliding(nucleation):
 def test_inertia_is_noticed(nucleation):
     ended = nucleation(*WORDS, "--velocity", "100 m/s", "--density", "2700 kg/m^3")
     assert "INERTIA MATTERS" in ended.out
+
+
+def test_json_has_the_frequency_without_a_velocity(nucleation):
+    """Over V/D it is sqrt(zeta/a) for identical bodies, Eq. (6)."""
+    words = ["--shear-modulus", "30GPa", "--poisson", "1/4", "--normal-stress", "50MPa", "--a",
+             "0.010", "--b", "0.015", "--slip-distance", "5um", "--json"]  # fmt: skip
+    for more in ([], ["--velocity", "1mm/yr"]):
+        theory = json.loads(nucleation("length", *words, *more).out)["theory"]
+        assert theory["critical_frequency_over_rate"] == pytest.approx(0.5**0.5)

@@ -16,6 +16,7 @@ from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.quantities import declarations
 from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
+from nucleation.theory.estimates import growth_time
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 SMALL = ["--height", "5mm", "--length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms"]
@@ -200,3 +201,51 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     assert whole.attrs["steps"] > 2 * STEPS
     np.testing.assert_array_equal(netcdf.read(output)["slip_rate"], whole["slip_rate"])
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_end_time_is_found_from_the_theory(nucleation, tmp_path):
+    words = ["--height", "5mm", "--n-x", "16", "--n-y", "2", "--dry-run", "--json"]
+    found = json.loads(nucleation("simulate", tmp_path / "a.nc", *words).out)
+    end, after = (found["parameters"]["stepping"][n] for n in ("end_time", "time_after_event"))
+    critical = found["theory"]["critical_length"]
+    assert end == pytest.approx(1.5 * growth_time(Parameters(), critical), rel=0.05)
+    assert after == pytest.approx(10.0 * 0.05)
+    given = [*words, "--end-time", "3 s"]
+    kept = json.loads(nucleation("simulate", tmp_path / "a.nc", *given).out)["parameters"]
+    assert kept["stepping"]["end_time"] == 3.0
+
+
+@pytest.mark.slow
+def test_a_run_without_an_end_time_has_its_event(nucleation, tmp_path):
+    output = tmp_path / "run.nc"
+    words = ["--height", "5mm", "--n-x", "60", "--n-y", "4", "--tolerance", "0.1",
+             "--longest-step", "0.3", "--json"]  # fmt: skip
+    ended = nucleation("simulate", output, *words)
+    told = json.loads(ended.out)
+    assert told["status"].startswith("completed: the event")
+    assert told["event"] == pytest.approx(extract(netcdf.read(output)))
+    shown = json.loads(nucleation("show", output, "--json").out)
+    assert shown["event"] == told["event"] and shown["parameters"] == told["parameters"]
+    assert shown["variables"]["slip_rate"]["units"] == "m/s" and len(shown["code_digest"]) == 64
+
+
+def test_a_strengthening_control_run_with_its_length(nucleation, tmp_path):
+    output, words = tmp_path / "run.nc", [*SMALL, "--zeta-over-a", "-0.5"]
+    ended = nucleation("simulate", output, *words)
+    assert ended.code == 0 and "no critical length" in ended.out and "no event" in ended.out
+    assert "nothing will nucleate" in ended.err
+    shown = nucleation("show", output)
+    assert shown.code == 0 and "theory: no critical length: sliding is stable" in shown.out
+    missing = nucleation("simulate", tmp_path / "other.nc", "--zeta-over-a", "-0.5")
+    assert missing.code == 2 and "needs its length" in missing.err
+
+
+@pytest.mark.parametrize(
+    "words", [["--zeta-over-a", "-0.5"], ["--n-x", "50000", "--n-y", "5000"],
+              ["--length", "10cm"], ["--initial-shear-stress", "5kPa"]],
+)  # fmt: skip
+def test_errors_do_not_cite_a_configuration_that_is_not_there(nucleation, tmp_path, words):
+    ended = nucleation("simulate", tmp_path / "run.nc", *words)
+    assert ended.code == 2 and ended.err.startswith("Error: ")
+    for word in ("configuration", "limits.", "studies", "runs["):
+        assert word not in ended.err

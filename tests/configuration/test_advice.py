@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from configurations import CONFIG, study
+from configurations import CONFIG, messages, study
 
 from nucleation.configuration.advice import advise, element_sizes
 from nucleation.configuration.load import configure, load
@@ -72,7 +72,8 @@ WARNED = {
     "block": (GOOD | {"length": 0.4}, "block short (s-aging-H0.005-phi1-length0.4-n_x400)"),
     "strengthening": (
         GOOD | {"aging_coefficient": 0.0},
-        "nothing will nucleate (s-aging-H0.005-phi1-aging_coefficient0-n_x400): zeta = -0.0049",
+        "friction strengthens (s-aging-H0.005-phi1-aging_coefficient0-n_x400): zeta = -0.00495 at "
+        "V = 1e-05 m/s; the theory's critical length, 0.235 m, is that of the weakening",
     ),
     "start": (
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
@@ -118,3 +119,14 @@ def test_a_warning_about_very_many_runs_stays_readable():
     heights = {"start": 0.005, "stop": 0.01, "num": 150}
     text = next(t for t in advice({"height": heights, "n_x": 40}) if "150 runs" in t)
     assert text.endswith(" and 49 more]") and text.count("s-aging-H") == 101
+
+
+def test_a_control_run_needs_its_length_and_is_said_to_stay_quiet():
+    """It was refused, length or not; and where it ran, a critical length stood beside."""
+    strengthening = GOOD | {"zeta_over_a": -0.5}
+    assert "needs its length (m)" in messages(study(strengthening))
+    settings = configure(study(strengthening | {"length": 1.4}))
+    assert math.isnan(settings.runs[0].theory_length)
+    (warning,) = advise(settings.runs)
+    assert "nothing will nucleate" in warning and "stable at every wavelength" in warning
+    assert "critical length" not in warning

@@ -26,6 +26,7 @@ from ..theory.literature_table import (
     of_two_materials,
     values_of,
 )
+from .text import plain
 
 DENSITY = declarations(Material)["density"]
 
@@ -115,34 +116,33 @@ def _unit_rate(fault: Fault) -> float:
     return float(fault.slip_distance)
 
 
+def _over_rate(fault: Fault, mode: CriticalMode) -> float:
+    """Angular frequency of the critical mode over V/D, which the velocity has no part in."""
+    rate = (fault.velocity or _unit_rate(fault)) / fault.slip_distance
+    return float(mode.angular_frequency / rate)
+
+
 def _as_json(
     fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
 ) -> str:
     names = (name for name in QUANTITIES if getattr(fault, name) is not None)
     return json.dumps(
         {
-            "parameters": {name: _plain(getattr(fault, name)) for name in names},
+            "parameters": {name: plain(getattr(fault, name)) for name in names},
             "theory": {
-                "critical_length": _plain(mode.length),
-                "critical_wavenumber": _plain(mode.wavenumber),
-                "critical_frequency": fault.velocity and _plain(mode.angular_frequency),
-                "speed_over_shear_wave": _plain(_speed_ratio(fault, mode, density)),
+                "critical_length": plain(mode.length),
+                "critical_wavenumber": plain(mode.wavenumber),
+                "critical_frequency": fault.velocity and plain(mode.angular_frequency),
+                "critical_frequency_over_rate": plain(_over_rate(fault, mode)),
+                "speed_over_shear_wave": plain(_speed_ratio(fault, mode, density)),
             },
             "lengths": [
-                {"key": length.key, "length": _plain(lengths[length.key]), **length.words()}
+                {"key": length.key, "length": plain(lengths[length.key]), **length.words()}
                 for length in LENGTHS
             ],
         },
         indent=2,
     )  # fmt: skip
-
-
-def _plain(value: Any) -> Any:
-    """A number as JSON has them: null for NaN, text for infinity."""
-    if value is None or isinstance(value, str):
-        return value
-    number = float(value)
-    return None if math.isnan(number) else "inf" if math.isinf(number) else number
 
 
 def _as_text(

@@ -20,6 +20,15 @@ from .text import with_unit
 STUDY = "command"  # name of the study of one run that a command line amounts to
 
 
+IN_COMMANDS = {
+    "the configuration has one problem:\n  - ": "",
+    "the configuration has": "the parameters have",
+    "limits.memory": "--memory",
+    "results = ": "OUTPUT's directory = ",
+}
+"""What the configuration calls things that are options here."""
+
+
 def flat(parameters: Parameters) -> dict[str, Any]:
     """Parameters by their names in studies, but for those that are left out."""
     known, given = names(), parameters.named().items()
@@ -96,6 +105,8 @@ def planned(
         text = str(error)
         for place in (f"studies.{STUDY}.runs[0]", f"studies.{STUDY}.defaults"):
             text = text.replace(f"{place}: ", "").replace(f"{place}.", "")
+        for words, own in IN_COMMANDS.items():
+            text = text.replace(words, own)
         raise ParameterError(text) from None
     return settings.runs[0]
 

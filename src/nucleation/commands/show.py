@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,7 +19,7 @@ from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..pipeline.running import simulation_code
-from ..theory.critical import run_length
+from ..theory.critical import NoInstability, run_length
 
 SHOWN_ROWS = 60
 
@@ -39,7 +40,8 @@ class Kind(NamedTuple):
     help="draw it; PNG or PDF by the name",
 )  # fmt: skip
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
-def command(file: Path, plot: Path | None, force: bool) -> int:
+@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     """Summarise a dataset of the project: what it is, how it was made, what is in it.
 
     \b
@@ -50,12 +52,44 @@ def command(file: Path, plot: Path | None, force: bool) -> int:
     kind = kind_of(dataset)
     if plot:
         _check_plot(plot, kind, force)
-    lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
-    click.echo("\n".join(lines))
+    if as_json:
+        click.echo(json.dumps({"file": str(file), **_as_json(dataset, kind)}, indent=2))
+    else:
+        lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
+        click.echo("\n".join(lines))
     if plot and kind.figure:
         _save(kind.figure(dataset), plot)
-        click.echo(f"plot: {plot}")
+        click.echo(f"plot: {plot}", err=as_json)
     return DONE
+
+
+def _as_json(dataset: xr.Dataset, kind: Kind) -> dict[str, Any]:
+    """What a dataset is, where it is from, its variables; its event or its rows."""
+    told: dict[str, Any] = {"kind": kind.name}
+    for name, value in dataset.attrs.items():
+        if name in netcdf.TEXTS | {"key"}:
+            told[name] = json.loads(value) if name in netcdf.STRUCTURES else str(value)
+    told["variables"] = {
+        str(name): {
+            "long_name": variable.attrs.get("long_name", ""),
+            "units": variable.attrs.get("units", ""),
+            "sizes": {str(dimension): size for dimension, size in variable.sizes.items()},
+        }
+        for name, variable in dataset.variables.items()
+    }
+    if kind.name == SIMULATION:
+        told |= text.outcome(dataset)
+    elif kind.summary is _length_rows:
+        told["rows"] = [
+            {str(n): _cell(dataset[n].values[i]) for n in dataset.data_vars}
+            for i in range(dataset.sizes["run"])
+        ]
+    return told
+
+
+def _cell(value: Any) -> Any:
+    """One value of a table: a text, or a number as JSON has them."""
+    return str(value) if isinstance(value, str) else text.plain(value)
 
 
 def kind_of(dataset: xr.Dataset) -> Kind:
@@ -96,7 +130,9 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
         if kind.name == SIMULATION:
             same = digest == simulation_code(parameters_of(dataset))
             verdict = ", that of this installation" if same else ", NOT that of this installation"
-        lines.append(f"code: {digest[:12]}{verdict}")
+        lines.append(f"code: {digest[:16]}{verdict}")
+    if "key" in attributes:
+        lines.append(f"key in the workflow: {attributes['key']}")
     if "versions" in attributes:
         versions = json.loads(attributes["versions"])
         lines.append("versions: " + ", ".join(f"{k} {v}" for k, v in versions.items()))
@@ -106,7 +142,11 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
 def _simulation_lines(dataset: xr.Dataset) -> list[str]:
     attributes, parameters = dataset.attrs, parameters_of(dataset)
     interface = linearised(parameters.friction, parameters.loading)
-    theory = run_length(parameters, interface)
+    try:
+        theory = run_length(parameters, interface)
+        said = f"{theory:.4g} m, of the friction law expanded at V"
+    except NoInstability as error:
+        theory, said = math.nan, f"no critical length: {error}"
     wall = f"{attributes['wall_seconds']:.4g} s of wall time"
     return [
         *text.parameter_lines(parameters),
@@ -115,7 +155,7 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
         f"{attributes['peak_megabytes']:.0f} MB",
         f"record: {float(dataset['step_time'][-1]):.6g} s, {dataset.sizes['time']} frames of "
         f"{dataset.sizes['x']} points, {dataset.sizes.get('snapshot', 0)} snapshots of the block",
-        f"theory: {theory:.4g} m, of the friction law expanded at V",
+        f"theory: {said}",
         *text.event_lines(extract(dataset), theory),
     ]
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+import json
+import math
 import os
 import shlex
 import signal
@@ -20,12 +22,19 @@ from ..configuration.studies import Run, StudySettings
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, declarations
+from ..theory.estimates import growth_time
 from .given import of_dataset, of_file, of_run
 from .options import STUDY, flat, given_of, merged, parameter_options, planned
-from .text import event_lines, parameter_lines
+from .text import event_lines, outcome, parameter_lines, plain
 
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
+
+LATE = 1.5
+"""Latest end of a run that is given none, over the estimated time until the critical length."""
+
+AFTER = 10.0
+"""Time that such a run goes on after its event, over D/V."""
 
 
 @click.command("simulate", epilog=EXIT_CODES)
@@ -45,13 +54,15 @@ MEMORY = declarations(Limits)["memory"]
 @units.option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
 @click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
 @click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
+@click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
 def command(
     output: Path, file: Path | None, run_id: str | None, config: str, force: bool, dry_run: bool,
-    length_over_critical: float | None, memory: float | None, **options: Any,
+    as_json: bool, length_over_critical: float | None, memory: float | None, **options: Any,
 ) -> int:  # fmt: skip
     """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
 
-    What an option does not give is taken from --parameters or --run, or is the default. A bar on
+    What an option does not give is taken from --parameters or --run, or is the default. Without an
+    end time the run goes on until its event, or until that is long overdue by the theory. A bar on
     the terminal shows how far the simulation is, a log gets a line now and then. Ctrl-C and SIGTERM
     leave a checkpoint from which the same command goes on. A simulation that fails numerically
     keeps its record beside, in a file that ends in .failed.nc.
@@ -72,15 +83,22 @@ def command(
         given = of_file(file)
     values = merged(base, given | given_of(options))
     study = given_of({"length_over_critical": length_over_critical})
-    run = planned(values, study, given_of({"memory": memory}), str(output.absolute().parent))
+    limits, place = given_of({"memory": memory}), str(output.absolute().parent)
+    run = planned(values, study, limits, place)
+    if base is None and "end_time" not in given | given_of(options):
+        found = _with_end(values, run) | given_of({"time_after_event": options["time_after_event"]})
+        run = planned(found, study, limits, place)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo(f"Warning: {text}", err=True)
-    if dry_run:
+    if dry_run and as_json:
+        click.echo(json.dumps(_planned(run), indent=2))
+    elif dry_run:
         click.echo("\n".join([*parameter_lines(run.parameters), *_plan_lines(run)]))
+    if dry_run:
         return DONE
-    click.echo("\n".join(_plan_lines(run)))
-    return _simulate(run, output, _command(output, run))
+    click.echo("\n".join(_plan_lines(run)), err=as_json)
+    return _simulate(run, output, _command(output, run), as_json)
 
 
 def _check_output(output: Path, force: bool) -> None:
@@ -95,12 +113,37 @@ def _check_output(output: Path, force: bool) -> None:
 
 
 def _plan_lines(run: Run) -> list[str]:
-    element = run.parameters.geometry.length / run.parameters.mesh.n_x
+    mesh = run.parameters.mesh
+    element = run.parameters.geometry.length / mesh.n_x
+    theory = f"critical length {run.theory_length:.4g} m, {run.theory_length / element:.4g}"
+    if math.isnan(run.theory_length):
+        theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
+    stepping = run.parameters.stepping
+    until = f"time: until {stepping.end_time:g} s"
+    if stepping.time_after_event < stepping.end_time:
+        until += f", or {stepping.time_after_event:g} s after the event's onset"
     return [
-        f"theory: critical length {run.theory_length:.4g} m, {run.theory_length / element:.4g} "
-        f"elements of {element:.4g} m",
+        f"theory: {theory} elements of {element:.4g} m",
+        until,
         f"memory: about {estimated_megabytes(run.parameters):.0f} MB",
     ]
+
+
+def _with_end(values: dict[str, Any], run: Run) -> dict[str, Any]:
+    """The values with an end time found from the theory: late enough for an event.
+
+    An estimate of the time for a patch of the theory's critical length is an upper one
+    (:func:`nucleation.theory.estimates.growth_time`); the run ends soon after its event, whenever
+    that comes.
+    """
+    if math.isnan(run.theory_length):
+        return values
+    end = LATE * growth_time(run.parameters, run.theory_length)
+    found = {
+        "end_time": float(f"{end:.2g}"),
+        "time_after_event": AFTER * run.parameters.memory_time,
+    }
+    return values | found
 
 
 def _command(output: Path, run: Run) -> str:
@@ -111,7 +154,15 @@ def _command(output: Path, run: Run) -> str:
     return shlex.join(["nucleation", "simulate", str(output), *words])
 
 
-def _simulate(run: Run, output: Path, command_line: str) -> int:
+def _planned(run: Run) -> dict[str, Any]:
+    """What JSON says of a run before it runs."""
+    return {
+        "theory": {"critical_length": plain(run.theory_length)},
+        "parameters": run.parameters.to_dict(),
+    }
+
+
+def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
     from ..datasets import provenance
     from ..pipeline.progress import Progress
@@ -137,7 +188,11 @@ def _simulate(run: Run, output: Path, command_line: str) -> int:
     if path != output:
         click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED
-    click.echo(_result(dataset, run, output))
+    if as_json:
+        told = {"output": str(output), **outcome(dataset), **_planned(run)}
+        click.echo(json.dumps(told, indent=2))
+    else:
+        click.echo(_result(dataset, run, output))
     return DONE
 
 

@@ -31,13 +31,38 @@ def with_unit(value: Any, entry: Quantity) -> str:
     return number if entry.unit == "1" else f"{number} {entry.unit}"
 
 
-def event_lines(found: dict[str, float], theory_length: float | None) -> list[str]:
-    """Onset and critical length of a run, with their spread over the definitions."""
+def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
+    """Onset and critical length of a run, with their spread over the definitions.
+
+    The theory's length (m) is NaN where homogeneous sliding is stable.
+    """
     if math.isnan(found["onset_time"]):
         return ["no event: the force has not dropped"]
     spread = {
         name: f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
         for name in ("onset_time", "length")
     }
-    ratio = f", {found['length'] / theory_length:.3g} of the theory's" if theory_length else ""
+    ratio = f", {found['length'] / theory_length:.3g} of the theory's"
+    ratio = "" if math.isnan(theory_length) else ratio
     return [f"onset: {spread['onset_time']} s", f"L_c: {spread['length']} m{ratio}"]
+
+
+def outcome(dataset: Any) -> dict[str, Any]:
+    """How a simulation ended and what was extracted from it, for JSON (SI units)."""
+    from ..analysis.extraction import extract  # with the libraries of arrays, which take a second
+
+    return {
+        "status": dataset.attrs["status"],
+        "steps": int(dataset.attrs["steps"]),
+        "wall_seconds": float(dataset.attrs["wall_seconds"]),
+        "simulated_time": float(dataset["step_time"][-1]),
+        "event": {name: plain(value) for name, value in extract(dataset).items()},
+    }
+
+
+def plain(value: Any) -> Any:
+    """A number as JSON has them: null for NaN, text for infinity; texts as they are."""
+    if value is None or isinstance(value, str):
+        return value
+    number = float(value)
+    return None if math.isnan(number) else "inf" if math.isinf(number) else number

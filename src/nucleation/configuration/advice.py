@@ -81,11 +81,20 @@ def _listed(ids: list[str]) -> str:
 def _about(run: Run) -> Iterator[Advice]:
     yield from _mesh(run)
     interface = linearised(run.parameters.friction, run.parameters.loading)
-    if interface.zeta <= 0.0:
+    if math.isnan(run.theory_length):
         yield Advice(
             "nothing will nucleate", -interface.zeta,
-            f"zeta = {interface.zeta:.3g} at V = {run.parameters.loading.velocity:g} m/s: friction "
-            "strengthens with velocity",
+            f"homogeneous sliding is stable at every wavelength, zeta = {interface.zeta:.3g} at V "
+            f"= {run.parameters.loading.velocity:g} m/s",
+        )  # fmt: skip
+        return
+    if interface.zeta <= 0.0:
+        yield Advice(
+            "friction strengthens", -interface.zeta,
+            f"zeta = {interface.zeta:.3g} at V = {run.parameters.loading.velocity:g} m/s; the "
+            f"theory's critical length, {run.theory_length:.3g} m, is "
+            + ("that of the weakening in main_text_interface" if run.interface.zeta > 0.0 else
+               "due to the normal stress alone, which slip changes: it takes long to grow"),
         )  # fmt: skip
         return
     yield from _steps(run, 2.0 * math.pi * math.sqrt(interface.a / interface.zeta))

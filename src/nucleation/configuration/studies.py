@@ -55,7 +55,10 @@ class StudySettings(Checked):
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One simulation of a study, with the length the linear theory predicts for it (m)."""
+    """One simulation of a study, with the length the linear theory predicts for it (m).
+
+    The length is NaN where homogeneous sliding is stable: a control run.
+    """
 
     id: str
     study: str
@@ -212,7 +215,7 @@ def study_runs(
     for key, run in prepared:
         try:
             yield key, run if isinstance(run, str) else _run(name, settings, run, next(lengths))
-        except (ParameterError, NoInstability) as error:
+        except ParameterError as error:
             yield key, str(error)
 
 
@@ -253,11 +256,23 @@ def _theory_lengths(runs: Iterable[_Prepared]) -> Iterator[float]:
     return iter(theory_lengths(cases).tolist() if cases else [])
 
 
+def _reason(parameters: Parameters, interface: InterfaceState) -> str:
+    """Why the theory knows no critical length."""
+    try:
+        run_length(parameters, interface)
+    except NoInstability as error:
+        return str(error)
+    return "the theory has no critical length"
+
+
 def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: float) -> Run:
     """One run; its length, unless given, is a multiple of the theory's critical length."""
     varied, values, parameters, interface = prepared
-    if math.isnan(critical):  # which says why, or raises
-        critical = run_length(parameters, interface)
+    if math.isnan(critical) and "length" not in values:
+        raise ParameterError(
+            f"{_reason(parameters, interface)}; a control run, in which nothing is to nucleate, "
+            "needs its length (m)"
+        )
     length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
     if length <= critical:
         raise ParameterError(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from typing import TextIO
 
@@ -18,14 +17,16 @@ from ..theory.critical import NoInstability, run_length
 
 PAUSE = 10.0  # s of wall time between the lines of a log
 PAUSE_ON_TERMINAL = 0.2
+NEARLY = 0.99  # part of the way at the theory's length: the event is then at hand, or going on
 
 
 class Progress:
     """Shows how far a run has come, called with every accepted step.
 
-    What is left is estimated from the growing patch: the event is expected when it reaches the
-    linear theory's length, unless the end time comes first. It is an upper estimate, since the
-    event comes somewhat before that length, and a guess, since the event takes many short steps.
+    The part of the way never falls: it is the simulated time over the end time, or the patch's
+    length over the linear theory's if that is more. The event comes somewhat before that length,
+    and takes many short steps: the wall time that is left can't be told, but the steps per second
+    are.
 
     Parameters
     ----------
@@ -46,7 +47,8 @@ class Progress:
         )
         self._pause = PAUSE_ON_TERMINAL if self._bar is not None else PAUSE
         self._began = time.monotonic()
-        self._first_part: float | None = None  # done before a run that goes on
+        self._first_step: int | None = None  # of a run that goes on
+        self._part = 0.0
         self._next = 0.0
 
     def __call__(self, instant: Instant) -> None:
@@ -61,42 +63,41 @@ class Progress:
             f"t = {instant.state.time:.5g} s, dt = {instant.state.last_step:.3g} s, "
             f"max v = {float(np.abs(rate).max()):.3g} m/s, patch {length:.3g} m"
         )
-        left = self._left(part, now)
+        speed = self._speed(instant.control.steps, now)
         if self._bar is not None:
-            self._bar.n = round(100.0 * part)
-            self._bar.set_postfix_str(f"{text}, {left}")
+            self._bar.n = int(100.0 * part)
+            self._bar.set_postfix_str(f"{text}, {speed}")
         else:
             control = instant.control
             print(
                 f"step {control.steps}: {text}, rejected {control.rejected}, "
-                f"{100.0 * part:.0f} % done, {left}",
+                f"{int(100.0 * part)} % of the way, {speed}",
                 file=self._stream,
                 flush=True,
             )
 
     def part_done(self, simulated: float, length: float) -> float:
-        """Part of the run that is done, from the simulated time (s) and the patch length (m)."""
-        parts = [simulated / self._end]
+        """Part of the way, from the simulated time (s) and the patch length (m); never falls.
+
+        It is 1 at the end time alone: whether the event is over is not known before.
+        """
+        parts = [self._part, simulated / self._end]
         if self._expected_length is not None:
-            parts.append(length / self._expected_length)
-        return min(max(parts), 1.0)
+            parts.append(min(length / self._expected_length, NEARLY))
+        self._part = min(max(parts), 1.0)
+        return self._part
 
     def close(self) -> None:
         """Remove the bar."""
         if self._bar is not None:
             self._bar.close()
 
-    def _left(self, part: float, now: float) -> str:
-        """Wall time that is left, as text."""
-        if self._first_part is None:
-            self._first_part, self._began = part, now
-        done = part - self._first_part
-        if done < 0.01:
-            return "time left not known yet"
-        seconds = (now - self._began) * (1.0 - part) / done
-        if part >= 1.0:
-            return "in the event"
-        return f"about {_duration(seconds)} left"
+    def _speed(self, steps: int, now: float) -> str:
+        """Steps per second of wall time since the run began, or went on, as text."""
+        if self._first_step is None:
+            self._first_step, self._began = steps, now
+        passed = now - self._began
+        return f"{(steps - self._first_step) / passed:.3g} steps/s" if passed > 0.0 else "begun"
 
 
 def _expected_length(parameters: Parameters) -> float | None:
@@ -106,10 +107,3 @@ def _expected_length(parameters: Parameters) -> float | None:
         return run_length(parameters, interface)
     except NoInstability:
         return None
-
-
-def _duration(seconds: float) -> str:
-    """A duration in the largest unit that fits: ``40 s``, ``3 min``, ``2.5 h``."""
-    if seconds < 100.0:
-        return f"{math.ceil(seconds)} s"
-    return f"{math.ceil(seconds / 60)} min" if seconds < 6000.0 else f"{seconds / 3600:.1f} h"
