@@ -19,7 +19,7 @@ from nucleation.model.parameters import Parameters
 from nucleation.simulation.periodic import sliding_period, sliding_state
 from nucleation.theory.critical import critical_wavenumber
 from nucleation.theory.spectrum import growth_rates
-from nucleation.theory.transfer import RIGID, transfer_functions
+from nucleation.theory.transfer import RIGID, bodies_of, transfer_functions
 from nucleation.theory.transfer import Body as Layer
 from nucleation.verification import dispersion
 from nucleation.verification.orders import orders
@@ -232,3 +232,59 @@ def test_dataset_holds_what_the_figure_needs():
     assert float(along_x["measured_frequency"]) == pytest.approx(found.imag.max())
     assert float(along_x["measured_growth"]) == pytest.approx(found[found.imag.argmax()].real)
     assert (np.abs(np.diff(dataset["curve_frequency"], axis=1)) < 2.0).all()  # continuous
+
+
+# -- two layers ----------------------------------------------------------------------------------
+
+SOFT, STIFF = {"shear_modulus": 3.1e9}, {"shear_modulus": 9.3e9}
+PAIRS = {  # thin layers that nothing holds bend, for which elements are to be finer
+    "stiff above, free": (STIFF, SOFT, "free", 0.2),
+    "stiff below, free": (SOFT, STIFF, "free", 0.2),
+    "stiff above, clamped": (STIFF, SOFT, "clamped", 0.05),
+    "stiff below, rollers": (SOFT, STIFF, "roller", 0.05),
+}
+
+
+def pair_parameters(which):
+    above, below, bottom, height = PAIRS[which]
+    second = {"density": 2400.0, "poisson_ratio": 0.2, "height": 0.6 * height, "bottom": bottom}
+    second = {f"second_{name}": value for name, value in (second | below).items()}
+    return PARAMETERS.replaced({"height": height, **above, "second_body": "deformable", **second})
+
+
+@functools.cache
+def critical_of_pair(which):
+    parameters = pair_parameters(which)
+    found = critical_wavenumber(*bodies_of(parameters), linearised.interface_state(parameters))
+    return found.wavenumber
+
+
+@pytest.mark.parametrize(
+    ("which", "ratio"),
+    [
+        *((which, r) for which in list(PAIRS)[:2] for r in (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)),
+        *((which, r) for which in list(PAIRS)[2:] for r in (0.8, 1.25)),
+    ],
+)
+def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
+    """Both roots: the wave along +x and the one along -x, which the contrast tells apart."""
+    parameters, k = pair_parameters(which), ratio * critical_of_pair(which)
+    found = dispersion.measured_rates(parameters, parameters.geometry.height, k)
+    interface = linearised.interface_state(parameters)
+    expected = growth_rates(k, *bodies_of(parameters), interface)
+    error = np.abs(found - expected) / np.abs(expected)
+    print(f"\n{which}, k/k_c = {ratio}: {found * 0.05}, theory {expected * 0.05}, {error}")
+    assert error.max() < 5e-3
+    assert (found.real.max() > 0.0) == (ratio < 1.0)
+    assert abs(expected[0].imag + expected[1].imag) > 1e-3 * abs(expected[0])  # they differ
+
+
+def test_a_sliding_pair_goes_on():
+    """Homogeneously, with sigma0 on the interface, also where nothing holds the mean."""
+    parameters = dispersion.one_wavelength(pair_parameters("stiff above, free"), 0.2, 20.0, 17)
+    dynamics = sliding_period(parameters)
+    state = sliding_state(dynamics, np.zeros(17))
+    for _ in range(40):
+        state, report = dynamics.advance(state, -45)
+    np.testing.assert_allclose(report.interface.slip_rate, 1e-5, rtol=1e-7)
+    np.testing.assert_allclose(report.interface.normal[1:], 1e6 * dynamics.grid.dx, rtol=1e-9)

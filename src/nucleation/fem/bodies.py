@@ -1,4 +1,4 @@
-"""The elastic body that parameters ask for: one block on a rigid base, or a pair of blocks."""
+"""The elastic body that parameters ask for: on a rigid base, or a pair; finite, or periodic."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from .block import Block
 from .grid import Grid
 from .operator import BlockOperator
 from .pair import Pair, PairOperator
+from .periodic import PeriodicBlock
+from .periodic_pair import PeriodicPair
 
 BodyOperator: TypeAlias = BlockOperator | PairOperator
 
@@ -21,3 +23,13 @@ def body_of(parameters: Parameters) -> Block | Pair:
         return upper
     grid = Grid.of(below.geometry, below.mesh)
     return Pair(upper, Block(grid, below.material, below.bottom))
+
+
+def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
+    """One period, as long as the block, of the layers that a run's body or bodies are."""
+    upper = PeriodicBlock(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
+    below = parameters.below
+    if below is None:
+        return upper
+    grid = Grid.of(below.geometry, below.mesh)
+    return PeriodicPair(upper, PeriodicBlock(grid, below.material, below.bottom))

@@ -1,115 +1,38 @@
 """Two elastic blocks on one another, condensed on their common interface y = 0.
 
-Both blocks have the modes of :mod:`.block`, on grids with the same elements along x. The lower one,
-``-H2 <= y <= 0``, is stored mirrored, as a block that stands on the interface: ``y -> -y`` and
-``u_y -> -u_y``. A field of the pair holds the levels of the upper block, then those of the lower.
-
-Seen from the driven edge of the upper block, ``w1 = u_x - U(t)`` above and ``w2 = u_x`` below: the
-lower block's left edge is fixed. With ``w = w1 - w2``, the slip less that of the driven edge, with
-one ``u_y`` for both (no opening) and the stiffness ``S = [[a, b], [b, c]]`` and the reduced load r
-of each block per mode, b2 and the y of r2 with the sign that the mirror gives them,
-
-    (w1, u_y) = T^-1 [S2 (w, 0) + r1 + r2],    T = S1 + S2,
-    (p, R) = S1 (w1, u_y) - r1 .
-
-So ``D = (det S2 a1 + det S1 a2) / det T`` and ``N = (det S2 b1 + det S1 b2) / det T`` per mode; N
-of identical blocks vanishes exactly. On the right edge, free in both, the corner ``u_y(L, 0)`` is
-an unknown that both blocks share. With it all of ``u_y`` may shift if no far side holds it: inertia
-fixes that in motion, and in statics, where no force acts on it, the corner stays.
+Both blocks have the modes of :mod:`.block`, on grids with the same elements along x, and are put in
+series (:mod:`.series`). The upper one is driven at its left edge, the lower one held there. On the
+right edge, free in both, the corner ``u_y(L, 0)`` is an unknown that both blocks share. With it all
+of ``u_y`` may shift if no far side holds it: inertia fixes that in motion, and in statics, where no
+force acts on it, the corner stays.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import kernels
 from .block import Block
 from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
-from .field import Field, Motion, Terms
-from .grid import Grid
+from .field import Field
 from .right_edge import EdgeValues, inverse_within, predicted, relative_error
-from .separable import LoadedResponse, rate_of_change
+from .separable import LoadedResponse
+from .series import Series, TwoBodies
 
 Array = NDArray[np.float64]
 
 
-class Parts(NamedTuple):
-    """Views of a pair's field: that of the upper block, that of the lower one, mirrored."""
-
-    upper: Field
-    lower: Field
-
-
-class Pair:
-    """Two deformable blocks, the upper one driven at its left edge, the lower one held there.
-
-    Parameters
-    ----------
-    upper : the block above, its far side under the applied normal stress.
-    lower : the block below, mirrored. Where its far side is ``free`` it bears the same stress.
-
-    Raises
-    ------
-    ValueError
-        If the blocks do not have the same nodes along x.
-    """
-
-    def __init__(self, upper: Block, lower: Block) -> None:
-        one, other = upper.grid, lower.grid
-        if (one.n_x, one.length) != (other.n_x, other.length):
-            raise ValueError(
-                f"a pair needs the same elements along x: the upper block has n_x = {one.n_x} "
-                f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
-            )
-        self.upper, self.lower, self.grid = upper, lower, one
-
-    @property
-    def grid_below(self) -> Grid:
-        """The lower block's mesh, its levels from the interface down."""
-        return self.lower.grid
-
-    @property
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the slower block."""
-        return max(self.upper.crossing_time, self.lower.crossing_time)
-
-    @property
-    def no_memory(self) -> Array:
-        """What it remembers before its first step: no error of the right edge's prediction."""
-        return self.upper.no_memory
-
-    @property
-    def total_mass(self) -> float:
-        """Mass (kg/m) that moves with the driven edge: the upper block's."""
-        return self.upper.total_mass
+class Pair(TwoBodies[Block]):
+    """Two blocks; where the lower one's far side is ``free``, it bears the same normal stress."""
 
     def operator(self, s: float) -> PairOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
         return PairOperator(self, s)
-
-    def parts(self, field: Field) -> Parts:
-        """The two blocks' fields in one of the pair, not copied."""
-        n = self.grid.n_y + 1
-        return Parts(
-            Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:])
-        )  # fmt: skip
-
-    def joined(self, upper: Field, lower: Field) -> Field:
-        """The pair's field of two blocks' fields."""
-        return Field(
-            np.concatenate((upper.modes, lower.modes)), np.concatenate((upper.edge, lower.edge))
-        )
-
-    def zero_field(self) -> Field:
-        """A field of zeros."""
-        return self.joined(self.upper.zero_field(), self.lower.zero_field())
 
     def top_load(self, normal_stress: float) -> Field:
         """Nodal forces (N/m) of the compressive stress (Pa) on the far sides that are free."""
@@ -117,54 +40,6 @@ class Pair:
         if self.lower.far_side != "free":
             below = self.lower.zero_field()
         return self.joined(self.upper.top_load(normal_stress), below)
-
-    def translation_load(self, acceleration: float) -> Field:
-        """Inertia (N/m) against an acceleration (m/s^2) of the driven edge and the upper block."""
-        return self.joined(self.upper.translation_load(acceleration), self.lower.zero_field())
-
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, as of either block."""
-        coefficients = [c for c, _ in terms]
-        split = [self.parts(field) for _, field in terms]
-        loads = self.parts(load) if load is not None else (None, None)
-        return self.joined(
-            *(
-                block.inertia_load(s, list(zip(coefficients, fields, strict=True)), own)
-                for block, fields, own in zip(
-                    (self.upper, self.lower), zip(*split, strict=True), loads, strict=True
-                )
-            )
-        )
-
-    def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
-    ) -> Motion:
-        """The motion at a new displacement; its momentum is the driven block's alone."""
-        velocity = rate_of_change(past, beta, displacement, motions)
-        return Motion(displacement, velocity, self.momentum_x(velocity))
-
-    def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """The motion of the pair at rest, seen from the driven edge (velocity in m/s)."""
-        own = self.upper.at_rest(self.parts(displacement).upper, velocity)
-        rates = self.joined(own.velocity, self.lower.zero_field())
-        return Motion(displacement, rates, own.momentum)
-
-    def momentum_x(self, velocity: Field) -> float:
-        """Momentum along x of the upper block's velocity field w_t (kg/s per unit depth)."""
-        return self.upper.momentum_x(self.parts(velocity).upper)
-
-    def sine_amplitudes(self, nodal: Array) -> Array:
-        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
-        return self.upper.sine_amplitudes(nodal)
-
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
-        """Nodal w_x and u_y of the upper block, each of shape (n_y + 1, n_x + 1)."""
-        return self.upper.nodal_values(self.parts(field).upper)
-
-    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
-        """Nodal u_x and u_y of the lower block, its levels from the interface down."""
-        x, y = self.lower.nodal_values(self.parts(field).lower)
-        return x, -y
 
 
 @dataclasses.dataclass(frozen=True)
@@ -185,22 +60,7 @@ class PairOperator(CondensedOnNodes):
     def __init__(self, body: Pair, s: float) -> None:
         self.body, self.s = body, s
         self.upper, self.lower = body.upper.operator(s), body.lower.operator(s)
-        (a1, b1, c1), (a2, b2, c2) = self.upper.pivot, self.lower.pivot
-        b2 = -b2  # by the mirror
-        # not in a compiled loop: fused products would leave identical bodies a coupling
-        det1, det2 = a1 * c1 - b1 * b1, a2 * c2 - b2 * b2
-        det = det1 + det2 + a1 * c2 + a2 * c1 - 2.0 * (b1 * b2)
-        self._modal = np.array([det2 * a1 + det1 * a2, det2 * b1 + det1 * b2]) / det
-        # T^-1: xx, xy, yy; then S1 T^-1 and S2 T^-1, each xx, xy, yx, yy
-        self.compliance = np.array([c1 + c2, -(b1 + b2), a1 + a2]) / det
-        xx, xy, yy = self.compliance
-        self.forces = np.array(
-            [
-                row
-                for a, b, c in ((a1, b1, c1), (a2, b2, c2))
-                for row in (a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy)
-            ]
-        )
+        self.series = Series(self.upper, self.lower)
         self.edge: PairEdge = PairEdge(self)
 
     @property
@@ -211,7 +71,7 @@ class PairOperator(CondensedOnNodes):
     @property
     def modal(self) -> Array:
         """D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x)."""
-        return self._modal
+        return self.series.modal
 
     @property
     def megabytes(self) -> float:
@@ -235,14 +95,11 @@ class PairOperator(CondensedOnNodes):
         given = np.zeros_like(load.edge) if edge is None else edge
         swept = self._swept(load, given)
         loads, modes = body.parts(load), body.parts(Field(swept, given))
-        held, start = np.empty((2, body.grid.n_x)), np.empty((2, body.grid.n_x))
-        kernels.load_couple(
-            self.compliance, self.forces, modes.upper.modes[0], modes.lower.modes[0], held, start
-        )
+        held, start = self.series.loaded(modes.upper.modes[0], modes.lower.modes[0])
         tangential, normal = self.interface_forces(amplitudes, held)
         if edge is not None:
             lowest = modes.upper.modes[:2].copy()
-            lowest[0] = self._interface(amplitudes, start)
+            self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
             self.upper.substitute(lowest)
             corner = self.upper.edge.corner_reaction(loads.upper, lowest, modes.upper.edge)
             return PairResponse(
@@ -276,13 +133,9 @@ class PairOperator(CondensedOnNodes):
             edge = edge + self.edge.change(w - response.w)
         amplitudes = self.body.sine_amplitudes(w)
         if modes is None:
-            start = np.empty_like(start)
             modes = self._swept(response.load, edge)
             first = self.body.parts(Field(modes, edge))
-            kernels.load_couple(
-                self.compliance, self.forces, first.upper.modes[0], first.lower.modes[0],
-                np.empty_like(start), start,
-            )  # fmt: skip
+            _, start = self.series.loaded(first.upper.modes[0], first.lower.modes[0])
             self._substitute(modes, amplitudes, start)
             displacement, foreseen = Field(modes, edge), None
         else:
@@ -307,19 +160,10 @@ class PairOperator(CondensedOnNodes):
             operator.swept(own, to.edge, to.modes)
         return modes
 
-    def _interface(self, amplitudes: Array, start: Array) -> Array:
-        """Modes of (w1, u_y) on the interface at given amplitudes of w, (2, n_x)."""
-        a, b, _ = self.lower.pivot
-        xx, xy, yy = self.compliance
-        # b changes sign as the lower block is mirrored
-        along, across = (xx * a - xy * b) * amplitudes, (xy * a - yy * b) * amplitudes
-        return start + np.array([along, across])
-
     def _substitute(self, modes: Array, amplitudes: Array, start: Array) -> None:
         """Both blocks back from the interface, in place."""
         upper, lower = (part.modes for part in self.body.parts(Field(modes, np.empty(0))))
-        upper[0] = self._interface(amplitudes, start)
-        lower[0, 0], lower[0, 1] = upper[0, 0] - amplitudes, -upper[0, 1]
+        self.series.set_interface(upper, lower, amplitudes, start)
         self.upper.substitute(upper)
         self.lower.substitute(lower)
 
@@ -358,7 +202,7 @@ class PairEdge(EdgeValues):
         stiffness = np.zeros((joint.shape[1], joint.shape[1]))
         for part, own in zip(self._parts, (slice(n), slice(n, None)), strict=True):
             stiffness[own, own] = part.schur
-        xx, xy, yy = self._operator.compliance
+        xx, xy, yy = self._operator.series.compliance
         released = np.array([xx * joint[0] + xy * joint[1], xy * joint[0] + yy * joint[1]])
         scale = 2.0 / joint.shape[2]
         return stiffness - scale * (joint[0] @ released[0].T + joint[1] @ released[1].T)
@@ -383,6 +227,6 @@ class PairEdge(EdgeValues):
         (x, y), lower = self._to_modes
         above = y.copy()
         above[self._first_below :] = 0.0  # the upper block's own
-        f = self._operator.forces
+        f = self._operator.series.forces
         modal = np.array([f[4] * x + f[5] * y - lower, above - (f[2] * x + f[3] * y)])
         return self._operator.along_x.interface_forces((2.0 / x.shape[1]) * modal)

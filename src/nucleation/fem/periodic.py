@@ -16,6 +16,7 @@ block the node of the driven edge, slides at the imposed velocity and acts on no
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
 
@@ -36,13 +37,13 @@ Array = NDArray[np.float64]
 class PeriodicBlock(SeparableBody):
     """A layer of one period along x on the interface y = 0."""
 
-    def __init__(self, grid: Grid, material: Material) -> None:
+    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
         if grid.n_x % 2 == 0:
             raise ValueError(f"n_x = {grid.n_x} is not allowed: it must be odd in a periodic body")
         half = np.arange(1, grid.n_x // 2 + 1)
         theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
         x_integral, no_edge = np.where(theta == 0.0, grid.length, 0.0), np.zeros((3, grid.n_x))
-        super().__init__(grid, material, theta, x_integral, no_edge)
+        super().__init__(grid, material, theta, x_integral, no_edge, far_side)
 
     def operator(self, s: float) -> PeriodicOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
@@ -89,13 +90,54 @@ class PeriodicBlock(SeparableBody):
         return self.sine_values(field.modes[:, 0]), self.cosine_values(field.modes[:, 1])
 
 
-class PeriodicOperator(SeparableOperator):
-    """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
+class Circulant(ABC):
+    """D and N between the nodes of a period, from those between its modes."""
+
+    @property
+    @abstractmethod
+    def along_x(self) -> PeriodicBlock:
+        """A layer with the modes."""
+
+    @abstractmethod
+    def interface_forces(
+        self, w_amplitudes: Array, reduced: Array | float = 0.0
+    ) -> tuple[Array, Array]:
+        """Nodal forces along x and y (N/m) at all nodes."""
 
     def apply(self, w: Array) -> tuple[Array, Array]:
         """``D w`` and ``N w`` (with entry 0)."""
-        p, reaction = self.interface_forces(self.body.sine_amplitudes(w))
+        p, reaction = self.interface_forces(self.along_x.sine_amplitudes(w))
         return p, with_entry_zero(reaction)
+
+    @cached_property
+    def _columns(self) -> tuple[Array, Array]:
+        """First columns of D and N."""
+        unit = np.zeros(self.along_x.grid.n_x)
+        unit[0] = 1.0
+        p, normal = self.apply(unit)
+        return p, normal[1:]
+
+    @cached_property
+    def diagonal(self) -> Array:
+        """Diagonal of D (N/m per m), shape (n_x,)."""
+        return np.full(self.along_x.grid.n_x, self._columns[0][0])
+
+    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
+        """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
+        block = np.ix_(nodes - 1, nodes - 1)
+        stiffness, coupling = (circulant(c)[block].astype(dtype) for c in self._columns)
+        return stiffness, coupling
+
+
+class PeriodicOperator(SeparableOperator, Circulant):
+    """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
+
+    body: PeriodicBlock
+
+    @property
+    def along_x(self) -> PeriodicBlock:
+        """The layer itself."""
+        return self.body
 
     def respond(self, load: Field, w: Array) -> LoadedResponse:
         """The forces that hold the interface at nodal `w` (m) under a load; there is no edge."""
@@ -115,25 +157,6 @@ class PeriodicOperator(SeparableOperator):
         edge = np.zeros_like(response.load.edge)
         modes, _ = self.solve(response.load, self.body.sine_amplitudes(w), edge)
         return Balance(Field(modes, edge), self.body.no_memory, True)
-
-    @cached_property
-    def _columns(self) -> tuple[Array, Array]:
-        """First columns of D and N."""
-        unit = np.zeros(self.body.grid.n_x)
-        unit[0] = 1.0
-        p, normal = self.apply(unit)
-        return p, normal[1:]
-
-    @cached_property
-    def diagonal(self) -> Array:
-        """Diagonal of D (N/m per m), shape (n_x,)."""
-        return np.full(self.body.grid.n_x, self._columns[0][0])
-
-    def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
-        """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
-        block = np.ix_(nodes - 1, nodes - 1)
-        stiffness, coupling = (circulant(c)[block].astype(dtype) for c in self._columns)
-        return stiffness, coupling
 
 
 def with_entry_zero(nodal: Array) -> Array:

@@ -74,6 +74,10 @@ class SeparableBody(ABC):
     def interface_forces(self, modal: Array) -> tuple[Array, Array]:
         """Nodal forces along x and y whose generalised forces per mode are ``modal * n_x/2``."""
 
+    @abstractmethod
+    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+        """Nodal w_x and u_y, levels from the interface up."""
+
     @property
     def crossing_time(self) -> float:
         """Time (s) in which shear waves cross the height."""

@@ -1,12 +1,11 @@
-"""Homogeneous sliding of a periodic block: the step and the interface of the simulation."""
+"""Homogeneous sliding of a periodic block or pair: step and interface of the simulation."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..fem.grid import Grid
-from ..fem.periodic import PeriodicBlock
+from ..fem.bodies import period_of
 from ..model.parameters import Parameters
 from ..stepping.scheme import BDF
 from .drive import Steady
@@ -27,7 +26,7 @@ def sliding_period(parameters: Parameters, interface: Interface | None = None) -
     parameters : of the period, its number of nodes ``mesh.n_x`` odd.
     interface : by default that of the simulation.
     """
-    body = PeriodicBlock(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
+    body = period_of(parameters)
     law, loading = parameters.friction, parameters.loading
     shear = loading.normal_stress * float(law.steady_coefficient(loading.velocity))
     load = body.top_load(loading.normal_stress, shear)

@@ -57,11 +57,16 @@ def one_wavelength(
     nodes : per wavelength; elements along y are about as high as long, within :data:`ROWS`.
     """
     length = 2.0 * math.pi / wavenumber
-    rows = round(min(max(height * nodes / length, ROWS[0]), ROWS[1]))
-    grading = GRADING if height > GRADED * length else 1.0
-    return dataclasses.replace(
-        parameters, geometry=Geometry(height, length), mesh=Mesh(nodes, rows, grading)
-    )
+
+    def mesh(height: float) -> Mesh:
+        rows = round(min(max(height * nodes / length, ROWS[0]), ROWS[1]))
+        return Mesh(nodes, rows, GRADING if height > GRADED * length else 1.0)
+
+    found = dataclasses.replace(parameters, geometry=Geometry(height, length), mesh=mesh(height))
+    if found.below is None:
+        return found
+    below = mesh(found.below.geometry.height)
+    return found.replaced({"second_n_y": below.n_y, "second_grading": below.grading})
 
 
 def follow_mode(parameters: Parameters, seed: float = SEED) -> tuple[float, ComplexArray]:
