@@ -88,6 +88,20 @@ VARIABLES: dict[str, Variable] = {
     "steps": Variable("1", "number of time steps"),
     "wall_seconds": Variable("s", "wall time of the simulation"),
     "peak_megabytes": Variable("MB", "largest memory of the simulation"),
+    # Two deformable bodies
+    "far_side": Variable("", "far side of the second body"),
+    "second_height": Variable("m", "height of the second body", "H2"),
+    "second_shear_modulus": Variable("Pa", "shear modulus of the second body", "mu2"),
+    "second_poisson_ratio": Variable("1", "Poisson's ratio of the second body", "nu2"),
+    "friction": Variable("1", "friction coefficient of steady sliding at V", "f"),
+    "second_n_y": Variable("1", "number of elements along y of the second body", "N_y2"),
+    "kind": Variable("", "what the declared perturbation acts on"),
+    "strength": Variable("1", "relative strength of the declared perturbation", "eps"),
+    "seed": Variable("1", "seed of the declared perturbation"),
+    "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
+    "half_space_ratio": Variable(
+        "1", "Eq. (9): half-spaces over those without contrast", "L_c/L_c^M"
+    ),
     # Stability of the frozen patch along a simulation
     "instant_time": Variable("s", "time at which the patch is frozen", "t"),
     "patch_length": Variable("m", "length of the creep patch", "L(t)"),

@@ -1,0 +1,88 @@
+"""The table of two deformable bodies: lengths of the patch over the theory of the own far sides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import xarray as xr
+
+from ..analysis.definitions import ExtractionSettings
+from ..analysis.extraction import extract
+from ..analysis.lengths import description
+from ..analysis.record import parameters_of
+from ..model.linearised import linearised
+from ..model.parameters import Parameters
+from ..theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
+from .growth import FITTED
+
+MEASURED = ("onset_time", "length", "length_low", "length_high")
+
+COLUMNS = (
+    "id", "study", "law", "far_side", "height", "second_height", "shear_modulus",
+    "second_shear_modulus", "poisson_ratio", "second_poisson_ratio", "friction", "f_beta",
+    "zeta_over_a", "n_x", "n_y", "second_n_y", "kind", "strength", "seed", *MEASURED,
+    "theory_length", "length_ratio", *FITTED, "stability_ratio", "half_space_ratio", "steps",
+    "wall_seconds",
+)  # fmt: skip
+"""``f_beta`` is positive where the lower body is the stiffer one."""
+
+
+def pair_description(parameters: Parameters) -> dict[str, Any]:
+    """The columns that say which bodies and which perturbation a run has.
+
+    Raises
+    ------
+    ValueError
+        If the run has one body only.
+    """
+    below = parameters.below
+    if below is None:
+        raise ValueError("the run has a rigid base: it is no pair")
+    interface = linearised(parameters.friction, parameters.loading)
+    declared = parameters.perturbation
+    f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
+    return {
+        "far_side": below.bottom,
+        "second_height": below.geometry.height,
+        "shear_modulus": parameters.material.shear_modulus,
+        "second_shear_modulus": below.material.shear_modulus,
+        "poisson_ratio": parameters.material.poisson_ratio,
+        "second_poisson_ratio": below.material.poisson_ratio,
+        "friction": interface.friction,
+        "f_beta": f_beta,
+        "zeta_over_a": interface.zeta / interface.a,
+        "second_n_y": below.mesh.n_y,
+        "kind": declared.kind,
+        "strength": declared.strength,
+        "seed": declared.seed,
+        "half_space_ratio": float(bimaterial_length_ratio(f_beta, interface.zeta / interface.a)),
+    }
+
+
+def gather(
+    runs: Iterable[dict[str, Any]],
+    simulations: Iterable[xr.Dataset],
+    patches: Iterable[xr.Dataset],
+    settings: ExtractionSettings,
+) -> xr.Dataset:
+    """The table of runs of two bodies.
+
+    Parameters
+    ----------
+    runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
+    simulations : of the runs, in their order.
+    patches : of :func:`.growth.follow_patch`, in the same order.
+    settings : how lengths are read.
+    """
+    rows = []
+    for run, simulation, patch in zip(runs, simulations, patches, strict=True):
+        measured, theory = extract(simulation, settings), run["theory_length"]
+        row = description(run) | pair_description(parameters_of(simulation))
+        row |= {name: float(measured[name]) for name in MEASURED}
+        row |= {name: float(patch[name]) for name in FITTED}
+        row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
+        row["length_ratio"] = row["length"] / theory
+        row["stability_ratio"] = row["stability_length"] / theory
+        rows.append(row)
+    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
