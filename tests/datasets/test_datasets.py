@@ -28,6 +28,8 @@ TEXTS = (
     "study",
     "law",
     "friction_law",
+    "far_side",
+    "kind",
     "initial_stress",
     "status",
     "problem",

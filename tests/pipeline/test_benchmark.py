@@ -37,6 +37,7 @@ def test_measurements_are_whole(monkeypatch, tmp_path):
     monkeypatch.setattr(benchmark, "ROWS", 4)
     monkeypatch.setattr(benchmark, "MESHES_ALONG_X", (40, 60))
     monkeypatch.setattr(benchmark, "MESHES_ALONG_Y", (4, 6))
+    monkeypatch.setattr(benchmark, "PAIR_MESH", (60, 4))
     monkeypatch.setattr(benchmark, "CREEP_TIME", 0.05)
     parameters = Parameters(
         geometry=Geometry(0.005, 0.9), mesh=Mesh(60, 4), stepping=Stepping(tolerance=0.05)
@@ -47,10 +48,11 @@ def test_measurements_are_whole(monkeypatch, tmp_path):
     result = {
         **whole, **benchmark.step_over_solve(parameters),
         **benchmark.speedup_over_sparse(parameters, whole), **benchmark.scaling(parameters),
+        **benchmark.pair_steps(parameters),
     }  # fmt: skip
     wanted = {
         "step_over_solve", "run_seconds", "speedup_over_sparse", "exponent_n_x", "exponent_n_y",
-        "peak_mb",
+        "peak_mb", "pair_step_over_one_free", "pair_operator_over_one_mb",
     }  # fmt: skip
     assert wanted <= set(result)
     assert all(np.isfinite(value) for value in result.values() if not isinstance(value, dict))

@@ -25,11 +25,13 @@ from ..configuration.load import load
 from ..datasets.files import replacing
 from ..fem.assembled import assemble
 from ..fem.block import Block
+from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..fem.operator import BlockOperator
 from ..figures import style
 from ..figures.checks import work_precision
 from ..model.parameters import Parameters
+from ..model.second_body import BOTTOMS
 from ..simulation.composition import composed
 from ..simulation.run import run, simulate
 from ..simulation.state import State
@@ -44,6 +46,8 @@ CREEP_TIME = 1.0  # s, at which steps are timed
 BLOCKS, STEPS = 8, 40  # of timed steps
 MESHES_ALONG_X = (400, 800, 1600, 3200)  # n_x, with ROWS
 ROWS = 20
+PAIR_MESH = (400, 16)  # n_x, n_y in each block of a pair
+PAIR_HEIGHT, PAIR_LENGTH = 0.02, 0.7  # m
 MESHES_ALONG_Y = (20, 40, 80, 150)  # n_y, with 400 along x
 # (tolerance, longest step over D/V) of the work-precision diagram, and of its reference
 PRECISIONS = (
@@ -209,6 +213,24 @@ def scaling(parameters: Parameters) -> dict[str, Any]:
     return result
 
 
+def pair_steps(parameters: Parameters) -> dict[str, float]:
+    """(g) A step of two identical blocks over a step of one, on the same mesh in each, in turn.
+
+    Both creep; the patch of either has some tens of nodes.
+    """
+    one = with_mesh(parameters, *PAIR_MESH)
+    one = one.replaced({"height": PAIR_HEIGHT, "length": PAIR_LENGTH})
+    pairs = [
+        one.replaced({"second_body": "deformable", "second_bottom": bottom}) for bottom in BOTTOMS
+    ]
+    base, *times = fastest(*(timed_steps(run) for run in (one, *pairs)))
+    operators = [body_of(run).operator(1e6).megabytes for run in (one, pairs[0])]
+    return {
+        **{f"pair_step_over_one_{b}": t / base for b, t in zip(BOTTOMS, times, strict=True)},
+        "pair_operator_over_one_mb": operators[1] / operators[0],
+    }
+
+
 def precisions(
     parameters: Parameters, settings: Iterable[tuple[float, float]] = PRECISIONS,
     reference: tuple[float, float] = REFERENCE,
@@ -243,6 +265,7 @@ def benchmark(parameters: Parameters) -> dict[str, Any]:
         **step_over_solve(parameters),
         **speedup_over_sparse(parameters, whole),
         **scaling(parameters),
+        **pair_steps(parameters),
         "work_precision": precisions(parameters),
         "threads": os.environ.get("OMP_NUM_THREADS", "not set"),
     }

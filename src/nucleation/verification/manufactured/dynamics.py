@@ -112,21 +112,16 @@ class Manufactured:
         """Exact psi = log(phi) at x (m), or its derivative in time: without friction, none."""
         return np.zeros_like(x)
 
-    def as_field(self, values: Array) -> Field:
-        """Nodal values (2, n_y + 1, n_x + 1) as a field of the solver."""
-        modes = np.empty((self.grid.n_y + 1, 2, self.grid.n_x))
-        modes[:, 0] = self.body.sine_amplitudes(values[0, :, 1:])
-        modes[:, 1] = fft.dct(values[1, :, :-1], type=3) / self.grid.n_x
-        return Field(modes, values[1, :, -1].copy())
+    def exact_motion(self, time: float) -> Motion:
+        """The body's motion at a time (s)."""
+        u, rate = (block_field(self.body, self.nodal_exact(time, by_t=order)) for order in (0, 1))
+        return Motion(u, rate, self.body.momentum_x(rate))
 
     def exact_state(self, step: float) -> State:
         """The state at t = 0 with exact values at 0, -step and -2 step (s)."""
         times = np.array([0.0, -step, -2 * step])
         rates = [self.exact_slip_rate(self.grid.x, t) for t in times]
-        motions = []
-        for t in times[:2]:
-            u, rate = (self.as_field(self.nodal_exact(t, by_t=order)) for order in (0, 1))
-            motions.append(Motion(u, rate, self.body.momentum_x(rate)))
+        motions = [self.exact_motion(t) for t in times[:2]]
         states = [self.exact_log_state(self.grid.x, t) for t in times]
         w = [self.exact_w(t) for t in times]
         return State(
@@ -139,8 +134,7 @@ class Manufactured:
     def displacement_error(self, state: State) -> float:
         """Root mean square over the area of the nodal error (m)."""
         error = np.array(self.body.nodal_values(state.displacement)) - self.nodal_exact(state.time)
-        area = np.outer(self.loads.along_y.sum(axis=1), self.loads.along_x.sum(axis=1))
-        return float(np.sqrt((error**2).sum(axis=0).ravel() @ area.ravel() / area.sum()))
+        return self.loads.mean_over_area(error)
 
     def slip_rate_error(self, state: State) -> float:
         """Root mean square over the interface of the nodal error (m/s)."""
@@ -154,6 +148,15 @@ class Manufactured:
 
     def _interface_mean(self, error: Array) -> float:
         return float(np.sqrt(error**2 @ self.grid.nodal_lengths / self.grid.length))
+
+
+def block_field(block: Block, values: Array) -> Field:
+    """Nodal values (2, n_y + 1, n_x + 1) as a field of a block."""
+    grid = block.grid
+    modes = np.empty((grid.n_y + 1, 2, grid.n_x))
+    modes[:, 0] = block.sine_amplitudes(values[0, :, 1:])
+    modes[:, 1] = fft.dct(values[1, :, :-1], type=3) / grid.n_x
+    return Field(modes, values[1, :, -1].copy())
 
 
 class ManufacturedFriction(Manufactured):

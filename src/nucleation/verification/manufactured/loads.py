@@ -61,6 +61,11 @@ class Loads:
         _, shear, normal = self.exact.stress(self.x, np.zeros_like(self.x), t)
         return shear, normal
 
+    def mean_over_area(self, error: Array) -> float:
+        """Root mean square of nodal errors (2, n_y + 1, n_x + 1) over the body's area."""
+        area = np.outer(self.along_y.sum(axis=1), self.along_x.sum(axis=1))
+        return float(np.sqrt((error**2).sum(axis=0).ravel() @ area.ravel() / area.sum()))
+
     def field(self, forces: Array) -> Field:
         """Nodal forces (2, n_y + 1, n_x + 1) as a load of the solver: ``2/n sum_i F_i sin``."""
         n = self.grid.n_x

@@ -1,0 +1,81 @@
+"""Manufactured solutions of two blocks with friction between them: exact fields, orders in h."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from verification.order_tables import print_orders
+
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.verification.manufactured.fields import Displacement, Power, Sine, Term
+from nucleation.verification.manufactured.pair import ManufacturedPair
+from nucleation.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, orders
+
+pytestmark = pytest.mark.slow
+
+QUADRATIC = Power(1.0, -5e2, 7e5)
+LIFT = {  # u_y on the interface, which both blocks share
+    "exact": Term(0.5 * SCALE, Power(0.3, 0.6), Power(1.0), QUADRATIC),
+    "mesh": Term(0.5 * SCALE, Sine(2.4, 0.4), Power(1.0), QUADRATIC),
+}
+
+
+def problem(name, law, rows):
+    fields = FIELDS[name]
+    parameters = Parameters(
+        friction=Friction(characteristic_slip_distance=2e-6, evolution=law),
+        loading=Loading(velocity=fields.velocity),
+        geometry=Geometry(height=0.3, length=1.0),
+        mesh=Mesh(n_x=2 * rows, n_y=rows, grading=3.0),
+    ).replaced(
+        {"second_body": "deformable", "second_shear_modulus": 7e9, "second_density": 2500.0,
+         "second_poisson_ratio": 0.2, "second_height": 0.2, "second_grading": 1.0}
+    )  # fmt: skip
+    (w_x, u_y), material = fields.displacement.terms, fields.displacement.material
+    lift = LIFT[name]
+    above = Displacement((w_x, (*u_y, lift)), material)
+    # the lower block: other fields in space, the same kind in time; upside down
+    along = [dataclasses.replace(t, amplitude=-0.4 * t.amplitude, t=QUADRATIC) for t in w_x]
+    across = [dataclasses.replace(t, amplitude=0.7 * t.amplitude) for t in u_y]
+    down = dataclasses.replace(lift, amplitude=-lift.amplitude)
+    below = Displacement((tuple(along), (*across, down)), parameters.below.material)
+    steady = Term(np.log(parameters.memory_time), Power(1.0), Power(1.0), Power(1.0))
+    log_state = (steady, fields.change_of_state)
+    return ManufacturedPair(parameters, above, below, log_state, fields.lumped)
+
+
+def errors(solved, *rungs):
+    state, _ = solved.run(*rungs)
+    return (
+        solved.displacement_error(state) / SCALE,
+        solved.displacement_error_below(state) / SCALE,
+        solved.slip_rate_error(state) / solved.velocity,
+        solved.log_state_error(state),
+    )
+
+
+@pytest.mark.parametrize("law", ["aging", "slip"])
+def test_exact_for_bilinear_fields_quadratic_in_time(law):
+    """Elements and time stepping are exact for these fields: only round-off is left."""
+    found = errors(problem("exact", law, 5), *[-56] * 10)
+    print(f"\n{law} law, two blocks:", *(f"{e:.1e}" for e in found))
+    assert max(found) < 1e-10
+
+
+def test_second_order_in_h():
+    rungs = [MESH_RUNG] * MESH_STEPS
+    found = np.array([errors(problem("mesh", "aging", rows), *rungs) for rows in (4, 8, 16)])
+    for name, column in zip(("above", "below", "slip rate", "log(phi)"), found.T, strict=True):
+        print_orders(f"two blocks, {name}", ["8x4", "16x8", "32x16"], column)
+    np.testing.assert_allclose(orders(found)[-1], 2.0, atol=0.1)
+    assert (found[-1] < (9e-3, 8e-3, 3.5e-2, 8e-3)).all()
+
+
+def test_the_lower_block_counts():
+    """With the load of one that is stiffer by 1 % the fields are no solution any more."""
+    solved = problem("exact", "aging", 5)
+    own = solved.loads_below.exact
+    stiffer = dataclasses.replace(own.material, shear_modulus=1.01 * own.material.shear_modulus)
+    solved.loads_below.exact = dataclasses.replace(own, material=stiffer)
+    assert min(errors(solved, *[-56] * 10)[:3]) > 1e-4
