@@ -15,6 +15,7 @@ The solver needs no hooks: drive and interface are all that is replaced.
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +65,8 @@ class Manufactured:
 
     It is the drive of its own :attr:`dynamics`.
     """
+
+    body: Any  # a block, or a pair in what derives from it
 
     def __init__(self, parameters: Parameters, exact: Displacement) -> None:
         self.grid = Grid.of(parameters.geometry, parameters.mesh)

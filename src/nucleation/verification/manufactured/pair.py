@@ -36,8 +36,6 @@ class ManufacturedPair(ManufacturedFriction):
     log_state, lumped : of :class:`ManufacturedFriction`.
     """
 
-    body: Pair
-
     def __init__(
         self, parameters: Parameters, exact: Displacement, below: Displacement,
         log_state: tuple[Term, ...], lumped: bool,
