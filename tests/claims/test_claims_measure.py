@@ -22,7 +22,7 @@ def made_up(law="aging"):
     run = record(parameters=parameters, onset=ONSET)
     rate, time = run["slip_rate"], run["time"].values
     stress = 0.4 * STRESS * (rate > 0.1 * VELOCITY)
-    normal = -STRESS * (1.0 - 0.2 * np.exp(-run["x"])) + 0.0 * rate
+    normal = 0.0 * rate - STRESS * (1.0 - 0.2 * np.exp(-run["x"]))
     return run.assign(
         maximal_slip_rate=("step", rate.max("x").values),
         step_size=("step", np.diff(time, prepend=0.0)),
@@ -47,6 +47,11 @@ def test_numbers_of_a_steady_front():
     assert found.regular_share == pytest.approx(1.0, abs=0.03)
     assert found.middle_stress == 0.0
     assert found.largest_normal_stress == pytest.approx(-0.8 * STRESS)
+    opened = run.assign(normal_stress=run["normal_stress"].copy(deep=True))
+    opened["normal_stress"][-1, 5] = -0.1 * STRESS  # in the rupture
+    later = measure(opened, SETTINGS)
+    assert later.largest_normal_stress == pytest.approx(-0.8 * STRESS)
+    assert later.largest_normal_stress_ever == pytest.approx(-0.1 * STRESS)
     assert found.usual_step == pytest.approx(0.01)
     assert found.shortest_step == pytest.approx(1e-3)
     assert 0.0 < found.drop_time < 2.1e-3
@@ -79,4 +84,4 @@ def test_run_without_event_has_no_numbers_but_those_of_its_steps():
     quiet = run.assign(driving_force=("step", np.linspace(-1.0, -2.0, run.sizes["step"])))
     found = dataclasses.asdict(measure(quiet, SETTINGS))
     known = {name for name, value in found.items() if np.isfinite(value).all()}
-    assert known == {"rupture_time", "largest_rate", "usual_step"}
+    assert known == {"rupture_time", "largest_rate", "usual_step", "largest_normal_stress_ever"}

@@ -150,3 +150,14 @@ def test_row_holds_number_range_and_what_the_function_says():
     assert row["verdict"] == "not replicated"
     with pytest.raises(ValueError, match="made-up says nothing"):
         made_up(lambda evidence: GOOD, said=None).evaluate(None)
+
+
+def test_inputs_have_a_verdict_of_their_own():
+    def judged(value):
+        claim = Claim("mesh", "Text", "It has 400.", "400", "given", "1", number("400"),
+                      lambda evidence: Ours.exactly(value), input=True)  # fmt: skip
+        return claim.evaluate(None)
+
+    assert judged(400.0)["verdict"] == Verdict.GIVEN
+    assert judged(400.0)["reason"].startswith("An input of ours as of the paper's.")
+    assert judged(80.0)["verdict"] == Verdict.NOT_REPLICATED

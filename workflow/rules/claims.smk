@@ -1,13 +1,26 @@
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
 # article that tells of them. Both stand on the paper's runs and the converged ones; claims about
 # runs that the configuration does not have can't be checked, and say so.
-from nucleation.claims.evidence import JUDGED, PAPERS
+from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
 
 CLAIMS = f"{RESULTS}/claims.json"
 ARTICLE = f"{RESULTS}/article.md"
 TEMPLATE = Path(BASE, "docs", "article.md.in")
 CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
 """Studies that claims are about."""
+IN_BLOCKS = ("length", "n_x", "time_after_event")
+"""What may differ where the block's length is varied."""
+
+
+def longer():
+    """Runs whose block is longer than another's with all else the same, and the others."""
+    alike = {}
+    for run in runs_in(LONGER):
+        mark = {name: value for name, value in run.given.items() if name not in IN_BLOCKS}
+        alike.setdefault(repr(sorted(mark.items())), []).append(run)
+    pairs = [runs for runs in alike.values()
+             if len({run.parameters.geometry.length for run in runs}) > 1]  # fmt: skip
+    return [run for runs in pairs for run in runs]
 
 
 localrules:
@@ -20,6 +33,7 @@ rule evaluate_claims:
         dispersion=DISPERSION,
         lengths=[study_lengths(study) for study in CLAIMED],
         simulations=simulations(*CLAIMED),
+        longer=[simulation(run.id) for run in longer()],
         patches=patches(JUDGED),
     output:
         json=CLAIMS,
@@ -32,6 +46,7 @@ rule evaluate_claims:
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
+        longer=[run.to_dict() for run in longer()],
         patch_ids=[run.id for run in runs_in(JUDGED)],
         **made_by("claims.py", [*plugins(settings.base), *EVOLUTIONS]),
     log:
@@ -67,6 +82,7 @@ rule claims:
         THEORY,
         with_csv(DISPERSION),
         measured(*CLAIMED),
+        [simulation(run.id) for run in longer()],
         patches(JUDGED),
     message:
         "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"

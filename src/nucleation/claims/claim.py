@@ -18,6 +18,7 @@ class Verdict(enum.StrEnum):
     """What becomes of a claim."""
 
     REPLICATED = "replicated"
+    GIVEN = "taken as given"
     EXPLAINED = "replicated with a deviation that is explained"
     NOT_REPLICATED = "not replicated"
     UNCHECKED = "cannot be checked"
@@ -64,6 +65,7 @@ class Claim:
     unit: str
     said: Said | None
     compute: Callable[[Any], Ours | Result]
+    input: bool = False  # of ours as of the paper's: nothing is computed
 
     def evaluate(self, evidence: Any) -> dict[str, Any]:
         """The claim's row: what the paper says, ours, the verdict and its reason."""
@@ -76,7 +78,10 @@ class Claim:
         said = result.said or self.said
         if said is None:
             raise ValueError(f"the claim {self.id} says nothing to compare with")
-        return self._row(said, result, *judge(said, result))
+        verdict, reason = judge(said, result)
+        if self.input and verdict is Verdict.REPLICATED:
+            verdict, reason = Verdict.GIVEN, f"An input of ours as of the paper's. {reason}"
+        return self._row(said, result, verdict, reason)
 
     def _row(
         self, said: Said | None, result: Result | None, verdict: Verdict, reason: str
@@ -167,6 +172,7 @@ def claim(
     method: str,
     unit: str = "1",
     said: Said | None = None,
+    input: bool = False,
 ) -> Callable[[Callable[[Any], Ours | Result]], Callable[[Any], Ours | Result]]:
     """Decorator that enters a claim with the function that computes our number.
 
@@ -188,10 +194,12 @@ def claim(
         SI unit of the numbers.
     said : Said, optional
         What is compared with; may be left to the function.
+    input : bool
+        Whether ours is what the configuration was given, and so no result.
     """
 
     def enter(compute: Callable[[Any], Ours | Result]) -> Callable[[Any], Ours | Result]:
-        entry = Claim(id, where, statement, quotation, method, unit, said, compute)
+        entry = Claim(id, where, statement, quotation, method, unit, said, compute, input)
         register.append(entry)
         return compute
 

@@ -48,6 +48,8 @@ class Measures:
     """Shear stress (Pa) half-way along the block at the onset."""
     largest_normal_stress: float
     """Largest sigma_yy (Pa) up to the onset, negative in compression."""
+    largest_normal_stress_ever: float
+    """The same over the whole record, event and rupture among it."""
     usual_step: float
     """Median time step (s)."""
     shortest_step: float
@@ -70,6 +72,7 @@ def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
         "rupture_time": float(sizes[fastest[1:] > FAST].sum()),
         "largest_rate": float(fastest.max()),
         "usual_step": float(np.median(sizes)),
+        "largest_normal_stress_ever": float(simulation["normal_stress"].values.max()),
     }
     if record.onset is None:
         names = {field.name for field in dataclasses.fields(Measures)} - set(always)

@@ -12,6 +12,7 @@ from typing import Any
 from .claim import Claim, Verdict
 from .evidence import Evidence
 from .statements import bimaterial, course, finite_height, friction_law, simulations, sliding
+from .symbols import as_markdown
 
 SUBJECTS: dict[str, list[Claim]] = {
     "homogeneous sliding": sliding.CLAIMS,
@@ -67,15 +68,16 @@ def to_markdown(rows: list[dict[str, Any]]) -> str:
     lines = [
         f"{len(rows)} claims: {summary}.",
         "",
-        "| where | what the paper says | paper | ours (range) | verdict | reason |",
-        "|---|---|---|---|---|---|",
+        "| where | what the paper says | paper | ours (range) | how ours was computed | verdict | "
+        "reason |",
+        "|---|---|---|---|---|---|---|",
     ]
     for row in rows:
         cells = (
-            row["where"], row["statement"], row["paper"] or "", number_text(row), row["verdict"],
-            row["reason"],
+            row["where"], row["statement"], row["paper"] or "", number_text(row), row["method"],
+            row["verdict"], row["reason"],
         )  # fmt: skip
-        lines.append("| " + " | ".join(_escaped(cell) for cell in cells) + " |")
+        lines.append("| " + " | ".join(map(as_markdown, cells)) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -94,7 +96,3 @@ def _cell(value: Any) -> str:
     if value is None:
         return ""
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def _escaped(text: str) -> str:
-    return text.replace("|", "\\|").replace("*", "\\*").replace("_", "\\_").replace("\n", " ")

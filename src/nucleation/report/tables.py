@@ -9,18 +9,24 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from markupsafe import Markup
 
+from ..claims.symbols import as_html
 from ..datasets.variables import VARIABLES
 from ..figures.paper import figure_3
 from .faults import faults
 
 VERDICTS = {
     "replicated": ("✓", "yes"),
+    "taken as given": ("=", "given"),
     "replicated with a deviation that is explained": ("≈", "nearly"),
     "not replicated": ("✗", "no"),
     "cannot be checked": ("?", "open"),
 }
 """Every verdict with its sign and the class of its colour, from best to worst."""
+
+TYPESET = ("statement", "method", "paper", "reason")
+"""Texts of claims with symbols in them."""
 
 
 class Cell(NamedTuple):
@@ -56,7 +62,9 @@ def claim_rows(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
             shown["paper"] = f"{shown['paper']} {shown['unit']}".rstrip()
         shown["spread"] = _spread(claim["ours"], claim["uncertainty"])
         rank = list(VERDICTS).index(claim["verdict"])
-        rows.append({**claim, **shown, "sign": sign, "kind": kind, "rank": rank})
+        typeset = {name: Markup(as_html({**claim, **shown}.get(name) or "")) for name in TYPESET}
+        judged = {"sign": sign, "kind": kind, "rank": rank, "typeset": typeset}
+        rows.append({**claim, **shown, **judged})
     return rows
 
 

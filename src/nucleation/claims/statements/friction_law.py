@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..claim import Cause, Claim, Result, claim
+from ..claim import Claim, Result, claim
 from ..evidence import JUDGED, PAPERS, Evidence, on_both
 from ..said import Missing, Ours, above, below, formula, number, words
 
@@ -40,7 +40,7 @@ _value("zeta-main", "0.016", "Sect. 5", r"$\zeta=0.016$", 2)
     CLAIMS, id="slip-rate-over-v0", where="Text S2.1",
     statement="V is four orders of magnitude larger than v0.",
     quotation=r"which is $4$ order of magnitude larger than $v_0$",
-    method="decimal logarithm of V/v0", said=number("4"),
+    method="decimal logarithm of V/v0, both of Table S1", said=number("4"), input=True,
 )  # fmt: skip
 def slip_rate_over_v0(evidence: Evidence) -> Ours:
     ratio = evidence.loading.velocity / evidence.friction.regularisation_slip_rate
@@ -183,13 +183,13 @@ def slip_law_approximation(evidence: Evidence) -> Result:
         rows = evidence.rows(study, law="slip")
         return Ours.worst([getattr(evidence.measured(row), name) for row in rows], target=1.0)
 
-    cause = Cause(
-        "The slip law ahead of the front",
-        "It holds where the interface slips: the part within the patch is",
-        share(JUDGED, "state_rate_share_patch"),
+    within = share(JUDGED, "state_rate_share_patch")
+    note = (
+        "Ahead of the front nothing slips and v0 decides; of the patch, in place of all of space, "
+        f"it is {within.value:.3g} (findings: The slip law ahead of the front)."
     )
     papers = share(PAPERS, "state_rate_share")
-    return Result(share(JUDGED, "state_rate_share"), on_papers_mesh=papers, cause=cause)
+    return Result(share(JUDGED, "state_rate_share"), on_papers_mesh=papers, note=note)
 
 
 @claim(
