@@ -23,6 +23,9 @@ def paper(workflow):
 def test_default_target_is_the_whole_paper(paper):
     config = load(paper.config)
     runs = len(config.runs_of("paper")) + len(config.runs_of("converged"))
+    blocks = [run.id for run in config.runs_of("sensitivity") if "length" in run.given]
+    assert len(blocks) == 2  # each with the base of its height, for the claim on the block's length
+    runs += 4
     once = ("theory", "gather_lengths", "write_table_s1", "paper", *DRAWN, *CLAIMING)
     patches = len(config.runs_of("converged"))
     assert paper.planned() == {

@@ -39,11 +39,13 @@ def _option(*names: str, key: str, **settings: Any) -> Any:
 @_option("--shear-modulus", key="shear_modulus", required=True)
 @_option("--poisson", "--poisson-ratio", key="poisson_ratio", required=True)
 @_option("--normal-stress", key="normal_stress", required=True)
-@_option("--a", key="a", required=True)
+@_option("--a", "--direct-effect", key="a", required=True)
 @_option("--b", key="b", note="this or --zeta")
 @_option("--zeta", key="zeta", note="zeta = b - a")
-@_option("--slip-distance", key="slip_distance", required=True)
-@_option("--friction", key="friction", note="needed where the bodies differ")
+@_option("--slip-distance", "--characteristic-slip-distance", key="slip_distance", required=True)
+@_option(
+    "--friction", "--friction-coefficient", key="friction", note="needed where the bodies differ"
+)
 @_option("--velocity", key="velocity", note="for frequencies alone")
 @_option("--height", key="height", default="inf", show_default=True)
 @_option("--far-side", key="far_side", default="traction", show_default=True)

@@ -38,6 +38,7 @@ from .studies import (
     study_runs,
     study_settings,
 )
+from .units_in import read_units
 
 
 @dataclasses.dataclass(frozen=True)
@@ -107,7 +108,8 @@ def configure(values: Any) -> Configuration:
     ParameterError
         With one line for each problem found.
     """
-    _stop_on(_schema_problems(values))
+    values, unread = read_units(values)
+    _stop_on([*unread, *_schema_problems(values)])
     _stop_on([*_range_problems(values), *results_problems(values.get("results", "results"))])
     try:
         groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ..model.friction.constants import CONSTANTS
+from ..model.friction.constants import CONSTANT_ALIASES, CONSTANTS
 from ..model.parameters import GROUPS, names
 from ..model.quantities import ParameterError, Quantity
 
@@ -23,7 +23,8 @@ def study_parameters() -> dict[str, Quantity]:
 def other_names() -> dict[str, str]:
     """The names that stand for another one: full names, and short ones beside an alias."""
     known = names()
-    return {other: known.short(full) for full in known for other in known.others(full)}
+    found = {other: known.short(full) for full in known for other in known.others(full)}
+    return found | CONSTANT_ALIASES
 
 
 def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
@@ -39,6 +40,7 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
     known, declared = names(), study_parameters()
     found: dict[str, Any] = {}
     for given, value in values.items():
+        given = CONSTANT_ALIASES.get(given, given)
         name = given if given in CONSTANTS else known.short(known.full(given))
         if name in found:
             raise ParameterError(f"{given} = {value!r} is not allowed: {name} is given already")

@@ -194,7 +194,20 @@ def reason_of_stability(fault: Fault) -> str:
     return reasons[0]
 
 
+ALIASES = {
+    "characteristic_slip_distance": "slip_distance", "friction_coefficient": "friction",
+    "f": "friction", "direct_effect": "a", "poisson": "poisson_ratio",
+    "applied_stress": "normal_stress",
+}  # fmt: skip
+"""What simulations, studies and their tables call parameters of a fault."""
+
+
 def _fault(parameters: dict[str, Any]) -> Fault:
+    for alias, name in ALIASES.items():
+        if alias in parameters:
+            if name in parameters:
+                raise ParameterError(f"{alias} is not allowed beside {name}, which is the same")
+            parameters = {ALIASES.get(k, k): value for k, value in parameters.items()}
     try:
         return Fault(**parameters)
     except TypeError as error:  # a keyword that is missing or unknown

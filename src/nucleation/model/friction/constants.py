@@ -27,6 +27,9 @@ CONSTANTS: dict[str, Quantity] = {
 }  # fmt: skip
 """Constants of the logarithmic law, by their names in studies."""
 
+CONSTANT_ALIASES = {"f": "friction_coefficient", "a": "direct_effect"}
+"""The theory's names for them."""
+
 
 def constants(friction: Friction, velocity: float) -> dict[str, float]:
     """The :data:`CONSTANTS` of a law at a slip rate (m/s)."""

@@ -1,0 +1,86 @@
+"""Units in the configuration, as people write them, and one vocabulary for all of its readers."""
+
+import numpy as np
+import pytest
+from configurations import messages, study
+
+from nucleation import api
+from nucleation.configuration.load import configure
+from nucleation.configuration.strict_yaml import read_yaml
+
+SI = {
+    "shear_modulus": 30e9, "poisson_ratio": 0.25, "density": 2650.0, "slip_distance": 5e-6,
+    "normal_stress": 5e7, "velocity": 1e-6, "height": 0.02,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        {"shear_modulus": "30 GPa", "poisson_ratio": "1/4", "density": "2650 kg/m3",
+         "slip_distance": "5 um", "normal_stress": "50MPa", "velocity": "1 um/s", "height": "2cm"},
+        {"shear_modulus": "30e3 MPa", "density": "2.65 g/cm3", "slip_distance": "5 µm",
+         "velocity": "1e-6 m s-1", "height": "20 mm"},
+        {"density": "2650 kg m-3", "slip_distance": "5 μm", "velocity": "1 µm·s⁻¹"},
+        {"density": "2650 kg·m⁻³", "velocity": "1 μm/s"},
+    ],
+)  # fmt: skip
+def test_units_are_read_wherever_a_parameter_stands(written, tmp_path):
+    """In defaults and runs of a study, from a file with the signs that people use."""
+    path = tmp_path / "my.yaml"
+    given = {name: f"{value:.6e}" for name, value in SI.items()} | written
+    lines = [f"      {name}: {value}" for name, value in given.items() if name != "height"]
+    height = written.get("height", 0.02)
+    path.write_text(
+        "studies:\n  s:\n    defaults:\n" + "\n".join(lines)
+        + f"\n    runs:\n      - height: [{height}, 4 cm]\n", encoding="utf-8",
+    )  # fmt: skip
+    first, second = configure(read_yaml(path)).runs
+    found = {
+        name: first.value(name) for name in SI if name not in ("slip_distance", "normal_stress")
+    }
+    assert found == pytest.approx({name: SI[name] for name in found}, rel=1e-15)
+    assert first.parameters.friction.characteristic_slip_distance == pytest.approx(5e-6, rel=1e-15)
+    assert second.parameters.geometry.height == 0.04
+
+
+def test_sections_and_ranges_have_units_too():
+    config = study({"height": {"start": "5 mm", "stop": "10 cm", "num": 3, "scale": "log"}})
+    made = configure(
+        config | {"material": {"shear_modulus": "30 GPa"}, "stepping": {"end_time": "2 h"}}
+    )
+    assert made.base.material.shear_modulus == 30e9 and made.base.stepping.end_time == 7200.0
+    assert [run.parameters.geometry.height for run in made.runs] == [0.005, 0.0223607, 0.1]
+
+
+def test_every_bad_unit_is_told_at_once_with_key_value_unit_and_range():
+    text = messages(
+        study({"height": "2 kg"}) | {"material": {"shear_modulus": "30 GPx", "density": "1e3"}}
+    )
+    assert "the configuration has 3 problems" in text
+    assert "studies.s.runs[0].height = '2 kg' is not allowed: block height must lie in" in text
+    assert "kg is a unit of mass, but m is needed" in text
+    assert "material.shear_modulus = '30 GPx'" in text and "not a known unit" in text
+    assert "write 1.0e+3, without quotes" in text
+
+
+def test_the_same_names_in_configuration_and_api():
+    """Of the slip distance, the direct effect, the friction coefficient."""
+    names = {"slip_distance": 5e-6, "a": 0.01, "f": 0.6}
+    (run,) = configure(study({"height": 0.02, "zeta_over_a": 0.5} | names)).runs
+    (other,) = configure(
+        study({"height": 0.02, "characteristic_slip_distance": 5e-6, "direct_effect": 0.01,
+               "friction_coefficient": 0.6, "zeta_over_a": 0.5})
+    ).runs  # fmt: skip
+    assert run.id == other.id and run.parameters == other.parameters
+    fault = dict(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
+                 height=0.02, second_shear_modulus=np.inf)  # fmt: skip
+    lengths = [
+        api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
+        api.critical_length(**fault, characteristic_slip_distance=5e-6, direct_effect=0.01,
+                            friction_coefficient=0.6),
+        api.critical_length(**fault, slip_distance=5e-6, a=0.01, f=0.6),
+    ]  # fmt: skip
+    assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.theory_length, rel=1e-6)
+    with pytest.raises(api.ParameterError, match="f is not allowed beside friction"):
+        api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)
