@@ -4,9 +4,11 @@ import dataclasses
 
 import numpy as np
 import pytest
+from configurations import CONFIG
 
 from nucleation import api
 from nucleation.analysis.record import Record
+from nucleation.configuration.load import load
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch import expected_drop as module
@@ -81,6 +83,52 @@ def test_what_the_law_does_not_know(expected, record, monkeypatch):
     monkeypatch.setattr(module, "quick_run", lambda *_: early)
     with pytest.raises(NoDrop, match="no oscillating mode"):
         expected_drop(FAULT, THEORY)
+
+
+def test_growth_that_has_just_begun_is_not_trusted(expected, record, monkeypatch):
+    """As in the granite blocks of the example, which drop a fifth later than the law would say."""
+    lengths = Record(record).lengths
+    early = record.isel(time=slice(0, int(np.argmax(lengths > 0.6 * THEORY))))
+    monkeypatch.setattr(module, "quick_run", lambda *_: early)
+    found = expected_drop(FAULT, THEORY)
+    assert not found.trusted
+    assert "near the end of the quiet run" in found.doubt
+
+
+@pytest.mark.parametrize(
+    "name", ["crustal_fault", pytest.param("granite_laboratory", marks=pytest.mark.slow)]
+)
+def test_examples_that_the_law_does_not_know(name):
+    """The crustal fault has a layer as thick as its patch, granite turns unstable late."""
+    run = load(CONFIG / "examples" / f"{name}.yaml").runs[0]
+    declared = Perturbation(kind="normal_load", strength=1e-5)
+    fault = dataclasses.replace(run.parameters, perturbation=declared)
+    mesh = Mesh(n_x=200, n_y=4, grading=10.0)
+    try:
+        assert not expected_drop(fault, run.theory_length, mesh=mesh).trusted
+    except NoDrop as error:
+        assert "no oscillating mode that begins to grow up to 0.7 L_c" in str(error)
+
+
+def test_a_fast_start_is_not_the_end_of_the_quiet_run():
+    """A fault under a stress of its own slips fast as it begins to be driven, then creeps."""
+    run = load(CONFIG / "examples" / "crustal_fault.yaml").runs[0]
+    fault = run.parameters.replaced({"geometry.length": 3.0 * run.theory_length})
+    made = quick_run(fault, 0.5 * run.theory_length, mesh=Mesh(n_x=120, n_y=4, grading=10.0))
+    assert made["maximal_slip_rate"].max() > 100.0 * fault.loading.velocity
+    assert Record(made).lengths[-1] >= 0.5 * run.theory_length
+
+
+@pytest.mark.slow
+def test_long_runs_take_longer_steps():
+    """Granite creeps for a thousand D/V; its quiet run is to end within seconds all the same."""
+    run = load(CONFIG / "examples" / "granite_laboratory.yaml").runs[0]
+    fault = run.parameters.replaced({"geometry.length": 3.0 * run.theory_length})
+    made = quick_run(fault, 0.1 * run.theory_length, mesh=Mesh(n_x=60, n_y=4, grading=6.0))
+    longest = quick_run(fault, 0.7 * run.theory_length, mesh=Mesh(n_x=60, n_y=4, grading=6.0))
+    assert made["step_size"].max() < 0.12 * fault.memory_time
+    assert longest["step_size"].max() > 0.15 * fault.memory_time
+    assert longest.sizes["step"] < 1.1 * module.QUICK_STEPS
 
 
 def test_it_is_in_the_library_s_front():

@@ -12,6 +12,7 @@ from nucleation.fem.operator import BlockOperator
 from nucleation.figures.checks import work_precision
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import KINDS
 from nucleation.pipeline import benchmark
 
 pytestmark = pytest.mark.slow
@@ -56,6 +57,12 @@ def test_measurements_are_whole(monkeypatch, tmp_path):
     }  # fmt: skip
     assert wanted <= set(result)
     assert all(np.isfinite(value) for value in result.values() if not isinstance(value, dict))
+    perturbed = benchmark.perturbed(parameters)
+    assert set(perturbed["perturbed_over_quiet"]) == set(KINDS[1:])
+    assert all(0.1 < ratio < 10.0 for ratio in perturbed["perturbed_over_quiet"].values())
+    # a load that fluctuates moves the right edge as no prediction foresees
+    assert perturbed["solves_per_step"]["normal_load"] == 2.0
+    result |= perturbed
     stepping = dataclasses.replace(parameters.stepping, end_time=16.0)
     rows = benchmark.precisions(
         dataclasses.replace(parameters, stepping=stepping), [(0.1, 0.4), (0.05, 0.2)], (0.05, 0.1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import shutil
 from pathlib import Path
@@ -16,6 +17,9 @@ from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
+from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.patch.expected_drop import quick_run
+from nucleation.patch.mode_history import follow_mode
 from nucleation.report import page
 from nucleation.report.player import player_dataset
 from nucleation.theory.curves import Curves, theory_dataset
@@ -40,7 +44,16 @@ CLAIMS = [
 
 
 @pytest.fixture(scope="session")
-def content(settings, simulation, table, tmp_path_factory):
+def modes():
+    """The mode of a quiet run, once as it is and once as if it were another fault's."""
+    fault = Parameters(geometry=Geometry(height=0.02, length=1.35))
+    run = quick_run(fault, 0.31, mesh=Mesh(n_x=240, n_y=4, grading=10.0))
+    own = follow_mode(run)
+    return [own, dataclasses.replace(own, parameters=own.parameters.replaced({"height": 0.03}))]
+
+
+@pytest.fixture(scope="session")
+def content(settings, simulation, table, modes, tmp_path_factory):
     """A report with all sections."""
     theory = theory_dataset(
         settings.base.material, settings.base.friction, settings.main_text_interface,
@@ -64,6 +77,7 @@ def content(settings, simulation, table, tmp_path_factory):
         ],
         claims=CLAIMS,
         player=page.Player(player_dataset(simulation, row, ExtractionSettings()), row),
+        modes=modes,
     )  # fmt: skip
 
 

@@ -8,8 +8,10 @@ import pytest
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.report import explorer, page
-from nucleation.theory.critical import critical_length, critical_wavenumber
+from nucleation.model.perturbation import Perturbation
+from nucleation.patch.delay import growth
+from nucleation.report import drop_law, explorer, page
+from nucleation.theory.critical import critical_length, critical_wavenumber, theory_length
 from nucleation.theory.transfer import RIGID, Body
 
 pytestmark = pytest.mark.system
@@ -138,6 +140,67 @@ def test_points_tell_their_values(web, table):
     assert str(table["id"].values[0]) in text
     for name, digits in (("length", 4), ("height", 4), ("onset_time", 4), ("length_low", 3)):
         assert f"{float(table[name][0]):.{digits}g}" in text
+
+
+# ---- The drop
+
+
+STRENGTHS = np.geomspace(1e-12, 1e-1, 34)
+
+
+@pytest.mark.parametrize("kind", drop_law.WORDS)
+def test_law_of_the_drop_in_the_page_is_that_of_the_library(web, modes, kind):
+    """Median and both ends of the range for strengths from silence to a tenth, from every fault."""
+    found = web.evaluate(
+        """([kind, strengths]) => data.drop.faults.map((fault) => {
+          const { length, log_amplitude } = fault.kinds[kind];
+          const curve = { length: floats(length), logAmplitude: floats(log_amplitude) };
+          const parts = data.drop.parts;
+          return strengths.map((eps) => parts.map((part) => DropLaw.drop(curve, eps, part)));
+        })""",
+        [kind, STRENGTHS.tolist()],
+    )
+    exact = growth(modes[0], Perturbation(kind=kind))
+    thinned = drop_law.thinned(exact)
+    for eps, lengths in zip(STRENGTHS, found[0], strict=True):
+        shown = np.array(lengths, dtype=float)  # beyond the law's reach there is none
+        np.testing.assert_allclose(shown, thinned.drop(eps)[:3], rtol=1e-6)
+        if eps < 1e-3:  # where the law is to be relied upon, whatever the kind
+            np.testing.assert_allclose(shown, exact.drop(eps)[:3], rtol=3e-4)
+    assert np.isfinite(np.array(found[0], dtype=float)).any()
+    assert found[1] == found[0]
+
+
+def drop_values(web):
+    """Metres said for the theory, L_s, the median, and where 16 and 84 % have dropped."""
+    texts = web.locator("#drop-values dd").all_inner_texts()
+    return [float(text.split(" m")[0]) for text in texts]
+
+
+def test_strength_moves_the_drop(web, modes, settings):
+    exact = growth(modes[0], Perturbation(kind="normal_load"))
+    web.select_option("#drop-kind", "normal_load")
+    theory = theory_length(0.02, settings.base.material, settings.main_text_interface)
+    for eps in (1e-4, 1e-6):
+        web.fill("#number-eps", str(eps))
+        own = drop_values(web)
+        assert own[0] == pytest.approx(theory, rel=1e-3)
+        assert own[1] == pytest.approx(exact.closed_form(modes[0], eps).stability_length, rel=1e-3)
+        assert own[2:] == pytest.approx(exact.drop(eps)[:3], rel=1e-3)
+        assert web.inner_text("#drop-doubt") == ""
+    web.focus("#range-eps")
+    web.keyboard.press("End")
+    assert float(web.input_value("#number-eps")) == 0.1
+    assert "Do not rely on it" in web.inner_text("#drop-doubt")
+    web.select_option("#drop-fault", "1")
+    thicker = web.locator("#drop-values dd").first.inner_text()
+    assert float(thicker.removesuffix(" m")) > theory
+    web.select_option("#drop-fault", "0")
+
+
+def test_without_quiet_runs_there_is_no_section_of_the_drop(content):
+    text = page.build(content._replace(modes=()))
+    assert 'id="drop"' not in text and '"drop":null' in text
 
 
 # ---- The player
@@ -282,7 +345,7 @@ def test_every_control_has_a_name_and_every_picture_a_text(opened):
         if role in controls and not node["ignored"]:
             found.setdefault(role, []).append(node.get("name", {}).get("value", ""))
     assert set(found) >= {"button", "slider", "spinbutton", "checkbox", "link"}
-    assert len(found["slider"]) == len(explorer.SLIDERS) + 2  # height and moment
+    assert len(found["slider"]) == len(explorer.SLIDERS) + 3  # height, strength, moment
     for role, names in found.items():
         assert all(name.strip() for name in names), role
     regions = opened.page.locator("main section")
@@ -308,7 +371,8 @@ def test_phone_shows_all_without_scrolling_sideways(open_report, width):
     for details in web.locator("details").all():
         details.evaluate("(element) => { element.open = true; }")
     assert web.evaluate("document.documentElement.scrollWidth") <= width
-    outside = web.evaluate("""() => [...document.querySelectorAll("button, input, .plot, img")]
+    outside = web.evaluate("""() =>
+      [...document.querySelectorAll("button, input, select, .plot, img")]
       .filter((one) => !one.closest(".wide") && one.getBoundingClientRect().width > 0)
       .filter((one) => one.getBoundingClientRect().right > innerWidth + 1)
       .map((one) => one.outerHTML.slice(0, 80))""")

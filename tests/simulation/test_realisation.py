@@ -55,6 +55,17 @@ def test_series_does_not_depend_on_what_was_asked_before():
     assert Series(9, 0.05).value(times[300]) != values[300]
 
 
+@pytest.mark.parametrize("made", [Series(4, 0.05), Sheet(4, 0.05, 0.1, np.linspace(0.0, 1.0, 7))])
+def test_coefficients_are_those_of_the_values(made):
+    """Evaluated anew, as another program would do it that is given the coefficients alone."""
+    until = 20.0  # s: more than one block of coefficients
+    given = made.coefficients(until)
+    basis = BSpline(np.arange(-3.0, given.shape[0] + 1.0), given / MEAN_SQUARE**0.5, 3)
+    for time in (0.0, 1.234, until):
+        own = made.values(time) if isinstance(made, Sheet) else made.value(time)
+        np.testing.assert_allclose(own, basis(time / made.spacing + made.phase), rtol=1e-9)
+
+
 def test_slope_and_integral_belong_to_the_series():
     series, step = Series(2, 0.3), 1e-4
     for time in (0.0005, 0.7, 12.34):

@@ -31,6 +31,7 @@ from ..fem.operator import BlockOperator
 from ..figures import style
 from ..figures.checks import work_precision
 from ..model.parameters import Parameters
+from ..model.perturbation import KINDS, Perturbation
 from ..model.second_body import BOTTOMS
 from ..simulation.composition import composed
 from ..simulation.run import run, simulate
@@ -54,6 +55,7 @@ PRECISIONS = (
     (1e-1, 0.4), (1e-2, 0.4), (1e-2, 0.2), (1e-2, 0.1), (1e-2, 0.05), (1e-3, 0.1), (1e-3, 0.05),
 )  # fmt: skip
 REFERENCE = (1e-4, 0.02)
+STRENGTH = 1e-3  # of the perturbed steps
 
 
 def fastest(*tasks: Callable[[], Any], blocks: int = BLOCKS) -> list[float]:
@@ -231,6 +233,33 @@ def pair_steps(parameters: Parameters) -> dict[str, float]:
     }
 
 
+def perturbed(parameters: Parameters) -> dict[str, dict[str, float]]:
+    """(h) Time of a step under each kind of perturbation over that of a quiet one, in turn.
+
+    And how many solves of the block a step takes: the shortcut of one serves while the block's
+    right edge moves as predicted (:meth:`nucleation.fem.operator.BlockOperator.responses`).
+    """
+    kinds = [Perturbation(kind=kind, strength=STRENGTH, seed=1) for kind in KINDS]
+    runs = [dataclasses.replace(parameters, perturbation=declared) for declared in kinds]
+    quiet, *times = fastest(*map(timed_steps, runs))
+    return {
+        "perturbed_over_quiet": {k: t / quiet for k, t in zip(KINDS[1:], times, strict=True)},
+        "solves_per_step": {run.perturbation.kind: solves_per_step(run) for run in runs},
+    }
+
+
+def solves_per_step(parameters: Parameters) -> float:
+    """Solves of one block in each of :data:`STEPS` steps of the creep, between one and two."""
+    dynamics, state, rung = creeping(parameters)
+    operator = dynamics.operator(dynamics.scheme.step(rung, state.past_times).s)
+    assert isinstance(operator, BlockOperator)
+    swept = 0
+    for _ in range(STEPS):
+        swept += float(state.body_memory) < operator.edge.round_off
+        state, _ = dynamics.advance(state, rung)
+    return 2.0 - swept / STEPS
+
+
 def precisions(
     parameters: Parameters, settings: Iterable[tuple[float, float]] = PRECISIONS,
     reference: tuple[float, float] = REFERENCE,
@@ -266,6 +295,7 @@ def benchmark(parameters: Parameters) -> dict[str, Any]:
         **speedup_over_sparse(parameters, whole),
         **scaling(parameters),
         **pair_steps(parameters),
+        **perturbed(parameters),
         "work_precision": precisions(parameters),
         "threads": os.environ.get("OMP_NUM_THREADS", "not set"),
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,7 +22,8 @@ from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..report import encode, explorer, faults, own, tables
+from ..patch.mode_history import ModeHistory
+from ..report import drop_law, encode, explorer, faults, own, tables
 from .captions import caption_html
 
 Array = NDArray[np.float64]
@@ -33,6 +34,8 @@ HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 
 SEEN = (2e-3, 1.0)
 """Heights (m) that the page shows first; so close that the curve looks smooth on either axes."""
+
+SCRIPTS = ("theory.js", "page.js", "drop.js")
 
 CURVES = ("slip_rate", "stress_ratio", "state")
 
@@ -69,6 +72,7 @@ class Content(NamedTuple):
     claims: list[dict[str, Any]] | None = None
     player: Player | None = None
     own: own.OwnStudies | None = None  # with which the page begins
+    modes: Sequence[ModeHistory] = ()  # of quiet runs, for the law of the drop
 
 
 def build(content: Content) -> str:
@@ -90,7 +94,7 @@ def build(content: Content) -> str:
         groups.pop(catalogue.OWN, None)
     return environment.get_template("template.html").render(
         styles=_source("page.css"),
-        scripts=[Markup(plotly.offline.get_plotlyjs()), _source("theory.js"), _source("page.js")],
+        scripts=[Markup(plotly.offline.get_plotlyjs()), *map(_source, SCRIPTS)],
         data=Markup(encode.script_json(data)),
         claims=tables.claim_rows(content.claims or []),
         counts=tables.verdict_counts(content.claims or []),
@@ -106,6 +110,8 @@ def build(content: Content) -> str:
         value_text=table_s1.value_text,
         length_columns=tables.LENGTH_COLUMNS,
         lengths=tables.length_rows(lengths) if lengths is not None else [],
+        drop=data["drop"],
+        drop_words=drop_law.WORDS,
         run=_run(content),
         origin=_origin(content),
     )
@@ -129,6 +135,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": _player(content),
+        "drop": drop_law.in_page(content.modes, content.interface),
         "colours": {
             "theory": style.THEORY,
             "mark": style.VERMILLION,

@@ -100,8 +100,8 @@ class Series:
     def __init__(self, seed: int, correlation: float) -> None:
         """`correlation` is the correlation time (s)."""
         self.spacing = MEAN_SQUARE * correlation
+        self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
         self._seed = seed
-        self._phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
         self._coefficients = np.empty(0)
         self._before = np.zeros(1)  # sums of the coefficients before each
 
@@ -119,13 +119,19 @@ class Series:
         """``int xi dt`` (s) from zero to a time (s)."""
         return (self._primitive(time) - self._primitive(0.0)) * self.spacing / MEAN_SQUARE**0.5
 
+    def coefficients(self, until: float) -> Array:
+        """``a_i``, (i, 1), of which the values up to a time (s) are made."""
+        first, _ = self._place(until)
+        self._used(first)
+        return self._coefficients[: first + 4, None]
+
     def _primitive(self, time: float) -> float:
         first, u = self._place(time)
         return float(spline_integral(u) @ self._used(first) + self._before[first])
 
     def _place(self, time: float) -> tuple[int, float]:
         """Index of the first of the four splines that are not zero at a time, and place in them."""
-        s = time / self.spacing + self._phase
+        s = time / self.spacing + self.phase
         return int(s), s - int(s)
 
     def _used(self, first: int) -> Array:
@@ -163,17 +169,22 @@ class Sheet:
     def __init__(self, seed: int, correlation_time: float, correlation_length: float, x: Array):
         """Correlation time (s) and length (m), and the positions (m)."""
         self.spacing = MEAN_SQUARE * correlation_time
+        self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
         self._seed = seed
-        self._phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
         self._positions = _Positions(seed, correlation_length, x, SHEET)
         self._rows: OrderedDict[int, Array] = OrderedDict()
 
     def values(self, time: float) -> Array:
         """``xi`` at a time (s) at all positions."""
-        s = time / self.spacing + self._phase
+        s = time / self.spacing + self.phase
         first = int(s)
         rows = np.array([self._row(first + j) for j in range(4)])
         return spline(s - first) @ rows / MEAN_SQUARE**0.5
+
+    def coefficients(self, until: float) -> Array:
+        """``a_i(x)``, (i, x), at all positions, of which the values up to a time (s) are made."""
+        number = int(until / self.spacing + self.phase) + 4
+        return np.array([self._row(i) for i in range(number)])
 
     def _row(self, index: int) -> Array:
         if index not in self._rows:

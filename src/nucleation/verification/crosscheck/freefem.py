@@ -17,10 +17,9 @@ import xarray as xr
 
 from ...analysis.definitions import ExtractionSettings
 from ...model.parameters import Parameters
-from .plan import (
-    FIXED,
-    CrosscheckSettings,
-)
+from ...model.second_body import SecondBody
+from ...simulation.realisation import Series, Sheet
+from .plan import FIXED, KINDS, CrosscheckSettings
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # where Debian has them; the program looks elsewhere
@@ -29,8 +28,13 @@ MISSING = (
     "run workflow/install-debian.sh crosscheck"
 )
 MOST_STEPS = 200_000  # a run that needs more has failed
-UNUSED = ("loading.initial_shear_stress", "stepping.tolerance", "stepping.shortest_step")
-"""Parameters without meaning for the script."""
+UNUSED = (
+    "loading.initial_shear_stress", "stepping.tolerance", "stepping.shortest_step",
+    "stepping.event_drop",
+    "perturbation.correlation_time", "perturbation.correlation_length", "perturbation.seed",
+)  # fmt: skip
+"""Parameters without meaning for the script, or for what is handed over to it."""
+REALISATION = "realisation.txt"  # in the directory of a run
 FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
 COLUMNS = (
     "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
@@ -55,17 +59,40 @@ def arguments(
     Raises
     ------
     FreeFemError
-        The script can't do what a parameter asks for, see :data:`FIXED`.
+        The script can't do what a parameter asks for, see :data:`FIXED` and :data:`KINDS`.
     """
     named = parameters.named()
     for name, only in FIXED.items():
         if named[name] != only:
             raise FreeFemError(f"the script for FreeFem++ has {name} = {only} only")
-    taken = [name for name in named if name not in (*FIXED, *UNUSED)]
+    if parameters.perturbation.kind not in KINDS:
+        raise FreeFemError(f"the script for FreeFem++ has kind = {', '.join(KINDS)} only")
+    if parameters.second_body != SecondBody():
+        raise FreeFemError("the script for FreeFem++ has one block, on a rigid base")
+    unused = (*FIXED, *UNUSED)
+    taken = [name for name in named if name not in unused and not name.startswith("second_body.")]
     values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
     values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
     values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
-    return {name: repr(value) for name, value in values.items()}
+    return {name: str(value) for name, value in values.items()}
+
+
+def realisation(parameters: Parameters) -> str:
+    """The declared perturbation on its own grid, up to the end of a run, for the script to read.
+
+    Spacing of the splines (s), phase, number of splines and of places, and the coefficients a_i of
+    :mod:`nucleation.simulation.realisation`: one line for each spline, of all places.
+    """
+    declared, end = parameters.perturbation, parameters.stepping.end_time
+    time = declared.correlation_time * parameters.memory_time
+    made: Series | Sheet = Series(declared.seed, time)
+    if declared.kind == "state":
+        x = np.linspace(0.0, parameters.geometry.length, parameters.mesh.n_x + 1)
+        made = Sheet(declared.seed, time, declared.correlation_length, x)
+    rows = made.coefficients(end + parameters.memory_time)  # the last step goes beyond the end
+    numbers = (made.spacing, made.phase, *rows.shape)
+    lines = [" ".join(map(repr, row)) for row in [numbers, *rows.tolist()]]
+    return "\n".join(lines) + "\n"
 
 
 def run(
@@ -98,6 +125,8 @@ def run(
     if not installed():
         raise FreeFemError(MISSING)
     given = arguments(parameters, settings, extraction) | {"directory": str(directory)}
+    if parameters.perturbation.kind != "none":
+        (directory / REALISATION).write_text(realisation(parameters), encoding="ascii")
     command = [PROGRAM, "-nw", "-v", "0", str(script)]
     command += [f"{name}={value}" for name, value in given.items()]
     environment = os.environ | {"FF_LOADPATH": os.environ.get("FF_LOADPATH", PLUGINS)}

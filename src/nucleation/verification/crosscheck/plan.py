@@ -7,6 +7,7 @@ import dataclasses
 from ...model.linearised import InterfaceState
 from ...model.material import Material
 from ...model.parameters import Parameters
+from ...model.perturbation import IN_TIME
 from ...model.quantities import Checked, quantity
 from ...model.second_body import SecondBody
 from ...theory.critical import theory_length
@@ -16,6 +17,9 @@ FIXED = {
     "loading.initial_stress": "no_slip",
 }  # fmt: skip
 """Parameters for which the script has this one value, by full name."""
+
+KINDS = ("none", *IN_TIME)
+"""Perturbations that the script has."""
 
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
 
@@ -30,15 +34,26 @@ class CrosscheckSettings(Checked):
     )  # fmt: skip
     length_over_critical: float = quantity(
         "block length over the theory's critical length", low=1.0, high=1000.0, symbol="L/L_c",
-        default=6.0,
+        default=2.0,
     )  # fmt: skip
+    perturbation: str = quantity(
+        "what is perturbed in the runs of both solvers, in one and the same realisation",
+        choices=KINDS, default="normal_load",
+    )  # fmt: skip
+    strength: float = quantity(
+        "relative strength of that perturbation", low=0.0, high=0.1, closed="both", symbol="eps",
+        default=1e-4,
+    )  # fmt: skip
+    seed: int = quantity(
+        "seed of that realisation", low=0, high=2**63 - 1, closed="both", default=1
+    )
     n_x: int = quantity("number of elements along x of both solvers", low=8, high=100000,
                         closed="both", symbol="N_x", default=400)  # fmt: skip
     n_y: int = quantity("number of elements along y of both solvers", low=2, high=10000,
                         closed="both", symbol="N_y", default=8)  # fmt: skip
     longest_step: float = quantity(
         "longest time step of the independent solver over the memory time D/V", low=0.0, high=1.0,
-        closed="high", default=0.04,
+        closed="high", default=0.1,
     )  # fmt: skip
     slip_per_step: float = quantity(
         "largest slip within a step of the independent solver over D", low=0.0, high=1.0,
@@ -53,7 +68,7 @@ class CrosscheckSettings(Checked):
     timing_n_y: int = quantity("number of elements along y of the mesh on which steps are timed",
                                low=2, high=10000, closed="both", default=150)  # fmt: skip
     timing_end: float = quantity(
-        "simulated time of the run that times steps", unit="s", low=0.0, high=1e12, default=0.1
+        "simulated time of the run that times steps", unit="s", low=0.0, high=1e12, default=0.05
     )
 
 
@@ -69,7 +84,12 @@ def runs(
     interface : of the linear theory, in whose critical length the block's length is measured.
     """
     base = dataclasses.replace(base, second_body=SecondBody())  # the other solver has one block
-    common = base.replaced(FIXED | {"stepping.time_after_event": settings.time_after_event})
+    declared = {
+        "perturbation.kind": settings.perturbation, "perturbation.strength": settings.strength,
+        "perturbation.seed": settings.seed,
+    }  # fmt: skip
+    ending = {"stepping.time_after_event": settings.time_after_event}
+    common = base.replaced(FIXED | declared | ending)
     found = {}
     for height in settings.heights:
         length = _block_length(height, base.material, interface, settings)

@@ -1,0 +1,90 @@
+"""The law of the drop in the page: of each fault whose quiet run was followed, for every kind.
+
+The law needs the spectrum of a patch, which a page cannot compute. It gets, from quiet runs, the
+mode's amplitude per strength over the patch's length, and evaluates it for any strength by the same
+formula as :meth:`nucleation.patch.delay.Growth.drop`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from ..model.linearised import InterfaceState
+from ..model.perturbation import KINDS, Perturbation
+from ..patch.delay import EARLY, LATE, MEDIAN, Growth, growth
+from ..patch.expected_drop import STRONGEST
+from ..patch.mode_history import ModeHistory
+from ..theory.critical import theory_length
+from .encode import float32
+
+POINTS = 400  # of a curve in the page
+STRENGTHS = (1e-12, 1e-1)  # ends of the slider
+STRENGTH = 1e-3  # where it begins: how steady a good machine holds its load
+WORDS = {
+    "drive_velocity": "velocity of the drive",
+    "normal_load": "normal load",
+    "strength": "strength along the fault",
+    "state": "state of the interface",
+}
+
+
+def in_page(histories: Iterable[ModeHistory], interface: InterfaceState) -> dict[str, Any] | None:
+    """What the page needs of all faults, None without any.
+
+    Parameters
+    ----------
+    histories : of quiet runs, one for each fault.
+    interface : of the theory whose critical length stands beside.
+    """
+    faults = [_fault(history, interface) for history in histories]
+    if not faults:
+        return None
+    return {
+        "faults": faults,
+        "parts": [MEDIAN, EARLY, LATE],
+        "strongest": STRONGEST,
+        "control": {
+            "key": "eps", "factor": 1, "low": STRENGTHS[0], "high": STRENGTHS[1], "log": True,
+            "value": STRENGTH,
+        },
+    }  # fmt: skip
+
+
+def _fault(history: ModeHistory, interface: InterfaceState) -> dict[str, Any]:
+    parameters = history.parameters
+    height, evolution = parameters.geometry.height, parameters.friction.evolution
+    grown = {kind: growth(history, Perturbation(kind=kind)) for kind in KINDS[1:]}
+    lines = {kind: growing.closed_form(history, 1.0) for kind, growing in grown.items()}
+    kinds = {kind: thinned(growing) for kind, growing in grown.items()}
+    return {
+        "label": f"H = {height:g} m, {evolution} law",
+        "theory_length": theory_length(height, parameters.material, interface),
+        "stability_length": _known(lines["state"].stability_length),
+        "kinds": {
+            kind: {
+                "length": float32(growing.length),
+                "log_amplitude": float32(growing.log_amplitude),
+                "effective": _known(lines[kind].effective),  # eps_eff of a strength of one
+            }
+            for kind, growing in kinds.items()
+        },
+    }
+
+
+def _known(value: float) -> float | None:
+    """JSON has no word for what is not a number."""
+    return value if np.isfinite(value) else None
+
+
+def thinned(growing: Growth) -> Growth:
+    """The same with :data:`POINTS`, in the single precision of the page."""
+    kept = np.linspace(0, growing.length.size - 1, POINTS).round().astype(int)
+    fields = {
+        field.name: getattr(growing, field.name)[kept].astype(np.float32).astype(float)
+        for field in dataclasses.fields(growing)
+    }
+    return Growth(**fields)
