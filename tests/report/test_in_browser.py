@@ -61,6 +61,47 @@ def test_theory_in_the_page_is_that_of_the_library(web):
         assert point["frequency"] == pytest.approx(expected.angular_frequency, rel=1e-9)
 
 
+def test_two_bodies_in_the_page_are_those_of_the_library(web):
+    """Each far side below, other heights and materials, contrasts of either sense."""
+    random, cases = np.random.default_rng(6), []
+    for number, height in enumerate(np.geomspace(1e-3, 1e2, 40)):
+        case = {
+            "H": float(height), "mu": 3e9, "nu": random.uniform(0.0, 0.45), "sigma0": 1e6,
+            "f": random.uniform(0.0, 1.0), "a": 0.007, "zeta": random.uniform(0.005, 0.02),
+            "ell": 5e-7, "V": 1e-5,
+        }  # fmt: skip
+        case["second"] = {
+            "mu": 3e9 * 10.0 ** random.uniform(-1.5, 1.5), "nu": random.uniform(0.0, 0.45),
+            "heightRatio": 10.0 ** random.uniform(-1.0, 1.0),
+            "farSide": ("free", "clamped", "roller", "velocity")[number % 4],
+        }  # fmt: skip
+        cases.append(case)
+    found = web.evaluate("(cases) => cases.map((p) => Theory.solver(p)(p.H))", cases)
+    for case, point in zip(cases, found, strict=True):
+        second = case["second"]
+        upper = Body(Material(case["mu"], case["nu"]), case["H"], "free")
+        lower = Body(
+            Material(second["mu"], second["nu"]), case["H"] * second["heightRatio"],
+            second["farSide"],
+        )  # fmt: skip
+        interface = InterfaceState(
+            case["f"], case["a"], case["zeta"], case["ell"], case["V"], case["sigma0"]
+        )
+        expected = critical_wavenumber(upper, lower, interface)
+        assert point["length"] == pytest.approx(expected.length, rel=1e-9)
+        assert point["frequency"] == pytest.approx(expected.angular_frequency, rel=1e-9)
+
+
+def test_a_second_block_is_chosen(web):
+    """The curve is that of identical blocks, and the rigid base's again after the reset."""
+    rigid = drawn_curve(web)
+    web.select_option("#below", "free")
+    chosen = drawn_curve(web)
+    assert (chosen[1] < 0.95 * rigid[1]).all()
+    web.click("#reset")
+    np.testing.assert_allclose(drawn_curve(web), rigid)
+
+
 def drawn_curve(web):
     """Heights and lengths (m) of the curve, once the page has drawn what it was told."""
     web.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")

@@ -52,6 +52,8 @@ DRAWN = {
         "patch": lambda wildcards: patch(hopping(wildcards)[0].id),
     },
     "figure_sensitivity": {"table": SENSITIVITY},
+    "figure_pairs": {"table": PAIRS},
+    "figure_2_simulated": {"table": PAIRS},
 }
 """The figures that are drawn from datasets alone, with these."""
 
@@ -110,6 +112,8 @@ TARGETS = {
     "figure_verification": [rules.verification.output],
     "figure_convergence": [rules.convergence.output, hops_shown, measured(*CONVERGENCE_STUDIES)],
     "figure_sensitivity": [rules.sensitivity.output, simulations("sensitivity")],
+    "figure_pairs": [pairs()],
+    "figure_2_simulated": [pairs()],
 }
 """What stands behind each figure, all the way down."""
 

@@ -36,10 +36,29 @@ rule gather_pairs:
         "../scripts/gather_pairs.py"
 
 
+# What the paper's theory says of two bodies, by simulations: verdicts of their own, for which
+# those of `claims`, and so `make paper`, do not wait.
+rule evaluate_pairs:
+    input:
+        PAIRS,
+    output:
+        csv=f"{RESULTS}/tables/claims_pairs.csv",
+        markdown=f"{RESULTS}/tables/claims_pairs.md",
+    params:
+        **made_by("claims_pairs.py"),
+    log:
+        f"{RESULTS}/logs/claims_pairs.log",
+    message:
+        "Claims on two bodies, by simulations"
+    script:
+        "../scripts/claims_pairs.py"
+
+
 rule pairs:
-    """Two deformable bodies: lengths over the theory of the own far sides."""
+    """Two deformable bodies: lengths over the theory of the own far sides, and verdicts."""
     input:
         pairs(),
+        rules.evaluate_pairs.output,
     localrule: True
     message:
         "The table of pairs is in {input[0]} and {input[1]}"

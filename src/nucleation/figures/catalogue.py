@@ -62,6 +62,13 @@ FIGURES: dict[str, Entry] = {
         "Sensitivity to parameters and definitions", BEYOND, ("sensitivity",),
         (Data("sensitivity"),),
     ),
+    "figure_pairs": Entry(
+        "Two deformable bodies", BEYOND, ("pairs_identical",), (Data("pairs"),)
+    ),
+    "figure_2_simulated": Entry(
+        "Figure 2 with simulations, in both senses of the contrast", BEYOND,
+        ("pairs_identical", "figure_2_simulated"), (Data("pairs"),),
+    ),
     "figure_convergence": Entry(
         "Critical length against mesh and steps", CHECKS, ("convergence_x",), (Data("convergence"),)
     ),

@@ -130,8 +130,15 @@ const HEIGHT = { key: "H", factor: 1, low: lowest, high: highest, log: true, val
 const controls = [...data.controls, HEIGHT].map((control) => makeControl(control, showTheory));
 const plot = element("theory-plot");
 
+// A second block is as high as the first, and has its Poisson's ratio.
+function secondBody(p) {
+  const [farSide, contrast] = [element("below").value, Number(element("contrast").value)];
+  return farSide && contrast > 0 ? { mu: p.mu * contrast, nu: p.nu, heightRatio: 1, farSide } : undefined;
+}
+
 function parameters() {
-  return Object.fromEntries(controls.map((control) => [control.key, control.si()]));
+  const p = Object.fromEntries(controls.map((control) => [control.key, control.si()]));
+  return { ...p, second: secondBody(p) };
 }
 
 function curves(p) {
@@ -256,8 +263,11 @@ function showTheory() {
 
 element("controls").addEventListener("submit", (event) => event.preventDefault());
 element("linear").addEventListener("change", showTheory);
+element("below").addEventListener("change", showTheory);
+element("contrast").addEventListener("input", showTheory);
 element("reset").addEventListener("click", () => {
   controls.forEach((control) => control.reset());
+  [element("below").value, element("contrast").value] = ["", "1"];
   showTheory();
 });
 drawTheory();

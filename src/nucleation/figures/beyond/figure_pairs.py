@@ -1,0 +1,89 @@
+"""Two deformable bodies: lengths of the patch against height, and over the theory of each run."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...figures import style
+
+STUDY = "pairs_identical"
+SIDES = (
+    ("free", "o", style.VERMILLION), ("clamped", "s", style.BLUE), ("roller", "^", style.GREEN),
+)  # fmt: skip
+"""Far sides of the second body with their markers."""
+
+
+@style.styled
+def draw(table: xr.Dataset) -> Figure:
+    """Draw (a) the lengths of identical blocks and (b) all pairs' over the theory's.
+
+    Parameters
+    ----------
+    table : Dataset
+        From :func:`nucleation.patch.pairs.gather`.
+
+    Returns
+    -------
+    Figure
+        Two columns wide, two panels.
+    """
+    figure = style.new_figure(style.DOUBLE_COLUMN, 7.4 * style.CENTIMETRE)
+    left, right = figure.subplots(1, 2)
+    _draw_heights(left, chosen(table, table["study"].values == STUDY).sortby("height"))
+    _draw_ratios(
+        right, chosen(table, np.abs(table["zeta_over_a"].values / _usual(table) - 1) < 0.1)
+    )
+    return figure
+
+
+def chosen(table: xr.Dataset, rows: np.ndarray) -> xr.Dataset:
+    """Some rows of the table."""
+    return table.isel(run=np.flatnonzero(rows))
+
+
+def _usual(table: xr.Dataset) -> float:
+    """zeta/a of most runs."""
+    return float(np.median(table["zeta_over_a"]))
+
+
+def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
+    height, theory = rows["height"].values, rows["theory_length"].values
+    axes.plot(height, theory, color=style.THEORY, label="theory $L_c$, free far sides")
+    axes.plot(height, rows["length"].values, "o", color=style.VERMILLION, label="at the drop")
+    axes.plot(
+        height, rows["stability_length"].values, "D", color=style.BLACK, markersize=4.0,
+        markerfacecolor="none", label="patch turns unstable, $L_s$",
+    )  # fmt: skip
+    if height.size:
+        axes.axhline(
+            theory[-1], color=style.GUIDE, linewidth=0.8, linestyle="--",
+            label=r"half-spaces, $\eta=\pi/(1-\nu)$",
+        )  # fmt: skip
+        axes.axhline(0.5 * theory[-1], color=style.GUIDE, linewidth=0.8, linestyle=":",
+                     label="half of it")  # fmt: skip
+    axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
+    axes.set_title("(a) identical blocks", loc="left")
+    axes.legend(fontsize=style.SMALL, loc="lower right")
+
+
+def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
+    thickness = rows["second_height"].values / rows["theory_length"].values
+    for side, marker, colour in SIDES:
+        of_side = rows["far_side"].values == side
+        for name, filled in (("length_ratio", True), ("stability_ratio", False)):
+            axes.plot(
+                thickness[of_side], rows[name].values[of_side], marker, color=colour,
+                markersize=4.2, markerfacecolor=colour if filled else "none",
+                label=f"{side}" if filled else None,
+            )  # fmt: skip
+    axes.axhline(0.5, color=style.GUIDE, linewidth=0.8, linestyle=":")
+    axes.axhline(1.0, color=style.GUIDE, linewidth=0.8, linestyle="--")
+    axes.set(
+        xscale="log", ylim=(0.0, 1.25), xlabel="Second height over theory $H_2/L_c$",
+        ylabel="Length over the own theory's",
+    )  # fmt: skip
+    axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)", loc="left")
+    axes.legend(title="bottom", fontsize=style.SMALL, title_fontsize=style.SMALL)
