@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
 
 USUAL = {"perturbation": "normal_load", "strength": 1e-3}  # a good machine's load is this steady
-GROUPS = ("material", "friction", "loading", "perturbation")  # mesh and steps are the law's own
+GROUPS = ("material", "friction", "loading", "perturbation", "second_body")
+MESH = ("second_n_y", "second_grading")  # mesh and steps are the law's own
 
 COMPARED = (
     "Held against simulations, its median was within 3 % from 1e-8 to 1e-4 and 4 % at 1e-3\n"
@@ -37,7 +38,8 @@ def _chosen() -> list[str]:
     def counts(name: str) -> bool:
         return known.full(name).partition(".")[0] in GROUPS or name == "height"
 
-    return [name for name in study_parameters() if name in CONSTANTS or counts(name)]
+    chosen = [name for name in study_parameters() if name in CONSTANTS or counts(name)]
+    return [name for name in chosen if name not in MESH]
 
 
 @click.command("drop", epilog=EXIT_CODES)

@@ -1,0 +1,45 @@
+"""The table of two bodies: which bodies, which perturbation, which theory."""
+
+import pytest
+
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.configuration.load import configure
+from nucleation.datasets.variables import VARIABLES
+from nucleation.model.parameters import Parameters
+from nucleation.patch.growth import follow_patch
+from nucleation.patch.pairs import COLUMNS, gather, pair_description
+from nucleation.simulation.run import simulate
+from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
+
+STUDY = {
+    "defaults": {"second_body": "deformable", "n_x": 60, "n_y": 3, "end_time": 0.2,
+                 "perturbation": "normal_load", "strength": 1e-4, "seed": 3},
+    "runs": [
+        {"height": 0.02, "second_height": 0.03, "second_shear_modulus": 6.2e9,
+         "second_bottom": ["free", "clamped"]},
+    ],
+}  # fmt: skip
+
+
+def test_rows_say_what_the_runs_are():
+    runs = configure({"studies": {"pairs": STUDY}}).runs
+    records, settings = [simulate(run.parameters) for run in runs], ExtractionSettings()
+    patches = [follow_patch(record, settings) for record in records]
+    table = gather([run.to_dict() for run in runs], records, patches, settings)
+    assert set(COLUMNS) <= set(VARIABLES)
+    assert table["far_side"].values.tolist() == ["free", "clamped"]
+    assert table["second_height"].values.tolist() == [0.03, 0.03]
+    assert table["kind"].values.tolist() == ["normal_load"] * 2
+    assert table["seed"].values.tolist() == [3, 3]
+    assert table["theory_length"].values.tolist() == [run.theory_length for run in runs]
+    first = runs[0].parameters
+    contrast = bimaterial_contrast(first.material, first.below.material)
+    f_beta = float(table["f_beta"][0])
+    assert contrast > 0.0 and f_beta == pytest.approx(contrast * float(table["friction"][0]))
+    ratio = bimaterial_length_ratio(f_beta, float(table["zeta_over_a"][0]))
+    assert float(table["half_space_ratio"][0]) == pytest.approx(float(ratio))
+
+
+def test_a_rigid_base_is_no_pair():
+    with pytest.raises(ValueError, match="rigid base"):
+        pair_description(Parameters())
