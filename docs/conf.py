@@ -1,12 +1,16 @@
 """Sphinx: these pages, the tutorials (executed) and the reference of the API (`make docs`)."""
 
+import re
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
 
+import docutils.nodes  # noqa: E402
 import numpydoc.numpydoc  # noqa: E402
+from docutils.utils.math import pick_math_environment  # noqa: E402
+from docutils.utils.math.latex2mathml import tex2mathml  # noqa: E402
 
 from nucleation import __version__  # noqa: E402
 
@@ -23,7 +27,6 @@ extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
-    "sphinx.ext.mathjax",
     "sphinx.ext.viewcode",
     "numpydoc",
 ]
@@ -47,6 +50,7 @@ autodoc_preserve_defaults = True
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
 
+html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "nucleation"
 html_show_sphinx = False
@@ -60,5 +64,19 @@ def formulas(app, what, name, obj, options, lines):
                 lines[i:i] = ["::", ""]
 
 
+def mathematics(writer, node):
+    """A formula as MathML, which browsers show without scripts and without the network."""
+    block = isinstance(node, docutils.nodes.math_block)
+    text = node.astext()
+    environment = pick_math_environment(text) if block else ""
+    if environment.startswith("align"):
+        text = rf"\begin{{{environment}}}{text}\end{{{environment}}}"
+    text = re.sub(r"\\tag\{(.+?)\}", r"\\qquad(\1)", text.replace(r"\dots", r"\ldots"))
+    shown = tex2mathml(text, as_block=block)
+    writer.body.append(f'<div class="math">{shown}</div>' if block else shown)
+    raise docutils.nodes.SkipNode
+
+
 def setup(app):
     app.connect("autodoc-process-docstring", formulas)
+    app.add_html_math_renderer("mathml", (mathematics, None), (mathematics, None))

@@ -65,3 +65,12 @@ def test_tutorial_is_kept_without_outputs_and_executed(site, path):
     page = (site / "tutorials" / path.with_suffix(".html").name).read_text()
     assert page.count('class="cell_output') >= 5
     assert page.count("<img") + page.count("<svg") >= 2
+
+
+def test_mathematics_is_shown_without_the_network(site):
+    """It needed a script from elsewhere."""
+    page = (site / "theory.html").read_text()
+    assert page.count("<math ") + page.count("<math>") > 20
+    assert "\\(" not in page and "\\[" not in page
+    for path in site.rglob("*.html"):
+        assert not re.findall(r'<script[^>]+src="https?:', path.read_text()), path

@@ -117,3 +117,13 @@ def test_a_run_without_an_event_is_drawn_without_marks(theory, lengths, thick):
     (inset,) = figure_3.draw(theory, lengths, still, row).axes[0].child_axes
     assert len([line for line in inset.get_lines() if len(line.get_xdata()) > 2]) == 4
     assert not inset.texts
+
+
+def test_bars_of_two_studies_stand_side_by_side(axes):
+    """Those of one height were drawn upon each other."""
+    usual = axes.transData.transform([[0.05, 0.5]])[0]
+    for container in axes.containers:
+        line, _, (bars,) = container
+        moved = line.get_transform().transform([[0.05, 0.5]])[0] - usual
+        assert (moved[0] < 0.0) == (line.get_markerfacecolor() != "white") and moved[1] == 0.0
+        np.testing.assert_allclose(bars.get_transform().transform([[0.05, 0.5]])[0] - usual, moved)

@@ -40,6 +40,7 @@ rule gather_lengths:
     output:
         dataset=LENGTHS,
         table=f"{RESULTS}/lengths.csv",
+        columns=f"{RESULTS}/lengths.columns.csv",
     params:
         **made_by("gather_lengths.py"),
     log:

@@ -6,8 +6,10 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
+from ..datasets.variables import VARIABLES
 from .definitions import ExtractionSettings
 from .extraction import extract
 from .record import Record
@@ -121,6 +123,12 @@ def row(table: xr.Dataset, identifier: str) -> xr.Dataset:
     """The row of one simulation, by its id."""
     (index,) = np.flatnonzero(table["id"].values == identifier)
     return table.isel(run=int(index))
+
+
+def columns_csv(columns: tuple[str, ...] = COLUMNS) -> str:
+    """Unit and meaning of every column of a table, as comma-separated text."""
+    described = [{"column": name, **VARIABLES[name]._asdict()} for name in columns]
+    return pd.DataFrame(described).rename(columns={"long_name": "meaning"}).to_csv(index=False)
 
 
 def to_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> str:

@@ -29,6 +29,9 @@ STRUCTURES = {"parameters", *MAPPINGS}
 TEXTS = {*STRUCTURES, "code_digest", "command", "content", "created"}
 """Attributes that say where a dataset is from: texts, some of them in JSON."""
 
+CONVENTIONS = "CF-1.11"
+"""What units and names of variables follow: those of the climate and forecast community."""
+
 HEADERS = 2**20  # bytes of a file beside its values, at most
 
 
@@ -39,6 +42,7 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
     """
     # an encoding left from reading may fit less: texts were cut to the length they had in a file
     complete = annotate(dataset).drop_encoding().assign_attrs(attributes)
+    complete.attrs["Conventions"] = CONVENTIONS
     complete.attrs["content"] = _content(complete)
     stored = {"zlib": True, "complevel": 1, "shuffle": True}
     encoding = {

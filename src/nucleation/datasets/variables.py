@@ -87,7 +87,7 @@ VARIABLES: dict[str, Variable] = {
     "status": Variable("", "how the simulation ended"),
     "steps": Variable("1", "number of time steps"),
     "wall_seconds": Variable("s", "wall time of the simulation"),
-    "peak_megabytes": Variable("MB", "largest memory of the simulation"),
+    "peak_megabytes": Variable("1", "largest memory of the simulation (megabytes)"),
     # Two deformable bodies
     "far_side": Variable("", "far side of the second body"),
     "second_height": Variable("m", "height of the second body", "H2"),

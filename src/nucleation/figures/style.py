@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import ParamSpec
 
 import matplotlib as mpl
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation, Transform
 
 from ..datasets.files import replacing
 
@@ -104,6 +106,13 @@ def new_figure(width: float, height: float) -> Figure:
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+def aside(axes: Axes, points: float) -> Transform:
+    """Where data are drawn, moved to the right by some points (1/72 inch)."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    return axes.transData + ScaledTranslation(points / 72.0, 0.0, figure.dpi_scale_trans)
 
 
 def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[Path, Path]:

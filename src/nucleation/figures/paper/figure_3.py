@@ -31,6 +31,9 @@ class Study(NamedTuple):
     suffix: str
 
 
+BESIDE = 1.8
+"""Points (1/72 inch) by which the bars of filled and open markers stand apart, of one height."""
+
 Series = tuple[Study, str, Kind, xr.Dataset]  # style, legend, marker, entries of the table
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
@@ -163,6 +166,7 @@ def _draw_points(axes: Axes, study: Study, label: str, kind: Kind, runs: xr.Data
         elinewidth=0.9,
         label=label,
         zorder=4.0 - 0.1 * kind.size,
+        transform=style.aside(axes, -BESIDE if study.filled else BESIDE),
     )
 
 
