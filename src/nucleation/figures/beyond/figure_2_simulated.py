@@ -39,6 +39,8 @@ def draw(table: xr.Dataset) -> Figure:
         _draw_lengths(panel, rows, name)
         panel.set_title(title, loc="left")
         panel.set_xlabel(r"Bimaterial contrast $f|\beta|$")
+    longest = max(np.nanmax(line.get_ydata(), initial=1.0) for line in axes[0].lines)
+    axes[0].set_ylim(0.0, 1.06 * longest)
     axes[0].set_ylabel(r"Length over $L_c^{\mathcal{M}}$")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(handles))
@@ -70,4 +72,3 @@ def _draw_lengths(axes: Axes, rows: xr.Dataset, name: str) -> None:
             markerfacecolor="none" if sign < 0.0 else style.BLACK,
         )  # fmt: skip
     axes.set_xlim(-0.01, CONTRAST[-1])
-    axes.set_ylim(0.0, 1.1)
