@@ -1,0 +1,71 @@
+"""Time series at points of the fault as text, in the format of the SEAS community's benchmarks.
+
+On-fault files of the benchmarks of sequences of earthquakes and aseismic slip (Erickson and others,
+2020): a header of lines with ``#``, the names of the fields, and a line for each time with slip
+(m), decimal logarithm of the slip rate (m/s), shear stress (MPa) and that of the state (s).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from ..model.quantities import ParameterError
+from .record import Record
+
+FIELDS = (
+    ("t", "Time (s)"), ("slip", "Slip (m)"), ("slip_rate", "Slip rate (log10 m/s)"),
+    ("shear_stress", "Shear stress (MPa)"), ("state", "State (log10 s)"),
+)  # fmt: skip
+"""Names of the fields, and what the header says of them."""
+
+
+def time_series(simulation: xr.Dataset, position: float) -> str:
+    """The record of a simulation at one point of the interface.
+
+    Parameters
+    ----------
+    simulation : the record of :func:`nucleation.simulation.run.simulate`.
+    position : distance from the loaded edge (m); between nodes, fields are linear in x, and rates
+        and states by their logarithms.
+
+    Raises
+    ------
+    ParameterError
+        If the position is not on the interface.
+    """
+    record = Record(simulation)
+    x, steps = record.x, simulation["step_size"].values[1:]
+    if not x[0] <= position <= x[-1]:
+        raise ParameterError(
+            f"at = {position:g} m is not allowed: it must lie on the interface, in [0, {x[-1]:g}] m"
+        )
+    node = min(int(np.searchsorted(x, position, side="right")) - 1, x.size - 2)
+    part = (position - x[node]) / (x[node + 1] - x[node])
+
+    def at(name: str, logarithm: bool = False) -> np.ndarray:
+        values = simulation[name].values[:, node : node + 2]
+        values = np.log10(np.maximum(np.abs(values), 1e-300)) if logarithm else values
+        return (1.0 - part) * values[:, 0] + part * values[:, 1]
+
+    columns = (
+        record.time, at("slip"), at("slip_rate", True), 1e-6 * at("shear_stress"),
+        at("state", True),
+    )  # fmt: skip
+    header = [
+        "This is the file header:",
+        "code=nucleation",
+        f"date={simulation.attrs.get('created', '')}",
+        f"made_by={simulation.attrs.get('command', '')}",
+        f"element_size={x[1] - x[0]:g} m",
+        f"location=on fault, {position:g} m from the loaded edge",
+        f"minimum_time_step={steps.min():g}",
+        f"maximum_time_step={steps.max():g}",
+        f"num_time_steps={record.time.size}",
+        *(f"Column #{i + 1} = {text}" for i, (_, text) in enumerate(FIELDS)),
+        "The line below lists the names of the data fields",
+    ]
+    lines = [*(f"# {line}" for line in header), " ".join(name for name, _ in FIELDS)]
+    lines += ["# Here are the data"]
+    lines += [" ".join(f"{value:.15e}" for value in row) for row in zip(*columns, strict=True)]
+    return "\n".join(lines) + "\n"

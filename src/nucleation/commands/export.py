@@ -1,0 +1,49 @@
+"""``nucleation export``: time series of a simulation at points of its fault, as text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ..model.parameters import Geometry
+from ..model.quantities import ParameterError, declarations
+from ..model.units import parse
+from . import DONE, EXIT_CODES
+
+LENGTH = declarations(Geometry)["length"]
+
+
+@click.command("export", epilog=EXIT_CODES)
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
+@click.option(
+    "--at", "places", multiple=True, required=True, metavar="VALUE[m]",
+    help="distance from the loaded edge; may be given several times",
+)  # fmt: skip
+@click.option("--force", is_flag=True, help="replace files that exist")
+def command(file: Path, folder: Path, places: tuple[str, ...], force: bool) -> int:
+    """Write slip, slip rate, stress and state at points of the fault, a file for each.
+
+    The format is that of the SEAS community's benchmarks (fields t slip slip_rate shear_stress
+    state), which its tools for comparison read.
+
+    \b
+    Example:
+      nucleation export run.nc series --at 5cm --at 10cm
+    """
+    from ..analysis.seas import time_series
+    from ..datasets import netcdf
+
+    dataset = netcdf.read(file, requires=["slip_rate", "driving_force"])
+    texts = {}
+    for place in places:
+        position = parse("at", place, LENGTH)
+        texts[folder / f"{file.stem}_x{position:g}m.dat"] = time_series(dataset, position)
+    for path in texts:
+        if path.exists() and not force:
+            raise ParameterError(f"{path} exists already; --force replaces it")
+    for path, text in texts.items():
+        netcdf.write_text(text, path)
+        click.echo(f"written to {path}")
+    return DONE
