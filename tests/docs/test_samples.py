@@ -67,7 +67,17 @@ def install_debian(arguments, directory):
     )
 
 
+def simulation(arguments, directory):
+    """The command line's simulation says what it would run."""
+    assert arguments[0] == "simulate", arguments
+    output, *options = arguments[1:]
+    planned = run([sys.executable, "-m", "nucleation", "simulate", directory / output, *options,
+                   "--dry-run"])  # fmt: skip
+    assert "theory: critical length" in planned
+
+
 RULES = {
+    "nucleation": simulation,
     "make": make,
     ".venv/bin/snakemake": snakemake,
     "workflow/install-debian.sh": install_debian,
