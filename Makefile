@@ -28,7 +28,7 @@ help: ## This list
 paper: $(STAMP) ## Make every figure, table and verdict, in results/
 	$(LAUNCH) $(TARGETS) $(OPTIONS) $(CONFIGURED)
 
-report: $(STAMP) ## Make results/report.html: verdicts, figures, theory with sliders, in half an hour
+report: $(STAMP) ## Make results/report.html: verdicts, figures, theory with sliders, in an hour
 	$(LAUNCH) report $(OPTIONS) $(CONFIGURED)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
@@ -61,13 +61,13 @@ bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper figure_patch_stability figure_3_extended figure_convergence \
-		figure_sensitivity figure_verification figure_dispersion animation \
+		figure_sensitivity figure_verification figure_dispersion figure_drop animation \
 		figure_pairs figure_2_simulated pairs \
 		--cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/verification.csv results/pairs.csv \
-		results/dispersion.csv results/convergence.csv results/sensitivity.csv \
+		results/drop.csv results/dispersion.csv results/convergence.csv results/sensitivity.csv \
 		results/figures/*.png results/figures/animation.gif \
 		results/tables/claims.csv results/tables/claims.md \
 		results/tables/claims_pairs.csv results/tables/claims_pairs.md results/reference/

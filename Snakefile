@@ -45,7 +45,7 @@ from nucleation.model.quantities import ParameterError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
-from nucleation.configuration.studies import theory_curves, varied
+from nucleation.configuration.studies import first_realisations, theory_curves, varied
 
 show_why_groups_fail()  # such as a partition that Slurm doesn't know
 suggest_targets(lambda: workflow.rules)
@@ -207,6 +207,7 @@ include: "workflow/rules/patches.smk"
 include: "workflow/rules/pairs.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/studies.smk"
+include: "workflow/rules/drop.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/crosscheck.smk"
 include: "workflow/rules/claims.smk"

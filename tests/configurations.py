@@ -30,8 +30,8 @@ def changed(place: str, value: object) -> dict:
 
 
 def with_run(**entry: object) -> dict:
-    """The paper's configuration with one more entry of runs (its number is 3)."""
-    return changed("studies.paper.runs.3", entry)
+    """The paper's configuration with one more entry of runs (its number is 6)."""
+    return changed("studies.paper.runs.6", entry)
 
 
 def study(*runs: dict, **settings: object) -> dict:

@@ -29,7 +29,7 @@ def test_article_follows_the_numbers(given):
     for row in changed:
         if row["id"] == "onset-time":
             row["ours"] = 77.77
-    assert "77.77 converged" in render(TEMPLATE, changed, lengths)
+    assert "77.77 under a declared" in render(TEMPLATE, changed, lengths)
 
 
 def test_every_run_is_in_its_table(given):

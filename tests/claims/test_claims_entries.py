@@ -21,7 +21,13 @@ from nucleation.claims.symbols import as_markdown
 CLAIMS = [claim for claims in table.SUBJECTS.values() for claim in claims]
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
-LENGTHS = pd.read_csv(REFERENCE / "lengths.csv").set_index("id")
+LENGTHS = pd.read_csv(REFERENCE / "lengths.csv")
+
+
+def realisations(study, law, height, phi0=1.0):
+    """The rows of one fault in the table of lengths."""
+    frame = LENGTHS[(LENGTHS.study == study) & (LENGTHS.law == law) & (LENGTHS.phi0 == phi0)]
+    return frame[np.isclose(frame.height, height)]
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +115,9 @@ def test_reference_is_what_the_code_gives(rows, reference):
 
 def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
     failed = {id for id, row in reference.items() if row["verdict"] == Verdict.NOT_REPLICATED}
-    assert failed == {"stability-lost-at-length", "slip-law-approximation"}
+    assert failed == {
+        "stability-lost-at-length", "slip-law-approximation", "theory-agreement"
+    }  # fmt: skip
     given = {id for id, row in reference.items() if row["verdict"] == Verdict.GIVEN}
     assert given == {"mesh-along", "mesh-across", "usual-step", "slip-rate-over-v0"}
     unchecked = {id for id, row in reference.items() if row["verdict"] == Verdict.UNCHECKED}
@@ -117,18 +125,21 @@ def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
 
 
 def test_onset_and_length_of_figure_s2(rows):
-    converged, papers = (LENGTHS.loc[f"{s}-aging-H0.005-phi1"] for s in ("converged", "paper"))
+    converged, papers = (realisations(s, "aging", 0.005) for s in ("converged", "paper"))
+    assert len(converged) == 3
     for name, column in (("onset-time", "onset_time"), ("length-shown", "length")):
         row = rows[name]
-        assert row["ours"] == converged[column]
-        assert row["uncertainty"] == [converged[f"{column}_low"], converged[f"{column}_high"]]
-        assert row["on_papers_mesh"] == papers[column]
-        assert row["verdict"] == Verdict.EXPLAINED
-        assert "A coarse mesh lets the force drop early" in row["reason"]
+        assert row["ours"] == pytest.approx(converged[column].mean())
+        ends = [converged[f"{column}_low"].min(), converged[f"{column}_high"].max()]
+        assert row["uncertainty"] == ends
+        assert row["on_papers_mesh"] == papers[column].item()
+        assert row["verdict"] == Verdict.REPLICATED
 
 
 def test_agreement_with_the_theory(rows):
     mine = LENGTHS[(LENGTHS.study == "converged") & (LENGTHS.law == "aging") & (LENGTHS.phi0 == 1)]
+    how = {"length": "mean", "length_low": "min", "length_high": "max", "theory_length": "mean"}
+    mine = mine.groupby("height", as_index=False).agg(how)
     ratio = mine.length / mine.theory_length
     assert rows["theory-agreement"]["ours"] == pytest.approx(ratio.min())
     worst = mine.loc[ratio.idxmin()]
@@ -160,8 +171,10 @@ def test_changes_of_law_and_age_take_the_same_definition_for_both_runs():
         return Measures(**{**values, "lengths": lengths, "patch_rates": (1.0, 1.0, 1.0)})
 
     base = evidence()
-    ids = {"converged-slip-H0.01-phi1": 1.05, "converged-aging-H0.01-phi1": 1.0}
-    ids |= {key.replace("converged", "paper"): value for key, value in ids.items()}
+    ids = {"paper-slip-H0.01-phi1": 1.05, "paper-aging-H0.01-phi1": 1.0}
+    for seed, off in ((1, -0.02), (2, 0.0), (3, 0.02)):  # of which the mean counts
+        ids |= {f"converged-slip-H0.01-phi1-seed{seed}": 1.05 + off}
+        ids |= {f"converged-aging-H0.01-phi1-seed{seed}": 1.0}
     made_up = evidence(measures={id: measures(factor, 0.1) for id, factor in ids.items()})
     (claim,) = [claim for claim in CLAIMS if claim.id == "slip-law-low"]
     row = claim.evaluate(made_up)
@@ -197,7 +210,7 @@ def test_tables_hold_every_row(rows):
 
 
 def test_page_on_the_papers_own_point():
-    ratio = 0.15 / LENGTHS.loc["paper-aging-H0.005-phi1"].theory_length
+    ratio = 0.15 / realisations("paper", "aging", 0.005).theory_length.item()
     assert f"which is {ratio:.2f} of the theory" in " ".join(PAGE.split())
 
 

@@ -52,7 +52,7 @@ WARNED = {
     "along x": (
         GOOD | {"n_x": 100},
         "mesh too coarse along x (s-aging-H0.005-phi1-n_x100): n_x = 100 makes elements of 0.0141 m"
-        ", 2.3 to a process zone of 0.0322 m; recommended is n_x = 132 or more, and about 1533",
+        ", 2.3 to a process zone of 0.0322 m; recommended is n_x = 132 or more, and about 745",
     ),
     "along y": (
         {"height": 1.0, "n_x": 400, "n_y": 10},
@@ -78,6 +78,16 @@ WARNED = {
     "start": (
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
         "start above the strength (",
+    ),
+    "mesh's noise": (
+        GOOD | {"perturbation": "normal_load", "strength": 1e-4},
+        "perturbation lost in the mesh's noise (s-aging-H0.005-phi1-n_x400-perturbationnormal_load"
+        "-strength0.0001): strength = 0.0001 with 9.1 elements to a process zone",
+    ),
+    "steps' noise": (
+        {"height": 0.02, "n_x": 1600, "perturbation": "drive_velocity", "strength": 1e-5},
+        "strength = 1e-05 while the front passes 4.6 % of an element in the longest step, which "
+        "shakes the patch as much; recommended is longest_step = 0.09 or less",
     ),
     "roughness": (
         GOOD | {"perturbation": "state", "strength": 1e-3, "correlation_length": 0.01},

@@ -7,7 +7,7 @@ import yaml
 from configurations import CONFIG, PAPER, changed, messages, with_run
 
 from nucleation.configuration.load import configure, load, schema
-from nucleation.configuration.studies import expand
+from nucleation.configuration.studies import expand, first_realisations
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
@@ -16,7 +16,7 @@ from nucleation.model.quantities import ParameterError, declarations
 from nucleation.theory.critical import critical_length
 
 NU = ["material.poisson_ratio", "Poisson's ratio", "(-1, 0.5)"]
-RUN = "studies.paper.runs[3]"
+RUN = "studies.paper.runs[6]"
 
 BAD = {
     # out of range: key, value, unit, range
@@ -101,12 +101,12 @@ BAD = {
     "no height": (with_run(law="slip"), [f"{RUN}: the run has no height"]),
     "value twice": (with_run(height=[0.2, 0.2]), [f"{RUN}.height = [0.2, 0.2] has a value twice"]),
     "run twice": (
-        with_run(height=0.1),
-        [f"{RUN} gives the simulation paper-aging-H0.1-phi1 again", "runs[0]"],
+        with_run(height=0.05),
+        [f"{RUN} gives the simulation paper-aging-H0.05-phi1 again", "runs[1]"],
     ),
     "same run, other name": (
-        with_run(height=0.1, n_x=400),
-        [f"{RUN} gives the simulation paper-aging-H0.1-phi1-n_x400 again"],
+        with_run(height=0.05, n_x=400),
+        [f"{RUN} gives the simulation paper-aging-H0.05-phi1-n_x400 again"],
     ),
     "range without end": (
         with_run(height={"start": 0.1, "num": 3}),
@@ -258,10 +258,27 @@ def test_papers_study():
 
 def test_converged_study_has_the_papers_runs():
     config = load(CONFIG / "config.yaml")
-    labels = [
-        [(r.labels | {"study": ""}) for r in config.runs_of(s)] for s in ("paper", "converged")
-    ]
+    runs = config.runs_of("converged")
+    first = first_realisations(runs)
+    labels = [[r.labels | {"study": ""} for r in some] for some in (config.runs_of("paper"), first)]
     assert labels[0] == labels[1]
+    assert len(runs) == 3 * len(first)
+    for run in runs:
+        assert run.parameters.perturbation.acts
+
+
+def test_entries_have_defaults_of_their_own_that_are_in_no_name():
+    entry = {"height": [0.02, 0.1], "defaults": {"longest_step": 0.02}}
+    values = {"studies": {"mine": {"defaults": {"longest_step": 0.1, "n_x": 90}, "runs": [entry]}}}
+    runs = configure(values).runs
+    assert [run.id for run in runs] == ["mine-aging-H0.02-phi1", "mine-aging-H0.1-phi1"]
+    for run in runs:
+        assert (run.parameters.stepping.longest_step, run.parameters.mesh.n_x) == (0.02, 90)
+    entry["longest_step"] = [0.05, 0.1]  # what the entry itself gives is stronger
+    assert {r.parameters.stepping.longest_step for r in configure(values).runs} == {0.05, 0.1}
+    entry["defaults"] = {"longest_step": -1.0}
+    with pytest.raises(ParameterError, match=r"studies.mine.runs\[0\].defaults.longest_step = -1"):
+        configure(values)
 
 
 def test_quick_configuration_has_what_the_figures_show():

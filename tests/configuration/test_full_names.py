@@ -12,7 +12,7 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.names import Names
 from nucleation.model.parameters import Parameters
 
-RUN = "studies.paper.runs[3]"
+RUN = "studies.paper.runs[6]"
 SHORT = {"height": 0.1, "law": ["aging", "slip"], "n_x": 800, "phi0": 10.0}
 FULL = {
     "geometry.height": 0.1, "friction.evolution": ["aging", "slip"], "mesh.n_x": 800,
@@ -42,7 +42,7 @@ def test_names_in_defaults_and_runs_may_differ():
 def test_schema_has_every_name():
     properties = schema.build()["$defs"]["study"]["properties"]
     for node in (properties["defaults"], properties["runs"]["items"]):
-        assert set(node["properties"]) == {*study_parameters(), *other_names()}
+        assert set(node["properties"]) - {"defaults"} == {*study_parameters(), *other_names()}
     assert "geometry.height" in other_names() and "friction.law" in other_names()
 
 

@@ -37,7 +37,7 @@ def test_theory_and_its_thin_limit(axes, theory):
         ("FEM, aging law", "o", style.AGING, True, range(8)),
         ("FEM, slip law", "^", style.SLIP, True, (8, 9)),
         (r"FEM, aging law, $\phi(t\!=\!0)=10^{3}$ s", "s", style.OLD_AGE, True, (10,)),
-        ("FEM, aging law, converged mesh", "o", style.AGING, False, (12, 13)),
+        (r"FEM, aging law, load $\pm 10^{-5}$", "o", style.AGING, False, (12, 13)),
     ],
 )
 def test_points_and_error_bars(axes, lengths, label, marker, colour, filled, runs):

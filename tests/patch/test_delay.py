@@ -51,10 +51,27 @@ def test_linear_growth_gives_the_closed_form(strength):
     assert drop.time == pytest.approx((drop.length - 0.18) / SPEED)
 
 
+def test_drops_come_once_in_a_period_at_any_phase():
+    """Against drawn amplitudes and phases: Rayleigh ones, and even ones over a period's growth."""
+    law, strength, generator = growth(history(), LOAD), 1e-5, np.random.default_rng(5)
+    amplitudes = np.sqrt(-np.log(generator.uniform(size=4000)))
+    reached = np.array([law.at(1.0 / (strength * a))[0] for a in amplitudes])
+    period = SPEED * 2.0 * np.pi / FREQUENCY
+    drops = reached + period * generator.uniform(-0.5, 0.5, size=4000)
+    found = law.drop(strength)
+    assert (found.low, found.length, found.high) == pytest.approx(
+        tuple(np.quantile(drops, [0.16, 0.5, 0.84])), abs=0.03 * period
+    )
+    assert np.quantile(reached, 0.84) - np.quantile(reached, 0.16) < 0.9 * (found.high - found.low)
+
+
 def test_realisations_are_distributed_as_the_law_says():
     found = growth(history(), LOAD).drop(1e-6)
+    period = SPEED * 2.0 * np.pi / FREQUENCY
+    phases = np.random.default_rng(6).uniform(-0.5, 0.5, size=48)
     drops = [
-        realised(history(), dataclasses.replace(LOAD, seed=seed)).at(1e6)[0] for seed in range(48)
+        realised(history(), dataclasses.replace(LOAD, seed=seed)).at(1e6)[0] + period * phase
+        for seed, phase in enumerate(phases)
     ]
     low, middle, high = np.quantile(drops, [0.16, 0.5, 0.84])
     spread = found.high - found.low

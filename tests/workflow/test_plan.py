@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from nucleation.configuration.load import load, read_yaml
+from nucleation.configuration.studies import first_realisations
 
 ROOT = Path(__file__).parents[2]
 
@@ -27,7 +28,7 @@ def test_default_target_is_the_whole_paper(paper):
     assert len(blocks) == 2  # each with the base of its height, for the claim on the block's length
     runs += 4
     once = ("theory", "gather_lengths", "write_table_s1", "paper", *DRAWN, *CLAIMING)
-    patches = len(config.runs_of("converged"))
+    patches = len(first_realisations(config.runs_of("converged")))
     assert paper.planned() == {
         "simulate": runs, "extract": 2, "patch": patches, **dict.fromkeys(once, 1)
     }  # fmt: skip

@@ -47,7 +47,7 @@ rule evaluate_claims:
         extraction=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
         longer=[run.to_dict() for run in longer()],
-        patch_ids=[run.id for run in runs_in(JUDGED)],
+        patch_ids=[run.id for run in patched_runs(JUDGED)],
         **made_by("claims.py", [*plugins(settings.base), *EVOLUTIONS]),
     log:
         f"{RESULTS}/logs/claims.log",

@@ -28,8 +28,13 @@ def twin(id):
     return keyed("twins", id, "twin.py", parameters, modules=plugins(RUNS[id].parameters))
 
 
+def patched_runs(*studies):
+    """The runs whose patches are followed: of each fault the first realisation."""
+    return first_realisations(runs_in(*studies))
+
+
 def patches(*studies):
-    return [patch(run.id) for run in runs_in(*studies)]
+    return [patch(run.id) for run in patched_runs(*studies)]
 
 
 patched, twinned = of_key(patch, "patch of"), of_key(twin, "twins of")
@@ -38,7 +43,8 @@ patched, twinned = of_key(patch, "patch of"), of_key(twin, "twins of")
 def frozen(table):
     """A table of patches, with the patches and simulations in it."""
     studies = PATCH_TABLES[table]
-    return [*with_csv(f"{RESULTS}/{table}.nc"), *patches(*studies), *simulations(*studies)]
+    behind = [simulation(run.id) for run in patched_runs(*studies)]
+    return [*with_csv(f"{RESULTS}/{table}.nc"), *patches(*studies), *behind]
 
 
 def twins():
@@ -73,7 +79,9 @@ rule gather_patches:
     wildcard_constraints:
         table="|".join(PATCH_TABLES),
     params:
-        runs=lambda wildcards: [run.to_dict() for run in runs_in(*PATCH_TABLES[wildcards.table])],
+        runs=lambda wildcards: [
+            run.to_dict() for run in patched_runs(*PATCH_TABLES[wildcards.table])
+        ],
         **made_by("gather_patches.py"),
     log:
         f"{RESULTS}/logs/{{table}}.log",

@@ -1,9 +1,10 @@
 # Beyond the paper: what mesh, steps, parameters and definitions do to the critical length.
 #
-# Every study whose name begins with `convergence` takes part in the table of refinement; the first
-# of them refines along x, and its runs at the height of Figure S2 show the hops of the front.
+# Every study whose name begins with `convergence` takes part in the table of refinement. The runs of
+# HOPPING at the height of Figure S2, quiet ones, show the hops of the front.
 CONVERGENCE = f"{RESULTS}/convergence.nc"
 SENSITIVITY = f"{RESULTS}/sensitivity.nc"
+HOPPING = "convergence_x"
 CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
 
 
@@ -14,11 +15,9 @@ localrules:
 def hopping(wildcards):
     """The runs whose hops are shown, from coarse to fine."""
     height = settings.figures.space_time_height
-    studies = CONVERGENCE_STUDIES[:1]
-    runs = [run for study in studies for run in settings.runs_of(study)]
-    runs = [run for run in runs if run.parameters.geometry.height == height]
+    runs = [run for run in runs_in(HOPPING) if run.parameters.geometry.height == height]
     if not runs:
-        raise WorkflowError(f"no study convergence... has a run with height {height:g}")
+        raise WorkflowError(f"there is no study {HOPPING} with a run of height {height:g}")
     return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
 
 

@@ -16,13 +16,14 @@ import xarray as xr
 REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
 
-FIXED = (*REFINED, "grading", "height", "law", "phi0")
+FIXED = (*REFINED, "grading", "height", "law", "phi0", "kind", "strength", "seed")
 """What the runs of a sequence have in common, the refined parameter apart."""
 
 FEWEST = 3  # runs that make a sequence
 
 COLUMNS = (
-    "refinement", "id", "height", "n_x", "n_y", "grading", "longest_step", "tolerance", "length",
+    "refinement", "id", "law", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
+    "grading", "longest_step", "tolerance", "length",
     "length_change", "theory_length", "length_over_theory", "onset_time", "onset_time_high",
     "drop_time_change", "observed_order", "steps", "wall_seconds",
 )  # fmt: skip

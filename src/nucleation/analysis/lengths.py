@@ -27,9 +27,12 @@ COLUMNS = (
     "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
     "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
     "velocity_weakening", "friction_law", "initial_stress", "initial_shear_stress",
-    "simulated_time", "reached_length",
+    "simulated_time", "reached_length", "kind", "strength", "seed",
 )  # fmt: skip
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
+
+EITHER = ("id", "seed", *MEASURED, *DIAGNOSTICS, "simulated_time", "reached_length")
+"""Columns in which realisations of one fault may differ."""
 
 
 def gather(
@@ -64,10 +67,49 @@ def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
     return xr.concat(list(tables), dim="run", combine_attrs="drop")
 
 
+def realisations(table: xr.Dataset) -> list[list[int]]:
+    """The rows of each fault in a table of lengths, which differ in the declared seed alone."""
+    same = [table[name].values.tolist() for name in table.data_vars if name not in EITHER]
+    faults: dict[tuple[Any, ...], list[int]] = {}
+    for i, key in enumerate(zip(*same, strict=True)):
+        faults.setdefault(key, []).append(i)
+    return list(faults.values())
+
+
+def over_realisations(table: xr.Dataset) -> xr.Dataset:
+    """A table of lengths with one row for each fault, the mean of its realisations.
+
+    The row has their mean onset and length, the outermost ends of their ranges, and everything else
+    of the first of them; ``realisations`` counts them. NaN if one of them has no event.
+    """
+    faults = realisations(table)
+    columns = {}
+    for name in map(str, table.data_vars):
+        values = table[name].values
+        if name in MEASURED:
+            end = {"_low": np.min, "high": np.max}.get(name[-4:], np.mean)
+            columns[name] = np.array([end(values[rows]) for rows in faults])
+        else:
+            columns[name] = values[[rows[0] for rows in faults]]
+    columns["realisations"] = np.array([len(rows) for rows in faults])
+    return xr.Dataset({name: ("run", values) for name, values in columns.items()})
+
+
+def declared(run: dict[str, Any]) -> dict[str, Any]:
+    """The columns that say how a run is perturbed; the strength of a quiet one is zero."""
+    perturbation = run["parameters"]["perturbation"]
+    acts = perturbation["kind"] != "none"
+    return {
+        "kind": perturbation["kind"],
+        "strength": perturbation["strength"] if acts else 0.0,
+        "seed": perturbation["seed"],
+    }
+
+
 def description(run: dict[str, Any]) -> dict[str, Any]:
     """The columns that say which simulation a row is about, and the theory's length for it."""
     parameters = run["parameters"]
-    return {
+    return declared(run) | {
         "id": run["id"],
         "study": run["study"],
         "law": parameters["friction"]["evolution"],

@@ -8,6 +8,7 @@ from typing import Any
 import jinja2
 import xarray as xr
 
+from ..analysis.lengths import over_realisations
 from .claim import Verdict
 from .table import counts, number_text
 
@@ -20,7 +21,7 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     template : str
         Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
         number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(study)``,
-        the rows of a study's lengths; and the filters ``digits(n)`` and ``percent(n)``.
+        its rows of lengths, one for each fault; and the filters ``digits(n)`` and ``percent(n)``.
     claims : list of dict
         Rows of :func:`nucleation.claims.table.evaluate`.
     lengths : iterable of Dataset
@@ -39,7 +40,11 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     )  # fmt: skip
     environment.filters |= {"digits": digits, "percent": percent}
     by_id = {row["id"]: row for row in claims}
-    records = [row for table in lengths for row in table.to_dataframe().to_dict("records")]
+    records = [
+        row
+        for table in lengths
+        for row in over_realisations(table).to_dataframe().to_dict("records")
+    ]
 
     def runs(study: str) -> list[dict[str, Any]]:
         return [row for row in records if row["study"] == study]

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.lengths import over_realisations, realisations
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading
 from .claim import Cause, Result
-from .measure import Measures
+from .measure import Measures, mean
 from .said import Missing, Ours
 
 JUDGED, PAPERS = "converged", "paper"
@@ -39,7 +40,8 @@ class Evidence:
     dispersion : dataset of single modes integrated in time.
     lengths : tables of lengths, one for each study judged, and of the runs with longer blocks.
     measures : what is read from each of their simulations, by id.
-    patches : stability of the patches of the study :data:`JUDGED`, by id.
+    patches : stability of the patches of the study :data:`JUDGED`, by id of each fault's first
+        realisation.
     """
 
     material: Material
@@ -53,8 +55,11 @@ class Evidence:
     patches: dict[str, xr.Dataset]
 
     def rows(self, study: str, **labels: Any) -> list[dict[str, Any]]:
-        """Rows of the table of lengths, sorted by height (m); raises Missing if there is none."""
-        records = [row for table in self.lengths for row in table.to_dataframe().to_dict("records")]
+        """Rows of the table of lengths, sorted by height (m); raises Missing if there is none.
+
+        One for each fault: the mean of its realisations, of which ``members`` are the names.
+        """
+        records = [row for table in self.lengths for row in _faults(table)]
         wanted = {"study": study, **labels}
         found = [row for row in records if all(_same(row[k], v) for k, v in wanted.items())]
         if not found:
@@ -71,14 +76,21 @@ class Evidence:
         return self.rows(study, law="aging", phi0=1.0)
 
     def measured(self, row: dict[str, Any]) -> Measures:
-        """What was read from the simulation of a row; raises Missing without it."""
+        """What was read from the simulations of a row, their mean; raises Missing without one."""
+        return mean([self._measures(id) for id in row["members"]])
+
+    def each_measured(self, study: str, **labels: Any) -> list[Measures]:
+        """What was read from every simulation of some rows; raises Missing without one."""
+        return [self._measures(id) for row in self.rows(study, **labels) for id in row["members"]]
+
+    def _measures(self, id: str) -> Measures:
         try:
-            return self.measures[row["id"]]
+            return self.measures[id]
         except KeyError:
-            raise Missing(f"The simulation {row['id']} is not among the results") from None
+            raise Missing(f"The simulation {id} is not among the results") from None
 
     def patch(self, row: dict[str, Any]) -> xr.Dataset:
-        """The patch's stability along the simulation of a row; raises Missing without it."""
+        """The stability of the patch of a row's first realisation; raises Missing without it."""
         try:
             return self.patches[row["id"]]
         except KeyError:
@@ -86,7 +98,7 @@ class Evidence:
 
 
 def on_both(evidence: Evidence, ours: Callable[[str], Ours], note: str = "") -> Result:
-    """A number of either study: the verdict stands on the converged one.
+    """A number of either study: the verdict stands on the converged, perturbed one.
 
     If the number is the paper's on the paper's own mesh only, the mesh is the cause.
     """
@@ -97,6 +109,16 @@ def on_both(evidence: Evidence, ours: Callable[[str], Ours], note: str = "") -> 
         return Result(judged, note=note)
     cause = Cause(MESH, "On the paper's own mesh ours is", papers)
     return Result(judged, on_papers_mesh=papers, cause=cause, note=note)
+
+
+def _faults(table: xr.Dataset) -> list[dict[str, Any]]:
+    """The rows of a table of lengths, one for each fault, with the names of its realisations."""
+    ids = table["id"].values
+    rows = over_realisations(table).to_dataframe().to_dict("records")
+    return [
+        row | {"members": ids[members].tolist()}
+        for row, members in zip(rows, realisations(table), strict=True)
+    ]
 
 
 def _same(one: Any, other: Any) -> bool:

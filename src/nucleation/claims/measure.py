@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
@@ -61,6 +62,13 @@ class Measures:
 
 
 NONE = float("nan")
+
+
+def mean(measures: Sequence[Measures]) -> Measures:
+    """The mean of several simulations, number by number."""
+    values = [dataclasses.astuple(one) for one in measures]
+    columns = [np.mean(column, axis=0).tolist() for column in zip(*values, strict=True)]
+    return Measures(*(tuple(c) if isinstance(c, list) else c for c in columns))
 
 
 def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:

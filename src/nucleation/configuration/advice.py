@@ -25,8 +25,17 @@ ELEMENTS_PER_ZONE = 3.0
 STEPS_PER_PERIOD = 8.0
 """Least time steps per period of the nucleating mode."""
 
-CONVERGED_ELEMENTS = 35.0
-"""Elements per process zone of the study ``converged``, whose lengths no longer change."""
+QUIET_ELEMENTS = 17.0
+"""Elements per process zone of the study ``converged``: good enough for strengths of 1e-5."""
+
+MESH_NOISE = 1e-3
+"""Strength of a perturbation below which a coarser mesh moves the onset by a per cent or more."""
+
+ELEMENT_PART = 0.04
+"""Part of an element that the front may pass in a step without shaking the patch as much as ..."""
+
+STEP_NOISE = 1e-5
+"""... a perturbation of this strength."""
 
 UNSTABLE = 0.55
 """Length over the theory's critical length at which the creeping patch turns unstable."""
@@ -102,6 +111,7 @@ def _about(run: Run) -> Iterator[Advice]:
     yield from _block(run)
     yield from _start(run)
     yield from _roughness(run)
+    yield from _noise(run)
 
 
 def _mesh(run: Run) -> Iterator[Advice]:
@@ -110,13 +120,13 @@ def _mesh(run: Run) -> Iterator[Advice]:
     along, _ = element_sizes(mesh, parameters.geometry)
     if along > zone / ELEMENTS_PER_ZONE:
         least, best = (
-            math.ceil(mesh.n_x * along / zone * n) for n in (ELEMENTS_PER_ZONE, CONVERGED_ELEMENTS)
+            math.ceil(mesh.n_x * along / zone * n) for n in (ELEMENTS_PER_ZONE, QUIET_ELEMENTS)
         )
         yield Advice(
             "mesh too coarse along x", along / zone,
             f"n_x = {mesh.n_x} makes elements of {along:.3g} m, {zone / along:.2g} to a process "
             f"zone of {zone:.3g} m; recommended is n_x = {least} or more, and about {best} for "
-            "lengths that no longer depend on the mesh",
+            "drops that follow a declared perturbation and not the mesh",
         )  # fmt: skip
     blocks = [("", mesh, parameters.geometry)]
     blocks += [("second_", below.mesh, below.geometry)] if below else []
@@ -187,3 +197,36 @@ def _roughness(run: Run) -> Iterator[Advice]:
             f"correlation_length = {scale:g} m has {scale / along:.2g} elements of {along:.3g} m, "
             f"which sample some other roughness; recommended is n_x = {least} or more",
         )  # fmt: skip
+
+
+def _noise(run: Run) -> Iterator[Advice]:
+    """What mesh and steps do to the patch by themselves, against what is declared."""
+    declared, zone = run.parameters.perturbation, process_zone(run.parameters)
+    if not declared.acts or run.parameters.second_body.kind == "deformable":
+        return  # the measures are those of one block
+    along, _ = element_sizes(run.parameters.mesh, run.parameters.geometry)
+    if zone < QUIET_ELEMENTS * along and declared.strength < MESH_NOISE:
+        best = math.ceil(run.parameters.mesh.n_x * along / zone * QUIET_ELEMENTS)
+        yield Advice(
+            "perturbation lost in the mesh's noise", along / zone,
+            f"strength = {declared.strength:g} with {zone / along:.2g} elements to a process zone: "
+            "the front's hops from node to node shake the patch as much as a load that fluctuates "
+            f"by 1e-5 to 1e-4 does; recommended is n_x = {best} or more",
+        )  # fmt: skip
+    passed = _front_speed(run) * run.parameters.longest_step / along
+    if passed > ELEMENT_PART and declared.strength <= STEP_NOISE:
+        shorter = run.parameters.stepping.longest_step * ELEMENT_PART / passed
+        yield Advice(
+            "perturbation lost in the steps' noise", passed,
+            f"strength = {declared.strength:g} while the front passes {100 * passed:.2g} % of an "
+            "element in the longest step, which shakes the patch as much; recommended is "
+            f"longest_step = {shorter:.1g} or less",
+        )  # fmt: skip
+
+
+def _front_speed(run: Run) -> float:
+    """Speed (m/s) of the front about where the patch turns unstable, roughly."""
+    length = UNSTABLE * run.theory_length
+    ends = (0.95 * length, 1.05 * length)
+    first, last = (growth_time(run.parameters, end) for end in ends)
+    return (ends[1] - ends[0]) / (last - first)

@@ -256,7 +256,8 @@ def _range_problems(values: dict[str, Any]) -> Iterator[str]:
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
             path = ("studies", name, "runs", number)
-            places += [((*path, k), v) for k, v in entry.items()]  # type: ignore[misc]
+            varied = [(k, v) for k, v in entry.items() if k != "defaults"]
+            places += [((*path, k), v) for k, v in varied]  # type: ignore[misc]
             size = grid_size(entry)
             if size > LARGEST_GRID:
                 yield f"{key_text(path)} stands for {size} simulations, more than {LARGEST_GRID}"

@@ -103,6 +103,8 @@ def _study() -> Node:
     varied = {name: _values({"$ref": place + name}, entry) for name, entry in declared.items()}
     place = "#/$defs/study/properties/runs/items/properties/"
     varied |= {other: {"$ref": place + name} for other, name in others}
+    own = "values for all simulations of the entry, without a part in their names"
+    varied["defaults"] = {"description": own, "$ref": "#/$defs/study/properties/defaults"}
     runs = {
         "description": "each entry stands for all combinations of its values",
         "type": "array",

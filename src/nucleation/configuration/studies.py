@@ -139,10 +139,18 @@ def theory_curves(
         low, high = min(ends), max(ends)
         spaced = np.geomspace if low > 0.0 else np.linspace
         x = spaced(low, high, CURVE_POINTS).tolist()
-        cases = [_prepared(settings, {}, run.given | {name: value}, base, main_text) for value in x]
+        cases = [_prepared(settings, [], run.given | {name: value}, base, main_text) for value in x]
         rounded = [float(f"{length:.8g}") for length in _theory_lengths(cases)]
         curves[kind] = {"x": [float(f"{value:.8g}") for value in x], "length": rounded}
     return curves
+
+
+def first_realisations(runs: Iterable[Run]) -> list[Run]:
+    """The runs without those that differ from an earlier one in the declared seed alone."""
+    faults: dict[Any, Run] = {}
+    for run in runs:
+        faults.setdefault((run.study, run.parameters.replaced({"perturbation.seed": 0})), run)
+    return list(faults.values())
 
 
 def expand(value: Any) -> tuple[Any, ...]:
@@ -162,7 +170,8 @@ def grid_size(entry: dict[str, Any]) -> int:
     """The number of simulations that an entry of a study stands for."""
     return math.prod(
         value["num"] if isinstance(value, dict) else len(value) if isinstance(value, list) else 1
-        for value in entry.values()
+        for key, value in entry.items()
+        if key != "defaults"
     )
 
 
@@ -205,10 +214,12 @@ def study_runs(
     prepared: list[tuple[str, _Prepared | str]] = []
     for number, entry in enumerate(study["runs"]):
         key = f"studies.{name}.runs[{number}]"
-        for values in itertools.product(*(expand(v) for v in entry.values())):
-            varied = dict(zip(entry, values, strict=True))
+        given = {name: value for name, value in entry.items() if name != "defaults"}
+        usual = [defaults, entry.get("defaults", {})]
+        for values in itertools.product(*map(expand, given.values())):
+            varied = dict(zip(given, values, strict=True))
             try:
-                prepared.append((key, _prepared(settings, defaults, varied, base, main_text)))
+                prepared.append((key, _prepared(settings, usual, varied, base, main_text)))
             except ParameterError as error:
                 prepared.append((key, str(error)))
     lengths = _theory_lengths(run for _, run in prepared if isinstance(run, _Prepared))
@@ -230,13 +241,15 @@ class _Prepared(NamedTuple):
 
 def _prepared(
     settings: StudySettings,
-    defaults: dict[str, Any],
+    defaults: Iterable[dict[str, Any]],
     varied: dict[str, Any],
     base: Parameters,
     main_text: InterfaceState,
 ) -> _Prepared:
     varied = by_study_name(varied)
-    values = by_study_name(defaults) | varied
+    values: dict[str, Any] = {}
+    for given in (*defaults, varied):
+        values |= by_study_name(given)
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     parameters = base.replaced({k: v for k, v in values.items() if k not in CONSTANTS})

@@ -54,6 +54,10 @@ FIGURES: dict[str, Entry] = {
     "figure_3_extended": Entry(
         "Lengths of the drop and of the patch's stability", BEYOND, ("paper",), (LENGTHS, PATCHES)
     ),
+    "figure_drop": Entry(
+        "Where the force drops under a declared perturbation", BEYOND, ("drop", "quiet"),
+        (Data("drop"),),
+    ),
     "figure_patch_stability": Entry(
         "Stability of the creeping patch", BEYOND, ("paper", "twin_runs"),
         (PATCHES, Data("twin_runs")),
@@ -70,7 +74,8 @@ FIGURES: dict[str, Entry] = {
         ("pairs_identical", "figure_2_simulated"), (Data("pairs"),),
     ),
     "figure_convergence": Entry(
-        "Critical length against mesh and steps", CHECKS, ("convergence_x",), (Data("convergence"),)
+        "Critical length against mesh and steps", CHECKS, ("convergence_x",),
+        (Data("convergence"),)
     ),
     "figure_dispersion": Entry(
         "Growth of single modes: simulation and theory", CHECKS, (),

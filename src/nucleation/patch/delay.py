@@ -8,8 +8,11 @@ fluctuations near the mode's own frequency have the spectral density S, its mean
     sigma(t)^2 = eps^2 int_0^t abs(g)^2 S(Im Lambda) exp(2 int_s^t Re Lambda) ds.
 
 At late times A is a complex Gaussian number times a growing exponential, and so ``|A| / sigma`` is
-Rayleigh distributed: a part P of the realisations has dropped by the length where
-``sigma = 1/sqrt(-log(P))``. With Re Lambda linear in L and a steady front that is, in one line,
+Rayleigh distributed: in a part ``P = exp(-1/sigma^2)`` of the realisations it has reached one. The
+force falls in one phase of the oscillation, once in a period, while the patch goes on growing, by
+``(dL/dt) 2 pi/Im Lambda``; over realisations the phase is even. So the part that has dropped by a
+length is P, averaged over one period's growth about it. With Re Lambda linear in L and a steady
+front the median is, in one line,
 
     L_d = L_s + sqrt(2 (dL/dt) log(1/eps_eff) / (d Re Lambda/dL)),
     eps_eff = eps sqrt(abs(g)^2 S log 2) [pi / ((d Re Lambda/dL) dL/dt)]^(1/4)      (the median).
@@ -69,6 +72,7 @@ class Growth:
     length: Array  # m
     log_amplitude: Array  # log(sigma / eps), or log(|A| / eps) of one realisation
     exponent: Array  # int Re Lambda dt
+    per_period: Array  # growth of the patch in a period of the mode (m)
 
     def at(self, amplitude: float) -> tuple[float, float]:
         """Length (m) and time (s) where the amplitude per strength last passes a value, or NaN."""
@@ -85,11 +89,30 @@ class Growth:
 
     def drop(self, strength: float) -> Drop:
         """The drop to be expected at a relative strength; NaN where the law does not reach."""
-        found = [
-            self.at(1.0 / (strength * np.sqrt(-np.log(part)))) for part in (MEDIAN, EARLY, LATE)
-        ]
-        lengths, times = zip(*found, strict=True)
-        return Drop(*lengths, *times)
+        if not np.isfinite(self.at(1.0 / (strength * np.sqrt(np.log(2.0))))[0]):
+            return Drop(*6 * (float("nan"),))
+        parts = self._dropped(strength)
+        lengths = np.interp((MEDIAN, EARLY, LATE), parts, self.length)
+        return Drop(*lengths.tolist(), *np.interp(lengths, self.length, self.time).tolist())
+
+    def _dropped(self, strength: float) -> Array:
+        """The part of the realisations that have dropped by each length; it never falls."""
+        late = np.maximum.accumulate(self.log_amplitude) + np.log(strength)
+        reached = np.exp(-np.exp(np.minimum(-2.0 * late, 700.0)))
+        area = np.append(0.0, np.cumsum(0.5 * (reached[1:] + reached[:-1]) * np.diff(self.length)))
+        ends = [self.length + side * 0.5 * self.per_period for side in (-1.0, 1.0)]
+        below, above = (
+            np.interp(end, self.length, area) + np.maximum(end - self.length[-1], 0.0)
+            for end in ends
+        )
+        return np.maximum.accumulate((above - below) / self.per_period)
+
+    def strength_at(self, length: float) -> float:
+        """The strength at which the median drops at a length (m); NaN beyond the law's reach."""
+        if not self.length[0] < length < self.length[-1]:
+            return float("nan")
+        at = np.interp(length, self.length, self.log_amplitude)
+        return float(np.exp(-at) / np.sqrt(np.log(2.0)))
 
     def closed_form(self, history: ModeHistory, strength: float) -> ClosedForm:
         """The median drop at a relative strength in one line."""
@@ -202,7 +225,9 @@ def _log_integrated(path: Path, forcing: ComplexArray) -> Array:
 def _growth(path: Path, log_amplitude: Array) -> Growth:
     at = np.linspace(0, path.time.size - 1, log_amplitude.size)
     every = np.interp(np.arange(path.time.size), at, log_amplitude)
-    return Growth(path.time, path.length, every, exponent_of(path).real)
+    speed = np.gradient(path.length, path.time)
+    per_period = speed * 2.0 * np.pi / path.rate.imag
+    return Growth(path.time, path.length, every, exponent_of(path).real, per_period)
 
 
 def _log_variance(path: Path, log_power: Array) -> Array:

@@ -27,7 +27,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
-from ..analysis.record import Record
+from ..analysis.record import Record, parameters_of
 from ..fem.bodies import BodyOperator, body_of
 from ..model.parameters import Parameters
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
@@ -55,6 +55,40 @@ class ModeHistory:
     drive: ComplexArray  # g (1/(m s)) of a displacement of the driven edge
     strength: ComplexArray  # g (1/s) of a relative change of friction at each node
     state: ComplexArray  # g (1) of a source in d log(phi)/dt at each node
+
+
+WEIGHTS = {"normal_load": "instant", "drive": "instant", "strength": "x", "state": "x"}
+"""The weights of a history, by what they depend on besides the instant."""
+
+
+def to_dataset(history: ModeHistory) -> xr.Dataset:
+    """A history as a dataset, real and imaginary parts on ``part``."""
+
+    def parts(values: ComplexArray) -> Array:
+        return np.array([values.real, values.imag])
+
+    data: dict[str, tuple[tuple[str, ...], Array]] = {
+        "mode_time": (("instant",), history.time),
+        "mode_length": (("instant",), history.length),
+        "mode_rate": (("part", "instant"), parts(history.rate)),
+    }
+    for name, along in WEIGHTS.items():
+        dims = ("part", "instant", "x") if along == "x" else ("part", "instant")
+        data[f"mode_{name}"] = (dims, parts(getattr(history, name)))
+    attributes = {"parameters": history.parameters.to_json()}
+    return xr.Dataset(data, coords={"x": history.x}, attrs=attributes)
+
+
+def from_dataset(dataset: xr.Dataset) -> ModeHistory:
+    """The inverse of :func:`to_dataset`."""
+    weights = {}
+    for name in ("rate", *WEIGHTS):
+        real, imaginary = dataset[f"mode_{name}"].values
+        weights[name] = real + 1j * imaginary
+    return ModeHistory(
+        parameters_of(dataset), dataset["x"].values, dataset["mode_time"].values,
+        dataset["mode_length"].values, **weights,
+    )  # fmt: skip
 
 
 class _Loads(NamedTuple):

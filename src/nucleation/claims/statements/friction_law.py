@@ -138,8 +138,8 @@ def minimum_plays_no_role(evidence: Evidence) -> Result:
     minimum = steady_extremes(evidence)[1]
 
     def ours(study: str) -> Ours:
-        rows = evidence.rows(study)
-        return Ours.worst([evidence.measured(row).onset_rate / minimum for row in rows])
+        runs = evidence.each_measured(study)
+        return Ours.worst([run.onset_rate / minimum for run in runs])
 
     return on_both(evidence, ours)
 
@@ -153,8 +153,8 @@ def minimum_plays_no_role(evidence: Evidence) -> Result:
 )  # fmt: skip
 def regularisation_irrelevant(evidence: Evidence) -> Result:
     def ours(study: str) -> Ours:
-        rows = evidence.rows(study)
-        return Ours.worst([evidence.measured(row).regular_share for row in rows], target=1.0)
+        runs = evidence.each_measured(study)
+        return Ours.worst([run.regular_share for run in runs], target=1.0)
 
     return on_both(evidence, ours)
 
@@ -180,8 +180,8 @@ def state_rate_at_v(evidence: Evidence) -> Ours:
 )  # fmt: skip
 def slip_law_approximation(evidence: Evidence) -> Result:
     def share(study: str, name: str) -> Ours:
-        rows = evidence.rows(study, law="slip")
-        return Ours.worst([getattr(evidence.measured(row), name) for row in rows], target=1.0)
+        runs = evidence.each_measured(study, law="slip")
+        return Ours.worst([getattr(run, name) for run in runs], target=1.0)
 
     within = share(JUDGED, "state_rate_share_patch")
     note = (

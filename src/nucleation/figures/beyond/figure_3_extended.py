@@ -1,7 +1,8 @@
-"""Figure 3 with one more length: where the patch turns unstable, beside theory and force drop."""
+"""Figure 3 with more lengths: where the patch turns unstable, and the drop from noisy to quiet."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...analysis.lengths import over_realisations
 from ...figures import style
 
 USUAL_AGE = 1.0  # s
@@ -45,14 +47,20 @@ KINDS: dict[tuple[str, bool], Kind] = {
 }
 
 DROPS = (
-    Series("length", "paper", None, True, 3.0, False, "force drops, paper's mesh"),
-    Series("length", "converged", None, False, 4.8, True, "force drops, converged mesh"),
+    Series("length", "paper", None, True, 3.0, False, "drop, quiet, on the paper's mesh"),
+    Series("length", "converged", None, False, 4.8, False, r"drop, load steady to $10^{-5}$"),
 )
+BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
 STABILITY = ("converged", "paper")  # growth begins: in the first of these studies that is there
 
 
 @style.styled
-def draw(theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset) -> Figure:
+def draw(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    table: xr.Dataset,
+    noisy: xr.Dataset | Sequence[xr.Dataset] = (),
+) -> Figure:
     """Draw lengths against height, and the same over the theory's.
 
     Parameters
@@ -64,12 +72,16 @@ def draw(theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset) -> Figure:
         ``length`` with ``_low`` and ``_high`` (m).
     table : Dataset
         The same with ``stability_length`` in place of ``length``.
+    noisy : Dataset
+        Lengths of the aging law's faults under a stronger perturbation: a band from these to those
+        of the study `converged` is drawn if they are given.
 
     Returns
     -------
     Figure
         Two columns wide.
     """
+    lengths = over_realisations(lengths)
     figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
     studies = table["study"].values.astype(str)
@@ -79,10 +91,12 @@ def draw(theory: xr.Dataset, lengths: xr.Dataset, table: xr.Dataset) -> Figure:
     )
     for axes, relative in ((left, False), (right, True)):
         _draw_theory(axes, theory, relative)
+        if isinstance(noisy, xr.Dataset):
+            _draw_band(axes, over_realisations(noisy), lengths, relative)
         for series in (*DROPS, stability):
             _draw_series(axes, table if series is stability else lengths, series, relative)
         axes.set_xlabel("Height $H$ (m)")
-    _finish_lengths(left, theory, lengths, (*DROPS[::-1], stability))
+    _finish_lengths(left, theory, lengths, (*DROPS[::-1], stability), isinstance(noisy, xr.Dataset))
     _finish_ratios(right, lengths)
     for axes, letter in ((left, "(a)"), (right, "(b)")):
         axes.set_title(letter, loc="left")
@@ -96,6 +110,20 @@ def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
     for part, dashes in ((1.0, "-"), (0.5, "--")):
         values = np.full(height.shape, part) if relative else part * length
         axes.plot(height, values, dashes, color=style.THEORY, linewidth=1.2)
+
+
+def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: bool) -> None:
+    """From the drop under the stronger perturbation to that under the study `converged`'s."""
+    usual = (lengths["study"].values == "converged") & (lengths["law"].values == "aging")
+    usual &= np.isclose(lengths["phi0"].values, USUAL_AGE)
+    quiet = lengths.isel(run=np.flatnonzero(usual))
+    heights = np.intersect1d(noisy["height"].values, quiet["height"].values)
+    ends = []
+    for runs in (noisy, quiet):
+        order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
+        scale = runs["theory_length"].values[order] if relative else 1.0
+        ends.append(runs["length"].values[order] / scale)
+    axes.fill_between(heights, *ends, color=style.AGING, alpha=0.2, linewidth=0.0)
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
@@ -123,12 +151,12 @@ def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) 
 
 
 def _finish_lengths(
-    axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, drawn: tuple[Series, ...]
+    axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, drawn: tuple[Series, ...], band: bool
 ) -> None:
     highest = ABOVE * float(lengths["height"].max())
     top = np.interp(highest, theory["height"].values, theory["critical_length"].values)
     axes.set_xlim(0.0, highest)
-    axes.set_ylim(0.0, 1.35 * float(top))
+    axes.set_ylim(0.0, 1.6 * float(top))
     axes.set_ylabel("Length $L$ (m)")
     handles = [
         axes.plot([], [], dashes, color=style.THEORY, linewidth=1.2, label=label)[0]
@@ -141,6 +169,8 @@ def _finish_lengths(
             [], [], usual.marker, color=colour, markersize=series.size, label=series.label,
             markerfacecolor=colour if series.filled else "white",
         )  # fmt: skip
+    if band:
+        handles.append(axes.fill_between([], [], [], color=style.AGING, alpha=0.2, label=BAND))
     axes.legend(handles=handles, loc="upper left", labelspacing=0.3)
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...analysis.lengths import over_realisations
 from ...figures import slip_rate_snapshots, style
 
 USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
@@ -51,7 +52,7 @@ KINDS: dict[tuple[str, bool], Kind] = {
 # Only the studies named here are drawn; a table of lengths may hold others.
 STUDIES: dict[str, Study] = {
     "paper": Study(filled=True, suffix=""),
-    "converged": Study(filled=False, suffix=", converged mesh"),
+    "converged": Study(filled=False, suffix=r", load $\pm 10^{-5}$"),
 }
 
 
@@ -72,7 +73,7 @@ def draw(
     lengths : Dataset
         One entry on dimension ``run`` per simulation, with ``study``, ``law``, ``height`` (m),
         ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m); entries without a
-        finite length are left out.
+        finite length are left out, and realisations of one fault drawn by their mean.
     inset_simulation : Dataset
         The simulation whose slip rate the inset shows.
     inset_row : Dataset
@@ -88,7 +89,7 @@ def draw(
     figure = style.new_figure(style.DOUBLE_COLUMN, 12.4 * style.CENTIMETRE)
     axes = figure.add_subplot()
     _draw_theory(axes, theory)
-    drawn = list(_series(lengths, studies))
+    drawn = list(_series(over_realisations(lengths), studies))
     for series in drawn:
         _draw_points(axes, *series)
     _limits(axes, theory, drawn)

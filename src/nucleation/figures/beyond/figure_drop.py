@@ -1,0 +1,180 @@
+"""Where the force drops under a declared perturbation: simulations, the law, meshes' own noise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ...figures import style
+
+SHOWN = ("aging", 0.02)  # law and height (m) of the panels over the strength
+KINDS = {
+    "normal_load": ("o", style.VERMILLION, "load"),
+    "state": ("s", style.BLUE, "state"),
+    "drive_velocity": ("^", style.GREEN, "drive"),
+    "strength": ("D", style.BLACK, "roughness"),
+}
+STRENGTHS = (3e-13, 3e-1)
+RATIOS = (0.5, 0.9)
+FEWEST = 8  # realisations of which a distribution is shown
+GOAL = 0.03  # of the law's mean
+
+
+@style.styled
+def draw(table: xr.Dataset) -> Figure:
+    """Draw lengths at the drop against strength, and the law beside them.
+
+    Parameters
+    ----------
+    table : Dataset
+        Of :func:`nucleation.patch.drop_table.gather`.
+
+    Returns
+    -------
+    Figure
+        Two columns wide.
+    """
+    figure = style.new_figure(style.DOUBLE_COLUMN, 13.0 * style.CENTIMETRE)
+    (load, state), (ratio, spread) = figure.subplots(2, 2)
+    for axes, kind in ((load, "normal_load"), (state, "state")):
+        _draw_strengths(axes, table, kind)
+        axes.set_ylabel("Length over theory $L/L_c$")
+    state.set_ylabel("")
+    _draw_ratios(ratio, table)
+    _draw_distributions(spread, table)
+    for axes, letter in zip((load, state, ratio, spread), "abcd", strict=True):
+        axes.set_title(f"({letter})", loc="left")
+    return figure
+
+
+def _where(table: xr.Dataset, **labels: object) -> xr.Dataset:
+    found = np.ones(table.sizes["run"], dtype=bool)
+    for name, value in labels.items():
+        found &= table[name].values == value
+    return table.isel(run=np.flatnonzero(found))
+
+
+def groups(table: xr.Dataset) -> Iterator[xr.Dataset]:
+    """The realisations of each fault, kind and strength that have dropped."""
+    names = ("law", "height", "kind", "correlation_length", "strength", "n_x", "longest_step")
+    table = table.isel(
+        run=np.flatnonzero((table["kind"].values != "none") & np.isfinite(table["length"].values))
+    )
+    keys = list(zip(*(table[name].values.tolist() for name in names), strict=True))
+    for key in dict.fromkeys(keys):
+        yield table.isel(run=[i for i, own in enumerate(keys) if own == key])
+
+
+def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
+    """One kind of forcing on the shown fault."""
+    law, height = SHOWN
+    fault = _where(table, law=law, height=height)
+    if not fault.sizes["run"]:  # a configuration without it: the fault it has
+        fault = _where(table, law=table["law"].values[0], height=table["height"].values[0])
+    own = _where(fault, kind=kind)
+    marker, colour, label = KINDS[kind]
+    theory = float(fault["theory_length"].values[0])
+    if own.sizes["run"]:
+        order = np.argsort(own["strength"].values)
+        strength = own["strength"].values[order]
+        low, middle, high, line = (
+            own[name].values[order] / theory
+            for name in (
+                "predicted_low",
+                "predicted_length",
+                "predicted_high",
+                "closed_form_length",
+            )
+        )
+        axes.fill_between(strength, low, high, color=style.GUIDE, alpha=0.35, linewidth=0.0)
+        axes.plot(strength, middle, color=style.THEORY, label="law: median, 16 to 84 %")
+        axes.plot(strength, line, "--", color=style.THEORY, linewidth=0.9, label="law in one line")
+        axes.plot(
+            own["strength"].values, own["length"].values / theory, ".", color=colour, alpha=0.35,
+            markersize=3.0, markeredgewidth=0.0,
+        )  # fmt: skip
+    for runs in groups(own):
+        lengths = runs["length"].values / theory
+        deviation = np.std(lengths, ddof=1) if lengths.size > 1 else 0.0
+        axes.errorbar(
+            runs["strength"].values[0], lengths.mean(), yerr=deviation, linestyle="none",
+            marker=marker, markersize=4.0, color=colour, markerfacecolor="white", elinewidth=0.9,
+        )  # fmt: skip
+    _draw_floors(axes, fault, kind, theory)
+    axes.axhline(float(fault["stability_length"].values[0]) / theory, color=style.GUIDE,
+                 linestyle=":", linewidth=1.0)  # fmt: skip
+    axes.text(0.02, 0.03, f"fluctuating {label}", transform=axes.transAxes, fontsize=style.SMALL)
+    axes.set_xscale("log")
+    axes.set_xlim(*STRENGTHS)
+    axes.set_ylim(*RATIOS)
+    axes.set_xlabel(r"Relative strength $\epsilon$")
+    axes.legend(loc="upper right", fontsize=style.SMALL)
+
+
+def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
+    """Where quiet runs drop, at the strength that would make the law's median drop there."""
+    quiet = _where(fault, kind="none")
+    for i in range(quiet.sizes["run"]):
+        run = quiet.isel(run=i)
+        strength, length = float(run[f"floor_{kind}"]), float(run["length"]) / theory
+        if not (STRENGTHS[0] < strength < STRENGTHS[1]):
+            continue
+        axes.plot(strength, length, "x", color=style.BLACK, markersize=4.0, markeredgewidth=0.8)
+        name = f"{int(run['n_x'])}, {float(run['longest_step']):g}"
+        axes.annotate(
+            name, (strength, length), xytext=(3, 3), textcoords="offset points",
+            fontsize=style.SMALL,
+        )  # fmt: skip
+
+
+def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
+    """Simulated mean over the law's median, for every fault and kind."""
+    seen: set[str] = set()
+    for runs in groups(table):
+        kind = str(runs["kind"].values[0])
+        marker, colour, label = KINDS[kind]
+        filled = runs["law"].values[0] == "aging"
+        axes.plot(
+            runs["strength"].values[0],
+            runs["length"].values.mean() / runs["predicted_length"].values[0],
+            marker, color=colour, markersize=4.0, alpha=0.8,
+            markerfacecolor=colour if filled else "white",
+            label=label if kind not in seen else None,
+        )  # fmt: skip
+        seen.add(kind)
+    axes.axhspan(1.0 - GOAL, 1.0 + GOAL, color=style.GUIDE, alpha=0.25, linewidth=0.0)
+    axes.set_xscale("log")
+    axes.set_xlim(*STRENGTHS)
+    axes.set_xlabel(r"Relative strength $\epsilon$")
+    axes.set_ylabel("Simulated mean over the law")
+    axes.legend(loc="lower left", fontsize=style.SMALL)
+
+
+def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
+    """Parts of the realisations that have dropped by a length, and the law's Rayleigh one."""
+    for runs in groups(table):
+        if runs.sizes["run"] < FEWEST:
+            continue
+        kind, strength = str(runs["kind"].values[0]), float(runs["strength"].values[0])
+        _, colour, label = KINDS[kind]
+        theory = float(runs["theory_length"].values[0])
+        dashes = "-" if strength < 1e-4 else "--"
+        lengths = np.sort(runs["length"].values) / theory
+        parts = (np.arange(lengths.size) + 0.5) / lengths.size
+        axes.step(
+            lengths, parts, where="mid", color=colour, linestyle=dashes, linewidth=1.1,
+            label=rf"{label}, $10^{{{np.log10(strength):.0f}}}$",
+        )  # fmt: skip
+        points = [float(runs[f"predicted_{end}"].values[0]) / theory for end in
+                  ("low", "length", "high")]  # fmt: skip
+        axes.plot(points, [0.16, 0.5, 0.84], "o", color=colour, markersize=3.5,
+                  markerfacecolor="white")  # fmt: skip
+    axes.set_ylim(0.0, 1.0)
+    axes.set_xlabel("Length over theory $L/L_c$")
+    axes.set_ylabel("Part that has dropped")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower right", fontsize=style.SMALL)

@@ -1,0 +1,61 @@
+"""Tables of lengths: realisations of one fault, and runs of which only the drop is kept."""
+
+import numpy as np
+import xarray as xr
+from made_up_runs import changed, record, run
+
+from nucleation.analysis.drops import COLUMNS, measure_drops
+from nucleation.analysis.extraction import extract
+from nucleation.analysis.lengths import over_realisations, realisations
+
+
+def table(**changes):
+    columns = {
+        "id": ["a-seed1", "b", "a-seed2", "c-seed1"],
+        "study": ["one", "one", "one", "two"],
+        "height": [0.1, 0.2, 0.1, 0.1],
+        "seed": [1, 0, 2, 1],
+        "length": [0.50, 0.7, 0.54, 0.6],
+        "length_low": [0.48, 0.6, 0.46, 0.5],
+        "length_high": [0.55, 0.8, 0.56, 0.7],
+        "steps": [3000, 3, 3001, 3],
+    }
+    return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
+
+
+def test_realisations_differ_in_the_seed_alone():
+    assert realisations(table()) == [[0, 2], [1], [3]]
+    assert realisations(table(height=[0.1, 0.2, 0.11, 0.1])) == [[0], [1], [2], [3]]
+
+
+def test_mean_of_realisations_and_the_ends_of_their_ranges():
+    found = over_realisations(table())
+    assert list(found["id"].values) == ["a-seed1", "b", "c-seed1"]
+    assert list(found["realisations"].values) == [2, 1, 1]
+    np.testing.assert_allclose(found["length"], [0.52, 0.7, 0.6])
+    np.testing.assert_allclose(found["length_low"], [0.46, 0.6, 0.5])
+    np.testing.assert_allclose(found["length_high"], [0.56, 0.8, 0.7])
+
+
+def test_a_realisation_without_an_event_is_not_passed_over():
+    found = over_realisations(table(length=[0.5, 0.7, np.nan, 0.6]))
+    assert np.isnan(found["length"].values[0]) and np.isfinite(found["length"].values[1:]).all()
+
+
+def test_drops_are_measured_one_after_another_and_say_how_they_are_perturbed():
+    names = {"perturbation": "state", "strength": 1e-4, "correlation_length": 0.05}
+    cases = [changed(**names, seed=7), changed(strength=1e-3)]  # the second one is quiet
+    runs = [run(name, case) | {"study": "drop"} for name, case in zip("ab", cases, strict=True)]
+
+    def simulated(parameters):
+        made = record(parameters=parameters)
+        return made.assign_attrs(steps=3000, wall_seconds=4.0)
+
+    found = measure_drops(runs, simulated=simulated)
+    assert tuple(found.data_vars) == COLUMNS
+    assert list(found["kind"].values) == ["state", "none"]
+    assert list(found["strength"].values) == [1e-4, 0.0]
+    assert list(found["seed"].values) == [7, 0]
+    expected = extract(record(parameters=cases[0]))
+    for name in ("onset_time", "length"):
+        assert found[name].values[0] == expected[name]

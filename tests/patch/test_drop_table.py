@@ -1,0 +1,82 @@
+"""Drops beside the law: what stands in the table, and that it is the law's."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import xarray as xr
+from test_delay import LOAD, START, history
+
+from nucleation.figures.beyond import figure_drop
+from nucleation.model.perturbation import Perturbation
+from nucleation.patch.delay import growth, realised
+from nucleation.patch.drop_table import COLUMNS, gather
+from nucleation.patch.mode_history import from_dataset, to_dataset
+
+
+def drops(**changes):
+    columns = {
+        "study": ["drop"] * 4,
+        "id": list("abcd"),
+        "law": ["aging"] * 4,
+        "height": [0.02, 0.02, 0.02, 0.3],
+        "phi0": [1.0] * 4,
+        "kind": ["normal_load", "none", "state", "state"],
+        "strength": [1e-5, 0.0, 1e-6, 1e-6],
+        "seed": [3, 0, 1, 1],
+        "correlation_length": [0.02, 0.02, 0.05, 0.05],
+        "n_x": [800] * 4,
+        "n_y": [8] * 4,
+        "longest_step": [0.1] * 4,
+        "onset_time": [9.0] * 4,
+        "length": [0.32, 0.33, 0.34, 0.5],
+        "theory_length": [0.45] * 4,
+    }
+    return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
+
+
+def test_history_is_the_same_after_its_dataset():
+    own, again = history(), from_dataset(to_dataset(history()))
+    assert again.parameters == own.parameters
+    for field in dataclasses.fields(own)[1:]:
+        np.testing.assert_array_equal(getattr(again, field.name), getattr(own, field.name))
+
+
+@pytest.fixture(scope="module")
+def table():
+    return gather([drops()], [to_dataset(history())])
+
+
+def test_rows_are_those_of_faults_whose_mode_is_known(table):
+    assert tuple(table.data_vars) == COLUMNS
+    assert list(table["id"].values) == ["a", "b", "c"]
+    np.testing.assert_allclose(table["stability_length"], START, rtol=2e-3)
+
+
+def test_predictions_are_those_of_the_law(table):
+    row = table.isel(run=0)
+    expected = growth(history(), LOAD).drop(1e-5)
+    assert float(row["predicted_length"]) == expected.length
+    assert float(row["predicted_low"]) == expected.low
+    assert float(row["predicted_high"]) == expected.high
+    own, _ = realised(history(), dataclasses.replace(LOAD, seed=3)).at(1e5)
+    assert float(row["realised_length"]) == own
+    declared = Perturbation(kind="state", strength=1e-6, correlation_length=0.05)
+    other = growth(history(), declared).drop(1e-6)
+    assert float(table["predicted_length"].values[2]) == other.length
+
+
+def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
+    row = table.isel(run=1)
+    assert np.isnan(row["predicted_length"])
+    strength = float(row["floor_normal_load"])
+    assert growth(history(), LOAD).drop(strength).length == pytest.approx(0.33, rel=1e-3)
+    assert np.isnan(table["floor_state"].values[[0, 2]]).all()
+
+
+def test_figure_has_every_realisation_and_group(table):
+    figure = figure_drop.draw(table)
+    assert len(list(figure_drop.groups(table))) == 2
+    load = figure.axes[0]
+    drawn = [tuple(line.get_ydata()) for line in load.lines]
+    assert any(np.allclose(y, [0.32 / 0.45]) for y in drawn if len(y) == 1)
