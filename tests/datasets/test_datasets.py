@@ -31,6 +31,7 @@ TEXTS = (
     "study",
     "law",
     "friction_law",
+    "below",
     "far_side",
     "kind",
     "initial_stress",

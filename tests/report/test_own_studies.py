@@ -53,6 +53,15 @@ def test_faults_are_told_apart_by_what_the_theory_knows(two_faults):
     assert len(faults.faults(other_mesh)) == 1
 
 
+def test_the_pages_theory_is_not_drawn_for_a_second_block(content, two_faults):
+    """It knows of rigid bases alone."""
+    pair = two_faults.assign(below=("run", ["rigid", "deformable"]))
+    known = faults.faults(pair)
+    assert [fault.rigid for fault in known] == [True, False]
+    drawn = page._data(content._replace(own=STUDIES), pair)["faults"]
+    assert [fault["label"] for fault in drawn] == ["fault A"]
+
+
 def test_letters_go_on():
     assert [faults._letter(n) for n in (0, 25, 26, 27)] == ["A", "Z", "AA", "AB"]
 

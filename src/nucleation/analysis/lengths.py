@@ -26,7 +26,7 @@ COLUMNS = (
     "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
     "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
     "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
-    "velocity_weakening", "friction_law", "initial_stress", "initial_shear_stress",
+    "velocity_weakening", "friction_law", "below", "initial_stress", "initial_shear_stress",
     "simulated_time", "reached_length", "kind", "strength", "seed",
 )  # fmt: skip
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
@@ -139,6 +139,7 @@ def _given(run: dict[str, Any]) -> dict[str, Any]:
         "direct_effect": interface["a"],
         "velocity_weakening": interface["zeta"],
         "friction_law": parameters["friction"]["law"],
+        "below": parameters.get("second_body", {}).get("kind", "rigid"),
         "initial_stress": parameters["loading"]["initial_stress"],
         "initial_shear_stress": parameters["loading"]["initial_shear_stress"],
     }

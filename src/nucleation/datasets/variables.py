@@ -78,6 +78,7 @@ VARIABLES: dict[str, Variable] = {
     "poisson_ratio": Variable("1", "Poisson's ratio", "nu"),
     "friction_coefficient": Variable("1", "friction coefficient of the theory's interface", "f"),
     "friction_law": Variable("", "law of the friction coefficient"),
+    "below": Variable("", "what the block slides on"),
     "initial_stress": Variable("", "static field at the start"),
     "initial_shear_stress": Variable("Pa", "shear stress at the start, if it is uniform", "tau0"),
     "simulated_time": Variable("s", "time at the end of the run", "t"),

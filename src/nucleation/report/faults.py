@@ -50,6 +50,7 @@ class Fault(NamedTuple):
     colour: str
     values: dict[str, float]  # by variable, SI
     runs: list[int]
+    rigid: bool  # the base below, the only one that the page's theory knows
 
     def in_page(self) -> dict[str, Any]:
         """The fault as the page's code reads it; its curve has no points below zeta = 0."""
@@ -62,13 +63,19 @@ class Fault(NamedTuple):
 
 def faults(lengths: xr.Dataset) -> list[Fault]:
     """The faults of a table of lengths, in the order of their first runs."""
-    found: dict[tuple[float, ...], list[int]] = {}
+    found: dict[tuple[Any, ...], list[int]] = {}
     for i in range(lengths.sizes["run"]):
-        mark = tuple(float(f"{float(lengths[c.variable][i]):.10g}") for c in FAULT)
+        mark = (
+            *(float(f"{float(lengths[c.variable][i]):.10g}") for c in FAULT),
+            str(lengths["below"].values[i]),
+        )
         found.setdefault(mark, []).append(i)
+    names = [column.variable for column in FAULT]
     return [
-        Fault(_letter(n), *LOOKS[n % len(LOOKS)],
-              dict(zip((c.variable for c in FAULT), mark, strict=True)), runs)
+        Fault(
+            _letter(n), *LOOKS[n % len(LOOKS)], dict(zip(names, mark, strict=False)), runs,
+            mark[-1] == "rigid",
+        )
         for n, (mark, runs) in enumerate(found.items())
     ]  # fmt: skip
 

@@ -126,7 +126,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
     heights, seen = _heights(content, lengths)
     known = faults.faults(lengths) if lengths is not None else []
     return {
-        "faults": [fault.in_page() for fault in known] if len(known) > 1 else [],
+        "faults": [fault.in_page() for fault in known if fault.rigid] if len(known) > 1 else [],
         "seen": seen,
         "linear": 0.112 if content.own is None else seen[1] / 2.5,
         "start": 0.1 if content.own is None else float(f"{np.sqrt(seen[0] * seen[1]):.2g}"),
