@@ -46,6 +46,7 @@ torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): noth
 lint: $(STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check --quiet .
+	@$(BIN)/snakefmt --check Snakefile workflow
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 

@@ -52,6 +52,7 @@ suggest_targets(lambda: workflow.rules)
 
 # A configuration given with --configfile stands alone; config.yaml is the default.
 if not workflow.overwrite_configfiles:
+
     configfile: str(Path(BASE, "config", "config.yaml"))
 
 
@@ -197,7 +198,11 @@ report: str(Path(BASE, "workflow", "report", "workflow.rst"))
 
 
 localrules:
-    paper, studies, simulations, lengths, table_s1,
+    paper,
+    studies,
+    simulations,
+    lengths,
+    table_s1,
 
 
 include: "workflow/rules/theory.smk"

@@ -4,7 +4,9 @@ from nucleation.pipeline.check import files as result_files
 
 
 localrules:
-    check, prune, targets,
+    check,
+    prune,
+    targets,
 
 
 def wanted_keys(wildcards):

@@ -24,7 +24,8 @@ def longer():
 
 
 localrules:
-    claims, article,
+    claims,
+    article,
 
 
 rule evaluate_claims:
@@ -39,7 +40,11 @@ rule evaluate_claims:
         json=CLAIMS,
         csv=f"{RESULTS}/tables/claims.csv",
         markdown=f"{RESULTS}/tables/claims.md",
+    log:
+        f"{RESULTS}/logs/claims.log",
+    threads: 1
     params:
+        **made_by("claims.py", [*plugins(settings.base), *EVOLUTIONS]),
         material=asdict(settings.base.material),
         friction=asdict(settings.base.friction),
         loading=asdict(settings.base.loading),
@@ -48,10 +53,6 @@ rule evaluate_claims:
         ids=[run.id for run in runs_in(*CLAIMED)],
         longer=[run.to_dict() for run in longer()],
         patch_ids=[run.id for run in patched_runs(JUDGED)],
-        **made_by("claims.py", [*plugins(settings.base), *EVOLUTIONS]),
-    log:
-        f"{RESULTS}/logs/claims.log",
-    threads: 1
     message:
         "Claims of the paper, our numbers and the verdicts"
     script:
@@ -64,11 +65,11 @@ rule write_article:
         lengths=[study_lengths(study) for study in CLAIMED],
     output:
         ARTICLE,
-    params:
-        template=lambda wildcards: TEMPLATE.read_text("utf-8"),
-        **made_by("article.py"),
     log:
         f"{RESULTS}/logs/article.log",
+    params:
+        **made_by("article.py"),
+        template=lambda wildcards: TEMPLATE.read_text("utf-8"),
     message:
         "Article on the replication, its numbers from the results"
     script:

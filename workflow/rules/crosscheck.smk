@@ -38,12 +38,12 @@ def crosscheck_records(solver):
 rule crosscheck_own:
     output:
         place_of("crosscheck/own"),
-    params:
-        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-        **made_by("crosscheck_own.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
     log:
         f"{RESULTS}/logs/crosscheck/own/{{name}}.{{key}}.log",
     threads: 1
+    params:
+        **made_by("crosscheck_own.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
+        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
     message:
         "Crosscheck {wildcards.name} with the project's solver"
     script:
@@ -55,14 +55,14 @@ rule crosscheck_freefem:
         script=freefem_script,
     output:
         place_of("crosscheck/freefem"),
-    params:
-        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-        settings=asdict(settings.crosscheck),
-        extraction=asdict(settings.extraction),
-        **made_by("crosscheck_freefem.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
     log:
         f"{RESULTS}/logs/crosscheck/freefem/{{name}}.{{key}}.log",
     threads: 1
+    params:
+        **made_by("crosscheck_freefem.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
+        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
+        settings=asdict(settings.crosscheck),
+        extraction=asdict(settings.extraction),
     message:
         "Crosscheck {wildcards.name} with FreeFem++"
     script:
@@ -76,12 +76,12 @@ rule compare_crosscheck:
     output:
         dataset=f"{RESULTS}/crosscheck.nc",
         table=f"{RESULTS}/crosscheck.csv",
-    params:
-        ids=list(CROSSCHECKS),
-        extraction=asdict(settings.extraction),
-        **made_by("compare_crosscheck.py"),
     log:
         f"{RESULTS}/logs/crosscheck.log",
+    params:
+        **made_by("compare_crosscheck.py"),
+        ids=list(CROSSCHECKS),
+        extraction=asdict(settings.extraction),
     message:
         "Crosscheck: differences of the two solvers"
     script:
@@ -95,12 +95,12 @@ rule draw_figure_crosscheck:
         table=rules.compare_crosscheck.output.dataset,
     output:
         figure("figure_crosscheck"),
-    params:
-        ids=list(CROSSCHECKS),
-        extraction=asdict(settings.extraction),
-        **made_by("figure_crosscheck.py"),
     log:
         f"{RESULTS}/logs/draw/figure_crosscheck.log",
+    params:
+        **made_by("figure_crosscheck.py"),
+        ids=list(CROSSCHECKS),
+        extraction=asdict(settings.extraction),
     message:
         "Crosscheck: patch length and driving force by both solvers"
     script:

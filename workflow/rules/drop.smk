@@ -38,10 +38,6 @@ def drops(name):
 rule drops:
     output:
         place_of("drops"),
-    params:
-        runs=lambda wildcards: drop_params(wildcards.name)["runs"],
-        extraction=asdict(settings.extraction),
-        **made_by("drops.py", lambda wildcards: plugins(drop_groups()[wildcards.name][0].parameters)),
     log:
         f"{RESULTS}/logs/drops/{{name}}.{{key}}.log",
     threads: 1
@@ -50,6 +46,12 @@ rule drops:
             memory(run, attempt) for run in drop_groups()[wildcards.name]
         ),
         runtime=ceil(settings.limits.runtime),
+    params:
+        **made_by(
+            "drops.py", lambda wildcards: plugins(drop_groups()[wildcards.name][0].parameters)
+        ),
+        runs=lambda wildcards: drop_params(wildcards.name)["runs"],
+        extraction=asdict(settings.extraction),
     message:
         "Drops of {wildcards.name}"
     script:
@@ -72,12 +74,12 @@ rule mode:
         lambda wildcards: simulation(moded(wildcards).id),
     output:
         place_of("modes"),
-    params:
-        extraction=asdict(settings.extraction),
-        **made_by("mode.py", lambda wildcards: plugins(moded(wildcards).parameters)),
     log:
         f"{RESULTS}/logs/mode/{{name}}.{{key}}.log",
     threads: 1
+    params:
+        **made_by("mode.py", lambda wildcards: plugins(moded(wildcards).parameters)),
+        extraction=asdict(settings.extraction),
     message:
         "Mode of the creeping patch of {wildcards.name}"
     script:
@@ -100,10 +102,10 @@ rule gather_drop:
     output:
         dataset=DROP,
         table=f"{RESULTS}/drop.csv",
-    params:
-        **made_by("gather_drop.py", EVOLUTIONS),
     log:
         f"{RESULTS}/logs/drop.log",
+    params:
+        **made_by("gather_drop.py", EVOLUTIONS),
     message:
         "Drops, and the law of the drop"
     script:

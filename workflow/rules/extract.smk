@@ -21,13 +21,13 @@ rule extract:
     output:
         dataset=study_lengths("{study}"),
         table=f"{RESULTS}/lengths/{{study}}.csv",
+    log:
+        f"{RESULTS}/logs/extract/{{study}}.log",
     wildcard_constraints:
         study="|".join(settings.studies),
     params:
-        parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
         **made_by("extract.py"),
-    log:
-        f"{RESULTS}/logs/extract/{{study}}.log",
+        parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
     message:
         "Critical lengths of the study {wildcards.study}"
     script:
@@ -41,10 +41,10 @@ rule gather_lengths:
         dataset=LENGTHS,
         table=f"{RESULTS}/lengths.csv",
         columns=f"{RESULTS}/lengths.columns.csv",
-    params:
-        **made_by("gather_lengths.py"),
     log:
         f"{RESULTS}/logs/gather_lengths.log",
+    params:
+        **made_by("gather_lengths.py"),
     message:
         "Critical lengths of the studies " + ", ".join(SHARED)
     script:

@@ -75,11 +75,11 @@ for _name, _inputs in DRAWN.items():
             **_inputs,
         output:
             figure(_name),
-        params:
-            id=SHOWN_RUNS.get(_name, ""),
-            **made_by("draw.py", [drawing(_name)]),
         log:
             f"{RESULTS}/logs/draw/{_name}.log",
+        params:
+            **made_by("draw.py", [drawing(_name)]),
+            id=SHOWN_RUNS.get(_name, ""),
         message:
             FIGURES[_name].title
         script:
@@ -90,11 +90,11 @@ rule write_table_s1:
     output:
         csv=f"{RESULTS}/tables/table_s1.csv",
         markdown=f"{RESULTS}/tables/table_s1.md",
-    params:
-        friction=asdict(settings.base.friction),
-        **made_by("table_s1.py", plugins(settings.base)),
     log:
         f"{RESULTS}/logs/table_s1.log",
+    params:
+        **made_by("table_s1.py", plugins(settings.base)),
+        friction=asdict(settings.base.friction),
     message:
         "Table S1: parameters of the friction law"
     script:

@@ -24,12 +24,12 @@ rule gather_pairs:
     output:
         dataset=PAIRS,
         table=f"{RESULTS}/pairs.csv",
-    params:
-        runs=[run.to_dict() for run in runs_in(*PAIR_STUDIES)],
-        extraction=asdict(settings.extraction),
-        **made_by("gather_pairs.py"),
     log:
         f"{RESULTS}/logs/pairs.log",
+    params:
+        **made_by("gather_pairs.py"),
+        runs=[run.to_dict() for run in runs_in(*PAIR_STUDIES)],
+        extraction=asdict(settings.extraction),
     message:
         "Lengths of the patches between two deformable bodies"
     script:
@@ -44,10 +44,10 @@ rule evaluate_pairs:
     output:
         csv=f"{RESULTS}/tables/claims_pairs.csv",
         markdown=f"{RESULTS}/tables/claims_pairs.md",
-    params:
-        **made_by("claims_pairs.py"),
     log:
         f"{RESULTS}/logs/claims_pairs.log",
+    params:
+        **made_by("claims_pairs.py"),
     message:
         "Claims on two bodies, by simulations"
     script:

@@ -56,11 +56,11 @@ rule patch:
         lambda wildcards: simulation(patched(wildcards).id),
     output:
         place_of("patches"),
-    params:
-        extraction=asdict(settings.extraction),
-        **made_by("patch.py", lambda wildcards: plugins(patched(wildcards).parameters)),
     log:
         f"{RESULTS}/logs/patch/{{name}}.{{key}}.log",
+    params:
+        **made_by("patch.py", lambda wildcards: plugins(patched(wildcards).parameters)),
+        extraction=asdict(settings.extraction),
     message:
         "Stability of the creeping patch of {wildcards.name}"
     script:
@@ -76,15 +76,15 @@ rule gather_patches:
     output:
         dataset=f"{RESULTS}/{{table}}.nc",
         table=f"{RESULTS}/{{table}}.csv",
+    log:
+        f"{RESULTS}/logs/{{table}}.log",
     wildcard_constraints:
         table="|".join(PATCH_TABLES),
     params:
+        **made_by("gather_patches.py"),
         runs=lambda wildcards: [
             run.to_dict() for run in patched_runs(*PATCH_TABLES[wildcards.table])
         ],
-        **made_by("gather_patches.py"),
-    log:
-        f"{RESULTS}/logs/{{table}}.log",
     message:
         "Patch lengths at which growth begins: {wildcards.table}"
     script:
@@ -94,16 +94,16 @@ rule gather_patches:
 rule twin:
     output:
         place_of("twins"),
-    params:
-        run=lambda wildcards: twinned(wildcards).to_dict(),
-        extraction=asdict(settings.extraction),
-        **made_by("twin.py", lambda wildcards: plugins(twinned(wildcards).parameters)),
     log:
         f"{RESULTS}/logs/twin/{{name}}.{{key}}.log",
     threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2 * memory(twinned(wildcards), attempt),
         runtime=ceil(settings.limits.runtime),
+    params:
+        **made_by("twin.py", lambda wildcards: plugins(twinned(wildcards).parameters)),
+        run=lambda wildcards: twinned(wildcards).to_dict(),
+        extraction=asdict(settings.extraction),
     message:
         "Twin runs of {wildcards.name}"
     script:
@@ -116,11 +116,11 @@ rule gather_twins:
     output:
         dataset=TWINS,
         table=f"{RESULTS}/twin_runs.csv",
-    params:
-        runs=[run.to_dict() for run in runs_in("twin_runs")],
-        **made_by("gather_twins.py"),
     log:
         f"{RESULTS}/logs/twin_runs.log",
+    params:
+        **made_by("gather_twins.py"),
+        runs=[run.to_dict() for run in runs_in("twin_runs")],
     message:
         "Growth of kicks in twin runs"
     script:

@@ -12,9 +12,7 @@ REPORT_FILES = [
 OF_THE_PAPER = DEFAULT == "paper"
 REPORTED = catalogue.drawable(list(settings.studies), papers=OF_THE_PAPER)
 OWN_STUDIES = {
-    study: settings.studies[study].description
-    for study in SHARED
-    if study not in (PAPERS, JUDGED)
+    study: settings.studies[study].description for study in SHARED if study not in (PAPERS, JUDGED)
 }
 """What the studies are for that the paper does not have and that share lengths.csv."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
@@ -31,7 +29,8 @@ def explored():
 
 
 localrules:
-    animation, report,
+    animation,
+    report,
 
 
 def shown_files(name):
@@ -52,18 +51,23 @@ def player_input(wildcards):
     return simulation(space_time_id(wildcards))
 
 
+def quiet_modes(wildcards):
+    """The modes from which the page has the law of the drop."""
+    return modes(wildcards) if "quiet" in settings.studies else []
+
+
 rule film:
     input:
         lengths=LENGTHS,
         simulation=lambda wildcards: simulation(inset_id(wildcards)),
     output:
         FILM,
-    params:
-        id=inset_id,
-        **made_by("film.py"),
     log:
         f"{RESULTS}/logs/film.log",
     threads: 1
+    params:
+        **made_by("film.py"),
+        id=inset_id,
     message:
         "Film: a run once more, for the stress in its block"
     script:
@@ -76,11 +80,11 @@ rule draw_animation:
         lengths=LENGTHS,
     output:
         captioned(ANIMATION, "animation"),
-    params:
-        id=inset_id,
-        **made_by("animation.py"),
     log:
         f"{RESULTS}/logs/draw/animation.log",
+    params:
+        **made_by("animation.py"),
+        id=inset_id,
     message:
         "Animation of creep, nucleation and rupture"
     script:
@@ -103,28 +107,33 @@ rule write_report:
         captions=[caption_file(name if name in FIGURES else "figure_studies") for name in ENTRIES],
         datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
         player=player_input,
+        modes=quiet_modes,
         claims=CLAIMS if OF_THE_PAPER else [],
         page=REPORT_FILES,
     output:
         f"{RESULTS}/report.html",
+    log:
+        f"{RESULTS}/logs/report.log",
     params:
+        **made_by("report.py", plugins(settings.base)),
         figures=list(ENTRIES),
         studies=OWN_STUDIES,
         captions=caption_params,
         material=asdict(explored()[0]),
         friction=asdict(settings.base.friction),
         main_text_interface=asdict(explored()[1]),
-        warnings={} if OF_THE_PAPER else {
-            study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
-            for study in OWN_STUDIES
-        },
+        warnings=(
+            {}
+            if OF_THE_PAPER
+            else {
+                study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
+                for study in OWN_STUDIES
+            }
+        ),
         leads=not OF_THE_PAPER,
         extraction=asdict(settings.extraction),
         config=config,
         player=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
-        **made_by("report.py", plugins(settings.base)),
-    log:
-        f"{RESULTS}/logs/report.log",
     message:
         "Report"
     script:

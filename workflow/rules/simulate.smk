@@ -11,18 +11,18 @@ def memory(run, attempt):
 rule simulate:
     output:
         place_of("simulations"),
-    params:
-        parameters=lambda wildcards: simulated(wildcards).parameters.to_dict(),
-        **made_by("simulate.py", lambda wildcards: plugins(simulated(wildcards).parameters)),
     log:
         f"{RESULTS}/logs/simulate/{{name}}.{{key}}.log",
     benchmark:
         f"{RESULTS}/logs/simulate/{{name}}.{{key}}.tsv"
-    threads: 1
     priority: 1  # before the short jobs, which then fill all cores at the end
+    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: memory(simulated(wildcards), attempt),
         runtime=ceil(settings.limits.runtime),
+    params:
+        **made_by("simulate.py", lambda wildcards: plugins(simulated(wildcards).parameters)),
+        parameters=lambda wildcards: simulated(wildcards).parameters.to_dict(),
     message:
         "Simulation {wildcards.name}"
     script:

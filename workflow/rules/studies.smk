@@ -27,17 +27,19 @@ rule draw_figure_study:
         table=study_lengths("{study}"),
     output:
         figure("study_{study}"),
+    log:
+        f"{RESULTS}/logs/draw/study_{{study}}.log",
     wildcard_constraints:
         study="|".join(settings.studies),
     params:
+        **made_by("figure_studies.py"),
         varied=lambda wildcards: varied(settings.runs_of(wildcards.study)),
         theory=lambda wildcards: theory_curves(
-            settings.runs_of(wildcards.study), settings.studies[wildcards.study], settings.base,
+            settings.runs_of(wildcards.study),
+            settings.studies[wildcards.study],
+            settings.base,
             settings.main_text_interface,
         ),
-        **made_by("figure_studies.py"),
-    log:
-        f"{RESULTS}/logs/draw/study_{{study}}.log",
     message:
         "Figure of the study {wildcards.study}: simulations and theory"
     script:
@@ -62,8 +64,10 @@ for _study in settings.studies:
 rule figure_studies:
     """A figure of each study, simulations and theory."""
     input:
-        needed([path for study in SHARED for path in figure(f"study_{study}")],
-               "study with table: lengths"),
+        needed(
+            [path for study in SHARED for path in figure(f"study_{study}")],
+            "study with table: lengths",
+        ),
         measured(*SHARED),
     message:
         f"The studies' figures are in {RESULTS}/figures"
@@ -75,10 +79,10 @@ rule convergence:
     output:
         dataset=CONVERGENCE,
         table=f"{RESULTS}/convergence.csv",
-    params:
-        **made_by("convergence.py"),
     log:
         f"{RESULTS}/logs/convergence.log",
+    params:
+        **made_by("convergence.py"),
     message:
         "Critical lengths against mesh and steps"
     script:
@@ -99,11 +103,11 @@ rule hops:
         lambda wildcards: simulation(hopped(wildcards).id),
     output:
         place_of("hops"),
-    params:
-        extraction=asdict(settings.extraction),
-        **made_by("hops.py", lambda wildcards: plugins(hopped(wildcards).parameters)),
     log:
         f"{RESULTS}/logs/hops/{{name}}.{{key}}.log",
+    params:
+        **made_by("hops.py", lambda wildcards: plugins(hopped(wildcards).parameters)),
+        extraction=asdict(settings.extraction),
     message:
         "Hops of the front of {wildcards.name}"
     script:
@@ -122,12 +126,12 @@ rule sensitivity:
     output:
         dataset=SENSITIVITY,
         table=f"{RESULTS}/sensitivity.csv",
-    params:
-        runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
-        extraction=asdict(settings.extraction),
-        **made_by("sensitivity.py"),
     log:
         f"{RESULTS}/logs/sensitivity.log",
+    params:
+        **made_by("sensitivity.py"),
+        runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
+        extraction=asdict(settings.extraction),
     message:
         "Sensitivity of critical lengths"
     script:

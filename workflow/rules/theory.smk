@@ -2,11 +2,11 @@
 rule theory:
     output:
         THEORY,
-    params:
-        parameters=settings.theory_parameters(),
-        **made_by("theory.py", plugins(settings.base)),
     log:
         f"{RESULTS}/logs/theory.log",
+    params:
+        **made_by("theory.py", plugins(settings.base)),
+        parameters=settings.theory_parameters(),
     message:
         "Theory: critical lengths and friction curves"
     script:

@@ -11,14 +11,14 @@ rule dispersion:
     output:
         dataset=DISPERSION,
         table=f"{RESULTS}/dispersion.csv",
-    params:
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
-        loading=asdict(settings.base.loading),
-        **made_by("dispersion.py", plugins(settings.base)),
     log:
         f"{RESULTS}/logs/dispersion.log",
     threads: 1
+    params:
+        **made_by("dispersion.py", plugins(settings.base)),
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        loading=asdict(settings.base.loading),
     message:
         "Dispersion: growth of single modes, time integration and theory"
     script:
@@ -29,11 +29,11 @@ rule verification:
     output:
         dataset=VERIFICATION,
         table=f"{RESULTS}/verification.csv",
-    params:
-        **made_by("verification.py", EVOLUTIONS),
     log:
         f"{RESULTS}/logs/verification.log",
     threads: 1
+    params:
+        **made_by("verification.py", EVOLUTIONS),
     message:
         "Convergence: errors of manufactured solutions against element size and time step"
     script:

@@ -9,6 +9,7 @@ from nucleation.figures import catalogue
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
+from nucleation.patch.mode_history import from_dataset
 from nucleation.pipeline.job import Job
 from nucleation.report import page
 from nucleation.report.own import OwnStudies
@@ -46,6 +47,7 @@ with Job(snakemake, __file__) as job:
         pictures=pictures,
         claims=json.loads(Path(given.claims).read_text(encoding="utf-8")) if given.claims else None,
         player=player,
+        modes=[from_dataset(mode) for mode in job.read_all(given.modes)],
         own=OwnStudies(params.studies, params.warnings) if params.leads else None,
     )
     job.write_text(page.build(content), job.output[0])
