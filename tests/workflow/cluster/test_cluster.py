@@ -13,6 +13,7 @@ from nucleation.configuration.load import configure
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.datasets import netcdf
+from nucleation.simulation.checkpoints import VARIABLE
 
 ROOT = Path(__file__).parents[3]
 OFTEN = ("--slurm-init-seconds-before-status-checks", "2")
@@ -83,7 +84,9 @@ def local(workflow_type, tmp_path_factory):
 def disturbed(slurm, workflow_type, tmp_path_factory):
     """Figure 3 through Slurm, losing a job and a node midway; how many ran side by side."""
     made = workflow_type(tmp_path_factory.mktemp("slurm"), profile="slurm").configured(CONFIG)
-    process = made.start("figure_3", *OFTEN)
+    with pytest.MonkeyPatch.context() as environment:  # no checkpoint by the clock
+        environment.setenv(VARIABLE, "3600")
+        process = made.start("figure_3", *OFTEN)
     try:
         wait_for(lambda: len(hold(made)) == 4 or process.poll() is not None)
         assert process.poll() is None, process.stdout.read()
