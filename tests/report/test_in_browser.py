@@ -194,10 +194,12 @@ def test_law_of_the_drop_in_the_page_is_that_of_the_library(web, modes, kind):
     """Median and both ends of the range for strengths from silence to a tenth, from every fault."""
     found = web.evaluate(
         """([kind, strengths]) => data.drop.faults.map((fault) => {
-          const { length, log_amplitude } = fault.kinds[kind];
-          const curve = { length: floats(length), logAmplitude: floats(log_amplitude) };
-          const parts = data.drop.parts;
-          return strengths.map((eps) => parts.map((part) => DropLaw.drop(curve, eps, part)));
+          const { length, log_amplitude, per_period } = fault.kinds[kind];
+          const curve = {
+            length: floats(length), logAmplitude: floats(log_amplitude),
+            perPeriod: floats(per_period),
+          };
+          return strengths.map((eps) => DropLaw.drop(curve, eps, data.drop.parts));
         })""",
         [kind, STRENGTHS.tolist()],
     )

@@ -1,30 +1,66 @@
 "use strict";
 // The law of the drop in the page: the length at which the force drops, for any declared strength.
 //
-// As nucleation.patch.delay.Growth: a part P of the realisations has dropped by the length where the
-// mode's amplitude per strength last passes 1 / (strength sqrt(-log P)).
+// As nucleation.patch.delay.Growth.drop: in a part exp(-1/sigma^2) of the realisations the mode's amplitude
+// has reached one; the force falls once in a period of it, at a phase that is even over realisations, so
+// the part that has dropped by a length is the mean over a period's growth of the patch about it.
 const DropLaw = (() => {
-  // Lengths (m) by increasing order and the logarithm of the amplitude there; NaN beyond the law.
-  function crossing({ length, logAmplitude }, wanted) {
-    const last = logAmplitude.length - 1;
-    if (!(logAmplitude[last] >= wanted)) return NaN;
-    let i = last;
-    while (i >= 0 && logAmplitude[i] >= wanted) i -= 1;
-    if (i < 0) return NaN;
-    const part = (wanted - logAmplitude[i]) / (logAmplitude[i + 1] - logAmplitude[i]);
-    return length[i] + part * (length[i + 1] - length[i]);
+  // The value at x of a curve given at rising places, as numpy.interp has it.
+  function interpolated(x, places, values) {
+    const last = places.length - 1;
+    if (x >= places[last]) return values[last];
+    if (x < places[0]) return values[0];
+    let [low, high] = [0, last];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (places[middle] <= x) low = middle;
+      else high = middle;
+    }
+    return values[low] + ((values[high] - values[low]) / (places[high] - places[low])) * (x - places[low]);
   }
 
-  // The length (m) by which a part of the realisations has dropped.
-  function drop(curve, strength, part) {
-    return crossing(curve, -Math.log(strength * Math.sqrt(-Math.log(part))));
+  // The part of the realisations that have dropped by each length of a curve; it never falls.
+  function dropped({ length, logAmplitude, perPeriod }, strength) {
+    const last = length.length - 1;
+    const area = new Float64Array(last + 1);
+    let [highest, before] = [-Infinity, 0];
+    for (let i = 0; i <= last; i += 1) {
+      highest = Math.max(highest, logAmplitude[i]);
+      const reached = Math.exp(-Math.exp(Math.min(-2 * (highest + Math.log(strength)), 700)));
+      if (i > 0) area[i] = area[i - 1] + 0.5 * (reached + before) * (length[i] - length[i - 1]);
+      before = reached;
+    }
+    const until = (end) => interpolated(end, length, area) + Math.max(end - length[last], 0);
+    const parts = new Float64Array(last + 1);
+    let part = 0;
+    for (let i = 0; i <= last; i += 1) {
+      const half = 0.5 * perPeriod[i];
+      part = Math.max(part, (until(length[i] + half) - until(length[i] - half)) / perPeriod[i]);
+      parts[i] = part;
+    }
+    return parts;
+  }
+
+  // The lengths (m) by which some parts of the realisations have dropped; NaN beyond the law's reach.
+  function drop(curve, strength, parts) {
+    const wanted = -Math.log(strength * Math.sqrt(Math.log(2)));
+    const { length, logAmplitude } = curve;
+    const above = (value) => value >= wanted;
+    if (!above(logAmplitude[length.length - 1]) || logAmplitude.every(above)) return parts.map(() => NaN);
+    const all = dropped(curve, strength);
+    return parts.map((part) => interpolated(part, all, length));
   }
 
   return { drop };
 })();
 
 function makeDrop({ faults, parts, strongest, control }) {
-  const read = (curve) => ({ ...curve, length: floats(curve.length), logAmplitude: floats(curve.log_amplitude) });
+  const read = (curve) => ({
+    ...curve,
+    length: floats(curve.length),
+    logAmplitude: floats(curve.log_amplitude),
+    perPeriod: floats(curve.per_period),
+  });
   const known = faults.map((fault) => ({
     ...fault,
     kinds: Object.fromEntries(Object.entries(fault.kinds).map(([kind, curve]) => [kind, read(curve)])),
@@ -50,7 +86,8 @@ function makeDrop({ faults, parts, strongest, control }) {
   function draw() {
     const critical = fault().theory_length;
     const trusted = strengths.filter((eps) => eps * curve().effective < strongest);
-    const over = parts.map((part) => trusted.map((eps) => DropLaw.drop(curve(), eps, part) / critical));
+    const drops = trusted.map((eps) => DropLaw.drop(curve(), eps, parts));
+    const over = parts.map((_, part) => drops.map((lengths) => lengths[part] / critical));
     const eps = strength.si();
     const shade = colour("theory");
     const level = (name, value, dash) => ({
@@ -64,7 +101,7 @@ function makeDrop({ faults, parts, strongest, control }) {
       { name: "half have dropped", x: trusted, y: over[0], ...style, line: { color: shade, width: 2.5 } },
       level("L<sub>c</sub>, theory", 1, "dash"),
       level("L<sub>s</sub>", fault().stability_length / critical, "dot"),
-      { name: "values", x: [eps], y: [DropLaw.drop(curve(), eps, parts[0]) / critical], mode: "markers",
+      { name: "values", x: [eps], y: [DropLaw.drop(curve(), eps, parts)[0] / critical], mode: "markers",
         showlegend: false, hoverinfo: "skip",
         marker: { symbol: "cross-thin-open", size: 16, color: shade, line: { width: 2 } } },
     ];
@@ -84,7 +121,7 @@ function makeDrop({ faults, parts, strongest, control }) {
 
   function show() {
     const critical = fault().theory_length;
-    const [median, early, late] = parts.map((part) => DropLaw.drop(curve(), strength.si(), part));
+    const [median, early, late] = DropLaw.drop(curve(), strength.si(), parts);
     const rows = [
       ["L<sub>c</sub>, theory of homogeneous sliding", `${critical.toPrecision(4)} m`],
       ["L<sub>s</sub>, the patch turns unstable", metres(fault().stability_length, critical)],

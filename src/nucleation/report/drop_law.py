@@ -68,6 +68,7 @@ def _fault(history: ModeHistory, interface: InterfaceState) -> dict[str, Any]:
             kind: {
                 "length": float32(growing.length),
                 "log_amplitude": float32(growing.log_amplitude),
+                "per_period": float32(growing.per_period),
                 "effective": _known(lines[kind].effective),  # eps_eff of a strength of one
             }
             for kind, growing in kinds.items()
