@@ -16,6 +16,9 @@ pytest_plugins = ("coarse_run",)
 for name in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "VENV", "PYTHON", "CORES", "TARGETS"):
     os.environ.pop(name, None)
 
+# Workers are processes: threads of the linear algebra would take the cores from one another.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # No deadline: machines are busy. In CI the same examples at every run, elsewhere new ones.
 hypothesis.settings.register_profile(
     "project", deadline=None, max_examples=100, derandomize=os.environ.get("CI") == "true"

@@ -1,11 +1,15 @@
 """The evidence of claims as the committed reference set has it: tables, but no simulations."""
 
+import copy
+import dataclasses
+import functools
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from nucleation.claims import table as table_of_claims
 from nucleation.claims.evidence import Evidence
 from nucleation.configuration.load import load
 from nucleation.theory.curves import Curves, theory_dataset
@@ -51,6 +55,21 @@ def dispersion():
 
 def evidence(**changes):
     """Evidence of the full configuration; theory's curves at a few points."""
+    return dataclasses.replace(_evidence(), **changes)
+
+
+def evaluated():
+    """All claims on it."""
+    return copy.deepcopy(_evaluated())
+
+
+@functools.cache
+def _evaluated():
+    return table_of_claims.evaluate(_evidence())
+
+
+@functools.cache
+def _evidence():
     config = load(ROOT / "config" / "config.yaml")
     lengths = table("lengths.csv")
     patches = table("patch_stability.csv")
@@ -60,15 +79,14 @@ def evidence(**changes):
     theory = theory_dataset(
         config.base.material, config.base.friction, config.main_text_interface, curves
     )
-    parts = {
-        "material": config.base.material,
-        "friction": config.base.friction,
-        "loading": config.base.loading,
-        "interface": config.main_text_interface,
-        "theory": theory,
-        "dispersion": dispersion(),
-        "lengths": (*(of_study(lengths, study) for study in STUDIES), longer_blocks(config)),
-        "measures": {},
-        "patches": {str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
-    }
-    return Evidence(**{**parts, **changes})
+    return Evidence(
+        material=config.base.material,
+        friction=config.base.friction,
+        loading=config.base.loading,
+        interface=config.main_text_interface,
+        theory=theory,
+        dispersion=dispersion(),
+        lengths=(*(of_study(lengths, study) for study in STUDIES), longer_blocks(config)),
+        measures={},
+        patches={str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
+    )

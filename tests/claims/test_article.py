@@ -5,7 +5,7 @@ import re
 
 import jinja2
 import pytest
-from reference_evidence import ROOT, evidence
+from reference_evidence import ROOT, evaluated, evidence
 
 from nucleation.claims import table
 from nucleation.claims.article import digits, paired, percent, render
@@ -15,8 +15,7 @@ TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 
 @pytest.fixture(scope="module")
 def given():
-    on = evidence()
-    return table.evaluate(on), on.lengths
+    return evaluated(), evidence().lengths
 
 
 @pytest.mark.slow
@@ -46,6 +45,7 @@ def test_template_states_no_result_of_its_own():
     assert set(re.findall(r"\d+\.\d+", text)) == {"0.005", "0.01", "0.05", "0.1"}
 
 
+@pytest.mark.slow
 def test_article_without_runs():
     bare = table.evaluate(evidence(lengths=(), patches={}))
     text = render(TEMPLATE, bare, [])

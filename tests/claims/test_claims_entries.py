@@ -9,7 +9,7 @@ import jsonschema
 import numpy as np
 import pandas as pd
 import pytest
-from reference_evidence import REFERENCE, ROOT, evidence
+from reference_evidence import REFERENCE, ROOT, evaluated, evidence
 
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
@@ -33,7 +33,7 @@ def realisations(study, law, height, phi0=1.0):
 @pytest.fixture(scope="module")
 def rows():
     """All claims on the reference set, without simulations."""
-    return {row["id"]: row for row in table.evaluate(evidence())}
+    return {row["id"]: row for row in evaluated()}
 
 
 @pytest.fixture(scope="module")
@@ -236,6 +236,7 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     assert claim.evaluate(on)["verdict"] == Verdict.UNCHECKED
 
 
+@pytest.mark.slow
 def test_contrast_of_nearly_identical_bodies_is_judged_on_bodies_that_differ(monkeypatch):
     """It compared identical ones, for which any coupling whatever would have passed."""
     (claim,) = [claim for claim in CLAIMS if claim.id == "bimaterial-contrast-limit"]

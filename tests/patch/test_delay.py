@@ -65,6 +65,7 @@ def test_drops_come_once_in_a_period_at_any_phase():
     assert np.quantile(reached, 0.84) - np.quantile(reached, 0.16) < 0.9 * (found.high - found.low)
 
 
+@pytest.mark.slow
 def test_realisations_are_distributed_as_the_law_says():
     found = growth(history(), LOAD).drop(1e-6)
     period = SPEED * 2.0 * np.pi / FREQUENCY
@@ -79,7 +80,7 @@ def test_realisations_are_distributed_as_the_law_says():
     assert high - low == pytest.approx(spread, rel=0.5)
 
 
-@pytest.mark.parametrize("kind", ["drive_velocity", "state"])
+@pytest.mark.parametrize("kind", ["drive_velocity", pytest.param("state", marks=pytest.mark.slow)])
 def test_mean_square_of_realisations(kind):
     declared = Perturbation(kind=kind, strength=1e-5, correlation_length=0.05)
     mean = growth(history(), declared)
@@ -104,22 +105,26 @@ def test_trend_goes_on_in_a_straight_line():
 
 @pytest.fixture(scope="module")
 def quiet():
+    """A run, and its mode."""
     stepping = Stepping(end_time=60.0, time_after_event=0.0, longest_step=0.1)
     mesh = Mesh(n_x=400, n_y=6, grading=20.0)
-    return dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping)
+    parameters = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping)
+    return parameters, follow_mode(simulate(parameters))
 
 
+@pytest.mark.slow
 def test_a_run_and_its_mode(quiet):
-    own = follow_mode(simulate(quiet))
+    _, own = quiet
     assert own.rate.real[0] < 0.0 < own.rate.real[-1]
     # less friction everywhere is as more load: R follows the load but for the block's ends
     uniform = own.strength.sum(axis=1)
     np.testing.assert_allclose(np.abs(own.normal_load), np.abs(uniform), rtol=0.05)
 
 
+@pytest.mark.slow
 def test_a_perturbed_run_drops_where_its_own_realisation_says(quiet):
-    own = follow_mode(simulate(quiet))
+    parameters, own = quiet
     declared = Perturbation(kind="state", strength=1e-3, seed=4)
-    measured = extract(simulate(dataclasses.replace(quiet, perturbation=declared)))
+    measured = extract(simulate(dataclasses.replace(parameters, perturbation=declared)))
     expected, _ = realised(own, declared).at(1e3)
     assert measured["length"] == pytest.approx(expected, rel=0.05)

@@ -7,6 +7,7 @@ import pytest
 from configurations import CONFIG
 
 from nucleation import api
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import Record
 from nucleation.configuration.load import load
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
@@ -28,10 +29,19 @@ def record():
     return quick_run(FAULT.replaced({"geometry.length": 1.35}), 0.7 * THEORY, mesh=COARSE)
 
 
+@pytest.fixture(scope="module")
+def mode(record):
+    return module.follow_mode(record, ExtractionSettings())
+
+
 @pytest.fixture
-def expected(record, monkeypatch):
+def expected(record, mode, monkeypatch):
     """The drop at a strength, of one and the same quiet run."""
     monkeypatch.setattr(module, "quick_run", lambda *_: record)
+    follow = module.follow_mode
+    monkeypatch.setattr(
+        module, "follow_mode", lambda run, *rest: mode if run is record else follow(run, *rest)
+    )
 
     def at(kind="normal_load", strength=1e-5, **others):
         declared = Perturbation(kind=kind, strength=strength, **others)
@@ -95,9 +105,8 @@ def test_growth_that_has_just_begun_is_not_trusted(expected, record, monkeypatch
     assert "near the end of the quiet run" in found.doubt
 
 
-@pytest.mark.parametrize(
-    "name", ["crustal_fault", pytest.param("granite_laboratory", marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["crustal_fault", "granite_laboratory"])
 def test_examples_that_the_law_does_not_know(name):
     """The crustal fault has a layer as thick as its patch, granite turns unstable late."""
     run = load(CONFIG / "examples" / f"{name}.yaml").runs[0]

@@ -37,13 +37,23 @@ BAD = {
 
 
 @pytest.mark.parametrize(("content", "said"), BAD.values(), ids=BAD.keys())
-def test_bad_file_is_one_message_and_snakemake_is_not_started(content, said, tmp_path):
+def test_bad_file_is_one_message_and_snakemake_is_not_started(content, said, tmp_path, monkeypatch):
     if content is not None:
         (tmp_path / "a.yaml").write_bytes(content)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("os.execv", lambda *_: pytest.fail("Snakemake is started"))
+    monkeypatch.setattr(sys, "argv", ["launch", "--configfile", "a.yaml"])
+    with pytest.raises(SystemExit) as stopped:
+        launch.main()
+    assert said in stopped.value.code
+
+
+@pytest.mark.system
+def test_bad_file_ends_the_program(tmp_path):
     command = [sys.executable, "-m", "nucleation.pipeline.launch", "--configfile", "a.yaml"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 1 and done.stdout == ""
-    assert said in done.stderr and "Traceback" not in done.stderr
+    assert BAD["missing"][1] in done.stderr and "Traceback" not in done.stderr
     assert not (tmp_path / ".snakemake").exists()
 
 

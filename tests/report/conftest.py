@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from coarse_run import CONFIG
-from playwright.sync_api import sync_playwright
 
 from nucleation.analysis import lengths
 from nucleation.analysis.definitions import ExtractionSettings
@@ -97,6 +96,8 @@ def browser():
         pytest.fail(MISSING)
     if program is None:
         pytest.skip(MISSING)
+    from playwright.sync_api import sync_playwright  # a second, for those who need it
+
     with sync_playwright() as playwright:
         started = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
         yield started

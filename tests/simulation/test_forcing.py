@@ -36,9 +36,27 @@ def quiet():
     return simulate(QUIET)
 
 
+KEPT = (0, 1, 2, 40)  # steps whose checkpoints are gone on from
+
+
+def keeping(kind):
+    """A run and its checkpoints after some steps."""
+    offered = []
+    record = simulate(
+        perturbed(kind),
+        keep=lambda arrays: offered.append(arrays() if len(offered) in KEPT else None),
+    )
+    return record, [offered[number] for number in KEPT]
+
+
 @pytest.fixture(scope="module")
-def records():
-    return {kind: simulate(perturbed(kind)) for kind in ACTING}
+def runs():
+    return {kind: keeping(kind) for kind in ACTING}
+
+
+@pytest.fixture(scope="module")
+def records(runs):
+    return {kind: record for kind, (record, _) in runs.items()}
 
 
 def test_strength_zero_is_the_quiet_run(quiet):
@@ -62,17 +80,12 @@ def test_every_kind_changes_the_run_by_about_its_strength(kind, quiet, records):
     assert 1e-5 < change < 3e-2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ACTING)
-def test_restart_is_exact(kind, records):
-    offered = []
-
-    def keep(arrays):
-        offered.append(arrays() if len(offered) in (0, 1, 2, 40) else None)
-
-    parameters = perturbed(kind)
-    simulate(parameters, keep=keep)
-    for number in (0, 1, 2, 40):
-        assert_same(simulate(parameters, start=offered[number]), records[kind])
+def test_restart_is_exact(kind, runs):
+    record, checkpoints = runs[kind]
+    for checkpoint in checkpoints:
+        assert_same(simulate(perturbed(kind), start=checkpoint), record)
 
 
 def test_the_drive_moves_as_declared(records):
@@ -119,6 +132,7 @@ def test_friction_of_slipping_nodes_is_the_uneven_law(records):
     np.testing.assert_allclose(friction.values[slipping], uneven[slipping], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_state_is_forced_as_declared():
     # of a fault at rest in the slip law nothing changes but by the source
     parameters = perturbed("state").replaced({"evolution": "slip", "longest_step": 0.02})
@@ -140,6 +154,7 @@ def test_steps_resolve_the_correlation_time():
     assert short["step_size"].values.max() <= 0.1 * 0.2 * 0.05 * (1 + 1e-12)
 
 
+@pytest.mark.slow
 def test_step_error_falls_with_the_second_order_of_the_steps():
     def last(longest):
         values = {"longest_step": longest, "end_time": 0.6, "tolerance": 0.9}

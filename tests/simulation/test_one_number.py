@@ -70,8 +70,7 @@ def exact_drop(kind):
 @pytest.mark.parametrize("kind", DECLARED)
 def test_a_declared_perturbation_makes_one_number(kind):
     parameters, exact = exact_drop(kind)
-    for units in (1, NINE_DIGITS):
-        np.testing.assert_allclose(drop(parameters, units), exact, rtol=3e-3)
+    np.testing.assert_allclose(drop(parameters, NINE_DIGITS), exact, rtol=3e-3)
 
 
 @pytest.mark.slow

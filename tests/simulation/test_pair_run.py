@@ -44,6 +44,7 @@ def test_records_both_bodies():
     assert "second_y" not in simulate(COARSE.replaced({"end_time": 0.05}))
 
 
+@pytest.mark.slow
 def test_identical_blocks_under_the_same_load_keep_sigma0():
     """Slip does not change the normal stress of identical blocks, whatever happens."""
     dataset = simulate(pair(second_n_y=4, time_after_event=0.002))

@@ -78,6 +78,7 @@ def test_slope_and_integral_belong_to_the_series():
     assert series.integral(40.0) == pytest.approx(by_parts, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_variance_and_correlation_over_seeds():
     lags = np.arange(0.0, 4.0, 0.5) * MEAN_SQUARE
     start = 3.21
@@ -91,6 +92,7 @@ def test_variance_and_correlation_over_seeds():
     np.testing.assert_allclose(found, expected, atol=4.0 / np.sqrt(2000))
 
 
+@pytest.mark.slow
 def test_spectral_density_is_that_of_unit_variance():
     omega = np.linspace(-4000.0, 4000.0, 400001)
     density = spectral_density(omega, 0.05)

@@ -20,6 +20,7 @@ STUDY = {
 RUNS = configure({"studies": {"s": STUDY}}).runs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("run", RUNS, ids=lambda run: run.id)
 def test_the_patch_nucleates(run):
     record = simulate(run.parameters)

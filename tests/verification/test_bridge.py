@@ -26,6 +26,7 @@ from nucleation.verification.orders import orders
 
 MATERIAL = Material(poisson_ratio=0.29)
 PARAMETERS = Parameters()
+RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # of k to the critical one
 AGREEMENT = 3e-3  # of the complex growth rate, relative; 1 % is asked for
 
 
@@ -164,7 +165,7 @@ def measured(height, ratio):
 
 
 @pytest.mark.parametrize("height", [0.005, 0.1, 0.5])
-@pytest.mark.parametrize("ratio", [0.6, 0.8, 0.97, 1.03, 1.25, 2.0])
+@pytest.mark.parametrize("ratio", RATIOS)
 def test_modes_grow_and_turn_as_the_theory_says(height, ratio):
     """Both roots, so the mode that travels along +x and the one along -x each in its place."""
     found, expected = measured(height, ratio), theory(PARAMETERS, height, ratio * critical(height))
@@ -262,8 +263,9 @@ def critical_of_pair(which):
 @pytest.mark.parametrize(
     ("which", "ratio"),
     [
-        *((which, r) for which in list(PAIRS)[:2] for r in (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)),
-        *((which, r) for which in list(PAIRS)[2:] for r in (0.8, 1.25)),
+        *(("stiff above, free", r) for r in RATIOS),
+        *(pytest.param("stiff below, free", r, marks=pytest.mark.slow) for r in RATIOS),
+        *(pytest.param(w, r, marks=pytest.mark.slow) for w in list(PAIRS)[2:] for r in (0.8, 1.25)),
     ],
 )
 def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):

@@ -7,10 +7,12 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 import yaml
+from warm_snakemake import warm
 
 from nucleation.verification.crosscheck import freefem
 
@@ -26,14 +28,18 @@ class Workflow:
     config: Path = ROOT / "config" / "quick.yaml"
     profile: str = "default"
 
+    def arguments(self, *arguments: str) -> list[str]:
+        """What Snakemake is told: targets before options."""
+        return [
+            *arguments, "--snakefile", str(self.checkout / "Snakefile"),
+            "--workflow-profile", str(self.checkout / "workflow/profiles" / self.profile),
+            "--directory", str(self.directory), "--configfile", str(self.config),
+        ]  # fmt: skip
+
     def start(self, *arguments: str) -> subprocess.Popen:
-        """Start snakemake; its whole output comes from ``stdout``."""
-        command = [sys.executable, "-m", "snakemake", *arguments]  # targets before options
-        command += ["--snakefile", str(self.checkout / "Snakefile")]
-        command += ["--workflow-profile", str(self.checkout / "workflow/profiles" / self.profile)]
-        command += ["--directory", str(self.directory), "--configfile", str(self.config)]
+        """Start snakemake as a program of its own; its whole output comes from ``stdout``."""
         return subprocess.Popen(
-            command,
+            [sys.executable, "-m", "snakemake", *self.arguments(*arguments)],
             cwd=self.checkout,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
@@ -43,14 +49,8 @@ class Workflow:
 
     def __call__(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run snakemake; its whole output is in ``stdout``."""
-        process = self.start(*arguments)
-        try:
-            output, _ = process.communicate(timeout=600)
-        except subprocess.TimeoutExpired:
-            process.terminate()  # it ends its jobs
-            output, _ = process.communicate()
-            raise AssertionError(f"still running after ten minutes:\n{output}") from None
-        return subprocess.CompletedProcess(process.args, process.returncode, output)
+        with tempfile.TemporaryDirectory() as place:
+            return warm()(self.arguments(*arguments), self.checkout, Path(place, "printed"))
 
     def planned(self, *arguments: str) -> dict[str, int]:
         """The rules that would run and how often, from a dry run."""

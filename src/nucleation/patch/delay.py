@@ -172,11 +172,10 @@ def _log_gathered(history: ModeHistory, path: Path, declared: Perturbation) -> A
     """log(sigma / eps) under roughness of the strength, which the front runs over."""
     x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
     covariance = correlation(x[:, None] - x, declared.correlation_length)
-    squares = (
-        (log, float((a @ covariance @ a.conj()).real))
-        for log, a in roughness_weights(history, path, x)
-    )
-    return np.array([log + 0.5 * np.log(max(square, TINY)) for log, square in squares])
+    logs, weights = map(np.array, zip(*roughness_weights(history, path, x), strict=True))
+    # all times at once, and no complex copy of the covariance
+    squares = sum(((part @ covariance) * part).sum(axis=1) for part in (weights.real, weights.imag))
+    return np.asarray(logs + 0.5 * np.log(np.maximum(squares, TINY)))
 
 
 def realised(history: ModeHistory, declared: Perturbation) -> Growth:
