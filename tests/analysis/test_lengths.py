@@ -6,10 +6,17 @@ from made_up_runs import changed, record, run
 
 from nucleation.analysis.drops import COLUMNS, measure_drops
 from nucleation.analysis.extraction import extract
-from nucleation.analysis.lengths import over_realisations, realisations
+from nucleation.analysis.lengths import (
+    MEASURED,
+    OVER_REALISATIONS,
+    over_realisations,
+    realisations,
+    second_body,
+)
+from nucleation.model.parameters import Parameters
 
 
-def table(**changes):
+def rows(**changes):
     columns = {
         "id": ["a-seed1", "b", "a-seed2", "c-seed1"],
         "study": ["one", "one", "one", "two"],
@@ -24,12 +31,12 @@ def table(**changes):
 
 
 def test_realisations_differ_in_the_seed_alone():
-    assert realisations(table()) == [[0, 2], [1], [3]]
-    assert realisations(table(height=[0.1, 0.2, 0.11, 0.1])) == [[0], [1], [2], [3]]
+    assert realisations(rows()) == [[0, 2], [1], [3]]
+    assert realisations(rows(height=[0.1, 0.2, 0.11, 0.1])) == [[0], [1], [2], [3]]
 
 
 def test_mean_of_realisations_and_the_ends_of_their_ranges():
-    found = over_realisations(table())
+    found = over_realisations(rows())
     assert list(found["id"].values) == ["a-seed1", "b", "c-seed1"]
     assert list(found["realisations"].values) == [2, 1, 1]
     np.testing.assert_allclose(found["length"], [0.52, 0.7, 0.6])
@@ -37,8 +44,33 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
     np.testing.assert_allclose(found["length_high"], [0.56, 0.8, 0.7])
 
 
+def test_ends_of_ranges_are_told_by_the_whole_name():
+    """By their last four letters every column that ends so was one."""
+    assert OVER_REALISATIONS["onset_time_high"] is np.max
+    assert OVER_REALISATIONS["length_low"] is np.min
+    assert set(OVER_REALISATIONS) == set(MEASURED)
+
+
+def test_rows_say_what_lies_below(table):
+    assert table["far_side"].item() == "none" and np.isinf(table["second_shear_modulus"].item())
+    assert np.isnan(table["second_height"].item())
+    pair = Parameters().replaced(
+        {"second_body": "deformable", "second_bottom": "clamped", "second_shear_modulus": 9e9,
+         "height": 0.02}
+    )  # fmt: skip
+    assert second_body(pair) == {
+        "far_side": "clamped", "second_height": 0.02, "second_shear_modulus": 9e9,
+        "second_poisson_ratio": pair.material.poisson_ratio,
+    }  # fmt: skip
+
+
+def test_realisations_are_found_where_a_value_is_unknown():
+    """What a rigid base lacks is not a number, which equals nothing."""
+    assert realisations(rows(second_height=[np.nan, 0.1, np.nan, np.nan])) == [[0, 2], [1], [3]]
+
+
 def test_a_realisation_without_an_event_is_not_passed_over():
-    found = over_realisations(table(length=[0.5, 0.7, np.nan, 0.6]))
+    found = over_realisations(rows(length=[0.5, 0.7, np.nan, 0.6]))
     assert np.isnan(found["length"].values[0]) and np.isfinite(found["length"].values[1:]).all()
 
 

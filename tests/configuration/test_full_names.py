@@ -148,10 +148,24 @@ def test_laws_are_compared_by_one_study():
         "s-aging-H0.1-phi1-friction_lawproduct", "s-aging-H0.1-phi1-friction_lawdieterich_ruina",
     ]  # fmt: skip
     for run in runs:
-        assert constants(run.parameters.friction, 1e-5) == pytest.approx(constant)
+        found = constants(run.parameters.friction, 1e-5)
+        assert found == pytest.approx(constant | {"velocity_weakening": 0.01})
     assert runs[0].theory_length == pytest.approx(runs[1].theory_length, rel=1e-9)
     assert runs[1].value("friction_law") == "dieterich_ruina"
     assert runs[1].value("aging_coefficient") is None
+
+
+def test_weakening_may_be_given_alone():
+    """As zeta, the name that the theory has for it, and with the direct effect's own value."""
+    one, other = runs_of({"height": 0.1, "zeta": [0.008, 0.02]})
+    assert one.id == "s-aging-H0.1-phi1-velocity_weakening0.008"
+    assert one.interface.zeta == pytest.approx(0.008) and other.interface.zeta == pytest.approx(
+        0.02
+    )
+    assert one.interface.a == pytest.approx(other.interface.a)
+    assert "zeta_over_a is not allowed together" in messages(
+        study({"height": 0.1, "zeta": 0.01, "zeta_over_a": 1.0})
+    )
 
 
 def test_the_section_chooses_the_law():

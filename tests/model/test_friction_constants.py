@@ -49,8 +49,18 @@ def test_own_constants_give_the_same_law():
 def test_constants_not_given_are_kept():
     law = with_constants(Friction(), V, {"zeta_over_a": 1.0, "height": 0.1})
     usual = constants(Friction(), V)
-    assert constants(law, V) == pytest.approx(usual | {"zeta_over_a": 1.0}, rel=1e-12)
+    changed = {"zeta_over_a": 1.0, "velocity_weakening": usual["direct_effect"]}
+    assert constants(law, V) == pytest.approx(usual | changed, rel=1e-12)
     assert with_constants(Friction(), V, {"height": 0.1}) == Friction()
+
+
+def test_weakening_is_given_alone_or_over_the_direct_effect():
+    law = with_constants(Friction(), V, {"velocity_weakening": 0.004})
+    assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["direct_effect"], 0.004))
+    both = with_constants(Friction(), V, {"velocity_weakening": 0.004, "direct_effect": 0.008})
+    assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
+    with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with velocity_weakening"):
+        with_constants(Friction(), V, {"velocity_weakening": 0.004, "zeta_over_a": 1.0})
 
 
 @pytest.mark.parametrize("bad", [(0.4, 0.01, 0.2), (0.3, 0.2, 0.0), (0.4, 0.01, -0.02)])

@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import dataclasses
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 
 from ..datasets.variables import VARIABLES
+from ..model.parameters import Parameters
 from .definitions import ExtractionSettings
 from .extraction import extract
 from .record import Record
 
-MEASURED = (
-    "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",
-)  # fmt: skip
+Array = NDArray[np.float64]
+
+OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
+    "onset_time": np.mean, "onset_time_low": np.min, "onset_time_high": np.max,
+    "length": np.mean, "length_low": np.min, "length_high": np.max,
+}  # fmt: skip
+"""What the realisations of one fault have in common: of each number that differs."""
+
+MEASURED = tuple(OVER_REALISATIONS)
 """What :func:`nucleation.analysis.extraction.extract` reads from a simulation."""
 
 DIAGNOSTICS = ("status", "steps", "wall_seconds", "peak_megabytes")
 """Attributes of a simulation's dataset that go into the table."""
+
+SECOND_BODY = ("second_height", "second_shear_modulus", "second_poisson_ratio")
 
 COLUMNS = (
     "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
@@ -28,6 +39,7 @@ COLUMNS = (
     "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
     "velocity_weakening", "friction_law", "below", "initial_stress", "initial_shear_stress",
     "simulated_time", "reached_length", "kind", "strength", "seed",
+    "far_side", *SECOND_BODY,
 )  # fmt: skip
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
 
@@ -69,7 +81,11 @@ def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
 
 def realisations(table: xr.Dataset) -> list[list[int]]:
     """The rows of each fault in a table of lengths, which differ in the declared seed alone."""
-    same = [table[name].values.tolist() for name in table.data_vars if name not in EITHER]
+    same = [
+        [None if value != value else value for value in table[name].values.tolist()]  # NaN
+        for name in table.data_vars
+        if name not in EITHER
+    ]
     faults: dict[tuple[Any, ...], list[int]] = {}
     for i, key in enumerate(zip(*same, strict=True)):
         faults.setdefault(key, []).append(i)
@@ -86,9 +102,8 @@ def over_realisations(table: xr.Dataset) -> xr.Dataset:
     columns = {}
     for name in map(str, table.data_vars):
         values = table[name].values
-        if name in MEASURED:
-            end = {"_low": np.min, "high": np.max}.get(name[-4:], np.mean)
-            columns[name] = np.array([end(values[rows]) for rows in faults])
+        if name in OVER_REALISATIONS:
+            columns[name] = np.array([OVER_REALISATIONS[name](values[rows]) for rows in faults])
         else:
             columns[name] = values[[rows[0] for rows in faults]]
     columns["realisations"] = np.array([len(rows) for rows in faults])
@@ -132,7 +147,7 @@ def description(run: dict[str, Any]) -> dict[str, Any]:
 def _given(run: dict[str, Any]) -> dict[str, Any]:
     """What else a run was given: material, friction of the theory, start."""
     parameters, interface = run["parameters"], run["interface"]
-    return {
+    return second_body(Parameters.from_dict(parameters)) | {
         "shear_modulus": parameters["material"]["shear_modulus"],
         "poisson_ratio": parameters["material"]["poisson_ratio"],
         "friction_coefficient": interface["friction"],
@@ -142,6 +157,20 @@ def _given(run: dict[str, Any]) -> dict[str, Any]:
         "below": parameters.get("second_body", {}).get("kind", "rigid"),
         "initial_stress": parameters["loading"]["initial_stress"],
         "initial_shear_stress": parameters["loading"]["initial_shear_stress"],
+    }
+
+
+def second_body(parameters: Parameters) -> dict[str, Any]:
+    """The columns on what lies below: a rigid base has no far side and an infinite modulus."""
+    below = parameters.below
+    if below is None:
+        unknown = dict.fromkeys(("height", "poisson_ratio"), np.nan)
+        values = {"shear_modulus": np.inf, **unknown}
+    else:
+        values = dataclasses.asdict(below.material) | {"height": below.geometry.height}
+    return {
+        "far_side": "none" if below is None else below.bottom,
+        **{name: values[name.removeprefix("second_")] for name in SECOND_BODY},
     }
 
 

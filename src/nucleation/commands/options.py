@@ -67,8 +67,8 @@ def _option(name: str, entry: Quantity, defaults: Mapping[str, Any]) -> Callable
     known = names()
     note = f"default {with_unit(defaults[name], entry)}" if name in defaults else ""
     note = "6 critical lengths if left out" if name == "length" else note
-    called = [name] if name in CONSTANTS else [known.full(name), *known.others(known.full(name))]
-    called += [name, *(alias for alias, own in CONSTANT_ALIASES.items() if own == name)]
+    called = [] if name in CONSTANTS else [known.full(name), *known.others(known.full(name))]
+    called += [*(alias for alias, own in CONSTANT_ALIASES.items() if own == name), name]
     called = [word for word in dict.fromkeys(called) if word not in ("a", "f", "kind")]
     words = [f"--{word.replace('_', '-')}" for word in called]
     return units.option(*words, key=name, entry=entry, note=note)

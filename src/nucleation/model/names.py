@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
@@ -61,11 +60,6 @@ class Names(Mapping[str, Quantity]):
         """The name by which a parameter goes: its alias, its last part, or the full name."""
         last = full.rpartition(".")[2]
         return self._alias.get(full) or (last if self._meant[last] == [full] else full)
-
-    @functools.cached_property
-    def by_short(self) -> dict[str, Quantity]:
-        """All parameters by the names that they go by."""
-        return {self.short(full): entry for full, entry in self.items()}
 
     def others(self, full: str) -> list[str]:
         """All names of a parameter but the one by which it goes."""

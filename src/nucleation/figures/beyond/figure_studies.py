@@ -31,7 +31,8 @@ WIDE = 4.0
 """Ratio of the largest to the smallest value from which an axis is logarithmic."""
 
 SYMBOLS = figure_sensitivity.SYMBOLS | {
-    "zeta/a": r"\zeta/a", "D": "D", "v*": "v_*", "v0": "v_0", "phi*": r"\phi_*", "theta": r"\theta",
+    "zeta/a": r"\zeta/a", "zeta": r"\zeta", "D": "D",
+    "v*": "v_*", "v0": "v_0", "phi*": r"\phi_*", "theta": r"\theta",
     "xi": r"\xi",
 }  # fmt: skip
 

@@ -24,26 +24,33 @@ CONSTANTS: dict[str, Quantity] = {
         "velocity weakening over direct effect at the imposed velocity", low=-1.0, high=1000.0,
         symbol="zeta/a",
     ),
+    "velocity_weakening": Quantity(
+        "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a", low=-1.0,
+        high=1.0, symbol="zeta",
+    ),
 }  # fmt: skip
 """Constants of the logarithmic law, by their names in studies."""
 
-CONSTANT_ALIASES = {"f": "friction_coefficient", "a": "direct_effect"}
+CONSTANT_ALIASES = {"f": "friction_coefficient", "a": "direct_effect", "zeta": "velocity_weakening"}
 """The theory's names for them."""
 
 
 def constants(friction: Friction, velocity: float) -> dict[str, float]:
     """The :data:`CONSTANTS` of a law at a slip rate (m/s)."""
     f, a, zeta = friction.expansion(velocity)
-    return dict(zip(CONSTANTS, (f, a, zeta / a), strict=True))
+    return dict(zip(CONSTANTS, (f, a, zeta / a, zeta), strict=True))
 
 
 def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) -> Friction:
     """The law with those :data:`CONSTANTS` that are among some values, and its own otherwise.
 
+    Of zeta and zeta/a the law keeps the latter where only a is given.
+
     Raises
     ------
     ParameterError
-        If there is no such law, or the values also set what is to be found.
+        If there is no such law, or the values also set what is to be found, or both zeta and
+        zeta/a.
     """
     given = {name: float(values[name]) for name in CONSTANTS if name in values}
     if not given:
@@ -53,8 +60,10 @@ def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) 
         raise ParameterError(
             f"{', '.join(clash)} is not allowed together with {', '.join(given)}, which sets it"
         )
-    f, a, ratio = (constants(friction, velocity) | given).values()
-    return full_law(friction, velocity, f, a, ratio * a)
+    if {"zeta_over_a", "velocity_weakening"} <= given.keys():
+        raise ParameterError("zeta_over_a is not allowed together with velocity_weakening (zeta)")
+    f, a, ratio, _ = (constants(friction, velocity) | given).values()
+    return full_law(friction, velocity, f, a, given.get("velocity_weakening", ratio * a))
 
 
 def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: float) -> Friction:
