@@ -3,6 +3,7 @@
 PYTHON ?= $(eval PYTHON := $$(shell workflow/pythons.sh | head -n 1))$(PYTHON)
 CORES ?= 2
 TARGETS ?=
+PARTS ?= solver
 FAULTS ?= 200
 SEED ?=
 
@@ -56,9 +57,9 @@ hooks: $(STAMP) ## Have git check what make lint checks before each commit
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
-bench: $(STAMP) ## Measure the solver's speed on one core, in some minutes
+bench: $(STAMP) ## Measure on one core, in some minutes: the solver; PARTS=scale: thousands of runs
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.pipeline.benchmark \
-		config/config.yaml
+		config/config.yaml $(PARTS)
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper figure_patch_stability figure_3_extended figure_convergence \

@@ -37,8 +37,9 @@ from nucleation.pipeline.repairs import (
 from nucleation.pipeline.targets import default_target
 from nucleation.configuration.load import configure
 from nucleation.configuration.contradictions import directory_problem
-from nucleation.pipeline import cache, keys
+from nucleation.pipeline import cache, keys, watch
 from nucleation.pipeline.planning import Planner, decide_by_keys
+from nucleation.pipeline.time_left import predicted_cost
 from nucleation.model.friction.registry import plugins
 from nucleation.model.friction.law import Friction
 from nucleation.model.quantities import ParameterError
@@ -220,7 +221,18 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/check.smk"
 
 
+onstart:
+    watch.begin(
+        workflow, lambda: {simulation(id): predicted_cost(RUNS[id].parameters) for id in RUNS}
+    )
+
+
+onerror:
+    watch.end()
+
+
 onsuccess:
+    watch.end()
     cache.release(Path(RESULTS))
     from nucleation.analysis.events import in_table
 

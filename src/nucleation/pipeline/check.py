@@ -10,8 +10,7 @@ import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from ..datasets import netcdf
-from ..datasets.variables import DatasetError
+from ..datasets import seal
 from . import cache, keys
 from .keys import Store
 
@@ -86,9 +85,9 @@ def _of_keyed(path: Path, wanted: set[str]) -> Iterator[Finding]:
     """What is wrong with a dataset that bears its key."""
     key = keys.key_in(path)
     try:
-        held = netcdf.read(path).attrs.get("key")
-    except DatasetError as error:
-        yield Finding(path, "damaged", str(error))
+        held = seal.verified(path).get("key")  # ten times as fast as reading the values
+    except (ValueError, OSError) as error:
+        yield Finding(path, "damaged", f"{error}: delete it, and it is made again")
         return
     if held != key:
         yield Finding(path, "foreign", f"it holds the result of another key, {held}")
