@@ -53,6 +53,11 @@ def test_article_without_runs():
     assert len(text) > 3000
 
 
+def test_formulas_of_claims_are_typeset(given):
+    text = render("{{ claim('stability-lost-at-length').statement | typeset }}", *given)
+    assert text == "The creep patch loses its stability when its length is $L_c = 2 \\pi/k_c$."
+
+
 def test_unknown_name_is_an_error(given):
     with pytest.raises(jinja2.UndefinedError):
         render("{{ nonsense }}", *given)

@@ -9,6 +9,7 @@ import jsonschema
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 from reference_evidence import REFERENCE, ROOT, evaluated, evidence
 
 from nucleation.claims import table
@@ -145,8 +146,22 @@ def test_agreement_with_the_theory(rows):
     worst = mine.loc[ratio.idxmin()]
     ends = [worst[f"length_{end}"] / worst.theory_length for end in ("low", "high")]
     assert rows["theory-agreement"]["uncertainty"] == pytest.approx(ends)
-    spread = ratio.iloc[np.argmax(mine.height)] / ratio.iloc[np.argmin(mine.height)]
-    assert rows["height-dependence"]["ours"] == pytest.approx(spread)
+    own = ratio[mine.height.argsort()].to_numpy()
+    pairs = [own[j] / own[i] for j in range(own.size) for i in range(j)]
+    worst = max(pairs, key=lambda pair: abs(pair - 1.0))
+    assert rows["height-dependence"]["ours"] == pytest.approx(worst)
+    assert rows["height-dependence"]["uncertainty"] == pytest.approx([min(pairs), max(pairs)])
+
+
+def test_dependence_on_height_is_judged_at_all_heights():
+    """It was at the least and the largest, whatever lengths had done between them."""
+    (claim,) = [claim for claim in CLAIMS if claim.id == "height-dependence"]
+    on = evidence()
+    assert claim.evaluate(on)["verdict"] == Verdict.REPLICATED
+    judged = on.lengths[1].copy(deep=True)
+    judged["length"] = judged["length"] * xr.where(np.isclose(judged["height"], 0.03), 1.4, 1.0)
+    row = claim.evaluate(evidence(lengths=(on.lengths[0], judged, *on.lengths[2:])))
+    assert row["verdict"] == Verdict.NOT_REPLICATED and row["ours"] > 1.25
 
 
 def test_theory_by_hand(rows):

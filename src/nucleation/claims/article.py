@@ -10,6 +10,7 @@ import xarray as xr
 
 from ..analysis.lengths import over_realisations
 from .claim import Verdict
+from .symbols import as_markdown
 from .table import counts, number_text
 
 
@@ -21,7 +22,8 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     template : str
         Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
         number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(study)``,
-        its rows of lengths, one for each fault; and the filters ``digits(n)`` and ``percent(n)``.
+        its rows of lengths, one for each fault; and the filters ``digits(n)``, ``percent(n)`` and
+        ``typeset``, of texts with formulas.
     claims : list of dict
         Rows of :func:`nucleation.claims.table.evaluate`.
     lengths : iterable of Dataset
@@ -38,7 +40,7 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
         undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True,
     )  # fmt: skip
-    environment.filters |= {"digits": digits, "percent": percent}
+    environment.filters |= {"digits": digits, "percent": percent, "typeset": as_markdown}
     by_id = {row["id"]: row for row in claims}
     records = [
         row
