@@ -1,8 +1,11 @@
 """``nucleation export``: a time series at a point, as the SEAS benchmarks have them."""
 
+import re
+
 import numpy as np
 import pytest
 
+from nucleation import __version__
 from nucleation.datasets import netcdf
 
 SMALL = ["--height", "5mm", "--length", "90cm", "--n-x", "16", "--n-y", "2", "--end-time", "20ms"]
@@ -34,6 +37,28 @@ def test_series_are_the_records_at_nodes_and_between(nucleation, record):
     middle = np.loadtxt([line for line in between.read_text().splitlines() if line[0] not in "#t"])
     mean = 0.5 * (dataset["slip"][:, 2] + dataset["slip"][:, 3])
     np.testing.assert_allclose(middle[:, 1], mean, atol=1e-20)
+
+
+def test_header_is_that_of_the_benchmarks(nucleation, record):
+    """What their descriptions ask for, in lines with #, before the one line of names."""
+    folder = record.parent / "series"
+    assert nucleation("export", record, folder, "--at", "10cm").code == 0
+    lines = (folder / "run_x0.1m.dat").read_text().splitlines()
+    names = lines.index("t slip slip_rate shear_stress state")
+    assert all(line.startswith("#") for line in lines[:names])
+    header = dict(line[2:].split("=", 1) for line in lines[:names] if "=" in line)
+    assert list(header)[:10] == [
+        "problem", "author", "date", "code", "code_version", "element_size", "location",
+        "minimum_time_step", "maximum_time_step", "num_time_steps",
+    ]  # fmt: skip
+    assert re.fullmatch(r"\d{4}/\d\d/\d\d", header["date"])
+    assert header["code_version"] == __version__
+    columns = [value for key, value in header.items() if key.startswith("Column #")]
+    assert columns == [" Time (s)", " Slip (m)", " Slip rate (log10 m/s)", " Shear stress (MPa)",
+                       " State (log10 s)"]  # fmt: skip
+    assert lines[names + 1] == "# Here is the time-series data."
+    assert int(header["num_time_steps"]) == len(lines) - names - 2
+    assert all(len(line.split()) == 5 for line in lines[names + 2 :])
 
 
 def test_mistakes_leave_no_file(nucleation, record):

@@ -34,6 +34,8 @@ def table():
     for height in HEIGHTS:
         rows += sequence("n_x", [400, 800, 1600, 3200], height)
         rows += sequence("n_y", [10, 20, 40], height)
+    rows += sequence("n_x", [800, 1600, 3200], HEIGHTS[0], longest_step=0.01)
+    for height in HEIGHTS:
         rows += sequence("longest_step", [0.32, 0.16, 0.08, 0.04, 0.02], height)
         rows += sequence("longest_step", [0.08, 0.04, 0.02, 0.01], height, n_x=1600)
         rows += sequence("tolerance", [4e-2, 1e-2, 2.5e-3], height, n_x=800)
@@ -123,6 +125,18 @@ def test_every_run_is_a_point(table, hops, patch, row, name):
         expected = set(zip(table[refined].values[of_it], table[name].values[of_it], strict=True))
         drawn = {tuple(point) for line in axes.get_lines() for point in line.get_xydata()}
         assert drawn == expected
+
+
+def test_sequences_of_one_height_are_told_apart(table, hops, patch):
+    """Two curves of one colour, with long and with short steps, looked the same."""
+    figure = figure_convergence.draw(table, hops, patch)
+    looks = [
+        (line.get_color(), line.get_linestyle(), line.get_fillstyle())
+        for line in figure.axes[0].get_lines()
+    ]
+    assert len(looks) == len(HEIGHTS) + 1 == len(set(looks))
+    (legend,) = figure.legends
+    assert "steps of 0.01 $D/V$" in [text.get_text() for text in legend.get_texts()]
 
 
 def test_steps_get_finer_to_the_right_and_orders_have_a_guide(table, hops, patch):

@@ -1,11 +1,17 @@
 """Time series at points of the fault as text, in the format of the SEAS community's benchmarks.
 
-On-fault files of the benchmarks of sequences of earthquakes and aseismic slip (Erickson and others,
-2020): a header of lines with ``#``, the names of the fields, and a line for each time with slip
-(m), decimal logarithm of the slip rate (m/s), shear stress (MPa) and that of the state (s).
+On-fault files of the benchmarks BP1 and BP2 of sequences of earthquakes and aseismic slip (Erickson
+and others, 2020, Seismol. Res. Lett. 91, 874-890, doi:10.1785/0220190248; the benchmarks' own
+descriptions, section on output of time series): a header of lines with ``#`` that give problem,
+author, date, code, its version, element, station, steps and columns; one line without it, the
+names of the fields; and a line for each time with time (s), slip (m), decimal logarithm of the slip
+rate (m/s), shear stress (MPa) and that of the state (s).
 """
 
 from __future__ import annotations
+
+import json
+import re
 
 import numpy as np
 import xarray as xr
@@ -52,20 +58,30 @@ def time_series(simulation: xr.Dataset, position: float) -> str:
         record.time, at("slip"), at("slip_rate", True), 1e-6 * at("shear_stress"),
         at("state", True),
     )  # fmt: skip
+    made = re.match(r"(\d+)-(\d+)-(\d+)", str(simulation.attrs.get("created", "")))
     header = [
         "This is the file header:",
+        f"problem=none of the benchmarks: {simulation.attrs.get('command', 'a run of its own')}",
+        "author=not given",
+        f"date={'/'.join(made.groups()) if made else 'not given'}",
         "code=nucleation",
-        f"date={simulation.attrs.get('created', '')}",
-        f"made_by={simulation.attrs.get('command', '')}",
+        f"code_version={_version(simulation)}",
         f"element_size={x[1] - x[0]:g} m",
         f"location=on fault, {position:g} m from the loaded edge",
         f"minimum_time_step={steps.min():g}",
         f"maximum_time_step={steps.max():g}",
         f"num_time_steps={record.time.size}",
         *(f"Column #{i + 1} = {text}" for i, (_, text) in enumerate(FIELDS)),
-        "The line below lists the names of the data fields",
+        "",
+        "The line below lists the names of the data fields:",
     ]
-    lines = [*(f"# {line}" for line in header), " ".join(name for name, _ in FIELDS)]
-    lines += ["# Here are the data"]
+    lines = [*(f"# {line}".rstrip() for line in header), " ".join(name for name, _ in FIELDS)]
+    lines += ["# Here is the time-series data."]
     lines += [" ".join(f"{value:.15e}" for value in row) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
+
+
+def _version(simulation: xr.Dataset) -> str:
+    """The version that made a record."""
+    versions = json.loads(simulation.attrs.get("versions", "{}"))
+    return str(versions.get("nucleation", "not given"))

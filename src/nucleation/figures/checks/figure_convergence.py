@@ -15,6 +15,8 @@ from ...figures import style
 
 MILLI = 1e3
 LOOKS = (("o", style.VERMILLION), ("s", style.BLUE), ("D", style.BLACK), ("^", style.GREEN))
+SHORT_STEPS = {"fillstyle": "top", "markerfacecoloralt": "white", "linestyle": (0, (1.0, 1.2))}
+"""How a sequence is drawn beside one of the same height with longer steps."""
 SHOWN_TIME = (-5.0, 0.12)  # s about the onset
 SHOWN_RATE = 1.25  # largest slip rate shown over V, above which curves would cross
 SHIFT = 1.1  # between the curves of slip rate, over V
@@ -98,15 +100,33 @@ def _line(table: xr.Dataset, height: float, coarse: bool) -> dict[str, object]:
     }  # fmt: skip
 
 
+def _step(sequence: xr.Dataset) -> float:
+    """The longest step over D/V that the runs of a sequence have in common."""
+    return float(sequence["longest_step"].values.max())
+
+
+def _short_steps(table: xr.Dataset, refined: str) -> set[tuple[float, float]]:
+    """Heights (m) and steps of sequences of which there is one with longer steps beside them."""
+    if refined == "longest_step":
+        return set()
+    found = [(height, _step(runs)) for runs, height, _ in _sequences(table, refined)]
+    longest: dict[float, float] = {}
+    for height, step in found:
+        longest[height] = max(longest.get(height, 0.0), step)
+    return {(height, step) for height, step in found if step < longest[height]}
+
+
 def _draw_refinement(axes: Axes, table: xr.Dataset, refined: str, name: str) -> None:
     """One measured quantity against what is refined."""
-    coarsest = int(table["n_x"].values.min())
+    coarsest, short = int(table["n_x"].values.min()), _short_steps(table, refined)
     axes.set_xscale("log")
     sizes: set[float] = set()
     for sequence, height, n_x in _sequences(table, refined):
         size = sequence[refined].values
         sizes.update(size.tolist())
         look = _line(table, height, refined != "n_x" and n_x == coarsest)
+        if (height, _step(sequence)) in short:
+            look |= SHORT_STEPS
         axes.plot(size, sequence[name].values, **look)
     axes.set_xticks(sorted(sizes), [_brief(size) for size in sorted(sizes)])
     axes.xaxis.set_minor_locator(NullLocator())
@@ -219,4 +239,11 @@ def _add_legend(figure: Figure, table: xr.Dataset) -> None:
     coarsest = int(table["n_x"].values.min())
     handles += axes.plot([], [], label=f"on $N_x={coarsest}$", linestyle="--",
                          markerfacecolor="white", **guide)  # fmt: skip
-    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    steps = {step for refined in REFINED for _, step in _short_steps(table, refined)}
+    if steps:
+        words = " and ".join(f"{step:g}" for step in sorted(steps))
+        label = f"steps of {words} $D/V$"
+        handles += axes.plot([], [], label=label, **guide | SHORT_STEPS)
+    figure.legend(
+        handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2
+    )
