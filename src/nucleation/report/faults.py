@@ -64,11 +64,10 @@ class Fault(NamedTuple):
 def faults(lengths: xr.Dataset) -> list[Fault]:
     """The faults of a table of lengths, in the order of their first runs."""
     found: dict[tuple[Any, ...], list[int]] = {}
-    for i in range(lengths.sizes["run"]):
-        mark = (
-            *(float(f"{float(lengths[c.variable][i]):.10g}") for c in FAULT),
-            str(lengths["below"].values[i]),
-        )
+    columns = [lengths[c.variable].values.tolist() for c in FAULT]
+    below = lengths["below"].values.astype(str).tolist()
+    for i, (*numbers, base) in enumerate(zip(*columns, below, strict=True)):
+        mark = (*(float(f"{float(number):.10g}") for number in numbers), base)
         found.setdefault(mark, []).append(i)
     names = [column.variable for column in FAULT]
     return [

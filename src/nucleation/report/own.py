@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..analysis.events import without_event
 from .faults import FAULT, faults
-from .tables import Cell, number
+from .tables import Cell, number, rows_of
 
 
 class OwnStudies(NamedTuple):
@@ -51,7 +51,7 @@ def sections(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
     result = []
     for study, description in own.descriptions.items():
         chosen = np.flatnonzero(lengths["study"].values == study).tolist()
-        rows = [{str(n): lengths[n].values[i] for n in lengths.data_vars} for i in chosen]
+        rows = rows_of(lengths, chosen)
         result.append(
             {
                 "name": study,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -93,6 +94,12 @@ def verdict_counts(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
+def rows_of(table: xr.Dataset, chosen: Iterable[int]) -> list[dict[str, Any]]:
+    """Some rows of a table, each with its values by their names."""
+    columns = {str(name): table[name].values for name in table.data_vars}
+    return [{name: values[i] for name, values in columns.items()} for i in chosen]
+
+
 LENGTH_COLUMNS = (
     "Simulation", "H (m)", "Onset (s)", "Length (m)", "Range (m)", "Over theory", "Elements",
     "Steps", "Time (s)", "Memory (MB)",
@@ -102,8 +109,7 @@ LENGTH_COLUMNS = (
 def length_rows(lengths: xr.Dataset) -> list[list[Cell]]:
     """One row of :data:`LENGTH_COLUMNS` for every simulation of a table of lengths."""
     rows = []
-    for i in range(lengths.sizes["run"]):
-        run = {name: lengths[name].values[i] for name in lengths.data_vars}
+    for run in rows_of(lengths, range(lengths.sizes["run"])):
         elements = int(run["n_x"]) * int(run["n_y"])
         low, high = (number(run[name], 3) for name in ("length_low", "length_high"))
         rows.append(

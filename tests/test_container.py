@@ -1,0 +1,97 @@
+"""The recipe of the container agrees with the project: what it copies, installs and starts."""
+
+import importlib.metadata
+import json
+import re
+import runpy
+import shlex
+import tomllib
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+ROOT = Path(__file__).parents[1]
+FOLDER = ROOT / "workflow" / "container"
+REQUIREMENTS = runpy.run_path(str(FOLDER / "requirements.py"))
+
+
+def instructions():
+    """The recipe's instructions: words and arguments, continued lines joined."""
+    text = re.sub(r"\\\n\s*", "", (FOLDER / "Dockerfile").read_text())
+    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+    return [tuple(line.split(maxsplit=1)) for line in lines]
+
+
+def test_the_recipe_is_made_of_known_instructions():
+    known = {"ARG", "FROM", "RUN", "WORKDIR", "COPY", "ENV", "USER", "ENTRYPOINT"}
+    words = [word for word, _ in instructions()]
+    assert set(words) == known and words[0] == "ARG" and words[-1] == "ENTRYPOINT"
+    assert words.count("FROM") == 2, "what is needed to install stays out of the image"
+
+
+def test_what_is_copied_exists():
+    for word, arguments in instructions():
+        if word == "COPY" and not arguments.startswith("--from"):
+            for name in shlex.split(arguments)[:-1]:
+                assert (ROOT / name).exists(), name
+
+
+def test_the_workflow_needs_nothing_that_is_not_copied(workflow_files):
+    copied = [
+        name for word, arguments in instructions() if word == "COPY" and "--from" not in arguments
+        for name in shlex.split(arguments)[:-1]
+    ]  # fmt: skip
+    for path in workflow_files:
+        name = path.relative_to(ROOT).as_posix()
+        assert any(name == part or name.startswith(f"{part}/") for part in copied), name
+
+
+@pytest.fixture
+def workflow_files():
+    """Files of the checkout that rules name, beside the results."""
+    texts = [(ROOT / "Snakefile").read_text()]
+    texts += [path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk")]
+    named = {
+        Path(ROOT, *re.findall(r'"([^"]+)"', parts))
+        for text in texts for parts in re.findall(r'Path\(BASE, ((?:"[^"{]+",? ?)+)\)', text)
+    }  # fmt: skip
+    assert ROOT / "docs" / "article.md.in" in named and len(named) > 3
+    return {path for path in named if path.exists()} | {ROOT / "CITATION.cff"}
+
+
+def test_it_runs_as_nobody_of_the_host_and_starts_the_workflow():
+    found = dict(instructions())
+    assert found["USER"] not in ("root", "0")
+    assert {"USER=nucleation", "HOME=/tmp"} <= set(shlex.split(found["ENV"]))
+    start = json.loads(found["ENTRYPOINT"])
+    assert start[:3] == ["python", "-m", "nucleation.pipeline.launch"]
+    for path in (word for word in start if word.startswith("/opt/nucleation/")):
+        assert (ROOT / path.removeprefix("/opt/nucleation/")).exists(), path
+
+
+def needed():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
+    return REQUIREMENTS["needed"](project, (ROOT / "environment.txt").read_text())
+
+
+def test_what_is_installed_is_pinned_hashed_and_without_tests_and_pages():
+    blocks = re.split(r"^(?=\w)", needed(), flags=re.M)[1:]
+    names = {REQUIREMENTS["name_of"](block) for block in blocks}
+    assert all(re.match(r"\S+==\S+", block) and "--hash=sha256:" in block for block in blocks)
+    assert {"numpy", "numba", "xarray", "snakemake", "plotly", "docutils"} <= names
+    assert names.isdisjoint({"pytest", "sphinx", "playwright", "mypy", "hypothesis", "ruff"})
+    assert all(block in (ROOT / "environment.txt").read_text() for block in blocks)
+
+
+def test_what_is_installed_has_all_that_it_asks_for():
+    names = {REQUIREMENTS["name_of"](b) for b in re.split(r"^(?=\w)", needed(), flags=re.M)[1:]}
+    for name in names:
+        try:
+            asked = importlib.metadata.requires(name) or []
+        except importlib.metadata.PackageNotFoundError:
+            continue  # of another system
+        for requirement in map(Requirement, asked):
+            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
+                assert canonicalize_name(requirement.name) in names, (name, str(requirement))
