@@ -403,6 +403,7 @@ def test_ranges():
     assert expand("slip") == ("slip",)
 
 
+@pytest.mark.slow
 def test_parameters_survive_the_way_through_a_rule():
     for run in load(CONFIG / "config.yaml").runs:
         as_text = yaml.safe_dump(run.parameters.to_dict())

@@ -164,7 +164,10 @@ def measured(height, ratio):
     return dispersion.measured_rates(PARAMETERS, height, ratio * critical(height))
 
 
-@pytest.mark.parametrize("height", [0.005, 0.1, 0.5])
+@pytest.mark.parametrize(
+    "height",
+    [pytest.param(0.005, marks=pytest.mark.slow), 0.1, pytest.param(0.5, marks=pytest.mark.slow)],
+)
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_modes_grow_and_turn_as_the_theory_says(height, ratio):
     """Both roots, so the mode that travels along +x and the one along -x each in its place."""
@@ -192,6 +195,7 @@ def test_slip_law_has_the_same_spectrum():
     assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
 
 
+@pytest.mark.slow
 def test_growth_rates_converge_with_the_mesh(monkeypatch):
     """Second order in h; the step is small enough not to be seen."""
     monkeypatch.setattr(dispersion, "ROWS", (1, 100))
