@@ -38,7 +38,7 @@ from nucleation.pipeline.targets import default_target
 from nucleation.configuration.load import configure
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.pipeline import cache, keys, watch
-from nucleation.pipeline.planning import Planner, decide_by_keys
+from nucleation.pipeline.planning import Planner, decide_by_keys, names_asked_for
 from nucleation.pipeline.time_left import predicted_cost
 from nucleation.model.friction.registry import plugins
 from nucleation.model.friction.law import Friction
@@ -46,7 +46,8 @@ from nucleation.model.quantities import ParameterError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
-from nucleation.configuration.studies import first_realisations, theory_curves, varied
+from nucleation.configuration.runs import first_realisations, varied
+from nucleation.configuration.studies import theory_curves
 
 show_why_groups_fail()  # such as a partition that Slurm doesn't know
 suggest_targets(lambda: workflow.rules)
@@ -60,7 +61,7 @@ if not workflow.overwrite_configfiles:
 try:
     for path in workflow.configfiles:
         read_yaml(path)  # finds keys that stand twice, of which Snakemake keeps the last
-    settings = configure(config)
+    settings = configure(config, names_asked_for(workflow))
     unusable = directory_problem(settings.results, write=not workflow.dryrun)
     if unusable is None and cache.shared() is not None:
         unusable = cache.problem(cache.shared())
@@ -131,28 +132,37 @@ def simulation(id):
     return keyed("simulations", id, "simulate.py", given, modules=plugins(parameters))
 
 
-def of_key(paths, what):
-    """A function that gives the run to which a dataset's key belongs.
+def of_key(paths, what, names):
+    """A function that gives the name to which a dataset's key belongs.
 
     A key that is not among the paths is one of an earlier configuration or code: nothing makes it.
     """
 
     @functools.cache
     def by_key():
-        return {keys.key_in(paths(id)): id for id in RUNS}
+        return {keys.key_in(paths(name)): name for name in names}
 
-    def run(wildcards):
+    def found(wildcards):
+        own = wildcards.name  # what was found under its key may go by another name
+        if own in names and keys.key_in(paths(own)) == wildcards.key:
+            return own
         if wildcards.key not in by_key():
             raise WorkflowError(
                 f"{what} {wildcards.name}.{wildcards.key} is not of the present configuration and "
                 "code: start the workflow again"
             )
-        return RUNS[by_key()[wildcards.key]]
+        return by_key()[wildcards.key]
 
-    return run
+    return found
 
 
-simulated = of_key(simulation, "simulation")
+def run_of_key(paths, what):
+    """A function that gives the run to which a dataset's key belongs."""
+    name = of_key(paths, what, RUNS)
+    return lambda wildcards: RUNS[name(wildcards)]
+
+
+simulated = run_of_key(simulation, "simulation")
 
 
 def runs_in(*studies):
@@ -161,8 +171,27 @@ def runs_in(*studies):
 
 
 def simulations(*studies):
-    """The datasets of their simulations."""
+    """The datasets of their simulations, which one job makes each."""
+    for study in studies:
+        many = settings.studies[study].runs_per_job if study in settings.studies else 1
+        if many > 1:
+            raise WorkflowError(
+                f"studies.{study}.runs_per_job = {many} is not allowed: results are made of its "
+                "simulations one by one; it must be 1, or be left out"
+            )
     return [simulation(run.id) for run in runs_in(*studies)]
+
+
+def made(*studies):
+    """What jobs make of their runs: simulations, or batches of them."""
+    names = [run.batch for run in runs_in(*studies) if run.batch]
+    single = [simulation(run.id) for run in runs_in(*studies) if not run.batch]
+    return [*single, *map(batch, dict.fromkeys(names))]
+
+
+def one_of(names):
+    """The constraint of a wildcard to some names, of which there may be none."""
+    return "|".join(names) or "(?!)"
 
 
 def needed(files, what):
@@ -208,12 +237,14 @@ localrules:
 
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/simulate.smk"
+include: "workflow/rules/batches.smk"
 include: "workflow/rules/extract.smk"
 include: "workflow/rules/patches.smk"
 include: "workflow/rules/pairs.smk"
 include: "workflow/rules/verification.smk"
 include: "workflow/rules/studies.smk"
 include: "workflow/rules/drop.smk"
+include: "workflow/rules/map.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/crosscheck.smk"
 include: "workflow/rules/claims.smk"
@@ -243,7 +274,7 @@ onsuccess:
 
 
 # These take seconds, and run where snakemake runs. Everything else is for a cluster's jobs.
-BRIEF = ("draw_", "extract", "gather_", "write_")
+BRIEF = ("draw_", "extract", "gather_", "join_", "write_")
 workflow.localrules(*(rule.name for rule in workflow.rules if rule.name.startswith(BRIEF)))
 
 

@@ -1,11 +1,8 @@
-"""Tables of lengths: realisations of one fault, and runs of which only the drop is kept."""
+"""Tables of lengths: realisations of one fault."""
 
 import numpy as np
 import xarray as xr
-from made_up_runs import changed, record, run
 
-from nucleation.analysis.drops import COLUMNS, measure_drops
-from nucleation.analysis.extraction import extract
 from nucleation.analysis.lengths import (
     MEASURED,
     OVER_REALISATIONS,
@@ -72,22 +69,3 @@ def test_realisations_are_found_where_a_value_is_unknown():
 def test_a_realisation_without_an_event_is_not_passed_over():
     found = over_realisations(rows(length=[0.5, 0.7, np.nan, 0.6]))
     assert np.isnan(found["length"].values[0]) and np.isfinite(found["length"].values[1:]).all()
-
-
-def test_drops_are_measured_one_after_another_and_say_how_they_are_perturbed():
-    names = {"perturbation": "state", "strength": 1e-4, "correlation_length": 0.05}
-    cases = [changed(**names, seed=7), changed(strength=1e-3)]  # the second one is quiet
-    runs = [run(name, case) | {"study": "drop"} for name, case in zip("ab", cases, strict=True)]
-
-    def simulated(parameters):
-        made = record(parameters=parameters)
-        return made.assign_attrs(steps=3000, wall_seconds=4.0)
-
-    found = measure_drops(runs, simulated=simulated)
-    assert tuple(found.data_vars) == COLUMNS
-    assert list(found["kind"].values) == ["state", "none"]
-    assert list(found["strength"].values) == [1e-4, 0.0]
-    assert list(found["seed"].values) == [7, 0]
-    expected = extract(record(parameters=cases[0]))
-    for name in ("onset_time", "length"):
-        assert found[name].values[0] == expected[name]

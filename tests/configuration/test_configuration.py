@@ -6,8 +6,9 @@ import pytest
 import yaml
 from configurations import CONFIG, PAPER, changed, messages, with_run
 
+from nucleation.configuration.grids import expand
 from nucleation.configuration.load import configure, load, schema
-from nucleation.configuration.studies import expand, first_realisations
+from nucleation.configuration.runs import first_realisations
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material

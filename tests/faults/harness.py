@@ -18,7 +18,7 @@ import yaml
 from processes import ROOT, Done, Lost, Running, require
 
 from nucleation.configuration.load import load
-from nucleation.configuration.studies import Run
+from nucleation.configuration.runs import Run
 from nucleation.datasets import netcdf, variables
 from nucleation.model.friction.registry import plugins
 from nucleation.pipeline import code, keys

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from nucleation.configuration.load import load, read_yaml
-from nucleation.configuration.studies import first_realisations
+from nucleation.configuration.runs import first_realisations
 
 ROOT = Path(__file__).parents[2]
 

@@ -4,67 +4,12 @@ DROP = f"{RESULTS}/drop.nc"
 
 
 @functools.cache
-def drop_groups():
-    """Runs of the study `drop` by the job that makes them, one after another in one process.
-
-    A run takes seconds, of which a job of its own would take as many to start.
-    """
-    groups = {}
-    for run in runs_in("drop"):
-        parameters = run.parameters
-        name = (
-            f"{parameters.friction.evolution}-H{parameters.geometry.height:g}-"
-            f"{parameters.perturbation.kind}-{parameters.perturbation.strength:g}-"
-            f"{parameters.mesh.n_x}x{parameters.mesh.n_y}-{parameters.stepping.longest_step:g}"
-        )
-        groups.setdefault(name, []).append(run)
-    return groups
-
-
-def drop_params(name):
-    return {
-        "runs": [run.to_dict() for run in drop_groups()[name]],
-        "extraction": asdict(settings.extraction),
-    }
-
-
-@functools.cache
-def drops(name):
-    """Where the runs of one group drop."""
-    laws = plugins(drop_groups()[name][0].parameters)
-    return keyed("drops", name, "drops.py", drop_params(name), modules=laws)
-
-
-rule drops:
-    output:
-        place_of("drops"),
-    log:
-        f"{RESULTS}/logs/drops/{{name}}.{{key}}.log",
-    threads: 1
-    resources:
-        mem_mb=lambda wildcards, attempt: max(
-            memory(run, attempt) for run in drop_groups()[wildcards.name]
-        ),
-        runtime=ceil(settings.limits.runtime),
-    params:
-        **made_by(
-            "drops.py", lambda wildcards: plugins(drop_groups()[wildcards.name][0].parameters)
-        ),
-        runs=lambda wildcards: drop_params(wildcards.name)["runs"],
-        extraction=asdict(settings.extraction),
-    message:
-        "Drops of {wildcards.name}"
-    script:
-        "../scripts/drops.py"
-
-
-@functools.cache
 def mode(id):
     """The oscillating mode along one quiet simulation."""
     return of_simulation("modes", id, "mode.py")
 
 
-moded = of_key(mode, "mode of")
+moded = run_of_key(mode, "mode of")
 FLOORS = [study for study in ("paper", HOPPING) if study in settings.studies]
 """Studies of quiet runs, whose drops say how noisy their meshes are."""
 
@@ -86,17 +31,13 @@ rule mode:
         "../scripts/mode.py"
 
 
-def all_drops(wildcards):
-    return [drops(name) for name in drop_groups()]
-
-
 def modes(wildcards):
     return [mode(run.id) for run in runs_in("quiet")]
 
 
 rule gather_drop:
     input:
-        drops=needed(all_drops, "study drop"),
+        drops=needed([study_lengths(s) for s in ("drop",) if s in settings.studies], "study drop"),
         modes=needed(modes, "study quiet"),
         quiet=[study_lengths(study) for study in FLOORS],
     output:

@@ -12,7 +12,10 @@ def with_csv(dataset):
 def measured(*studies):
     """Simulations and lengths of those of some studies that the configuration has."""
     present = [study for study in studies if study in settings.studies]
-    return [*simulations(*present), *(with_csv(study_lengths(study)) for study in present)]
+    return [*made(*present), *(with_csv(study_lengths(study)) for study in present)]
+
+
+BATCHED = [study for study in settings.studies if settings.studies[study].runs_per_job > 1]
 
 
 rule extract:
@@ -24,7 +27,7 @@ rule extract:
     log:
         f"{RESULTS}/logs/extract/{{study}}.log",
     wildcard_constraints:
-        study="|".join(settings.studies),
+        study=one_of(study for study in settings.studies if study not in BATCHED),
     params:
         **made_by("extract.py"),
         parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
@@ -32,6 +35,25 @@ rule extract:
         "Critical lengths of the study {wildcards.study}"
     script:
         "../scripts/extract.py"
+
+
+rule join_batches:
+    input:
+        lambda wildcards: batches(wildcards.study),
+    output:
+        dataset=study_lengths("{study}"),
+        table=f"{RESULTS}/lengths/{{study}}.csv",
+    log:
+        f"{RESULTS}/logs/extract/{{study}}.log",
+    wildcard_constraints:
+        study=one_of(BATCHED),
+    params:
+        **made_by("join_batches.py"),
+        ids=lambda wildcards: [run.id for run in settings.runs_of(wildcards.study)],
+    message:
+        "Critical lengths of the study {wildcards.study}"
+    script:
+        "../scripts/join_batches.py"
 
 
 rule gather_lengths:

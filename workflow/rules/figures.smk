@@ -50,6 +50,7 @@ DRAWN = {
         "noisy": study_lengths("noisy") if "noisy" in settings.studies else [],
     },
     "figure_drop": {"table": DROP},
+    "figure_map": {"grid": MAP},
     "figure_dispersion": {"dispersion": DISPERSION},
     "figure_verification": {"convergence": VERIFICATION},
     "figure_convergence": {
@@ -121,10 +122,10 @@ TARGETS = {
     ],
     "figure_drop": [
         with_csv(DROP),
-        all_drops,
         modes,
-        measured("quiet", *FLOORS),
+        measured("drop", "quiet", *FLOORS),
     ],
+    "figure_map": [with_csv(MAP), measured("map")],
     "figure_dispersion": [rules.dispersion.output],
     "figure_verification": [rules.verification.output],
     "figure_convergence": [rules.convergence.output, hops_shown, measured(*CONVERGENCE_STUDIES)],

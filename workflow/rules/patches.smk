@@ -37,7 +37,7 @@ def patches(*studies):
     return [patch(run.id) for run in patched_runs(*studies)]
 
 
-patched, twinned = of_key(patch, "patch of"), of_key(twin, "twins of")
+patched, twinned = run_of_key(patch, "patch of"), run_of_key(twin, "twins of")
 
 
 def frozen(table):

@@ -7,7 +7,7 @@ FILM = f"{RESULTS}/film.nc"
 ANIMATION = f"{RESULTS}/figures/animation.gif"
 REPORT_FILES = [
     str(Path(SOURCE, "nucleation", "report", name))
-    for name in ("template.html", "page.css", "page.js", "theory.js", "drop.js")
+    for name in ("template.html", "page.css", "page.js", "theory.js", "drop.js", "map.js")
 ]
 OF_THE_PAPER = DEFAULT == "paper"
 REPORTED = catalogue.drawable(list(settings.studies), papers=OF_THE_PAPER)

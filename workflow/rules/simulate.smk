@@ -27,11 +27,3 @@ rule simulate:
         "Simulation {wildcards.name}"
     script:
         "../scripts/simulate.py"
-
-
-rule simulations:
-    """The simulations of those studies."""
-    input:
-        needed(simulations(*SHARED), "study with table: lengths"),
-    message:
-        f"All simulations are in {RESULTS}/simulations"

@@ -95,7 +95,7 @@ def hops(id):
     return of_simulation("hops", id, "hops.py")
 
 
-hopped = of_key(hops, "hops of")
+hopped = run_of_key(hops, "hops of")
 
 
 rule hops:

@@ -95,7 +95,7 @@ def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:
     edge is searched, so that slip at the far corner does not count. Zero if nothing slips faster.
     """
     near = x <= SEARCHED * x[-1]
-    rate = np.maximum(np.abs(slip_rate), 1e-300)
+    rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)  # also of single precision
     faster = np.flatnonzero(near & (rate > threshold))
     if faster.size == 0:
         return 0.0

@@ -39,7 +39,7 @@ COLUMNS = (
     "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
     "velocity_weakening", "friction_law", "below", "initial_stress", "initial_shear_stress",
     "simulated_time", "reached_length", "kind", "strength", "seed",
-    "far_side", *SECOND_BODY,
+    "correlation_length", "far_side", *SECOND_BODY,
 )  # fmt: skip
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
 
@@ -118,6 +118,7 @@ def declared(run: dict[str, Any]) -> dict[str, Any]:
         "kind": perturbation["kind"],
         "strength": perturbation["strength"] if acts else 0.0,
         "seed": perturbation["seed"],
+        "correlation_length": perturbation["correlation_length"],
     }
 
 

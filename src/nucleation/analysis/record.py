@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.event import FAST, WINDOW
@@ -39,6 +40,21 @@ class Record:
     ) -> None:
         self.simulation, self.settings = simulation, settings
         self.parameters = parameters_of(simulation)
+
+    def require(self, *names: str) -> None:
+        """Make sure of variables that not every level of recording has.
+
+        Raises
+        ------
+        DatasetError
+            If one was not recorded, naming the level.
+        """
+        missing = [name for name in names if name not in self.simulation]
+        if missing:
+            raise DatasetError(
+                f"{', '.join(missing)}: not recorded, as the run's recording.record is "
+                f"{self.parameters.recording.record}; simulate with interface or everything"
+            )
 
     @cached_property
     def grid(self) -> Grid:

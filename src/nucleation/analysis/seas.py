@@ -39,8 +39,11 @@ def time_series(simulation: xr.Dataset, position: float) -> str:
     ------
     ParameterError
         If the position is not on the interface.
+    DatasetError
+        If the run recorded only what lengths need.
     """
     record = Record(simulation)
+    record.require("slip", "shear_stress", "step_size")
     x, steps = record.x, simulation["step_size"].values[1:]
     if not x[0] <= position <= x[-1]:
         raise ParameterError(

@@ -18,7 +18,7 @@ from . import DONE, EXIT_CODES, UNKNOWN
 from .options import given_of, merged, parameter_options, planned
 
 if TYPE_CHECKING:
-    from ..configuration.studies import Run
+    from ..configuration.runs import Run
     from ..patch.expected_drop import ExpectedDrop
 
 USUAL = {"perturbation": "normal_load", "strength": 1e-3}  # a good machine's load is this steady

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from ..configuration.load import configure
-from ..configuration.studies import Run
+from ..configuration.runs import Run
 from ..configuration.study_names import study_parameters
 from ..model.friction.constants import CONSTANT_ALIASES, CONSTANTS, with_constants
 from ..model.friction.law import Friction

@@ -17,8 +17,9 @@ import click
 
 from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from ..configuration.advice import advise
+from ..configuration.runs import Run
 from ..configuration.settings import Limits, estimated_megabytes
-from ..configuration.studies import Run, StudySettings
+from ..configuration.studies import StudySettings
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, declarations

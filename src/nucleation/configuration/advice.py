@@ -17,7 +17,7 @@ from ..theory.estimates import (
     growth_time,
     process_zone,
 )
-from .studies import Run
+from .runs import Run
 
 ELEMENTS_PER_ZONE = 3.0
 """Least elements per process zone: below, the front is not resolved (Day and others, 2005)."""

@@ -11,15 +11,19 @@ from ..model.linearised import InterfaceState
 from ..model.parameters import FIRST_STEP, Parameters
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.quantities import ParameterError
+from ..model.recording import STUCK_BELOW
 from ..theory.critical import NoInstability, theory_length
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from ..verification.crosscheck.plan import runs as crosscheck_runs
+from .runs import Run
 from .settings import Limits, estimated_megabytes
-from .studies import Run
 
 LONGEST_ID = 200
 """Characters of an identifier: with its suffixes it is a file's name, of 255 bytes at most."""
+
+SHOWN = "paper"
+"""The study of which figures show more than lengths."""
 
 CODE = ("src", "workflow", "config", "docs", "tests")
 """Directories of the checkout in which results have no place."""
@@ -86,12 +90,31 @@ def run_problems(
             f"in [{extraction.drop:g}, 1), or be left out"
         )
     yield from _perturbation_problems(key, run.parameters)
+    yield from _recording_problems(key, run, extraction)
     if len(run.id) > LONGEST_ID:
         yield (
             f"{key}: {run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
             f"characters, more than {LONGEST_ID}; put what does not vary into the study's defaults"
         )
     yield from memory_problems(key, run.parameters, limits)
+
+
+def _recording_problems(key: str, run: Run, extraction: ExtractionSettings) -> Iterator[str]:
+    """Less recorded than is to be read from it."""
+    recording, low = run.parameters.recording, extraction.edge_threshold_low
+    if recording.covers("interface"):
+        return
+    if low < STUCK_BELOW:
+        yield (
+            f"{key}: record = {recording.record} is not allowed with extraction.edge_threshold_low "
+            f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must be interface "
+            f"or everything, or the threshold in [{STUCK_BELOW:g}, 1]"
+        )
+    if run.study == SHOWN:
+        yield (
+            f"{key}: record = {recording.record} is not allowed in the study {SHOWN}, of which "
+            "figures show the interface: it must be interface or everything"
+        )
 
 
 def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:

@@ -10,7 +10,7 @@ import difflib
 import numbers
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import Any
 
 import jsonschema
@@ -26,18 +26,11 @@ from ..model.quantities import ParameterError, refusal
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import results_problems, run_problems, setting_problems
+from .grids import LARGEST_GRID, expand, grid_size, range_problem
+from .runs import Run
 from .settings import FigureSettings, Limits
 from .strict_yaml import read_yaml
-from .studies import (
-    LARGEST_GRID,
-    Run,
-    StudySettings,
-    expand,
-    grid_size,
-    range_problem,
-    study_runs,
-    study_settings,
-)
+from .studies import StudySettings, study_runs, study_settings
 from .units_in import read_units
 
 
@@ -100,8 +93,16 @@ def load(path: str | os.PathLike[str]) -> Configuration:
     return configure(read_yaml(path))
 
 
-def configure(values: Any) -> Configuration:
+def configure(values: Any, only: Collection[str] | None = None) -> Configuration:
     """The configuration in plain dictionaries, as read from YAML.
+
+    Parameters
+    ----------
+    values : mapping
+        As it stands in the file.
+    only : collection of str, optional
+        Names of runs and batches: those of studies without these are left out, whose
+        configuration has been checked before.
 
     Raises
     ------
@@ -120,7 +121,7 @@ def configure(values: Any) -> Configuration:
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
-        found.extend(study_runs(name, study, base, interface))
+        found.extend(study_runs(name, study, base, interface, only))
     settings = {k: v for k, v in groups.items() if k != "figures"}
     _stop_on(
         [

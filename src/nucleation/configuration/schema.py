@@ -14,11 +14,13 @@ from ..model.material import Material
 from ..model.parameters import Loading, Stepping
 from ..model.perturbation import Perturbation
 from ..model.quantities import Quantity, declarations
+from ..model.recording import Recording
 from ..model.second_body import SecondBody
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
+from .grids import RANGE
 from .settings import FigureSettings, Limits
-from .studies import RANGE, StudySettings
+from .studies import StudySettings
 from .study_names import other_names, study_parameters
 
 Node = dict[str, Any]
@@ -31,6 +33,7 @@ GROUPS: dict[str, type] = {
     "stepping": Stepping,
     "perturbation": Perturbation,
     "second_body": SecondBody,
+    "recording": Recording,
     "main_text_interface": InterfaceState,
     "curves": Curves,
     "extraction": ExtractionSettings,

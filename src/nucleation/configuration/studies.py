@@ -5,31 +5,25 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..model.friction.constants import CONSTANTS, constants, with_constants
+from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import (
     InterfaceState,
     linearised,
     loaded,
 )
-from ..model.parameters import Parameters, names
-from ..model.quantities import Checked, ParameterError, Quantity, quantity
+from ..model.parameters import Parameters
+from ..model.quantities import Checked, ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
 from ..theory.transfer import bodies_of
+from .grids import expand
+from .runs import Run, varied
 from .study_names import by_study_name, identifier, study_parameters
-
-RANGE: dict[str, Quantity] = {
-    "num": Quantity("number of values", low=2, high=10000, closed="both", kind="int"),
-    "scale": Quantity("spacing of the values", choices=("linear", "log")),
-}
-"""Keys of a range beside ``start`` and ``stop``, which have the parameter's own declaration."""
-
-LARGEST_GRID = 10000
-"""Simulations that one entry of a study may stand for."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,56 +45,16 @@ class StudySettings(Checked):
         "lengths and simulations; or into its own table alone",
         choices=("lengths", "own"), default="lengths",
     )  # fmt: skip
-
-
-@dataclasses.dataclass(frozen=True)
-class Run:
-    """One simulation of a study, with the length the linear theory predicts for it (m).
-
-    The length is NaN where homogeneous sliding is stable: a control run.
-    """
-
-    id: str
-    study: str
-    parameters: Parameters
-    theory_length: float
-    interface: InterfaceState = InterfaceState()  # friction of the theory
-    given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
-
-    def to_dict(self) -> dict[str, Any]:
-        """The run as plain nested dictionaries."""
-        return {k: v for k, v in dataclasses.asdict(self).items() if k != "given"}
-
-    def value(self, name: str) -> Any:
-        """What a parameter of studies is in this run, also if its study doesn't give it."""
-        if name in self.given:
-            return self.given[name]
-        friction, loading = self.parameters.friction, self.parameters.loading
-        if name in CONSTANTS:
-            return constants(friction, loading.velocity)[name]
-        return self.parameters.named().get(names().full(name))  # None: its law has no such thing
-
-    @property
-    def labels(self) -> dict[str, Any]:
-        """What tells runs apart: study, law, height (m) and phi0 (s)."""
-        return {
-            "study": self.study,
-            "law": self.parameters.friction.evolution,
-            "height": self.parameters.geometry.height,
-            "phi0": self.parameters.loading.initial_state,
-        }
-
-
-def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
-    """The parameters that differ among runs of a study, each with its values in their order.
-
-    Only what the study gives is looked at: a block's length that follows from the theory is not.
-    """
-    runs = list(runs)
-    given = [name for name in study_parameters() if any(name in run.given for run in runs)]
-    given.sort(key=lambda name: name != "height")  # first
-    values = {name: [run.value(name) for run in runs] for name in given}
-    return {name: found for name, found in values.items() if len(set(found)) > 1}
+    runs_per_job: int = quantity(
+        "simulations that one job makes, one after another; more than one where runs take seconds, "
+        "and nothing but their lengths is asked for",
+        low=1, high=10000, closed="both", default=1,
+    )  # fmt: skip
+    measure: str = quantity(
+        "what is measured of each run: lengths at the drop, or the length at which the patch turns "
+        "unstable too; the latter if runs_per_job is more than one",
+        choices=("lengths", "stability"), default="lengths",
+    )  # fmt: skip
 
 
 CURVE_POINTS = 81
@@ -139,53 +93,11 @@ def theory_curves(
         low, high = min(ends), max(ends)
         spaced = np.geomspace if low > 0.0 else np.linspace
         x = spaced(low, high, CURVE_POINTS).tolist()
-        cases = [_prepared(settings, [], run.given | {name: value}, base, main_text) for value in x]
+        points = [_Given("", (), run.given | {name: value}) for value in x]
+        cases = [_prepared(settings, point, base, main_text) for point in points]
         rounded = [float(f"{length:.8g}") for length in _theory_lengths(cases)]
         curves[kind] = {"x": [float(f"{value:.8g}") for value in x], "length": rounded}
     return curves
-
-
-def first_realisations(runs: Iterable[Run]) -> list[Run]:
-    """The runs without those that differ from an earlier one in the declared seed alone."""
-    faults: dict[Any, Run] = {}
-    for run in runs:
-        faults.setdefault((run.study, run.parameters.replaced({"perturbation.seed": 0})), run)
-    return list(faults.values())
-
-
-def expand(value: Any) -> tuple[Any, ...]:
-    """The values meant by a value, a list of values or a range, in the order given.
-
-    Values of a range are rounded to six significant digits, which identifiers then state exactly.
-    """
-    if isinstance(value, list):
-        return tuple(value)
-    if not isinstance(value, dict):
-        return (value,)
-    spaced = np.geomspace if value.get("scale", "linear") == "log" else np.linspace
-    return tuple(float(f"{x:.6g}") for x in spaced(value["start"], value["stop"], value["num"]))
-
-
-def grid_size(entry: dict[str, Any]) -> int:
-    """The number of simulations that an entry of a study stands for."""
-    return math.prod(
-        value["num"] if isinstance(value, dict) else len(value) if isinstance(value, list) else 1
-        for key, value in entry.items()
-        if key != "defaults"
-    )
-
-
-def range_problem(value: Any) -> str | None:
-    """Why a range can't be expanded, or None."""
-    if not isinstance(value, dict):
-        return None
-    if not value["start"] < value["stop"]:
-        return f"start {value['start']!r} must be less than stop {value['stop']!r}"
-    if value.get("scale") == "log" and not value["start"] > 0.0:
-        return f"start {value['start']!r} must be positive on a log scale"
-    if len(set(expand(value))) < value["num"]:
-        return f"its {value['num']} values from {value['start']!r} on are not all different"
-    return None
 
 
 def study_settings(study: dict[str, Any]) -> StudySettings:
@@ -194,7 +106,11 @@ def study_settings(study: dict[str, Any]) -> StudySettings:
 
 
 def study_runs(
-    name: str, study: dict[str, Any], base: Parameters, main_text: InterfaceState
+    name: str,
+    study: dict[str, Any],
+    base: Parameters,
+    main_text: InterfaceState,
+    only: Collection[str] | None = None,
 ) -> Iterator[tuple[str, Run | str]]:
     """The runs of a study, each with the key it comes from; a string in place of a bad run.
 
@@ -208,26 +124,71 @@ def study_runs(
         Values of all that the study does not set.
     main_text : InterfaceState
         The main text's rounded interface.
+    only : collection of str, optional
+        Names of runs and batches: no others are looked at.
     """
     settings = study_settings(study)
-    defaults = study.get("defaults", {})
-    prepared: list[tuple[str, _Prepared | str]] = []
-    for number, entry in enumerate(study["runs"]):
-        key = f"studies.{name}.runs[{number}]"
-        given = {name: value for name, value in entry.items() if name != "defaults"}
-        usual = [defaults, entry.get("defaults", {})]
-        for values in itertools.product(*map(expand, given.values())):
-            varied = dict(zip(given, values, strict=True))
-            try:
-                prepared.append((key, _prepared(settings, usual, varied, base, main_text)))
-            except ParameterError as error:
-                prepared.append((key, str(error)))
-    lengths = _theory_lengths(run for _, run in prepared if isinstance(run, _Prepared))
-    for key, run in prepared:
+    asked = _given(name, study)
+    batches = -(-len(asked) // settings.runs_per_job)
+    prepared: list[tuple[_Given, str, _Prepared | str]] = []
+    for number, given in enumerate(asked):
+        # one in so many, so that all batches take the same time
+        batch = f"{name}-{number % batches:0{len(str(batches))}d}"
+        batch = batch if settings.runs_per_job > 1 else ""
+        if only is not None and (batch or _identifier(name, given, base)) not in only:
+            continue
         try:
-            yield key, run if isinstance(run, str) else _run(name, settings, run, next(lengths))
+            prepared.append((given, batch, _prepared(settings, given, base, main_text)))
         except ParameterError as error:
-            yield key, str(error)
+            prepared.append((given, batch, str(error)))
+    lengths = _theory_lengths(run for *_, run in prepared if isinstance(run, _Prepared))
+    for given, batch, run in prepared:
+        try:
+            found = run if isinstance(run, str) else _run(name, settings, run, next(lengths))
+            yield given.key, found if isinstance(found, str) else replace(found, batch=batch)
+        except ParameterError as error:
+            yield given.key, str(error)
+
+
+class _Given(NamedTuple):
+    """What a study gives for one run."""
+
+    key: str  # place in the configuration
+    usual: tuple[dict[str, Any], ...]  # defaults of the study and of the entry
+    varied: dict[str, Any]
+
+
+def _given(name: str, study: dict[str, Any]) -> list[_Given]:
+    """What a study gives for each of its runs."""
+    found = []
+    for number, entry in enumerate(study["runs"]):
+        values = {name: value for name, value in entry.items() if name != "defaults"}
+        usual = study.get("defaults", {}), entry.get("defaults", {})
+        key = f"studies.{name}.runs[{number}]"
+        found += [
+            _Given(key, usual, dict(zip(values, chosen, strict=True)))
+            for chosen in itertools.product(*map(expand, values.values()))
+        ]
+    return found
+
+
+def _all_given(given: _Given) -> dict[str, Any]:
+    """All values for a run, by the names that parameters go by."""
+    values: dict[str, Any] = {}
+    for part in (*given.usual, given.varied):
+        values |= by_study_name(part)
+    return values
+
+
+def _identifier(study: str, given: _Given, base: Parameters) -> str:
+    """The name of a run that is as the study gives it."""
+    values = _all_given(given)
+    labels = {
+        "law": values.get("law", base.friction.evolution),
+        "height": values.get("height", base.geometry.height),
+        "phi0": values.get("phi0", base.loading.initial_state),
+    }
+    return identifier(study, labels, by_study_name(given.varied))
 
 
 class _Prepared(NamedTuple):
@@ -240,22 +201,16 @@ class _Prepared(NamedTuple):
 
 
 def _prepared(
-    settings: StudySettings,
-    defaults: Iterable[dict[str, Any]],
-    varied: dict[str, Any],
-    base: Parameters,
-    main_text: InterfaceState,
+    settings: StudySettings, given: _Given, base: Parameters, main_text: InterfaceState
 ) -> _Prepared:
-    varied = by_study_name(varied)
-    values: dict[str, Any] = {}
-    for given in (*defaults, varied):
-        values |= by_study_name(given)
+    varied = by_study_name(given.varied)
+    values = _all_given(given)
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     parameters = base.replaced({k: v for k, v in values.items() if k not in CONSTANTS})
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
-    parameters = dataclasses.replace(parameters, friction=friction)
+    parameters = replace(parameters, friction=friction)
     if settings.interface == "main_text":
         interface = loaded(main_text, loading)
     else:
@@ -292,7 +247,7 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
             f"length = {length:g} m is not allowed: the block must be longer than the critical "
             f"nucleation length of the theory, {critical:.3g} m, better 6 times as long"
         )
-    geometry = dataclasses.replace(parameters.geometry, length=float(length))
-    parameters = dataclasses.replace(parameters, geometry=geometry)
+    geometry = replace(parameters.geometry, length=float(length))
+    parameters = replace(parameters, geometry=geometry)
     run = Run("", study, parameters, critical, interface, values)
-    return dataclasses.replace(run, id=identifier(study, run.labels, varied))
+    return replace(run, id=identifier(study, run.labels, varied))

@@ -16,8 +16,7 @@ from ..model.quantities import ParameterError, Quantity
 
 def study_parameters() -> dict[str, Quantity]:
     """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
-    known = names()
-    return {known.short(full): entry for full, entry in known.items()} | CONSTANTS
+    return names().by_short | CONSTANTS
 
 
 def other_names() -> dict[str, str]:

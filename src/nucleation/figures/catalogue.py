@@ -58,6 +58,10 @@ FIGURES: dict[str, Entry] = {
         "Where the force drops under a declared perturbation", BEYOND, ("drop", "quiet"),
         (Data("drop"),),
     ),
+    "figure_map": Entry(
+        "Where the theory is right: a map over height and weakening", BEYOND, ("map",),
+        (Data("map"),),
+    ),
     "figure_patch_stability": Entry(
         "Stability of the creeping patch", BEYOND, ("paper", "twin_runs"),
         (PATCHES, Data("twin_runs")),

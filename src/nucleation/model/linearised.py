@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import lru_cache
 
 from .friction.law import Friction
 from .parameters import Loading, Parameters
@@ -49,6 +50,7 @@ def interface_state(parameters: Parameters) -> InterfaceState:
     )  # fmt: skip
 
 
+@lru_cache(maxsize=4096)
 def linearised(friction: Friction, loading: Loading) -> InterfaceState:
     """The friction law of a run, expanded about steady sliding at the imposed velocity."""
     f0, a, zeta = friction.expansion(loading.velocity)

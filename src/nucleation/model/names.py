@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 
 from .quantities import ParameterError, Quantity
 
@@ -60,6 +61,11 @@ class Names(Mapping[str, Quantity]):
         """The name by which a parameter goes: its alias, its last part, or the full name."""
         last = full.rpartition(".")[2]
         return self._alias.get(full) or (last if self._meant[last] == [full] else full)
+
+    @cached_property
+    def by_short(self) -> dict[str, Quantity]:
+        """Declarations by the name by which a parameter goes."""
+        return {self.short(full): entry for full, entry in self._entries.items()}
 
     def others(self, full: str) -> list[str]:
         """All names of a parameter but the one by which it goes."""

@@ -12,7 +12,8 @@ from .friction.registry import LAWS, law_declarations
 from .material import Material
 from .names import Names
 from .perturbation import Perturbation
-from .quantities import Checked, ParameterError, Quantity, declarations, quantity
+from .quantities import Checked, ParameterError, Quantity, declarations, plain, quantity
+from .recording import Recording
 from .second_body import SecondBody
 
 EVENT_DROP = 0.02
@@ -119,6 +120,7 @@ class Parameters:
     stepping: Stepping = Stepping()
     perturbation: Perturbation = Perturbation()
     second_body: SecondBody = SecondBody()
+    recording: Recording = Recording()
 
     @property
     def below(self) -> Below | None:
@@ -147,7 +149,7 @@ class Parameters:
 
     def to_dict(self) -> dict[str, dict[str, Any]]:
         """The parameters as nested plain dictionaries."""
-        return dataclasses.asdict(self)
+        return {name: plain(getattr(self, name)) for name in GROUPS}
 
     def named(self) -> dict[str, Any]:
         """The values by full name, ``geometry.height``."""
@@ -158,10 +160,10 @@ class Parameters:
     def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value.
 
-        Perturbation and second body may be left out, as in records older than they are, which are
-        quiet and on a rigid base.
+        Groups may be left out that records are older than: these are quiet, on a rigid base and
+        record everything.
         """
-        values = {"perturbation": {}, "second_body": {}} | values
+        values = {"perturbation": {}, "second_body": {}, "recording": {}} | values
         return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
@@ -184,8 +186,9 @@ class Parameters:
         others = {
             group: dataclasses.replace(getattr(self, group), **own)
             for group, own in changes.items()
+            if own  # a study of thousands of runs changes one or two groups
         }
-        return Parameters(friction=friction, **others)
+        return dataclasses.replace(self, friction=friction, **others)
 
     def to_json(self) -> str:
         """The parameters as JSON text, as datasets carry them."""
@@ -200,7 +203,7 @@ class Parameters:
 GROUPS: dict[str, type] = {
     "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
     "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
-    "second_body": SecondBody,
+    "second_body": SecondBody, "recording": Recording,
 }  # fmt: skip
 """The groups of :class:`Parameters` and their classes."""
 

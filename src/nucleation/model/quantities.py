@@ -111,6 +111,11 @@ class Checked:
         return f"{cls.__name__}.{name}"
 
 
+def plain(group: Any) -> dict[str, Any]:
+    """The fields of a dataclass of plain values, which need none of ``asdict`` and its copies."""
+    return {field.name: getattr(group, field.name) for field in dataclasses.fields(group)}
+
+
 def check(key: str, value: Any, entry: Quantity) -> None:
     """Raise a :class:`ParameterError` unless `entry` allows `value`."""
     if not entry.allows(value):

@@ -12,7 +12,7 @@ import traceback
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, NamedTuple
 
 import xarray as xr
 
@@ -24,6 +24,14 @@ from .keys import Store
 
 EXPECTED = (DatasetError, ParameterError, code.CodeError, OSError)
 """Failures that are told in one line: what to do about them is outside of the code."""
+
+
+class Result(NamedTuple):
+    """A dataset that bears its key: its place, the key, and the digest of what makes it."""
+
+    path: Path
+    key: str
+    code: str
 
 
 class Job:
@@ -74,6 +82,11 @@ class Job:
         print(f"done in {time.monotonic() - self._began:.1f} s", file=sys.stderr)
 
     @property
+    def own(self) -> Result:
+        """The job's first result."""
+        return Result(Path(self.output[0]), self.key, self.params.code)
+
+    @property
     def _store(self) -> Store:
         return Store(self._snakemake.config.get("results", "results"))
 
@@ -118,14 +131,11 @@ class Job:
         """Several inputs, read one at a time."""
         return map(self.read, paths)
 
-    def attributes(self, parameters: Any) -> dict[str, str]:
-        """Attributes of a dataset that say how this job made it."""
+    def attributes(self, parameters: Any, result: Result | None = None) -> dict[str, str]:
+        """Attributes of a dataset that say how this job made it; of its own or another result."""
+        made = result or self.own
         return provenance.attributes(
-            parameters,
-            self.params.code,
-            f"snakemake {self.output[0]}",
-            self._sources(),
-            key=self.key,
+            parameters, made.code, f"snakemake {made.path}", self._sources(), key=made.key
         )
 
     def _sources(self) -> Mapping[str, str]:
@@ -145,19 +155,19 @@ class Job:
 
     # -- results that cost much -----------------------------------------------------------------
 
-    def fetched(self) -> bool:
-        """Whether the job's dataset was found under its key, in the cache or kept from before."""
-        output = Path(self.output[0])
+    def fetched(self, result: Result | None = None) -> bool:
+        """Whether a dataset was found under its key, in the cache or kept from before."""
+        wanted = result or self.own
         shared = cache.shared()
         for place in (self._store.results / cache.KEPT, *([shared] if shared else [])):
-            if cache.fetch(place, self.key, output):
+            if cache.fetch(place, wanted.key, wanted.path):
                 print(f"taken from {place}", file=sys.stderr)
                 return True
         return False
 
-    def keep(self) -> None:
-        """Keep the job's dataset under its key, for others and for what may still fail."""
-        output = Path(self.output[0])
-        cache.hold(self._store.results, self.key, output)
+    def keep(self, result: Result | None = None) -> None:
+        """Keep a dataset under its key, for others and for what may still fail."""
+        made = result or self.own
+        cache.hold(self._store.results, made.key, made.path)
         if shared := cache.shared():
-            cache.keep(shared, self.key, output)
+            cache.keep(shared, made.key, made.path)

@@ -23,8 +23,21 @@ from snakemake.settings.enums import RerunTrigger
 from . import code, keys
 from .keys import Store
 
-ABOUT_THE_JOB = ("key", "code", "modules", "made", "expected")
+ABOUT_THE_JOB = ("key", "code", "modules", "made", "expected", "places")
 """Parameters of rules that are no parameters of a result."""
+
+
+def names_asked_for(workflow: Any) -> set[str] | None:
+    """Names of the runs and batches that a job's own Snakemake is to make; None if of all.
+
+    A job on a cluster is another Snakemake. It needs to know of no other run than its own, as long
+    as all that it makes is known by name and key.
+    """
+    jobs = [] if workflow.is_main_process else workflow.dag_settings.target_jobs
+    named = [dict(job.wildcards_dict) for job in jobs]
+    if not named or any("key" not in wildcards for wildcards in named):
+        return None
+    return {wildcards["name"] for wildcards in named}
 
 
 class Planner:

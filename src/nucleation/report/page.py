@@ -23,7 +23,7 @@ from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..patch.mode_history import ModeHistory
-from ..report import drop_law, encode, explorer, faults, own, tables
+from ..report import drop_law, encode, explorer, faults, length_map, own, tables
 from .captions import caption_html
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 SEEN = (2e-3, 1.0)
 """Heights (m) that the page shows first; so close that the curve looks smooth on either axes."""
 
-SCRIPTS = ("theory.js", "page.js", "drop.js")
+SCRIPTS = ("theory.js", "page.js", "drop.js", "map.js")
 
 CURVES = ("slip_rate", "stress_ratio", "state")
 
@@ -111,6 +111,7 @@ def build(content: Content) -> str:
         length_columns=tables.LENGTH_COLUMNS,
         lengths=tables.length_rows(lengths) if lengths is not None else [],
         drop=data["drop"],
+        map=data["map"],
         drop_words=drop_law.WORDS,
         run=_run(content),
         origin=_origin(content),
@@ -136,6 +137,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": _player(content),
         "drop": drop_law.in_page(content.modes, content.interface),
+        "map": length_map.in_page(content.results.get("map")),
         "colours": {
             "theory": style.THEORY,
             "mark": style.VERMILLION,

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
+from ..model.recording import STUCK_BELOW
 from .event import FAST, WINDOW, DropWatch
 from .forcing import Perturbed
 from .state import State
@@ -18,6 +20,9 @@ Array = NDArray[np.float64]
 
 LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
+INTERFACE = ("slip_rate", "state", "normal_stress", "slip", "shear_stress")
+FOR_LENGTHS = INTERFACE[:3]  # of which patch, edge and the frozen patch's stability are made
+PER_STEP = ("step_time", "driving_force", "maximal_slip_rate", "step_size", "newton_iterations")
 BULK = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
 FRAME_STEPS = 40  # and at least every so many steps
 SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
@@ -27,9 +32,10 @@ class Recorder:
     """Collects the states of one run and makes the dataset."""
 
     def __init__(self, parameters: Parameters, dynamics: Dynamics) -> None:
-        self.parameters = parameters
+        self.parameters, self._level = parameters, parameters.recording
         self.grid, self._body, self._drive = dynamics.grid, dynamics.body, dynamics.drive
         self._velocity = parameters.loading.velocity
+        self._fields = INTERFACE if self._level.covers("interface") else FOR_LENGTHS
         self._longest_pause = LONGEST_PAUSE * parameters.memory_time
         self._rows: list[tuple[float, float, float, float, int]] = []
         self._frames: list[tuple[float, Array]] = []
@@ -80,12 +86,14 @@ class Recorder:
         interface, lengths = report.interface, self.grid.nodal_lengths
         slip = self._drive.at(state.time).displacement + np.append(0.0, interface.w)
         fields = (
-            interface.slip_rate, np.exp(interface.log_state), slip,
-            -interface.tangential / lengths, -interface.normal / lengths,
+            interface.slip_rate, np.exp(interface.log_state), -interface.normal / lengths,
+            slip, -interface.tangential / lengths,
         )  # fmt: skip
-        self._frames.append((state.time, np.array(fields)))
+        self._frames.append((state.time, np.array(fields[: len(self._fields)])))
 
     def _maybe_snapshot(self, state: State, fastest: float) -> None:
+        if not self._level.covers("everything"):
+            return
         rates = SNAPSHOT_RATES[self._next_snapshot_rate :]
         exceeded = sum(fastest > rate * self._velocity for rate in rates)
         if not self._snapshots or exceeded:
@@ -136,25 +144,40 @@ class Recorder:
         self._time = self._rows[-1][0]
 
     def dataset(self) -> xr.Dataset:
-        """Everything recorded, without metadata of the variables."""
-        frame_names = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
-        row_names = (
-            "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
-        )  # fmt: skip
+        """What was recorded, without metadata of the variables."""
+        times = np.array([t for t, _ in self._frames])
         frames = np.array([fields for _, fields in self._frames])
-        bulk = np.array([fields for _, fields in self._snapshots])
-        rows = [np.array(column) for column in zip(*self._rows, strict=True)]
-        data = {name: (("time", "x"), frames[:, i]) for i, name in enumerate(frame_names)}
-        data |= {name: (("step",), row) for name, row in zip(row_names, rows, strict=True)}  # type: ignore[misc]
-        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(BULK)}  # type: ignore[misc]
-        data["snapshot_time"] = (("snapshot",), np.array([t for t, _ in self._snapshots]))  # type: ignore[assignment]
+        time, size, force, fastest, iterations = map(np.array, zip(*self._rows, strict=True))
+        rows = dict(zip(PER_STEP, (time, force, fastest, size, iterations), strict=True))
+        data: dict[str, Any] = {name: (("step",), values) for name, values in rows.items()}
+        data |= {name: (("time", "x"), frames[:, i]) for i, name in enumerate(self._fields)}
+        dataset = xr.Dataset(data, {"time": times, "x": self.grid.x})
+        dataset.attrs["parameters"] = self.parameters.to_json()
+        if not self._level.covers("interface"):
+            return self._for_lengths(dataset)
         if isinstance(self._drive, Perturbed):
-            frame_times = np.array([t for t, _ in self._frames])
-            data["perturbation"] = self._drive.realised(rows[0], frame_times)  # type: ignore[assignment]
-        coords = {"time": [t for t, _ in self._frames], "x": self.grid.x, "y": self.grid.y}
+            dataset["perturbation"] = self._drive.realised(time, times)
+        return dataset.assign(self._bodies()) if self._level.covers("everything") else dataset
+
+    def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:
+        """Less: without what no length needs, and zero where the fault is stuck."""
+        fast = np.abs(dataset["slip_rate"].values) >= STUCK_BELOW * self._velocity
+        slips = fast.copy()
+        slips[:, 1:] |= fast[:, :-1]  # and nodes beside it, between which edges are
+        slips[:, :-1] |= fast[:, 1:]
+        kept = {name: dataset[name].where(slips, 0.0).astype(np.float32) for name in FOR_LENGTHS}
+        return dataset.drop_vars(PER_STEP[3:]).assign(kept)
+
+    def _bodies(self) -> xr.Dataset:
+        """The snapshots of the bodies."""
+        bulk = np.array([fields for _, fields in self._snapshots])
+        times = np.array([t for t, _ in self._snapshots])
+        data: dict[str, Any] = {"snapshot_time": (("snapshot",), times)}
+        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(BULK)}
+        coords = {"y": self.grid.y, "x": self.grid.x}
         below = self._body.grid_below
         if below is not None:
             coords["second_y"] = -below.y
             for i, values in enumerate(np.moveaxis(np.array(self._snapshots_below), 1, 0)):
-                data[f"second_{BULK[i]}"] = ("snapshot", "second_y", "x"), values  # type: ignore[assignment]
-        return xr.Dataset(data, coords=coords, attrs={"parameters": self.parameters.to_json()})
+                data[f"second_{BULK[i]}"] = ("snapshot", "second_y", "x"), values
+        return xr.Dataset(data, coords=coords)

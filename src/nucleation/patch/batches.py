@@ -1,0 +1,48 @@
+"""What is measured of runs that one job makes after another: their rows of a table."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..analysis import lengths
+from ..analysis.definitions import ExtractionSettings
+from .growth import FITTED, follow_patch
+
+STABILITY = FITTED[:1] + FITTED[3:4]
+"""The length at which the patch turns unstable, and its standard error."""
+
+
+def measured(
+    run: dict[str, Any], record: xr.Dataset, settings: ExtractionSettings, measure: str
+) -> xr.Dataset:
+    """The row of a run: :data:`nucleation.analysis.lengths.COLUMNS`, on ``run``.
+
+    Parameters
+    ----------
+    run : of :meth:`nucleation.configuration.runs.Run.to_dict`.
+    record : of :func:`nucleation.simulation.run.simulate`.
+    settings : how lengths are read.
+    measure : ``lengths``; or ``stability``, with :data:`STABILITY` beside them.
+    """
+    row = lengths.gather([run], [record], settings)
+    if measure == "stability":
+        patch = follow_patch(record, settings)
+        row = row.assign({name: ("run", [float(patch[name])]) for name in STABILITY})
+    said = {name: row[name].values[0] for name in ("onset_time", "length", "steps", "wall_seconds")}
+    print(
+        "{id}: onset {onset_time:.4f} s, length {length:.5g} m, {steps} steps in "
+        "{wall_seconds:.1f} s".format(id=run["id"], **said),
+        file=sys.stderr,
+    )
+    return row
+
+
+def in_order(table: xr.Dataset, ids: Sequence[str]) -> xr.Dataset:
+    """The rows of a table in the order of some ids, which are those of its rows."""
+    places = {name: i for i, name in enumerate(table["id"].values.tolist())}
+    return table.isel(run=np.array([places[name] for name in ids], dtype=int))

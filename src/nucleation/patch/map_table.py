@@ -1,0 +1,63 @@
+"""The map of a fault's lengths over its height and its weakening: a table, and on a grid.
+
+Beside the theory's critical length stand the two lengths of the simulated patch: where it turns
+unstable, and where the force drops under a declared perturbation.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+COLUMNS = (
+    "id", "height", "zeta_over_a", "kind", "strength", "seed", "onset_time", "length", "length_low",
+    "length_high", "theory_length", "length_ratio", "stability_length", "stability_length_error",
+    "stability_ratio", "n_x", "steps", "wall_seconds", "status",
+)  # fmt: skip
+
+AXES = ("height", "zeta_over_a", "strength", "seed")
+"""What the grid is over."""
+
+ON_GRID = ("length", "length_ratio", "stability_length", "stability_ratio", "onset_time")
+
+DIGITS = 6
+"""Significant digits by which values of an axis are the same."""
+
+
+def gather(lengths: xr.Dataset) -> xr.Dataset:
+    """:data:`COLUMNS` on ``run``, of a table of lengths with the stability of each patch."""
+    ratio = lengths["velocity_weakening"].values / lengths["direct_effect"].values
+    theory = lengths["theory_length"].values
+    added = {
+        "zeta_over_a": np.array([float(f"{value:.{DIGITS}g}") for value in ratio]),
+        "length_ratio": lengths["length"].values / theory,
+        "stability_ratio": lengths["stability_length"].values / theory,
+    }
+    table = lengths.assign({name: ("run", values) for name, values in added.items()})
+    return table[list(COLUMNS)].drop_attrs()
+
+
+def on_grid(table: xr.Dataset) -> xr.Dataset:
+    """The same over the dimensions :data:`AXES`; NaN where the study has no run.
+
+    The theory's length depends on height and weakening alone.
+    """
+    axes = {name: np.unique(table[name].values) for name in AXES}
+    places = tuple(np.searchsorted(axes[name], table[name].values) for name in AXES)
+    shape = tuple(values.size for values in axes.values())
+    data: dict[str, Any] = {}
+    for name in ON_GRID:
+        values = np.full(shape, np.nan)
+        values[places] = table[name].values
+        data[name] = AXES, values
+    theory = np.full(shape[:2], np.nan)
+    theory[places[:2]] = table["theory_length"].values
+    data["theory_length"] = AXES[:2], theory
+    return xr.Dataset(data, coords=axes)
+
+
+def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
+    """The mean of a variable over realisations; NaN where one of them has none."""
+    return grid[name].mean("seed", skipna=False)

@@ -1,0 +1,70 @@
+"""The map of lengths: rows of a table on their places of a grid, and what is drawn of them."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.figures.beyond import figure_map
+from nucleation.patch.map_table import AXES, COLUMNS, gather, mean_over_seeds, on_grid
+from nucleation.report.length_map import in_page
+
+HEIGHTS, WEAKENINGS, STRENGTHS, SEEDS = [0.01, 0.1, 1.0], [1.0, 3.0], [1e-5, 1e-3], [1, 2]
+
+
+def lengths(missing=()):
+    """A table of a map of 24 runs without some of them, in an order of no meaning."""
+    rows = [
+        (h, w, e, s) for h in HEIGHTS for w in WEAKENINGS for e in STRENGTHS for s in SEEDS
+        if (h, w, e, s) not in missing
+    ]  # fmt: skip
+    rows = [rows[i] for i in np.random.default_rng(3).permutation(len(rows))]
+    height, weakening, strength, seed = map(np.array, zip(*rows, strict=True))
+    theory = height**0.5 / weakening
+    columns = {
+        "height": height,
+        "strength": strength,
+        "seed": seed.astype(int),
+        "direct_effect": np.full(len(rows), 0.0068),
+        "velocity_weakening": 0.0068 * weakening,
+        "theory_length": theory,
+        "length": theory * (0.6 + 0.01 * seed + 10.0 * strength),
+        "stability_length": theory * 0.5,
+    }
+    others = {name: np.zeros(len(rows)) for name in COLUMNS if name not in columns}
+    return xr.Dataset({name: ("run", values) for name, values in (others | columns).items()})
+
+
+def test_every_run_is_in_its_place():
+    grid = on_grid(gather(lengths()))
+    assert tuple(grid["length"].dims) == AXES
+    at = {"height": 0.1, "zeta_over_a": 3.0}
+    theory = 0.1**0.5 / 3.0
+    assert float(grid["theory_length"].sel(at)) == pytest.approx(theory)
+    found = grid["length"].sel(at | {"strength": 1e-3, "seed": 2})
+    assert float(found) == pytest.approx(theory * 0.63)
+    ratio = mean_over_seeds(grid, "length_ratio")
+    np.testing.assert_allclose(ratio.sel(strength=1e-5), 0.6151)
+    np.testing.assert_allclose(grid["stability_ratio"], 0.5)
+
+
+def test_a_missing_run_is_a_gap_and_not_passed_over():
+    grid = on_grid(gather(lengths(missing=[(0.1, 3.0, 1e-5, 2)])))
+    ratio = mean_over_seeds(grid, "length_ratio").sel(strength=1e-5)
+    assert np.isnan(ratio.sel(height=0.1, zeta_over_a=3.0))
+    assert int(np.isnan(ratio).sum()) == 1
+    shown = in_page(grid)
+    assert shown["fields"][1]["length"][1][1] is None
+    assert shown["fields"][2]["length"][1][1] == pytest.approx(0.1**0.5 / 3.0 * 0.625, rel=1e-4)
+
+
+def test_figure_shows_the_ratios_and_the_lengths():
+    figure = figure_map.draw(on_grid(gather(lengths())))
+    stable, quiet, noisy, slices = figure.axes[:4]
+    for axes, value in ((stable, 0.5), (quiet, 0.6151), (noisy, 0.625)):
+        (image,) = axes.collections[:1]
+        np.testing.assert_allclose(image.get_array(), value, atol=1e-4)
+    curves = [line.get_ydata() for line in slices.lines if len(line.get_xdata()) == 3]
+    for i in range(0, len(curves), 3):
+        theory, drop, stability = curves[i : i + 3]
+        np.testing.assert_allclose(drop / theory, 0.6151, rtol=1e-4)
+        np.testing.assert_allclose(stability / theory, 0.5)

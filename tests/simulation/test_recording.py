@@ -1,0 +1,77 @@
+"""Levels of recording: what stands in the record of a run, and that less of it gives the same."""
+
+import os
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.extraction import extract
+from nucleation.analysis.record import Record
+from nucleation.analysis.seas import time_series
+from nucleation.datasets import netcdf
+from nucleation.datasets.variables import DatasetError
+from nucleation.model.parameters import Parameters
+from nucleation.patch.growth import follow_patch
+from nucleation.simulation.run import simulate
+
+ONE = Parameters().replaced(
+    {
+        "height": 0.02, "length": 1.83, "n_x": 80, "n_y": 4, "grading": 6.0, "tolerance": 5e-2,
+        "longest_step": 0.5, "time_after_event": 0.0, "end_time": 30.0, "strength": 1e-3,
+        "perturbation": "normal_load",
+    }
+)  # fmt: skip
+"""A run to its event of a tenth of the usual cost."""
+
+
+@pytest.fixture(scope="module")
+def records():
+    levels = ("everything", "interface", "lengths")
+    return {level: simulate(ONE.replaced({"record": level})) for level in levels}
+
+
+def test_bodies_are_in_the_record_of_everything_alone(records):
+    everything, interface = records["everything"], records["interface"]
+    assert {"snapshot", "y"} <= set(everything.sizes) and not {"snapshot", "y"} & {*interface.sizes}
+    for name in interface.variables:
+        np.testing.assert_array_equal(interface[name], everything[name])
+
+
+def test_lengths_and_stability_are_the_same_from_every_level(records):
+    settings = ExtractionSettings()
+    expected, found = extract(records["interface"]), extract(records["lengths"])
+    assert np.isfinite(expected["length"]) and found["onset_time"] == expected["onset_time"]
+    for name, value in expected.items():
+        assert found[name] == pytest.approx(value, rel=1e-6), name
+    one, other = (follow_patch(records[level], settings) for level in ("interface", "lengths"))
+    assert float(one["stability_length"]) > 0.0
+    for name in ("stability_length", "stability_frequency"):
+        assert float(other[name]) == pytest.approx(float(one[name]), rel=1e-5), name
+
+
+def test_the_smallest_record_is_small(records, tmp_path):
+    sizes = {}
+    for level, record in records.items():
+        path = tmp_path / f"{level}.nc"
+        netcdf.write(record, path)
+        sizes[level] = os.path.getsize(path)
+    assert sizes["lengths"] < 0.35 * sizes["interface"] < 0.35 * sizes["everything"]
+
+
+def test_what_was_not_recorded_is_said(records):
+    with pytest.raises(DatasetError, match=r"slip, shear_stress.*recording\.record is lengths"):
+        time_series(records["lengths"], 0.0)
+    assert time_series(records["interface"], 0.0).startswith("# ")
+    Record(records["lengths"]).require("slip_rate")
+
+
+@pytest.mark.parametrize("level", ["interface", "lengths"])
+def test_a_run_that_goes_on_records_the_same(level):
+    parameters = ONE.replaced({"record": level, "end_time": 0.3})
+    kept = []
+    whole = simulate(parameters, keep=lambda arrays: kept.append(arrays()) if not kept else None)
+    again = simulate(parameters, start=kept[0])
+    assert set(whole.variables) == set(again.variables)
+    for name in whole.variables:
+        np.testing.assert_array_equal(whole[name], again[name])

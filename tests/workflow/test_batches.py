@@ -1,0 +1,124 @@
+"""Many simulations in one job: the same results, found again one by one, whatever happens."""
+
+import os
+import signal
+import time
+
+import pandas as pd
+import pytest
+
+from nucleation.configuration.load import configure
+from nucleation.datasets import netcdf
+
+SHORT = {
+    "n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 0.2,
+    "record": "lengths",
+}  # fmt: skip
+
+
+def configuration(per_job, heights=(0.02, 0.03, 0.04, 0.05, 0.06), **changes):
+    study = {
+        "length_over_critical": 4.0,
+        "runs_per_job": per_job,
+        "defaults": SHORT | changes,
+        "runs": [{"height": list(heights)}],
+    }
+    return {"results": "results", "studies": {"many": study}}
+
+
+def lengths_of(workflow):
+    return pd.read_csv(workflow.directory / "results" / "lengths" / "many.csv")
+
+
+def datasets(workflow):
+    return {path.name: path for path in (workflow.directory / "results/simulations").glob("*.nc")}
+
+
+def test_batches_are_evenly_mixed_and_belong_to_the_names():
+    runs = configure(configuration(2)).runs
+    assert [run.batch for run in runs] == ["many-0", "many-1", "many-2", "many-0", "many-1"]
+    assert [run.batch for run in configure(configuration(1)).runs] == [""] * 5
+    (one, other) = configure(configuration(2), only={"many-1"}).runs
+    assert (one, other) == (runs[1], runs[4]) and other.batch == "many-1"
+    assert configure(configuration(1), only={runs[2].id}).runs == (runs[2],)
+
+
+@pytest.fixture(scope="module")
+def batched(workflow_type, tmp_path_factory):
+    """A study in batches of two, and the same with a job for each run."""
+    directory = tmp_path_factory.mktemp("batched")
+    (directory / "single").mkdir()
+    workflow = workflow_type(directory).configured(configuration(2))
+    single = workflow_type(directory / "single").configured(configuration(1))
+    assert workflow.planned("lengths")["batch"] == 3
+    for one in (workflow, single):
+        done = one("lengths", "--cores", "2")
+        assert done.returncode == 0, done.stdout
+    return workflow, single
+
+
+def test_results_are_those_of_single_jobs(batched):
+    workflow, single = batched
+    cost = ["wall_seconds", "peak_megabytes"]
+    pd.testing.assert_frame_equal(
+        lengths_of(workflow).drop(columns=cost), lengths_of(single).drop(columns=cost)
+    )
+    found, expected = datasets(workflow), datasets(single)
+    assert found.keys() == expected.keys() and len(found) == 5
+    for name, path in found.items():
+        one, other = netcdf.read(path), netcdf.read(expected[name])
+        assert one.drop_attrs().identical(other.drop_attrs())
+        assert one.attrs["key"] == other.attrs["key"]
+    assert workflow.planned("lengths") == {}
+
+
+def test_what_exists_is_not_made_again(batched):
+    workflow, _ = batched
+    before = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
+    more = workflow.configured(configuration(3, (0.02, 0.025, 0.03, 0.04, 0.05, 0.06)), "more.yaml")
+    done = more("lengths", "--cores", "1")
+    assert done.returncode == 0, done.stdout
+    after = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
+    assert before.items() <= after.items() and len(after) == 6
+    assert list(lengths_of(more)["height"]) == [0.02, 0.025, 0.03, 0.04, 0.05, 0.06]
+    checked = more("check", "--cores", "1", "--quiet", "all")
+    assert checked.returncode == 0, checked.stdout
+
+
+def test_runs_that_fail_do_not_take_the_others_with_them(workflow):
+    # a second step can't be as short as that: the run fails and says so
+    values = configuration(3, (0.02, 0.03, 0.04))
+    values["studies"]["many"]["runs"] = [
+        {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
+    ]  # fmt: skip
+    values["studies"]["many"]["defaults"]["tolerance"] = 1e-9
+    failing = workflow.configured(values)
+    done = failing("lengths", "--cores", "1")
+    assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
+    assert len([name for name in datasets(failing) if "failed" not in name]) == 2
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
+    slow = workflow.configured(configuration(5, end_time=1.0))
+    process = slow.start("lengths", "--cores", "1")
+    while len(datasets(slow)) < 2:
+        time.sleep(0.02)
+        assert process.poll() is None
+    for child in os.popen(f"pgrep -f {slow.directory}.*batch.py").read().split():
+        os.kill(int(child), number)
+    process.communicate(timeout=120)
+    kept = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
+    assert process.returncode != 0 and 2 <= len(kept) < 5
+    done = slow("lengths", "--cores", "1")
+    assert done.returncode == 0, done.stdout
+    after = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
+    assert kept.items() <= after.items() and len(after) == 5
+
+
+def test_a_study_that_is_read_one_by_one_has_no_batches(workflow):
+    values = configuration(2)
+    values["studies"]["sensitivity"] = values["studies"].pop("many")
+    done = workflow.configured(values)("--dry-run", "sensitivity")
+    assert done.returncode != 0
+    assert "studies.sensitivity.runs_per_job = 2 is not allowed" in done.stdout

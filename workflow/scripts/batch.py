@@ -1,0 +1,41 @@
+"""Run the simulations of a batch one after another, and measure each.
+
+Each has its own dataset as soon as it is finished: whatever happens to the others, it is used when
+the batch is made again. One that fails does not keep the others from being made.
+"""
+
+import sys
+from pathlib import Path
+
+from nucleation.analysis import lengths
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.model.parameters import Parameters
+from nucleation.patch.batches import measured
+from nucleation.pipeline.job import Job, Result
+from nucleation.pipeline.keys import key_in
+from nucleation.pipeline.running import Failed, record_of
+from nucleation.simulation.checkpoints import Stopped
+from nucleation.simulation.run import simulate
+
+with Job(snakemake, __file__) as job:
+    if not job.fetched():
+        given = {name: job.params[name] for name in ("runs", "extraction", "measure")}
+        extraction = ExtractionSettings(**job.params.extraction)
+        rows, failures = [], []
+        for run, (path, code) in zip(job.params.runs, job.params.places, strict=True):
+            result = Result(Path(path), key_in(path), code)
+            try:
+                parameters = Parameters.from_dict(run["parameters"])
+                record = record_of(job, simulate, parameters, result)
+            except Failed as failure:
+                failures.append(str(failure))
+                print(failure, file=sys.stderr)
+                continue
+            except Stopped as stopped:
+                job.end(f"{run['id']}: {stopped}")
+            rows.append(measured(run, record, extraction, job.params.measure))
+        if failures:
+            count = f"{len(failures)} of {len(job.params.runs)} runs failed"
+            job.end("\n  ".join([f"{count}, the others are kept:", *failures]))
+        job.write(lengths.join(rows), job.output[0], given)
+        job.keep()
