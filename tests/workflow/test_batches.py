@@ -3,6 +3,7 @@
 import os
 import signal
 import time
+from collections import Counter
 
 import pandas as pd
 import pytest
@@ -34,13 +35,28 @@ def datasets(workflow):
     return {path.name: path for path in (workflow.directory / "results/simulations").glob("*.nc")}
 
 
-def test_batches_are_evenly_mixed_and_belong_to_the_names():
+def test_a_job_configures_its_own_runs_alone():
     runs = configure(configuration(2)).runs
-    assert [run.batch for run in runs] == ["many-0", "many-1", "many-2", "many-0", "many-1"]
+    assert Counter(run.batch for run in runs) == {"many-0": 2, "many-1": 2, "many-2": 1}
     assert [run.batch for run in configure(configuration(1)).runs] == [""] * 5
-    (one, other) = configure(configuration(2), only={"many-1"}).runs
-    assert (one, other) == (runs[1], runs[4]) and other.batch == "many-1"
+    own = configure(configuration(2), only={"many-1"}).runs
+    assert own == tuple(run for run in runs if run.batch == "many-1")
+    assert {run.batch for run in own} == {"many-1"}
     assert configure(configuration(1), only={runs[2].id}).runs == (runs[2],)
+
+
+def test_batches_are_mixed_whatever_the_grid():
+    values = configuration(24)
+    values["studies"]["many"]["runs"] = [
+        {"height": {"start": 0.01, "stop": 0.1, "num": 12}, "seed": list(range(24))}
+    ]
+    batches = {}
+    for run in configure(values).runs:
+        batches.setdefault(run.batch, []).append(run.parameters.geometry.height)
+    assert {len(heights) for heights in batches.values()} == {24} and len(batches) == 12
+    means = [sum(heights) / 24 for heights in batches.values()]
+    assert max(means) - min(means) < 0.5 * 0.055  # of the mean height; in order it is 1.6 of it
+    assert min(len(set(heights)) for heights in batches.values()) >= 6
 
 
 @pytest.fixture(scope="module")

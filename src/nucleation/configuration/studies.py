@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import math
+import random
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -129,12 +130,8 @@ def study_runs(
     """
     settings = study_settings(study)
     asked = _given(name, study)
-    batches = -(-len(asked) // settings.runs_per_job)
     prepared: list[tuple[_Given, str, _Prepared | str]] = []
-    for number, given in enumerate(asked):
-        # one in so many, so that all batches take the same time
-        batch = f"{name}-{number % batches:0{len(str(batches))}d}"
-        batch = batch if settings.runs_per_job > 1 else ""
+    for given, batch in zip(asked, _batches(name, len(asked), settings.runs_per_job), strict=True):
         if only is not None and (batch or _identifier(name, given, base)) not in only:
             continue
         try:
@@ -148,6 +145,21 @@ def study_runs(
             yield given.key, found if isinstance(found, str) else replace(found, batch=batch)
         except ParameterError as error:
             yield given.key, str(error)
+
+
+def _batches(study: str, runs: int, per_job: int) -> list[str]:
+    """The name of the batch of each run, empty if it has a job of its own.
+
+    Runs are drawn, so that all batches take about the same time: neighbours in a study are alike,
+    and so are runs at any fixed distance.
+    """
+    if per_job == 1:
+        return [""] * runs
+    batches = -(-runs // per_job)
+    draw = random.Random(runs).random  # the same numbers in every Python
+    drawn = sorted((draw(), number) for number in range(runs))
+    place = {number: rank % batches for rank, (_, number) in enumerate(drawn)}
+    return [f"{study}-{place[number]:0{len(str(batches - 1))}d}" for number in range(runs)]
 
 
 class _Given(NamedTuple):

@@ -101,7 +101,10 @@ class _Loads(NamedTuple):
 def follow_mode(
     simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
 ) -> ModeHistory:
-    """The oscillating mode of a quiet run up to its onset, and how each forcing stirs it.
+    """The oscillating mode of a quiet run, and how each forcing stirs it.
+
+    It is followed up to one period before the onset. Then it swings as much as V, and a patch that
+    is frozen in such a swing says nothing about small ones.
 
     Parameters
     ----------
@@ -136,7 +139,8 @@ def follow_mode(
     if not rows:
         raise ValueError("the creeping patch has no oscillating mode")
     columns = [np.array(column) for column in zip(*rows, strict=True)]
-    return ModeHistory(parameters, grid.x, *columns)
+    small = columns[0] <= time[-1] - np.median(2.0 * np.pi / columns[2].imag)
+    return ModeHistory(parameters, grid.x, *(column[small] for column in columns))
 
 
 def _loads(operator: BodyOperator, parameters: Parameters) -> _Loads:

@@ -22,6 +22,8 @@ STRENGTHS = (3e-13, 3e-1)
 RATIOS = (0.5, 0.9)
 FEWEST = 8  # realisations of which a distribution is shown
 GOAL = 0.03  # of the law's mean
+CLOSE = 30.0  # strengths whose ratio is less have one label
+ROOM = 0.35  # of the panel of distributions
 
 
 @style.styled
@@ -118,17 +120,23 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
 def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
     """Where quiet runs drop, at the strength that would make the law's median drop there."""
     quiet = _where(fault, kind="none")
-    for i in range(quiet.sizes["run"]):
-        run = quiet.isel(run=i)
-        strength, length = float(run[f"floor_{kind}"]), float(run["length"]) / theory
-        if not (STRENGTHS[0] < strength < STRENGTHS[1]):
-            continue
+    found: list[tuple[float, float, int]] = sorted(
+        (float(strength), float(length) / theory, int(n_x))
+        for strength, length, n_x in zip(
+            quiet[f"floor_{kind}"].values, quiet["length"].values, quiet["n_x"].values, strict=True
+        )
+        if 2.0 * STRENGTHS[0] < strength < STRENGTHS[1]
+    )
+    for strength, length, _ in found:
         axes.plot(strength, length, "x", color=style.BLACK, markersize=4.0, markeredgewidth=0.8)
-        name = f"{int(run['n_x'])}, {float(run['longest_step']):g}"
+    while found:
+        strength, length, _ = found[0]
+        close = [one for one in found if one[0] < CLOSE * strength]  # with one label
         axes.annotate(
-            name, (strength, length), xytext=(3, 3), textcoords="offset points",
-            fontsize=style.SMALL,
+            ", ".join(str(n_x) for n_x in sorted({one[2] for one in close})), close[-1][:2],
+            xytext=(4, 3), textcoords="offset points", fontsize=style.SMALL,
         )  # fmt: skip
+        found = found[len(close) :]
 
 
 def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
@@ -177,4 +185,6 @@ def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
     axes.set_xlabel("Length over theory $L/L_c$")
     axes.set_ylabel("Part that has dropped")
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="lower right", fontsize=style.SMALL)
+        low, high = axes.get_xlim()
+        axes.set_xlim(low - ROOM * (high - low), high)  # for the legend
+        axes.legend(loc="upper left", fontsize=style.SMALL)
