@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.extraction import extract
-from ..analysis.record import parameters_of
+from ..analysis.record import Record, parameters_of
 from ..commands import DONE, EXIT_CODES, text
 from ..datasets import netcdf
 from ..model.linearised import linearised
@@ -193,6 +193,7 @@ def _variable_lines(dataset: xr.Dataset) -> list[str]:
 def _draw_simulation(dataset: xr.Dataset) -> Any:
     from ..figures.paper import figure_s2
 
+    Record(dataset).require("slip", "shear_stress")
     return figure_s2.draw(dataset, xr.Dataset(extract(dataset)))
 
 
@@ -236,7 +237,7 @@ SIMULATION = "simulation"
 
 KINDS = (
     Kind(
-        SIMULATION, ("slip_rate", "driving_force", "step_time", "shear_stress"),
+        SIMULATION, ("slip_rate", "driving_force", "step_time"),
         _simulation_lines, _draw_simulation,
     ),
     Kind("sensitivity table", ("varied", "length"), _length_rows, _draw_sensitivity),
