@@ -7,13 +7,15 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from ...figures import style
 from ...patch.map_table import mean_over_seeds
 
-RATIOS = (0.4, 1.4)  # of the colours
-CONTOURS = (0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4)
+RATIOS = (0.45, 1.0)  # of the colours
+CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2)
 SLICES = 3  # weakenings of which lengths are shown over height
+ROOM = 2.0  # of the panel of lengths
 MARKERS = ("o", "s", "^")
 
 
@@ -72,6 +74,9 @@ def _draw_ratio(axes: Axes, ratio: xr.DataArray):  # type: ignore[no-untyped-def
         axes.clabel(lines, fmt="%g", fontsize=style.SMALL)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)))
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("Block height $H$ (m)")
     axes.set_ylabel(r"Weakening $\zeta/a$")
     return image
@@ -98,4 +103,6 @@ def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr
     axes.set_yscale("log")
     axes.set_xlabel("Block height $H$ (m)")
     axes.set_ylabel("Length (m)")
-    axes.legend(fontsize=style.SMALL, loc="lower right")
+    low, high = axes.get_ylim()
+    axes.set_ylim(low / ROOM, high)  # for the legend
+    axes.legend(fontsize=style.SMALL, loc="lower right", ncols=2)
