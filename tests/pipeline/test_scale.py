@@ -32,7 +32,7 @@ def test_costs_are_those_of_the_processes(tmp_path):
     work = "x = bytearray(200_000_000); sum(range(3_000_000))"
     child = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {work!r}])"
     cost = scale.cost(["-c", child], tmp_path)
-    assert 190.0 < cost.megabytes < 500.0 and 0.02 < cost.processor_seconds < 10.0
+    assert cost.megabytes > 190.0 and 0.02 < cost.processor_seconds < 10.0
 
 
 @pytest.mark.slow
