@@ -61,7 +61,7 @@ if not workflow.overwrite_configfiles:
 try:
     for path in workflow.configfiles:
         read_yaml(path)  # finds keys that stand twice, of which Snakemake keeps the last
-    settings = configure(config, names_asked_for(workflow))
+    settings = configure(config, names_asked_for(sys.argv))
     unusable = directory_problem(settings.results, write=not workflow.dryrun)
     if unusable is None and cache.shared() is not None:
         unusable = cache.problem(cache.shared())

@@ -8,10 +8,12 @@ nothing.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import snakemake.api  # first: its parts import each other
 import snakemake.io
 import snakemake.workflow
 from snakemake.exceptions import WorkflowError
@@ -19,22 +21,28 @@ from snakemake.iocontainers import Wildcards
 from snakemake.persistence import NO_PARAMS_CHANGE, ParamsChange
 from snakemake.persistence.file import FilePersistence
 from snakemake.settings.enums import RerunTrigger
+from snakemake.target_jobs import parse_target_jobs_cli_args
 
 from . import code, keys
 from .keys import Store
+
+TARGET_JOBS = "--target-jobs"
+"""Snakemake's option that names jobs, as ``RULE:WILDCARD=VALUE,...``."""
 
 ABOUT_THE_JOB = ("key", "code", "modules", "made", "expected", "places")
 """Parameters of rules that are no parameters of a result."""
 
 
-def names_asked_for(workflow: Any) -> set[str] | None:
-    """Names of the runs and batches that a job's own Snakemake is to make; None if of all.
+def names_asked_for(command: Sequence[str]) -> set[str] | None:
+    """Names of the runs and batches that a Snakemake is to make; None if it may be anything.
 
     A job on a cluster is another Snakemake. It needs to know of no other run than its own, as long
-    as all that it makes is known by name and key.
+    as all that it makes is known by name and key. Which jobs it has, its command alone can tell
+    while the rules are read.
     """
-    jobs = [] if workflow.is_main_process else workflow.dag_settings.target_jobs
-    named = [dict(job.wildcards_dict) for job in jobs]
+    after = itertools.dropwhile(lambda word: word != TARGET_JOBS, command)
+    given = list(itertools.takewhile(lambda word: not word.startswith("--"), [*after][1:]))
+    named = [dict(job.wildcards_dict) for job in parse_target_jobs_cli_args(given)]
     if not named or any("key" not in wildcards for wildcards in named):
         return None
     return {wildcards["name"] for wildcards in named}
