@@ -103,7 +103,7 @@ def follow_mode(
 ) -> ModeHistory:
     """The oscillating mode of a quiet run, and how each forcing stirs it.
 
-    It is followed up to one period before the onset. Then it swings as much as V, and a patch that
+    It is followed up to one period before the onset, if there is one. Then it swings as much as V, and a patch that
     is frozen in such a swing says nothing about small ones.
 
     Parameters
@@ -139,8 +139,10 @@ def follow_mode(
     if not rows:
         raise ValueError("the creeping patch has no oscillating mode")
     columns = [np.array(column) for column in zip(*rows, strict=True)]
-    small = columns[0] <= time[-1] - np.median(2.0 * np.pi / columns[2].imag)
-    return ModeHistory(parameters, grid.x, *(column[small] for column in columns))
+    if record.onset is not None:
+        small = columns[0] <= time[-1] - np.median(2.0 * np.pi / columns[2].imag)
+        columns = [column[small] for column in columns]
+    return ModeHistory(parameters, grid.x, *columns)
 
 
 def _loads(operator: BodyOperator, parameters: Parameters) -> _Loads:
