@@ -8,9 +8,9 @@ from nucleation.verification.crosscheck import freefem
 
 
 def test_plan(workflow, freefem_program):
-    """Three runs by both solvers."""
+    """Four runs by both solvers, one of them of two blocks."""
     once = ("compare_crosscheck", "draw_figure_crosscheck", "crosscheck")
-    expected = {"crosscheck_own": 3, "crosscheck_freefem": 3, **dict.fromkeys(once, 1)}
+    expected = {"crosscheck_own": 4, "crosscheck_freefem": 4, **dict.fromkeys(once, 1)}
     assert workflow.planned("crosscheck") == expected
 
 

@@ -3,14 +3,14 @@
 from nucleation.verification.crosscheck import freefem, plan
 
 CROSSCHECKS = plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
-FREEFEM_SCRIPT = Path(BASE, "workflow", "crosscheck", "block.edp")
+FREEFEM_SCRIPTS = sorted(map(str, Path(BASE, "workflow", "crosscheck").glob("*.edp")))
 
 
-def freefem_script(wildcards):
-    """The script, if there is a program to run it: without one, nothing at all is started."""
+def freefem_scripts(wildcards):
+    """The scripts, if there is a program to run them: without one, nothing at all is started."""
     if not freefem.installed():
         raise WorkflowError(freefem.MISSING)
-    return str(FREEFEM_SCRIPT)
+    return FREEFEM_SCRIPTS
 
 
 def crosscheck_parameters(id):
@@ -24,7 +24,7 @@ def crosscheck_parameters(id):
 @functools.cache
 def crosscheck_record(id, solver):
     """The record of one run by one of the solvers, own or freefem."""
-    parameters, sources = crosscheck_parameters(id), {"script": [str(FREEFEM_SCRIPT)]}
+    parameters, sources = crosscheck_parameters(id), {"scripts": FREEFEM_SCRIPTS}
     if solver == "own":
         parameters, sources = {"parameters": parameters["parameters"]}, {}
     laws = plugins(CROSSCHECKS[id])
@@ -52,7 +52,7 @@ rule crosscheck_own:
 
 rule crosscheck_freefem:
     input:
-        script=freefem_script,
+        scripts=freefem_scripts,
     output:
         place_of("crosscheck/freefem"),
     log:

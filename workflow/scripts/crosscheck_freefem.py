@@ -15,7 +15,7 @@ with Job(snakemake, __file__) as job, TemporaryDirectory() as directory:
     settings = {**params.settings, "heights": tuple(params.settings["heights"])}
     try:
         record = freefem.run(
-            Path(job.input.script),
+            Path(job.input.scripts[0]).parent,
             Path(directory),
             Parameters.from_dict(params.parameters),
             CrosscheckSettings(**settings),

@@ -1,8 +1,8 @@
-"""The block solved by FreeFem++: its command line, and its records as a dataset.
+"""One block or two solved by FreeFem++: its command line, and its records as a dataset.
 
-FreeFem++ (Hecht, 2012) is the program the paper used. The script ``workflow/crosscheck/block.edp``
-solves the same problem as :mod:`nucleation.simulation.run` with triangles and a time integration of
-its own; it takes all numbers from its command line.
+FreeFem++ (Hecht, 2012) is the program the paper used. The scripts ``workflow/crosscheck/block.edp``
+and ``pair.edp`` solve the same problems as :mod:`nucleation.simulation.run` with triangles and a
+time integration of their own; they take all numbers from their command line.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,6 @@ import xarray as xr
 
 from ...analysis.definitions import ExtractionSettings
 from ...model.parameters import Parameters
-from ...model.second_body import SecondBody
 from ...simulation.realisation import Series, Sheet
 from .plan import FIXED, KINDS, CrosscheckSettings
 
@@ -32,8 +32,11 @@ UNUSED = (
     "loading.initial_shear_stress", "stepping.tolerance", "stepping.shortest_step",
     "stepping.event_drop",
     "perturbation.correlation_time", "perturbation.correlation_length", "perturbation.seed",
+    "recording.record",
 )  # fmt: skip
 """Parameters without meaning for the script, or for what is handed over to it."""
+BLOCK, PAIR = "block.edp", "pair.edp"
+"""The scripts for a block on a rigid base, and for two blocks."""
 REALISATION = "realisation.txt"  # in the directory of a run
 FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
 COLUMNS = (
@@ -67,13 +70,21 @@ def arguments(
             raise FreeFemError(f"the script for FreeFem++ has {name} = {only} only")
     if parameters.perturbation.kind not in KINDS:
         raise FreeFemError(f"the script for FreeFem++ has kind = {', '.join(KINDS)} only")
-    if parameters.second_body != SecondBody():
-        raise FreeFemError("the script for FreeFem++ has one block, on a rigid base")
     unused = (*FIXED, *UNUSED)
     taken = [name for name in named if name not in unused and not name.startswith("second_body.")]
     values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
     values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
     values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
+    below = parameters.below
+    if below is not None:
+        if below.mesh.grading != 1.0:
+            raise FreeFemError("the script for FreeFem++ has second_body.grading = 1.0 only")
+        values |= {f"second_{name}": value for name, value in asdict(below.material).items()}
+        values |= {
+            "second_height": below.geometry.height,
+            "second_n_y": below.mesh.n_y,
+            "second_bottom": below.bottom,
+        }
     return {name: str(value) for name, value in values.items()}
 
 
@@ -96,17 +107,17 @@ def realisation(parameters: Parameters) -> str:
 
 
 def run(
-    script: Path,
+    scripts: Path,
     directory: Path,
     parameters: Parameters,
     settings: CrosscheckSettings,
     extraction: ExtractionSettings = ExtractionSettings(),
 ) -> xr.Dataset:
-    """Solve the block with FreeFem++ and return its record.
+    """Solve the block, or both, with FreeFem++ and return its record.
 
     Parameters
     ----------
-    script : the FreeFem++ script.
+    scripts : the directory of the FreeFem++ scripts.
     directory : an existing directory for its plain-text records.
     parameters : the simulation; of its stepping, the end is used.
     settings : the time steps of the script.
@@ -127,6 +138,7 @@ def run(
     given = arguments(parameters, settings, extraction) | {"directory": str(directory)}
     if parameters.perturbation.kind != "none":
         (directory / REALISATION).write_text(realisation(parameters), encoding="ascii")
+    script = scripts / (BLOCK if parameters.below is None else PAIR)
     command = [PROGRAM, "-nw", "-v", "0", str(script)]
     command += [f"{name}={value}" for name, value in given.items()]
     environment = os.environ | {"FF_LOADPATH": os.environ.get("FF_LOADPATH", PLUGINS)}

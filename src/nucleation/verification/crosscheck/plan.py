@@ -9,8 +9,8 @@ from ...model.material import Material
 from ...model.parameters import Parameters
 from ...model.perturbation import IN_TIME
 from ...model.quantities import Checked, quantity
-from ...model.second_body import SecondBody
-from ...theory.critical import theory_length
+from ...model.second_body import BOTTOMS, SecondBody
+from ...theory.critical import run_length, theory_length
 
 FIXED = {
     "friction.law": "product", "friction.evolution": "aging", "mesh.grading": 1.0,
@@ -22,6 +22,7 @@ KINDS = ("none", *IN_TIME)
 """Perturbations that the script has."""
 
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
+PAIR = "pair"  # name of the run of two blocks
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,6 +64,20 @@ class CrosscheckSettings(Checked):
         "time simulated by both solvers after the onset of the event", unit="s", low=0.0,
         high=1e12, closed="low", default=0.05,
     )  # fmt: skip
+    pair_height: float = quantity(
+        "height of both blocks of the run of two", unit="m", low=0.0, high=1e6, default=0.02
+    )
+    pair_shear_modulus: float = quantity(
+        "shear modulus of the lower block of that run", unit="Pa", low=0.0, high=1e13,
+        default=6.2e9,
+    )  # fmt: skip
+    pair_bottom: str = quantity(
+        "far side of the lower block of that run", choices=BOTTOMS, default="clamped"
+    )
+    pair_n_x: int = quantity("number of elements along x in that run", low=8, high=100000,
+                             closed="both", default=300)  # fmt: skip
+    pair_n_y: int = quantity("number of elements along y in either block of that run", low=2,
+                             high=10000, closed="both", default=6)  # fmt: skip
     timing_n_x: int = quantity("number of elements along x of the mesh on which steps are timed",
                                low=8, high=100000, closed="both", default=400)  # fmt: skip
     timing_n_y: int = quantity("number of elements along y of the mesh on which steps are timed",
@@ -83,7 +98,7 @@ def runs(
     settings : heights, meshes and time after the event.
     interface : of the linear theory, in whose critical length the block's length is measured.
     """
-    base = dataclasses.replace(base, second_body=SecondBody())  # the other solver has one block
+    base = dataclasses.replace(base, second_body=SecondBody())  # but for the run of two
     declared = {
         "perturbation.kind": settings.perturbation, "perturbation.strength": settings.strength,
         "perturbation.seed": settings.seed,
@@ -100,7 +115,23 @@ def runs(
         "mesh.n_x": settings.timing_n_x, "mesh.n_y": settings.timing_n_y,
         "stepping.end_time": settings.timing_end,
     }  # fmt: skip
+    found[PAIR] = _pair(common, settings, interface)
     return found | {TIMING: found[f"H{settings.heights[0]:g}"].replaced(timing)}
+
+
+def _pair(
+    common: Parameters, settings: CrosscheckSettings, interface: InterfaceState
+) -> Parameters:
+    """Two blocks of one height and different stiffness."""
+    below = SecondBody(
+        kind="deformable", bottom=settings.pair_bottom, shear_modulus=settings.pair_shear_modulus
+    )
+    mesh = {"mesh.n_x": settings.pair_n_x, "mesh.n_y": settings.pair_n_y}
+    both = dataclasses.replace(common, second_body=below).replaced(
+        mesh | {"geometry.height": settings.pair_height}
+    )
+    length = settings.length_over_critical * run_length(both, interface)
+    return both.replaced({"geometry.length": float(f"{length:.4g}")})
 
 
 def _block_length(
