@@ -64,12 +64,13 @@ bench: $(STAMP) ## Measure on one core, in some minutes: the solver; PARTS=scale
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper figure_patch_stability figure_3_extended figure_convergence \
 		figure_sensitivity figure_verification figure_dispersion figure_drop animation \
-		figure_pairs figure_2_simulated pairs figure_map \
+		figure_pairs figure_2_simulated pairs figure_map floors \
 		--cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/verification.csv results/pairs.csv \
-		results/drop.csv results/map.csv results/dispersion.csv results/convergence.csv results/sensitivity.csv \
+		results/drop.csv results/map.csv results/floors.csv results/dispersion.csv \
+		results/convergence.csv results/sensitivity.csv \
 		results/figures/*.png results/figures/animation.gif \
 		results/tables/claims.csv results/tables/claims.md \
 		results/tables/claims_pairs.csv results/tables/claims_pairs.md results/reference/

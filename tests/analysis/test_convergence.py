@@ -1,12 +1,11 @@
-"""Sequences of refinement, and orders on values of known order."""
+"""Sequences of refinement, and each run beside the finest one."""
 
 import itertools
 
 import numpy as np
-import pytest
 import xarray as xr
 
-from nucleation.analysis.convergence import COLUMNS, observed_order, refinement_table, sequences
+from nucleation.analysis.convergence import COLUMNS, refinement_table, sequences
 
 
 def row(**values):
@@ -14,7 +13,7 @@ def row(**values):
         "id": "run", "height": 0.02, "law": "aging", "phi0": 1.0, "kind": "normal_load",
         "strength": 1e-5, "seed": 1, "n_x": 400, "n_y": 20,
         "grading": 20.0, "longest_step": 0.02, "tolerance": 1e-2, "length": 0.3,
-        "theory_length": 0.5, "onset_time": 12.0, "onset_time_high": 12.1, "steps": 100,
+        "theory_length": 0.5, "block_length": 2.0, "onset_time": 12.0, "steps": 100,
         "wall_seconds": 1.0,
     }  # fmt: skip
     return {**usual, **values}
@@ -24,21 +23,9 @@ def table(rows):
     return xr.Dataset({name: ("run", [r[name] for r in rows]) for name in rows[0]})
 
 
-@pytest.mark.parametrize("order", [1, 2, 3])
-@pytest.mark.parametrize("ratio", [2.0, 4.0])
-def test_order_of_a_power(order, ratio):
-    sizes = 0.3 / ratio ** np.arange(3)
-    assert observed_order(7.0 - 5.0 * sizes**order, sizes) == pytest.approx(order)
-
-
-def test_no_order_without_one_ratio_or_one_direction():
-    assert np.isnan(observed_order([1.0, 2.0, 1.5], [4.0, 2.0, 1.0]))
-    assert np.isnan(observed_order([1.0, 2.0, 2.5], [4.0, 2.0, 1.5]))
-
-
 def test_sequences_differ_in_one_parameter_and_go_from_coarse_to_fine():
     rows = [row(n_x=n, height=h) for n, h in itertools.product((1600, 400, 800), (0.02, 0.1))]
-    rows += [row(longest_step=step) for step in (0.01, 0.04)]
+    rows += [row(longest_step=step) for step in (0.01, 0.04)] + [row(n_y=40, height=0.3)]
     rows += [row(n_x=3200, tolerance=1e-3), row(n_x=3200, grading=5.0)]
     rows += [row(n_x=3200, kind="none"), row(n_x=3200, strength=1e-3), row(n_x=3200, seed=2)]
     found = sequences(rows, "n_x")
@@ -49,20 +36,20 @@ def test_sequences_differ_in_one_parameter_and_go_from_coarse_to_fine():
     assert sequences(rows, "n_y") == sequences(rows, "tolerance") == []
 
 
-def test_table_compares_with_the_next_coarser_run():
-    steps = 0.01 * 2.0 ** np.arange(4)
+def test_table_compares_with_the_finest_run():
     rows = [
-        row(id=f"step{h}", longest_step=h, length=0.3 + h, onset_time_high=12.0 + 1e3 * h**3)
-        for h in steps
+        row(id=f"n{n}", n_x=n, length=0.3 + 10.0 / n, onset_time=12.0 - 100.0 / n)
+        for n in (1600, 400, 800)
     ]
     found = refinement_table(table(rows))
     assert tuple(found.data_vars) == COLUMNS
-    assert (found["refinement"] == "longest_step").all()
-    np.testing.assert_allclose(found["longest_step"], steps[::-1])
-    expected = (0.3 + steps[-2::-1]) / (0.3 + steps[:0:-1]) - 1.0
-    np.testing.assert_allclose(found["length_change"], [np.nan, *expected])
-    np.testing.assert_allclose(found["observed_order"], [np.nan, np.nan, 3.0, 3.0])
-    np.testing.assert_allclose(found["drop_time_change"][1:], 1e3 * np.diff(steps[::-1] ** 3))
+    assert list(found["id"].values) == ["n400", "n800", "n1600"]
+    sizes = np.array([400.0, 800.0, 1600.0])
+    length, onset = 0.3 + 10.0 / sizes, 12.0 - 100.0 / sizes
+    np.testing.assert_allclose(found["length_difference"], length / length[-1] - 1.0)
+    np.testing.assert_allclose(found["onset_difference"], onset / onset[-1] - 1.0)
+    np.testing.assert_allclose(found["elements_difference"], (length - length[-1]) * sizes / 2.0)
+    assert (found["refinement"] == "n_x").all()
     np.testing.assert_allclose(found["length_over_theory"], found["length"] / 0.5)
 
 

@@ -105,6 +105,13 @@ def test_warning_names_study_run_and_numbers(run, text):
     assert text in warning
 
 
+@pytest.mark.parametrize("noisy", ["mesh's noise", "steps' noise", "roughness"])
+def test_refinement_is_not_warned_of_the_noise_that_it_shows(noisy):
+    run, _ = WARNED[noisy]
+    named = {"convergence_mine": {"interface": "main_text", "runs": [run]}}
+    assert advise(configure({"studies": named}).runs) == []
+
+
 def test_recommended_mesh_ends_the_warning():
     run = GOOD | {"n_x": 100}
     (warning,) = advice(run)

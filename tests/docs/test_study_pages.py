@@ -1,6 +1,6 @@
 """docs/convergence.md and docs/sensitivity.md against the tables in results/reference.
 
-Their rows, to copy: ``PYTHONPATH=src python tests/test_study_pages.py``.
+Their rows, to copy: ``PYTHONPATH=src python tests/docs/test_study_pages.py``.
 """
 
 import csv
@@ -13,6 +13,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "results" / "reference"
 REFINED = ("n_x", "n_y", "longest_step", "tolerance")
+PERTURBED = ("normal_load", "drive_velocity", "state", "strength")
+MESH = ("height", "n_x", "n_y", "longest_step")
+ONSET, LENGTH = 3e-3, 5e-3  # what refinement may move onset and length by, or one element
 
 
 def table(name):
@@ -27,30 +30,83 @@ def signed(text, unit, digits):
     return "" if math.isnan(value) else f"{rounded + 0.0:+.{digits}f}" if rounded else "0"
 
 
-def same(row):
-    """What the rows of one sequence have in common."""
-    return row["refinement"], [row[n] for n in ("height", *REFINED) if n != row["refinement"]]
+def number(row, name):
+    return float(row[name] or "nan")
+
+
+def fault(row):
+    """What the sequences of one perturbed run have in common."""
+    return tuple(row[name] for name in ("kind", "law", "phi0", "height", "strength", "seed"))
+
+
+def sequences(kinds):
+    """The sequences of refinement of runs of some kinds, by fault and by what is refined."""
+    found = {}
+    for row in table("convergence"):
+        if row["kind"] in kinds:
+            others = tuple(row[name] for name in REFINED if name != row["refinement"])
+            found.setdefault((fault(row), row["refinement"], others), []).append(row)
+    return found
+
+
+def apart(row):
+    """How far a run is from the finest of its sequence, in print: onset, length."""
+    onset, length = (abs(100.0 * number(row, f"{n}_difference")) for n in ("onset", "length"))
+    return f"{onset:.2f} / {length:.2f}" + ("" if meets(row) else " !")
+
+
+def meets(row):
+    """Whether a run is as near to the finest of its sequence as it is asked to be."""
+    near = abs(number(row, "length_difference")) <= LENGTH
+    near |= abs(number(row, "elements_difference")) <= 1.0
+    return near and abs(number(row, "onset_difference")) <= ONSET
+
+
+def judged(rows, refined):
+    """The run of a sequence that is like the declared one: next to the finest along x."""
+    return rows[-2] if refined == "n_x" else rows[0]
 
 
 def convergence_rows():
-    """One row for each sequence of refinement: its lengths, and the last changes."""
-    for (refined, _), group in itertools.groupby(table("convergence"), key=same):
-        rows = list(group)
-        last = rows[-1]
-        order = float(last["observed_order"] or "nan")
+    """One row for each perturbed fault: how far its declared run is from refined ones."""
+    found = sequences(PERTURBED)
+    for own in dict.fromkeys(key[0] for key in found):
+        of_it = {key[1]: rows for key, rows in found.items() if key[0] == own}
+        first = judged(of_it["n_x"], "n_x")
+        fault_cells = (
+            first["law"],
+            f"{number(first, 'height'):g}",
+            f"{number(first, 'phi0'):g}",
+            f"`{first['kind']}`",
+            f"{number(first, 'strength'):.0e}".replace("e-0", "e-"),
+            f"{number(first, 'onset_time'):.3f}",
+            f"{number(first, 'length_over_theory'):.3f}",
+        )
+        coarse = of_it["n_x"][0]
+        cells = [apart(coarse) if len(of_it["n_x"]) > 2 else ""]
+        cells += [apart(judged(of_it[r], r)) if r in of_it else "" for r in REFINED]
+        yield f"| {' | '.join((*fault_cells, *cells))} |"
+
+
+def floor_rows():
+    """One row for each mesh, step and height of a quiet run: where it drops, and its noise."""
+    rows = [row for row in table("floors") if row["law"] == "aging"]
+    for row in sorted(rows, key=lambda row: [number(row, name) for name in MESH]):
+        ratio = number(row, "length") / number(row, "theory_length")
         cells = (
-            f"`{refined}`",
-            f"{float(last['height']):g}",
-            "" if refined == "n_x" else last["n_x"],
-            "" if refined == "longest_step" else last["longest_step"],
-            ", ".join(f"{float(row[refined]):g}" for row in rows),
-            ", ".join(f"{float(row['length_over_theory']):.3f}" for row in rows),
-            ", ".join(f"{float(row['onset_time_high']):.2f}" for row in rows),
-            signed(last["length_change"], 100.0, 2),
-            signed(last["drop_time_change"], 1.0, 4),
-            "" if math.isnan(order) else f"{order:.1f}",
+            f"{number(row, 'height'):g}",
+            f"{row['n_x']} x {row['n_y']}",
+            f"{number(row, 'longest_step'):g}",
+            f"{number(row, 'onset_time'):.2f}",
+            f"{ratio:.3f}",
+            *(strength(number(row, f"floor_{kind}")) for kind in ("normal_load", "state")),
         )
         yield f"| {' | '.join(cells)} |"
+
+
+def strength(value):
+    """A strength with one digit, 3e-5."""
+    return "" if math.isnan(value) else f"{value:.0e}".replace("e-0", "e-")
 
 
 def sensitivity_rows():
@@ -68,27 +124,30 @@ def sensitivity_rows():
         yield f"| {' | '.join(cells)} |"
 
 
-PAGES = {"convergence": convergence_rows, "sensitivity": sensitivity_rows}
+PAGES = {
+    ("convergence", 0): convergence_rows,
+    ("convergence", 1): floor_rows,
+    ("sensitivity", 0): sensitivity_rows,
+}
+"""The tables of each page, by their order."""
 
 
-@pytest.mark.parametrize("name", PAGES)
-def test_page_states_the_reference(name):
+@pytest.mark.parametrize(("name", "order"), PAGES)
+def test_page_states_the_reference(name, order):
     lines = (ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8").splitlines()
-    start = next(i for i, line in enumerate(lines) if line.startswith("|---"))
-    stated = itertools.takewhile(lambda line: line.startswith("|"), lines[start + 1 :])
-    assert list(stated) == list(PAGES[name]())
+    starts = [i for i, line in enumerate(lines) if line.startswith("|---")]
+    stated = itertools.takewhile(lambda line: line.startswith("|"), lines[starts[order] + 1 :])
+    assert list(stated) == list(PAGES[name, order]())
 
 
-def test_last_refinement_of_the_finest_runs_moves_the_length_by_less_than_one_percent():
-    """At the steps of the study `converged`, at half of them for H = 0.005 m."""
-    seen = set()
-    for (refined, _), group in itertools.groupby(table("convergence"), key=same):
-        last = list(group)[-1]
-        step = "0.01" if float(last["height"]) == 0.005 else "0.02"
-        if refined == "n_x" and last["longest_step"] == step:
-            assert abs(float(last["length_change"])) < 0.01, last["id"]
-            seen.add(float(last["height"]))
-    assert seen == {0.005, 0.02, 0.1}
+def test_all_declared_runs_are_refined_in_every_way():
+    faults = {}
+    for (own, refined, _), rows in sequences(["normal_load"]).items():
+        faults.setdefault(own, set()).add(refined)
+        finest = {"n_x": 1600, "n_y": 16, "longest_step": 0.02, "tolerance": 2.5e-3}[refined]
+        assert float(rows[-1][refined]) == finest
+    assert len(faults) == 12
+    assert all(refined == set(REFINED) for refined in faults.values())
 
 
 if __name__ == "__main__":

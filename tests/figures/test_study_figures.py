@@ -18,34 +18,41 @@ def dataset(rows):
 
 
 def sequence(refined, values, height, **fixed):
-    usual = {"n_x": 400, "n_y": 20, "longest_step": 0.02, "tolerance": 1e-2}
+    usual = {
+        "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
+        "strength": 1e-5, "seed": 1, "law": "aging", "phi0": 1.0,
+    }  # fmt: skip
     for i, value in enumerate(values):
-        error = 0.3 * 0.2**i
+        error = 0.1 * 0.1**i if i + 1 < len(values) else 0.0
         yield {
             **usual, **fixed, refined: value, "refinement": refined, "height": height,
-            "length_over_theory": 0.85 - error, "onset_time_high": 19.0 - 20 * error,
-            "drop_time_change": 16 * error if i else np.nan,
+            "length_over_theory": 0.7 - error, "length_difference": -error,
+            "onset_difference": error / 3.0,
         }  # fmt: skip
 
 
 @pytest.fixture
 def table():
     rows = []
-    for height in HEIGHTS:
-        rows += sequence("n_x", [400, 800, 1600, 3200], height)
-        rows += sequence("n_y", [10, 20, 40], height)
-    rows += sequence("n_x", [800, 1600, 3200], HEIGHTS[0], longest_step=0.01)
-    for height in HEIGHTS:
-        rows += sequence("longest_step", [0.32, 0.16, 0.08, 0.04, 0.02], height)
-        rows += sequence("longest_step", [0.08, 0.04, 0.02, 0.01], height, n_x=1600)
-        rows += sequence("tolerance", [4e-2, 1e-2, 2.5e-3], height, n_x=800)
+    for height, law, age in ((0.005, "aging", 1.0), (0.02, "aging", 1.0), (0.1, "aging", 1.0),
+                             (0.02, "slip", 1.0), (0.1, "aging", 1e3)):  # fmt: skip
+        own = {"law": law, "phi0": age}
+        rows += sequence("n_x", [400, 800, 1600], height, **own)
+        rows += sequence("n_y", [8, 16], height, **own)
+        rows += sequence("longest_step", [0.1, 0.05, 0.02], height, **own)
+        rows += sequence("tolerance", [1e-2, 2.5e-3], height, **own)
+    rows += sequence("n_x", [400, 800, 1600], 0.02, kind="state", longest_step=0.05)
+    quiet = {"kind": "none", "strength": 0.0, "seed": 0, "longest_step": 0.02}
+    for height in (0.005, 0.02):
+        rows += sequence("n_x", [400, 800, 1600], height, **quiet)
+    rows += sequence("longest_step", [0.1, 0.04, 0.02], 0.02, **quiet)
     return dataset(rows)
 
 
 @pytest.fixture
 def hops():
     made = []
-    for n_x in (400, 800, 1600, 3200):
+    for n_x in (400, 800, 1600):
         hop = np.linspace(1.0, 19.0, n_x // 8)
         time = np.linspace(0.0, 19.3, 2000)
         rate = 5e-6 + 8e-7 * np.sin(11 * time) + 4e-5 * (time > 19.0)
@@ -116,36 +123,54 @@ def test_files_embed_their_fonts(drawn, tmp_path):
     assert png.stat().st_size > 10_000
 
 
-@pytest.mark.parametrize(("row", "name"), [(0, "length_over_theory"), (1, "onset_time_high")])
-def test_every_run_is_a_point(table, hops, patch, row, name):
-    figure = figure_convergence.draw(table, hops, patch)
-    refinements = ("n_x", "n_y", "longest_step", "tolerance")
-    for axes, refined in zip(figure.axes[4 * row : 4 * row + 4], refinements, strict=True):
-        of_it = table["refinement"].values == refined
-        expected = set(zip(table[refined].values[of_it], table[name].values[of_it], strict=True))
-        drawn = {tuple(point) for line in axes.get_lines() for point in line.get_xydata()}
-        assert drawn == expected
+def drawn_at(axes):
+    """Places and values of the markers of an axes."""
+    return sorted(
+        (round(float(x), 2), float(y))
+        for line in axes.get_lines()
+        for x, y in line.get_xydata()
+        if np.isfinite(y)
+    )
 
 
-def test_sequences_of_one_height_are_told_apart(table, hops, patch):
-    """Two curves of one colour, with long and with short steps, looked the same."""
-    figure = figure_convergence.draw(table, hops, patch)
-    looks = [
-        (line.get_color(), line.get_linestyle(), line.get_fillstyle())
-        for line in figure.axes[0].get_lines()
-    ]
-    assert len(looks) == len(HEIGHTS) + 1 == len(set(looks))
-    (legend,) = figure.legends
-    assert "steps of 0.01 $D/V$" in [text.get_text() for text in legend.get_texts()]
+@pytest.mark.parametrize(("panel", "name"), [(0, "onset_difference"), (1, "length_difference")])
+def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault(
+    table, hops, patch, panel, name
+):
+    axes = figure_convergence.draw(table, hops, patch).axes[panel]
+    labels = ["0.005", "0.02", "0.1", "0.1 older", "0.02 slip", "0.02 state"]
+    words = [text.get_text() for text in axes.get_xticklabels()]
+    assert panel == 0 or words == labels  # the upper panel has none of its own
+    declared = table.isel(run=np.flatnonzero(table["kind"].values != "none"))
+    apart = 100.0 * np.abs(declared[name].values)
+    points = drawn_at(axes)
+    np.testing.assert_allclose(sorted(y for _, y in points), sorted(apart[apart > 0.0]))
+    found = figure_convergence.faults(declared)
+    for place, rows in enumerate(found.values()):
+        own = 100.0 * np.abs(rows[name].values)
+        near = [y for x, y in points if abs(x - place) < 0.5]
+        np.testing.assert_allclose(sorted(near), sorted(own[own > 0.0]))
 
 
-def test_steps_get_finer_to_the_right_and_orders_have_a_guide(table, hops, patch):
-    figure = figure_convergence.draw(table, hops, patch)
-    for axes in (figure.axes[2], figure.axes[9]):
+def test_runs_that_agree_are_drawn_at_the_edge(table, hops, patch):
+    same = table.assign(onset_difference=0.0 * table["onset_difference"])
+    axes = figure_convergence.draw(same, hops, patch).axes[0]
+    assert {y for _, y in drawn_at(axes)} == {figure_convergence.LEAST}
+
+
+@pytest.mark.parametrize(("panel", "refined"), [(2, "n_x"), (3, "longest_step")])
+def test_quiet_runs_are_dashed_beside_perturbed_ones(table, hops, patch, panel, refined):
+    axes = figure_convergence.draw(table, hops, patch).axes[panel]
+    for dash, calm in (("--", True), ("-", False)):
+        lines = [line for line in axes.get_lines() if line.get_linestyle() == dash]
+        drawn = {tuple(point) for line in lines for point in line.get_xydata()}
+        rows = table.to_dataframe()
+        rows = rows[(rows["refinement"] == refined) & rows["height"].isin([0.005, 0.02])]
+        rows = rows[rows["kind"].eq("none") if calm else rows["kind"].eq("normal_load")]
+        rows = rows[rows["law"] == "aging"]
+        assert drawn == set(zip(rows[refined], rows["length_over_theory"], strict=True))
+    if refined == "longest_step":
         assert axes.get_xlim()[0] > axes.get_xlim()[1]
-    (guide,) = (line for line in figure.axes[9].get_lines() if line.get_linestyle() == ":")
-    (x0, y0), (x1, y1) = guide.get_xydata()
-    assert np.log(y1 / y0) / np.log(x1 / x0) == pytest.approx(3.0)
 
 
 def test_every_variation_is_a_row_and_every_height_a_marker(sensitivity):

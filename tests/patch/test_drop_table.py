@@ -10,7 +10,7 @@ from test_delay import LOAD, START, history
 from nucleation.figures.beyond import figure_drop
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.delay import growth, realised
-from nucleation.patch.drop_table import COLUMNS, gather
+from nucleation.patch.drop_table import COLUMNS, FLOORS, floors, gather
 from nucleation.patch.mode_history import from_dataset, to_dataset
 
 
@@ -72,6 +72,13 @@ def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
     strength = float(row["floor_normal_load"])
     assert growth(history(), LOAD).drop(strength).length == pytest.approx(0.33, rel=1e-3)
     assert np.isnan(table["floor_state"].values[[0, 2]]).all()
+
+
+def test_floors_are_the_quiet_rows_without_what_they_lack(table):
+    found = floors([drops()], [to_dataset(history())])
+    assert tuple(found.data_vars) == FLOORS
+    assert list(found["id"].values) == ["b"]
+    assert float(found["floor_state"][0]) == float(table["floor_state"][1])
 
 
 def test_figure_has_every_realisation_and_group(table):

@@ -14,6 +14,21 @@ FLOORS = [study for study in ("paper", HOPPING) if study in settings.studies]
 """Studies of quiet runs, whose drops say how noisy their meshes are."""
 
 
+def fault(run):
+    """What sets the faults of quiet runs apart."""
+    return run.parameters.geometry.height, run.parameters.friction.evolution
+
+
+def floor_runs():
+    """The runs whose modes say how noisy meshes are: of the faults that have several."""
+    faults = {fault(run) for run in runs_in(HOPPING)}
+    return [run for run in runs_in("quiet") if fault(run) in faults]
+
+
+def floor_modes(wildcards):
+    return [mode(run.id) for run in floor_runs()]
+
+
 rule mode:
     input:
         lambda wildcards: simulation(moded(wildcards).id),
@@ -51,3 +66,35 @@ rule gather_drop:
         "Drops, and the law of the drop"
     script:
         "../scripts/gather_drop.py"
+
+
+rule gather_floors:
+    input:
+        modes=needed(floor_modes, f"fault of the study {HOPPING} in a study quiet"),
+        quiet=[study_lengths(study) for study in FLOORS],
+    output:
+        dataset=f"{RESULTS}/floors.nc",
+        table=f"{RESULTS}/floors.csv",
+    log:
+        f"{RESULTS}/logs/floors.log",
+    params:
+        **made_by("gather_floors.py", EVOLUTIONS),
+    message:
+        "Noise of meshes and steps"
+    script:
+        "../scripts/gather_floors.py"
+
+
+localrules:
+    floors,
+
+
+rule floors:
+    """How noisy each mesh is with its steps, as a declared strength."""
+    input:
+        rules.gather_floors.output,
+        floor_modes,
+        [simulation(run.id) for run in floor_runs()],
+        measured(*FLOORS),
+    message:
+        "Noise of meshes and steps is in {input[1]}"

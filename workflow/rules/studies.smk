@@ -4,7 +4,7 @@
 # HOPPING at the height of Figure S2, quiet ones, show the hops of the front.
 CONVERGENCE = f"{RESULTS}/convergence.nc"
 SENSITIVITY = f"{RESULTS}/sensitivity.nc"
-HOPPING = "convergence_x"
+HOPPING = "convergence_quiet"
 CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
 
 

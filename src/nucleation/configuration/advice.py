@@ -40,6 +40,9 @@ ELEMENT_PART = 0.04
 STEP_NOISE = 1e-5
 """... a perturbation of this strength."""
 
+REFINEMENT = "convergence"
+"""How names of studies begin that refine mesh and steps: what drowns in noise is their point."""
+
 UNSTABLE = 0.55
 """Length over the theory's critical length at which the creeping patch turns unstable."""
 
@@ -113,8 +116,9 @@ def _about(run: Run) -> Iterator[Advice]:
     yield from _span(run)
     yield from _block(run)
     yield from _start(run)
-    yield from _roughness(run)
-    yield from _noise(run)
+    if not run.study.startswith(REFINEMENT):
+        yield from _roughness(run)
+        yield from _noise(run)
 
 
 def _mesh(run: Run) -> Iterator[Advice]:

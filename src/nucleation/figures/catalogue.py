@@ -78,8 +78,8 @@ FIGURES: dict[str, Entry] = {
         ("pairs_identical", "figure_2_simulated"), (Data("pairs"),),
     ),
     "figure_convergence": Entry(
-        "Critical length against mesh and steps", CHECKS, ("convergence_x",),
-        (Data("convergence"),)
+        "Critical length against mesh and steps", CHECKS,
+        ("convergence_x", "convergence_quiet"), (Data("convergence"),)
     ),
     "figure_dispersion": Entry(
         "Growth of single modes: simulation and theory", CHECKS, (),

@@ -31,6 +31,12 @@ PREDICTED = (
 
 COLUMNS = (*MEASURED, *PREDICTED)
 
+FLOORS = (
+    "study", "id", "law", "height", "n_x", "n_y", "longest_step", "onset_time", "length",
+    "theory_length", "stability_length", "floor_normal_load", "floor_state",
+)  # fmt: skip
+"""Columns that say something of a quiet run."""
+
 Row = dict[str, Any]
 
 
@@ -91,6 +97,18 @@ def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Datas
         if (fault := (run["law"], run["height"], run["phi0"])) in laws
     ]
     return xr.Dataset({name: ("run", np.array([row[name] for row in rows])) for name in COLUMNS})
+
+
+def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
+    """:data:`FLOORS` on ``run``: how noisy the meshes of quiet runs are with their steps.
+
+    Parameters
+    ----------
+    quiet : tables of lengths, of which the unperturbed runs count.
+    modes : of :func:`nucleation.patch.mode_history.to_dataset`.
+    """
+    table = gather(quiet, modes)
+    return table[list(FLOORS)].isel(run=np.flatnonzero(table["kind"].values == "none"))
 
 
 def _fault(parameters: Any) -> tuple[str, float, float]:

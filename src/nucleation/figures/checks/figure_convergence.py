@@ -1,8 +1,9 @@
-"""Refinement of mesh and steps, and why the drop waits on a finer mesh."""
+"""Refinement of mesh and steps, with a declared perturbation and without, and why they differ."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,34 +14,39 @@ from matplotlib.ticker import NullLocator
 
 from ...figures import style
 
-MILLI = 1e3
+PERCENT = 100.0
+GOALS = {"onset_difference": 0.3, "length_difference": 0.5}  # per cent
+LABELS = {"onset_difference": "Onset apart (%)", "length_difference": "$L_c$ apart (%)"}
+LEAST = 1e-3  # per cent: smaller differences are drawn there
 LOOKS = (("o", style.VERMILLION), ("s", style.BLUE), ("D", style.BLACK), ("^", style.GREEN))
-SHORT_STEPS = {"fillstyle": "top", "markerfacecoloralt": "white", "linestyle": (0, (1.0, 1.2))}
-"""How a sequence is drawn beside one of the same height with longer steps."""
+KINDS = {
+    "normal_load": "",
+    "drive_velocity": "drive",
+    "state": "state",
+    "strength": "roughness",
+}
 SHOWN_TIME = (-5.0, 0.12)  # s about the onset
 SHOWN_RATE = 1.25  # largest slip rate shown over V, above which curves would cross
 SHIFT = 1.1  # between the curves of slip rate, over V
-ORDER = 3  # of the scheme while the body is quasi-static
-QUANTITIES = {
-    "length_over_theory": "$L_c$ over the theory's",
-    "onset_time_high": "Time of the drop $t$ (s)",
-}
 REFINED = {
-    "n_x": "Elements along $x$",
-    "n_y": "Elements along $y$",
-    "longest_step": r"Longest step $\times V/D$",
-    "tolerance": "Tolerance per step",
+    "n_x": "elements along $x$",
+    "n_y": "elements along $y$",
+    "longest_step": "longest step",
+    "tolerance": "tolerance",
 }
+ALONG = {"n_x": "Elements along $x$", "longest_step": r"Longest step $\times V/D$"}
+FAULT = ("kind", "law", "phi0", "height", "strength", "seed")
 
 
 @style.styled
 def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Figure:
-    """Draw length and time of the drop against refinement, and the hops of the front.
+    """Draw how far refinement moves the drop, with and without a perturbation, and the hops.
 
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.analysis.convergence.refinement_table`.
+        From :func:`nucleation.analysis.convergence.refinement_table`, of perturbed runs and of
+        quiet ones.
     hops : sequence of Dataset
         From :func:`nucleation.patch.hops.follow_hops`, of one height, from coarse to fine along x.
     patch : Dataset
@@ -50,93 +56,138 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
     Returns
     -------
     Figure
-        Two columns wide: lengths, times, and two rows on what makes the difference.
+        Two columns wide: onset and length of every perturbed run, lengths of quiet runs beside
+        them, and two rows on what makes the difference.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 22.0 * style.CENTIMETRE)
-    grid = figure.add_gridspec(4, 4)
-    for row, (name, label) in enumerate(QUANTITIES.items()):
-        panels: list[Axes] = []
-        for i, (refined, meaning) in enumerate(REFINED.items()):
-            shared = panels[0] if panels else None
-            axes = figure.add_subplot(grid[row, i], sharey=shared)
-            _draw_refinement(axes, table, refined, name)
-            axes.tick_params(labelleft=not i, labelbottom=row == 1)
-            axes.set_xlabel(meaning if row == 1 else "")
-            panels.append(axes)
-        panels[0].set_ylabel(label)
-    _draw_slip_rates(figure.add_subplot(grid[2, :3]), hops)
-    _draw_orders(figure.add_subplot(grid[2, 3]), table)
-    _draw_amplitudes(figure.add_subplot(grid[3, :2]), hops)
-    _draw_frequencies(figure.add_subplot(grid[3, 2:]), hops, patch)
-    for axes, letter in zip(figure.axes, "abcdefghijkl", strict=True):
+    figure = style.new_figure(style.DOUBLE_COLUMN, 24.0 * style.CENTIMETRE)
+    grid = figure.add_gridspec(5, 2, height_ratios=(1.0, 1.0, 1.1, 1.1, 1.0))
+    declared = table.isel(run=np.flatnonzero(table["kind"].values != "none"))
+    onset = figure.add_subplot(grid[0, :])
+    length = figure.add_subplot(grid[1, :], sharex=onset)
+    for axes, name in ((onset, "onset_difference"), (length, "length_difference")):
+        _draw_differences(axes, declared, name)
+    onset.tick_params(labelbottom=False)
+    length.set_xlabel("Height $H$ (m), and what else differs")
+    meshes = figure.add_subplot(grid[2, 0])
+    steps = figure.add_subplot(grid[2, 1], sharey=meshes)
+    for axes, refined in ((meshes, "n_x"), (steps, "longest_step")):
+        _draw_lengths(axes, table, refined)
+    meshes.set_ylabel("$L_c$ over the theory's")
+    steps.tick_params(labelleft=False)
+    steps.invert_xaxis()  # finer to the right, as in the other panel
+    _draw_slip_rates(figure.add_subplot(grid[3, :]), hops)
+    _draw_amplitudes(figure.add_subplot(grid[4, 0]), hops)
+    _draw_frequencies(figure.add_subplot(grid[4, 1]), hops, patch)
+    for axes, letter in zip(figure.axes, "abcdefg", strict=True):
         axes.set_title(f"({letter})", loc="left")
-    _add_legend(figure, table)
+    handles, labels = onset.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=len(handles))
     return figure
 
 
-def _sequences(table: xr.Dataset, refined: str) -> Iterator[tuple[xr.Dataset, float, int]]:
-    """The sequences of one refined parameter, each with its height (m) and n_x."""
-    rows = table.isel(run=np.flatnonzero(table["refinement"].values == refined))
-    keys = ["height", *(name for name in REFINED if name != refined)]
-    seen = dict.fromkeys(zip(*(rows[key].values.tolist() for key in keys), strict=True))
-    for key in seen:
-        of_it = np.all([rows[k].values == v for k, v in zip(keys, key, strict=True)], axis=0)
-        sequence = rows.isel(run=np.flatnonzero(of_it))
-        yield sequence, float(key[0]), int(sequence["n_x"].values.min())
+def faults(table: xr.Dataset) -> dict[tuple[object, ...], xr.Dataset]:
+    """The rows of each perturbed fault by kind, law, age, height, strength and seed, in order."""
+    keys = list(zip(*(table[name].values.tolist() for name in FAULT), strict=True))
+    order = sorted(set(keys), key=lambda key: (list(KINDS).index(str(key[0])), *key[1:]))
+    return {key: table.isel(run=[i for i, k in enumerate(keys) if k == key]) for key in order}
 
 
-def _looks(table: xr.Dataset) -> dict[float, tuple[str, str]]:
-    """Marker and colour of each height."""
-    heights = np.unique(table["height"].values).tolist()
-    return {height: LOOKS[i % len(LOOKS)] for i, height in enumerate(heights)}
+def _name(key: tuple[object, ...], usual_age: object) -> str:
+    """A fault in a few words: what sets it apart from a height with the aging law."""
+    kind, law, age, height = key[:4]
+    words = [f"{height:g}", KINDS[str(kind)]]
+    words += [str(law)] * (law != "aging") + ["older"] * (age != usual_age)
+    return " ".join(word for word in words if word)
 
 
-def _line(table: xr.Dataset, height: float, coarse: bool) -> dict[str, object]:
-    """How a sequence is drawn: by its height, and open on the coarsest mesh along x."""
-    marker, colour = _looks(table)[height]
-    return {
-        "marker": marker, "color": colour, "markersize": 4.0, "linewidth": 1.0,
-        "linestyle": "--" if coarse else "-", "markerfacecolor": "white" if coarse else colour,
-    }  # fmt: skip
+def _draw_differences(axes: Axes, declared: xr.Dataset, name: str) -> None:
+    """How far each run but the finest of its sequence is from that one, by fault."""
+    found = faults(declared)
+    usual_age = min(declared["phi0"].values.tolist(), default=0.0)
+    axes.axhspan(LEAST / 2.0, GOALS[name], color="0.93", zorder=0)
+    for place, rows in enumerate(found.values()):
+        for i, refined in enumerate(REFINED):
+            marker, colour = LOOKS[i]
+            for sequence in _sequences(rows, refined):
+                apart = np.maximum(PERCENT * np.abs(sequence[name].values[:-1]), LEAST)
+                at = np.full(apart.size, place + 0.17 * (i - 1.5))
+                coarse = slice(0, -1) if refined == "n_x" else slice(0, 0)
+                rest = slice(-1, None) if refined == "n_x" else slice(None)
+                look = {"marker": marker, "color": colour, "markersize": 3.8, "linestyle": "none"}
+                axes.plot(at[coarse], apart[coarse], markerfacecolor="white", **look)
+                axes.plot(at[rest], apart[rest], **look)
+    for i, meaning in enumerate(REFINED.values()):
+        marker, colour = LOOKS[i]
+        axes.plot([], [], marker, color=colour, markersize=3.8, label=meaning)
+    axes.set_yscale("log")
+    axes.set_ylim(LEAST / 2.0, 30.0)
+    axes.set_ylabel(LABELS[name])
+    axes.set_xlim(-0.6, len(found) - 0.4)
+    names = [_name(key, usual_age) for key in found]
+    axes.set_xticks(range(len(found)), names, rotation=40.0, ha="right", rotation_mode="anchor")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.tick_params(axis="x", length=0)
 
 
-def _step(sequence: xr.Dataset) -> float:
-    """The longest step over D/V that the runs of a sequence have in common."""
-    return float(sequence["longest_step"].values.max())
+def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
+    """The sequences of one refined parameter, each from coarse to fine."""
+    rows = rows.isel(run=np.flatnonzero(rows["refinement"].values == refined))
+    names = [*FAULT, *(name for name in REFINED if name != refined)]
+    keys = list(zip(*(rows[name].values.tolist() for name in names), strict=True))
+    for key in dict.fromkeys(keys):
+        yield rows.isel(run=[i for i, own in enumerate(keys) if own == key])
 
 
-def _short_steps(table: xr.Dataset, refined: str) -> set[tuple[float, float]]:
-    """Heights (m) and steps of sequences of which there is one with longer steps beside them."""
-    if refined == "longest_step":
-        return set()
-    found = [(height, _step(runs)) for runs, height, _ in _sequences(table, refined)]
-    longest: dict[float, float] = {}
-    for height, step in found:
-        longest[height] = max(longest.get(height, 0.0), step)
-    return {(height, step) for height, step in found if step < longest[height]}
-
-
-def _draw_refinement(axes: Axes, table: xr.Dataset, refined: str, name: str) -> None:
-    """One measured quantity against what is refined."""
-    coarsest, short = int(table["n_x"].values.min()), _short_steps(table, refined)
-    axes.set_xscale("log")
+def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
+    """Lengths of quiet runs, and of perturbed ones of the same faults, against what is refined."""
+    quiet = table.isel(run=np.flatnonzero(table["kind"].values == "none"))
+    heights = np.unique(quiet["height"].values).tolist()
     sizes: set[float] = set()
-    for sequence, height, n_x in _sequences(table, refined):
+    for sequence in _sequences(table, refined):
+        first = {name: sequence[name].values[0].item() for name in (*FAULT, "n_x")}
+        alike = first["law"] == "aging" and first["kind"] in ("none", "normal_load")
+        if first["height"] not in heights or not alike:
+            continue
+        marker, colour = LOOKS[heights.index(first["height"])]
+        calm = first["kind"] == "none"
         size = sequence[refined].values
         sizes.update(size.tolist())
-        look = _line(table, height, refined != "n_x" and n_x == coarsest)
-        if (height, _step(sequence)) in short:
-            look |= SHORT_STEPS
-        axes.plot(size, sequence[name].values, **look)
-    axes.set_xticks(sorted(sizes), [_brief(size) for size in sorted(sizes)])
+        axes.plot(
+            size, sequence["length_over_theory"].values, marker=marker, color=colour,
+            markersize=3.8, linewidth=1.0, linestyle="--" if calm else "-",
+            markerfacecolor="white" if calm else colour,
+        )  # fmt: skip
+        if calm and (refined == "longest_step" or first["height"] == heights[-1]):
+            _label_other(axes, sequence, refined, colour)
+    axes.margins(y=0.16)  # room for labels below the lowest curve
+    axes.set_xscale("log")
+    axes.set_xticks(sorted(sizes), [f"{size:g}" for size in sorted(sizes)])
     axes.xaxis.set_minor_locator(NullLocator())
-    if refined in ("longest_step", "tolerance"):
-        axes.invert_xaxis()  # finer to the right, as in the other panels
+    axes.set_xlabel(ALONG[refined])
+    if refined == "n_x":
+        for height in heights:
+            marker, colour = LOOKS[heights.index(height)]
+            axes.plot([], [], marker=marker, color=colour, markersize=3.8, linewidth=1.0,
+                      label=f"$H={height:g}$ m")  # fmt: skip
+        axes.plot([], [], "--o", color=style.GUIDE, markersize=3.8, linewidth=1.0,
+                  markerfacecolor="white", label="quiet")  # fmt: skip
+        axes.legend(loc="upper left", fontsize=style.SMALL)
 
 
-def _brief(size: float) -> str:
-    """A number for narrow axes, ``.04``."""
-    return f"{size:g}".removeprefix("0")
+def _label_other(axes: Axes, sequence: xr.Dataset, refined: str, colour: str) -> None:
+    """What sets quiet runs of one height apart: their steps along x, their elements in steps."""
+    ratio = sequence["length_over_theory"].values
+    look: dict[str, Any] = {
+        "textcoords": "offset points", "fontsize": style.SMALL, "color": colour
+    }  # fmt: skip
+    if refined == "n_x":
+        step = f"{float(sequence['longest_step'][0]):g} $D/V$"
+        axes.annotate(step, (sequence["n_x"].values[-1], ratio[-1]), xytext=(-3, -9), ha="right",
+                      **look)  # fmt: skip
+    else:
+        mesh = f"$N_x={int(sequence['n_x'][0])}$"
+        place = (sequence["longest_step"].values[0], ratio[0])
+        axes.annotate(mesh, place, xytext=(3, -10), **look)
 
 
 def _draw_slip_rates(axes: Axes, hops: Sequence[xr.Dataset]) -> None:
@@ -186,8 +237,7 @@ def _draw_frequencies(axes: Axes, hops: Sequence[xr.Dataset], patch: xr.Dataset)
         rasterized=True,
     )  # fmt: skip
     axes.axvline(float(patch["stability_length"]), color=style.GUIDE, linewidth=0.8, linestyle=":")
-    axes.text(0.96, 0.05, "the patch's own", transform=axes.transAxes, ha="right",
-              fontsize=style.SMALL)  # fmt: skip
+    axes.text(0.03, 0.05, "the patch's own", transform=axes.transAxes, fontsize=style.SMALL)
     axes.set_yscale("log")
     axes.set_ylim(5.0, 300.0)
     axes.set_yticks([10.0, 100.0], ["10", "100"])
@@ -195,55 +245,6 @@ def _draw_frequencies(axes: Axes, hops: Sequence[xr.Dataset], patch: xr.Dataset)
     axes.set_ylabel("Angular frequency (1/s)")
 
 
-def _draw_orders(axes: Axes, table: xr.Dataset) -> None:
-    """Change of the drop's time with each refinement of the step."""
-    coarsest, largest = int(table["n_x"].values.min()), 0.0
-    steps: set[float] = set()
-    for sequence, height, n_x in _sequences(table, "longest_step"):
-        step = sequence["longest_step"].values[1:]
-        change = np.abs(sequence["drop_time_change"].values[1:])
-        axes.plot(step, change, **_line(table, height, n_x == coarsest))
-        steps.update(step.tolist())
-        if n_x == coarsest:
-            largest = max(largest, float(change[0]))
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    if steps:
-        ends = np.array([max(steps) / 4, max(steps)])
-        guide = 3.0 * largest * (ends / ends[1]) ** ORDER
-        axes.plot(ends, guide, ":", color=style.GUIDE)
-        axes.text(
-            ends[0], guide[0], f"slope {ORDER} ", color=style.GUIDE, fontsize=style.SMALL,
-            ha="left", va="bottom",
-        )  # fmt: skip
-        axes.set_xticks(sorted(steps), [_brief(step) for step in sorted(steps)])
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.invert_xaxis()
-    axes.set_xlabel(REFINED["longest_step"])
-    axes.set_ylabel("Change of the drop's time (s)")
-
-
 def _shades(number: int) -> list[tuple[float, ...]]:
     """Colours of meshes, from coarse to fine."""
     return [colormaps[style.SEQUENCE](0.85 * i / max(number - 1, 1)) for i in range(number)]
-
-
-def _add_legend(figure: Figure, table: xr.Dataset) -> None:
-    """Heights, and open markers for the coarsest mesh along x."""
-    axes = figure.axes[1]
-    handles = [
-        axes.plot([], [], label=f"$H={height:g}$ m", **_line(table, height, False))[0]
-        for height in _looks(table)
-    ]
-    guide = {"color": style.GUIDE, "marker": "o", "markersize": 4.0, "linewidth": 1.0}
-    coarsest = int(table["n_x"].values.min())
-    handles += axes.plot([], [], label=f"on $N_x={coarsest}$", linestyle="--",
-                         markerfacecolor="white", **guide)  # fmt: skip
-    steps = {step for refined in REFINED for _, step in _short_steps(table, refined)}
-    if steps:
-        words = " and ".join(f"{step:g}" for step in sorted(steps))
-        label = f"steps of {words} $D/V$"
-        handles += axes.plot([], [], label=label, **guide | SHORT_STEPS)
-    figure.legend(
-        handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2
-    )
