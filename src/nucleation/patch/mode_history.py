@@ -103,8 +103,8 @@ def follow_mode(
 ) -> ModeHistory:
     """The oscillating mode of a quiet run, and how each forcing stirs it.
 
-    It is followed up to one period before the onset, if there is one. Then it swings as much as V, and a patch that
-    is frozen in such a swing says nothing about small ones.
+    It is followed up to one period before the onset, if there is one. Then it swings as much as V,
+    and a patch that is frozen in such a swing says nothing about small ones.
 
     Parameters
     ----------
