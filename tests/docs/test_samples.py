@@ -82,7 +82,7 @@ def container(arguments, tmp_path):
         assert (ROOT / arguments[arguments.index("-f") + 1]).is_file()
         return
     asked = arguments[arguments.index("nucleation") + 1 :]
-    assert parse_args(asked)[1].targets == {"figure_studies"}
+    assert parse_args(asked)[1].targets == ["figure_studies"]
 
 
 RULES = {
