@@ -27,11 +27,6 @@ def batch(name):
     return keyed("batches", name, "batch.py", batch_parameters(name), modules=laws_of(name))
 
 
-def batches(study):
-    """The tables of a study's batches."""
-    return [batch(name) for name in dict.fromkeys(run.batch for run in settings.runs_of(study))]
-
-
 batched = of_key(batch, "batch", BATCHES)
 
 

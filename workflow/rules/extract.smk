@@ -39,7 +39,7 @@ rule extract:
 
 rule join_batches:
     input:
-        lambda wildcards: batches(wildcards.study),
+        lambda wildcards: made(wildcards.study),
     output:
         dataset=study_lengths("{study}"),
         table=f"{RESULTS}/lengths/{{study}}.csv",

@@ -110,8 +110,8 @@ class Job:
 
     # -- reading and writing --------------------------------------------------------------------
 
-    def read(self, path: str) -> xr.Dataset:
-        """An input, whole and of the key that the job was planned with.
+    def read(self, path: str, key: str | None = None) -> xr.Dataset:
+        """An input, whole and of the key that the job was planned with; or any dataset of a key.
 
         Raises
         ------
@@ -119,7 +119,7 @@ class Job:
             Otherwise, naming the file.
         """
         dataset = netcdf.read(path)
-        wanted = self.params.expected[str(path)]
+        wanted = key or self.params.expected[str(path)]
         if dataset.attrs.get("key") != wanted:
             raise DatasetError(
                 f"{path} is another result than it should be (its key is "

@@ -10,7 +10,6 @@ from typing import Any
 import xarray as xr
 
 from ..datasets import netcdf, provenance
-from ..datasets.variables import DatasetError
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint
@@ -46,10 +45,7 @@ def record_of(job: Job, simulate: Simulate, parameters: Parameters, result: Resu
         If a signal has stopped the run, which has left a checkpoint.
     """
     if result.path.is_file() or job.fetched(result):
-        dataset = netcdf.read(result.path)
-        if dataset.attrs.get("key") != result.key:
-            raise DatasetError(f"{result.path} is the result of another key: delete it")
-        return dataset
+        return job.read(str(result.path), result.key)
     checkpoint = checkpoint_of(parameters, result.path, result.code)
     checkpoint.listen()
     dataset, path = run_to_file(
