@@ -1,5 +1,6 @@
 """Every fault: importing a module of them enters them into the registry."""
 
+import batches
 import company
 import damage
 import disks
@@ -8,4 +9,4 @@ import reuse
 from registry import FAULTS
 
 __all__ = ["FAULTS"]
-MODULES = (kills, disks, damage, company, reuse)
+MODULES = (kills, batches, disks, damage, company, reuse)

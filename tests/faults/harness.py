@@ -38,7 +38,10 @@ CONFIG = {
     }
 }  # fmt: skip
 COSTS = {"wall_seconds", "peak_megabytes"}
-"""Variables that tell of the machine: they differ between any two runs."""
+"""Variables and attributes that tell of the machine: they differ between any two runs."""
+
+OF_THE_MOMENT = COSTS | {"created", "content", "command"}
+"""Attributes that do: the digest of the content covers the others."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -124,13 +127,13 @@ class Place:
         require(done.status == 0, done.output + self.log(id))
         return done
 
-    def finish(self, **environment: str) -> bool:
+    def finish(self, *targets: str, **environment: str) -> bool:
         """What a user does next: run it again and do what messages ask for, if it stops with any.
 
         Returns whether it did.
         """
         for attempt in range(4):
-            done = self.run(**environment)
+            done = self.run(*targets, **environment)
             if done.status == 0:
                 return attempt > 0
             if "cannot be locked" in done.output:
@@ -159,13 +162,17 @@ class Place:
 
     def require_same(self, reference: Reference) -> None:
         """Every dataset has the undisturbed one's values, bit for bit."""
+        self.require_contents(reference.contents)
+
+    def require_contents(self, expected: dict[Path, xr.Dataset]) -> None:
+        """The datasets are those, by path below the directory."""
         try:
             contents = self.contents()
         except variables.DatasetError as error:
             raise Lost(str(error)) from error
-        require(contents.keys() == reference.contents.keys(), f"datasets are {sorted(contents)}")
+        require(contents.keys() == expected.keys(), f"datasets are {sorted(contents)}")
         for path, dataset in contents.items():
-            difference = first_difference(dataset, reference.contents[path])
+            difference = first_difference(dataset, expected[path])
             require(difference is None, f"{path} differs from the undisturbed one: {difference}")
 
     @contextlib.contextmanager
@@ -185,7 +192,10 @@ def made(run: Run) -> dict[str, str]:
 
 
 def first_difference(one: xr.Dataset, other: xr.Dataset) -> str | None:
-    """The first variable in which two datasets differ in a bit."""
+    """The first attribute, or variable in a bit, in which two datasets differ."""
+    for name in (one.attrs.keys() | other.attrs.keys()) - OF_THE_MOMENT:
+        if not np.array_equal(one.attrs.get(name), other.attrs.get(name)):
+            return f"the attribute {name}"
     if one.variables.keys() != other.variables.keys():
         return "names of variables"
     for name in one.variables.keys() - COSTS:

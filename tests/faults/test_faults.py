@@ -10,9 +10,9 @@ from registry import CLEAR_ERROR, RECOVERED, disturb
 SEED = os.environ.get("FAULT_SEED", "1")
 LONG = {
     "flipped_cache_entry", "truncated_cache_entry", "clock_set_back_during_the_run",
-    "closed_terminal",
+    "closed_terminal", "sigkill_batch", "sigkill_snakemake_of_a_batch",
 }  # fmt: skip
-"""Left to make torture; workflow/test_cache.py damages a cache as well."""
+"""Left to make torture; workflow/test_cache.py damages a cache, test_batches.py kills a batch."""
 TESTED = [name for name in FAULTS if name not in LONG]
 
 

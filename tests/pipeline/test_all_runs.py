@@ -124,6 +124,23 @@ def test_runs_that_were_there_before_are_done_and_tell_nothing_of_time(tmp_path)
     assert runs.text() == "2 of 4 simulations done (50 %), 1 running, 20 s left"
 
 
+def test_a_run_of_two_jobs_is_one_run(tmp_path):
+    """Two studies may have the same run, one of them in a batch."""
+    jobs = Jobs(tmp_path, 1, 2)
+    (own,), (_, last) = (one.runs for one in jobs.work)
+    jobs.work[1] = Work((own, last), jobs.work[1].log)
+    runs = AllRuns(jobs.work, clock=jobs.clock)
+    jobs.begin(0, BEGAN)
+    jobs.begin(1, BEGAN)
+    jobs.now += 1.0
+    runs.look()
+    assert runs.text() == "0 of 2 simulations done (0 %), 1 running"
+    jobs.end(0, BEGAN + 10.0, 10.0, GOOD)
+    jobs.end(2, BEGAN + 20.0, 10.0, GOOD)
+    runs.look()
+    assert runs.over and runs.text() == "2 of 2 simulations done (100 %)"
+
+
 def test_predicted_costs_are_used(tmp_path):
     jobs = Jobs(tmp_path, 1, 1)
     costs = {str(jobs.runs[0]): 2.0, str(jobs.runs[1]): 6.0}

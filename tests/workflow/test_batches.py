@@ -12,16 +12,17 @@ from nucleation.configuration.load import configure
 from nucleation.datasets import netcdf
 
 SHORT = {
-    "n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 0.2,
+    "n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0,
     "record": "lengths",
 }  # fmt: skip
+HEIGHTS = (0.02, 0.03, 0.04, 0.05, 0.06)
 
 
-def configuration(per_job, heights=(0.02, 0.03, 0.04, 0.05, 0.06), **changes):
+def configuration(per_job, heights=HEIGHTS):
     study = {
         "length_over_critical": 4.0,
         "runs_per_job": per_job,
-        "defaults": SHORT | changes,
+        "defaults": SHORT,
         "runs": [{"height": list(heights)}],
     }
     return {"results": "results", "studies": {"many": study}}
@@ -79,13 +80,19 @@ def test_results_are_those_of_single_jobs(batched):
     pd.testing.assert_frame_equal(
         lengths_of(workflow).drop(columns=cost), lengths_of(single).drop(columns=cost)
     )
-    found, expected = datasets(workflow), datasets(single)
-    assert found.keys() == expected.keys() and len(found) == 5
-    for name, path in found.items():
-        one, other = netcdf.read(path), netcdf.read(expected[name])
-        assert one.drop_attrs().identical(other.drop_attrs())
-        assert one.attrs["key"] == other.attrs["key"]
+    assert len(datasets(workflow)) == 5
+    assert_same_datasets(workflow, single)
     assert workflow.planned("lengths") == {}
+
+
+def assert_same_datasets(one, other):
+    """The same runs, with the same values to the last bit."""
+    found, expected = datasets(one), datasets(other)
+    assert found.keys() == expected.keys()
+    for name, path in found.items():
+        here, there = netcdf.read(path), netcdf.read(expected[name])
+        assert here.drop_attrs().identical(there.drop_attrs())
+        assert here.attrs["key"] == there.attrs["key"]
 
 
 def test_what_exists_is_not_made_again(batched):
@@ -101,13 +108,26 @@ def test_what_exists_is_not_made_again(batched):
     assert checked.returncode == 0, checked.stdout
 
 
+def test_a_run_of_two_studies_is_made_once(workflow):
+    """By the batch or by its own job, whichever comes first; the other takes it."""
+    values = configuration(3, HEIGHTS[:3])
+    values["studies"]["alone"] = values["studies"]["many"] | {"runs_per_job": 1}
+    values["studies"]["alone"]["runs"] = [{"height": [HEIGHTS[0], HEIGHTS[4]]}]
+    both = workflow.configured(values)
+    assert both.planned("lengths").items() >= {"simulate": 2, "batch": 1}.items()
+    done = both("lengths", "--cores", "1")
+    assert done.returncode == 0, done.stdout
+    logs = [path.read_text() for path in (both.directory / "results/logs").glob("*/*.log")]
+    assert sum(log.count("begun") for log in logs) == len(datasets(both)) == 4
+
+
 def test_runs_that_fail_do_not_take_the_others_with_them(workflow):
     # a second step can't be as short as that: the run fails and says so
     values = configuration(3, (0.02, 0.03, 0.04))
     values["studies"]["many"]["runs"] = [
         {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
     ]  # fmt: skip
-    values["studies"]["many"]["defaults"]["tolerance"] = 1e-9
+    values["studies"]["many"]["defaults"] = SHORT | {"tolerance": 1e-9, "end_time": 0.2}
     failing = workflow.configured(values)
     done = failing("lengths", "--cores", "1")
     assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
@@ -116,7 +136,8 @@ def test_runs_that_fail_do_not_take_the_others_with_them(workflow):
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
 def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
-    slow = workflow.configured(configuration(5, end_time=1.0))
+    """And is, once run again, as one that nothing happened to (longer runs: tests/faults)."""
+    slow = workflow.configured(configuration(5))
     process = slow.start("lengths", "--cores", "1")
     while len(datasets(slow)) < 2:
         time.sleep(0.02)
@@ -130,6 +151,8 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
     assert done.returncode == 0, done.stdout
     after = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
     assert kept.items() <= after.items() and len(after) == 5
+    _, single = batched
+    assert_same_datasets(slow, single)
 
 
 def test_a_study_that_is_read_one_by_one_has_no_batches(workflow):

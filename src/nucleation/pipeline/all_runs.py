@@ -73,7 +73,7 @@ class AllRuns:
     ) -> None:  # fmt: skip
         self._work, self._clock, self._start = list(work), clock, clock()
         self._begun: dict[Path, float] = {}  # first sight of a job's log
-        costs, runs = costs or {}, [str(run) for one in work for run in one.runs]
+        costs, runs = costs or {}, {str(run) for one in work for run in one.runs}
         self._left = TimeLeft({run: costs.get(run, 1.0) for run in runs})
         self.total = len(runs)
         self.done: set[Path] = set()
