@@ -2,36 +2,11 @@
 
 import numpy as np
 import pytest
-import xarray as xr
+from made_up_map import lengths
 
 from nucleation.figures.beyond import figure_map
-from nucleation.patch.map_table import AXES, COLUMNS, gather, mean_over_seeds, on_grid
+from nucleation.patch.map_table import AXES, gather, mean_over_seeds, on_grid
 from nucleation.report.length_map import in_page
-
-HEIGHTS, WEAKENINGS, STRENGTHS, SEEDS = [0.01, 0.1, 1.0], [1.0, 3.0], [1e-5, 1e-3], [1, 2]
-
-
-def lengths(missing=()):
-    """A table of a map of 24 runs without some of them, in an order of no meaning."""
-    rows = [
-        (h, w, e, s) for h in HEIGHTS for w in WEAKENINGS for e in STRENGTHS for s in SEEDS
-        if (h, w, e, s) not in missing
-    ]  # fmt: skip
-    rows = [rows[i] for i in np.random.default_rng(3).permutation(len(rows))]
-    height, weakening, strength, seed = map(np.array, zip(*rows, strict=True))
-    theory = height**0.5 / weakening
-    columns = {
-        "height": height,
-        "strength": strength,
-        "seed": seed.astype(int),
-        "direct_effect": np.full(len(rows), 0.0068),
-        "velocity_weakening": 0.0068 * weakening,
-        "theory_length": theory,
-        "length": theory * (0.6 + 0.01 * seed + 10.0 * strength),
-        "stability_length": theory * 0.5,
-    }
-    others = {name: np.zeros(len(rows)) for name in COLUMNS if name not in columns}
-    return xr.Dataset({name: ("run", values) for name, values in (others | columns).items()})
 
 
 def test_every_run_is_in_its_place():

@@ -1,9 +1,22 @@
 "use strict";
 // The map of lengths: an image of one length over the theory's, and a slice at the chosen weakening.
+const WEAKENINGS = [0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 4, 6, 8, 10, 15, 20, 30, 50]; // that axes name
+
 function makeMap({ height, weakening, theory, fields, ratios }) {
   const pick = element("map-weakening");
   pick.max = weakening.length - 1;
   pick.value = Math.floor(weakening.length / 2);
+
+  // Plotly draws the same arrays again without looking for their range: axes get theirs from here.
+  const lengths = [theory, ...fields.map((one) => one.length)].flat(2).filter((length) => length !== null);
+  const seen = [0.9 * Math.min(...lengths), 1.1 * Math.max(...lengths)].map(Math.log10);
+
+  // The logarithms of the ends of an axis, half a cell beyond the values.
+  function ends(values) {
+    const [low, high] = [values[0], values[values.length - 1]].map(Math.log10);
+    const half = values.length > 1 ? (0.5 * (high - low)) / (values.length - 1) : 0.1;
+    return [low - half, high + half];
+  }
 
   const field = () => fields[Number(element("map-field").value)];
   const over = (lengths) => lengths.map((row, j) => row.map((length, i) =>
@@ -24,30 +37,37 @@ function makeMap({ height, weakening, theory, fields, ratios }) {
     };
     const chosen = {
       x: [height[0], height[height.length - 1]], y: [weakening[j], weakening[j]], mode: "lines",
-      line: { color: colour("ink"), width: 1, dash: "dot" }, hoverinfo: "skip", showlegend: false,
+      line: { color: colour("ink"), width: 1.5, dash: "dot" }, hoverinfo: "skip", showlegend: false,
     };
     Plotly.react("map-image", [image, chosen], layout({
-      title: heading("Length over the theory's"),
-      xaxis: axis("Block height H (m)", { type: "log" }),
-      yaxis: axis("Weakening ζ/a", { type: "log" }),
+      title: heading("Weakening ζ/a; colours: length over theory"),
+      plot_bgcolor: colour("line"), // what is seen where there is no length
+      xaxis: axis("Block height H (m)", { type: "log", dtick: "D2", range: ends(height) }),
+      yaxis: axis("", { type: "log", tickvals: WEAKENINGS, range: ends(weakening) }),
     }), SETTINGS);
   }
 
   function drawSlice() {
     const j = Number(pick.value);
     element("map-chosen").textContent = weakening[j].toPrecision(3);
+    pick.setAttribute("aria-valuetext", weakening[j].toPrecision(3));
     const symbols = ["circle-open", "circle", "square", "triangle-up", "diamond"];
+    const colours = ["ink", "mark", "field-2", "field-3"];
     const traces = [
-      { name: "theory", x: height, y: theory[j], mode: "lines", line: { color: colour("theory"), width: 2 } },
+      {
+        name: "theory", x: height, y: theory[j], mode: "lines", line: { color: colour("theory"), width: 2 },
+        hovertemplate: "H = %{x:.3g} m<br>theory %{y:.3g} m<extra></extra>",
+      },
       ...fields.map((one, i) => ({
         name: one.label, x: height, y: one.length[j], mode: "markers",
-        marker: { symbol: symbols[i % symbols.length], size: 7, color: colour(i ? "mark" : "ink") },
+        marker: { symbol: symbols[i % symbols.length], size: 7, color: colour(colours[i % colours.length]) },
+        hovertemplate: "H = %{x:.3g} m<br>%{y:.3g} m<extra></extra>",
       })),
     ];
     Plotly.react("map-slice", traces, layout({
-      title: heading(`Lengths at ζ/a = ${weakening[j].toPrecision(3)}`),
-      xaxis: axis("Block height H (m)", { type: "log" }),
-      yaxis: axis("Length (m)", { type: "log" }),
+      title: heading(`Length (m) at ζ/a = ${weakening[j].toPrecision(3)}`),
+      xaxis: axis("Block height H (m)", { type: "log", dtick: "D2", range: ends(height) }),
+      yaxis: axis("", { type: "log", dtick: "D2", range: seen }),
       legend: {
         orientation: "h", x: 0, xref: "container", y: 0, yref: "container", yanchor: "bottom",
         font: { size: 12 },
