@@ -254,7 +254,11 @@ include: "workflow/rules/check.smk"
 
 onstart:
     watch.begin(
-        workflow, lambda: {simulation(id): predicted_cost(RUNS[id].parameters) for id in RUNS}
+        workflow,
+        lambda: {
+            simulation(id): predicted_cost(run.parameters, run.theory_length)
+            for id, run in RUNS.items()
+        },
     )
 
 

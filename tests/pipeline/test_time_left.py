@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from nucleation.model.parameters import Parameters
-from nucleation.pipeline.time_left import TimeLeft, mean_of_censored, predicted_cost
+from nucleation.pipeline.time_left import (
+    TimeLeft,
+    expected_steps,
+    mean_of_censored,
+    predicted_cost,
+)
+from nucleation.theory.estimates import growth_time
 
 RUNS = 400
 
@@ -87,13 +93,25 @@ def test_a_run_that_failed_or_was_there_is_not_waited_for():
 
 
 def test_cost_grows_with_mesh_and_steps():
-    base = Parameters()
-    cost = predicted_cost(base)
+    base, length = Parameters(), 0.3
+    cost = predicted_cost(base, length)
     fine = base.replaced({"mesh.n_x": 2 * base.mesh.n_x})
-    assert predicted_cost(fine) / cost == pytest.approx(2.0**0.72)
-    assert predicted_cost(base.replaced({"n_y": 2 * base.mesh.n_y})) > cost
+    assert predicted_cost(fine, length) / cost == pytest.approx(2.0**0.72)
+    assert predicted_cost(base.replaced({"n_y": 2 * base.mesh.n_y}), length) > cost
     short = base.replaced({"longest_step": 0.5 * base.stepping.longest_step})
-    assert predicted_cost(short) / cost == pytest.approx(2.0)
+    assert predicted_cost(short, length) / cost == pytest.approx(2.0)
+
+
+def test_steps_are_those_until_the_patch_is_unstable():
+    """Or to the end, where that is sooner or there is no instability."""
+    base = Parameters().replaced({"end_time": 1e3, "longest_step": 0.1})
+    step = 0.1 * base.memory_time
+    until = growth_time(base, 0.55 * 0.3)
+    assert expected_steps(base, 0.3) == pytest.approx(until / step)
+    assert expected_steps(base, 0.6) > 2.0 * expected_steps(base, 0.3)
+    assert expected_steps(base, float("nan")) == pytest.approx(1e3 / step)
+    ended = base.replaced({"end_time": 0.5 * until})
+    assert expected_steps(ended, 0.3) == pytest.approx(0.5 * until / step)
 
 
 def test_mean_of_censored_values():

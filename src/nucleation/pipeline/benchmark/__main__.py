@@ -1,4 +1,4 @@
-"""``python -m nucleation.pipeline.benchmark CONFIGURATION [solver] [scale]``."""
+"""``python -m nucleation.pipeline.benchmark CONFIGURATION [PART ...]``."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ...figures import style
 from ...figures.checks import work_precision
 from ...model.parameters import Parameters
 from ...simulation.run import simulate
-from . import scale
+from . import batched, overhead, replay, scale
 from .runs import precisions, speedup_over_sparse, whole_run
 from .steps import pair_steps, perturbed, scaling, step_over_solve
 from .timing import with_mesh
 
-PARTS = ("solver", "scale")
+PARTS = ("solver", "scale", "overhead", "progress")
 
 
 def benchmark(parameters: Parameters) -> dict[str, Any]:
@@ -74,11 +74,22 @@ def measure_solver(settings: Configuration, results: Path) -> None:
     style.save(work_precision.draw(result["work_precision"]), results / "figures/work_precision")
 
 
-def measure_scale(runs: tuple[int, ...], results: Path) -> None:
+def measure_scale(numbers: tuple[int, ...], results: Path) -> None:
     """Print what surrounds thousands of runs, and write bench_scale.json."""
-    result = scale.scale(runs)
+    result = {}
+    for runs in numbers:
+        result[str(runs)] = scale.in_new_directory(scale.measured, runs)
+        result[f"{runs} in batches"] = scale.in_new_directory(batched.measured, runs)
     print(scale.report(result), flush=True)
     write_json(result, results / "bench_scale.json")
+
+
+def measure_overhead(settings: Configuration, results: Path, profile: str) -> None:
+    """Print what a run costs beside its steps and on the disk, and write bench_overhead.json."""
+    (run, *_) = settings.runs_of("map")
+    result = overhead.overhead(run.parameters, profile)
+    print(overhead.report(result), flush=True)
+    write_json(result, results / "bench_overhead.json")
 
 
 def main() -> None:
@@ -88,6 +99,9 @@ def main() -> None:
     parser.add_argument("parts", nargs="*", help=f"of {', '.join(PARTS)}")
     parser.add_argument("--runs", type=int, nargs="+", default=scale.RUNS,
                         help="in the studies of the part scale, multiples of 50")  # fmt: skip
+    parser.add_argument(
+        "--profile", default="default", help="of workflow/profiles, for the part overhead"
+    )
     arguments = parser.parse_args()
     if unknown := set(arguments.parts) - set(PARTS):
         parser.error(f"unknown parts {sorted(unknown)}: there are {', '.join(PARTS)}")
@@ -100,6 +114,10 @@ def main() -> None:
         measure_solver(settings, results)
     if "scale" in parts:
         measure_scale(tuple(arguments.runs), results)
+    if "overhead" in parts:
+        measure_overhead(settings, results, arguments.profile)
+    if "progress" in parts:
+        print(replay.report(results), flush=True)
 
 
 if __name__ == "__main__":

@@ -7,25 +7,22 @@ scripts take them for the results of the study.
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 import tempfile
-import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import yaml
 
 from ...configuration.load import Configuration, load
+from ...configuration.runs import Run
 from ...datasets import netcdf, provenance
 from ...model.friction.registry import plugins
 from ...simulation.run import simulate
 from .. import code, keys
-from ..code import ROOT
 from ..keys import Store
+from .processes import CHECKOUT, Cost, cost, in_a_job, snakemake, with_simulations
 
-CHECKOUT = ROOT.parent.parent
 RUNS = (100, 1000, 5000)
 """Runs of the studies that are measured."""
 
@@ -37,14 +34,6 @@ SMALLEST = HEIGHTS * len(AGES)
 
 STUDY = "many"
 SCRIPT = CHECKOUT / "workflow" / "scripts" / "simulate.py"
-
-
-class Cost(NamedTuple):
-    """What a command takes, with all processes that it starts."""
-
-    seconds: float  # of wall time
-    processor_seconds: float
-    megabytes: float  # of its largest process
 
 
 def configuration(runs: int) -> dict[str, Any]:
@@ -70,6 +59,13 @@ def configuration(runs: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def origin(run: Run) -> tuple[dict[str, Any], str, str]:
+    """What a simulation depends on: its parameters, the code's digest, and its key."""
+    parameters = run.parameters.to_dict()
+    digest = code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters))
+    return parameters, digest, keys.key(digest, {"parameters": parameters}, {})
+
+
 def fill(settings: Configuration, directory: Path) -> int:
     """Write a dataset for each run of a configuration, all with the values of the first run.
 
@@ -83,47 +79,12 @@ def fill(settings: Configuration, directory: Path) -> int:
     record = simulate(settings.runs[0].parameters).isel(time=slice(None, None, 10))
     store, size = Store(directory / settings.results), 0
     for run in settings.runs:
-        parameters = run.parameters.to_dict()
-        digest = code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters))
-        key = keys.key(digest, {"parameters": parameters}, {})
+        parameters, digest, key = origin(run)
         path = Path(store.dataset("simulations", run.id, key))
         attributes = provenance.attributes(parameters, digest, "make bench", key=key)
         netcdf.write(record, path, **attributes)
         size += path.stat().st_size
     return size
-
-
-def cost(command: list[str], directory: Path) -> Cost:
-    """Run a command of Python's, ``-m`` and what follows, in a directory; what it took.
-
-    Raises
-    ------
-    RuntimeError
-        With its output, if it fails.
-    """
-    environment = os.environ | {"PYTHONPATH": str(ROOT.parent)}
-    start = time.perf_counter()
-    with tempfile.TemporaryFile() as output:
-        process = subprocess.Popen(
-            [sys.executable, *command], cwd=directory, env=environment, stdin=subprocess.DEVNULL,
-            stdout=output, stderr=subprocess.STDOUT,
-        )  # fmt: skip
-        _, status, used = os.wait4(process.pid, 0)  # of its own children too
-        process.returncode = os.waitstatus_to_exitcode(status)
-        if status:
-            output.seek(0)
-            said = output.read().decode(errors="replace")
-            raise RuntimeError(f"{' '.join(command)} failed:\n{said[-4000:]}")
-    return Cost(time.perf_counter() - start, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0)
-
-
-def snakemake(*arguments: str) -> list[str]:
-    """Snakemake on the present configuration, one job at a time."""
-    profile = str(CHECKOUT / "workflow" / "profiles" / "default")
-    return [
-        "-m", "snakemake", *arguments, "--snakefile", str(CHECKOUT / "Snakefile"),
-        "--workflow-profile", profile, "--configfile", "config.yaml", "--cores", "1",
-    ]  # fmt: skip
 
 
 BUNDLE = ["-m", "nucleation.pipeline.bundle"]
@@ -145,33 +106,35 @@ def measured(runs: int, directory: Path) -> dict[str, Any]:
     """The costs of all :data:`COMMANDS` for a study of so many runs, in an empty directory."""
     path = directory / "config.yaml"
     path.write_text(yaml.safe_dump(configuration(runs)), encoding="utf-8")
-    result: dict[str, Any] = {}
+    settings = load(path)
+    run = settings.runs[0]
+    job = in_a_job("simulate", run.id, origin(run)[2])
+    result: dict[str, Any] = {"job": with_simulations(job, directory)}
     for name, command in COMMANDS.items():
         if name == "lengths":
-            result["megabytes_of_datasets"] = fill(load(path), directory) / 1e6
+            result["megabytes_of_datasets"] = fill(settings, directory) / 1e6
         if name == "restore":
             (directory / "results").rename(directory / "moved")
         result[name] = cost(command, directory)._asdict()
     return result
 
 
-def scale(numbers: tuple[int, ...] = RUNS) -> dict[str, Any]:
-    """The costs for studies of so many runs each."""
-    result = {}
-    for runs in numbers:
-        with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as directory:
-            result[str(runs)] = measured(runs, Path(directory))
-    return result
+def in_new_directory(measure: Callable[[int, Path], dict[str, Any]], runs: int) -> dict[str, Any]:
+    """What is measured of so many runs, in a directory that is removed then."""
+    with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as directory:
+        return measure(runs, Path(directory))
 
 
 def report(result: dict[str, Any]) -> str:
     """The costs as a table."""
-    lines = [f"{'runs':>6}  {'':14}{'s':>8}{'cpu s':>8}{'MB':>8}"]
+    lines = [f"{'runs':>16}  {'':14}{'s':>8}{'cpu s':>8}{'MB':>8}"]
     for runs, costs in result.items():
         for name, spent in costs.items():
             if isinstance(spent, dict):
+                further = [f"{k} {v:.3g}" for k, v in spent.items() if k not in Cost._fields]
                 lines.append(
-                    f"{runs:>6}  {name:14}{spent['seconds']:8.1f}"
+                    f"{runs:>16}  {name:14}{spent['seconds']:8.1f}"
                     f"{spent['processor_seconds']:8.1f}{spent['megabytes']:8.0f}"
+                    f"  {', '.join(further)}".rstrip()
                 )
     return "\n".join(lines)
