@@ -176,6 +176,8 @@ def test_thin_layer_length():
         ("thin_limit", [0.01, 0.9], [1.0, 1.2]),
         ("state_evolution", [0.01, 1.2], []),
         ("uenishi_rice", [0.01, 0.099], [0.101, 0.9, 1.2]),
+        ("creeping_asperity", [0.01, 0.999], [1.0, 1.2]),
+        ("loaded_patch", [0.01, 0.989], [0.991, 1.0, 1.2]),
     ],
 )
 def test_ranges_of_validity_in_a_over_b(key, inside, outside):

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from .fault import Values, where
+from .finite_patch import NEAREST, loaded_patch_factor
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 """Range of the prefactor eta of Eq. (3) (Dieterich, 1992, Table 1)."""
@@ -24,6 +25,9 @@ LOCALISED_LIMIT = 0.3781
 THIN = 0.3
 """Largest ``2 pi H/L`` at which a layer counts as thin: Eq. (11) is then 8 % above the theory."""
 
+
+FINITE_PATCH = 1.158
+"""Least unstable length, in ``mu*/W``, of a patch that weakens by W per slip (Uenishi-Rice)."""
 
 NEGLIGIBLE = 0.1
 """Largest a/b of a law whose direct effect is left out, and largest ``f |beta|`` of a pair whose
@@ -165,7 +169,46 @@ def uenishi_rice_length(
     negligible: where a/b is .3 a patch has to be more than twice as long to accelerate.
     """
     modulus = plane_strain_modulus(shear_modulus, poisson_ratio)
-    return _where(weakening_rate > 0.0, 1.158 * modulus / _nan0(weakening_rate))
+    return _where(weakening_rate > 0.0, FINITE_PATCH * modulus / _nan0(weakening_rate))
+
+
+def creeping_asperity_length(
+    shear_modulus: Values,
+    poisson_ratio: Values,
+    normal_stress: Values,
+    zeta: Values,
+    slip_distance: Values,
+) -> Any:
+    """``1.158 mu* D/(zeta sigma0)`` (m): an asperity whose surroundings creep on at its own rate.
+
+    Source: the first scenario of Viesca and Garagash (2025, arXiv:2512.18729) by our derivation
+    (:mod:`.finite_patch`): each elastic mode of a patch of fixed length is a spring block, and the
+    softest is that of Uenishi and Rice (2003) with ``W = zeta sigma0/D``. Linear, quasi-static,
+    exact for any a/b < 1; either law. 0.369 of Eq. (6). Valid for ``zeta > 0``.
+    """
+    eta = FINITE_PATCH / (1.0 - poisson_ratio)
+    return conventional_length(eta, shear_modulus, normal_stress, zeta, slip_distance)
+
+
+def loaded_patch_length(
+    shear_modulus: Values,
+    poisson_ratio: Values,
+    normal_stress: Values,
+    a: Values,
+    b: Values,
+    slip_distance: Values,
+) -> Any:
+    """``C(a/b) mu* D/(zeta sigma0)`` (m): a patch with pinned ends under a steadily rising load.
+
+    Source: the second scenario of Viesca and Garagash (2025, arXiv:2512.18729) by our derivation
+    and computation (:mod:`.finite_patch`), not their algebraic fit. C is 1.158 without a direct
+    effect, 1.24 at a/b = 0.5 and 2.87 at 0.99, as slip is slower towards the ends, where the state
+    lags behind. Linear, quasi-static; either law. Valid for ``0 < a/b < 0.99``.
+    """
+    length = state_evolution_length(shear_modulus, poisson_ratio, normal_stress, b, slip_distance)
+    valid = (a > 0.0) & (a < NEAREST * b)
+    part = where(valid, a / _nan0(b), 0.5)
+    return _where(valid, loaded_patch_factor(part) / (1.0 - part) * length)
 
 
 def bimaterial(

@@ -132,6 +132,18 @@ _OF_ONE_MATERIAL = (
         f"a/b < {literature.NEGLIGIBLE} unless W is given",
     ),
     Length(
+        "creeping_asperity", "asperity, creep around it", "1.158 mu* D/(zeta sigma0)",
+        "Viesca and Garagash (2025), first scenario, by our derivation; Uenishi and Rice (2003)",
+        "velocity weakening, patch of fixed length in steady creep, either law", HALF_SPACES,
+        literature.creeping_asperity_length, "zeta > 0",
+    ),
+    Length(
+        "loaded_patch", "pinned patch, steady load", "C(a/b) mu* D/(zeta sigma0)",
+        "Viesca and Garagash (2025), second scenario, by our computation of C",
+        "velocity weakening, patch of fixed length under a rising load, either law", HALF_SPACES,
+        literature.loaded_patch_length, f"0 < a/b < {literature.NEAREST}",
+    ),
+    Length(
         "thin_limit", "thin layer, Hk -> 0", "2 pi sqrt[2 mu* H D/(zeta sigma0)]",
         "Aldam et al. (2017), Eq. (11)", f"{_WEAKENING}; 2 pi H/L << 1", RIGID_BASE,
         literature.thin_limit_length, f"zeta > 0 and 2 pi H/L < {literature.THIN}",
@@ -144,7 +156,7 @@ _OF_ONE_MATERIAL = (
 )  # fmt: skip
 _OF_TWO = (
     "homogeneous_sliding", "rice_ruina", "state_evolution", "rubin_ampuero_localised",
-    "rubin_ampuero_crack", "uenishi_rice",
+    "rubin_ampuero_crack", "uenishi_rice", "creeping_asperity", "loaded_patch",
 )  # fmt: skip
 
 LENGTHS = (*_OF_ONE_MATERIAL, *(x.of_two() for x in _OF_ONE_MATERIAL if x.key in _OF_TWO))
