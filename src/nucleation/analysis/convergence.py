@@ -12,6 +12,8 @@ from typing import Any
 
 import xarray as xr
 
+from .rows import Row, rows_of
+
 REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
 
@@ -24,8 +26,6 @@ COLUMNS = (
     "length_difference", "elements_difference", "theory_length", "length_over_theory", "steps",
     "wall_seconds",
 )  # fmt: skip
-
-Row = dict[str, Any]
 
 
 def sequences(rows: Sequence[Row], refined: str) -> list[list[Row]]:
@@ -56,10 +56,7 @@ def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
         to the finest run of the sequence, zero for that run itself; ``elements_difference`` is the
         difference of the lengths in elements of the coarser mesh. NaN without an event.
     """
-    rows = [
-        {name: lengths[name].values[i].item() for name in map(str, lengths.data_vars)}
-        for i in range(lengths.sizes["run"])
-    ]
+    rows = rows_of(lengths)
     found = [
         {"refinement": refined} | row
         for refined in REFINED

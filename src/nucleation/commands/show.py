@@ -14,6 +14,7 @@ import xarray as xr
 
 from ..analysis.extraction import extract
 from ..analysis.record import Record, parameters_of
+from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..datasets import netcdf
 from ..model.linearised import linearised
@@ -81,15 +82,9 @@ def _as_json(dataset: xr.Dataset, kind: Kind) -> dict[str, Any]:
         told |= text.outcome(dataset)
     elif kind.summary is _length_rows:
         told["rows"] = [
-            {str(n): _cell(dataset[n].values[i]) for n in dataset.data_vars}
-            for i in range(dataset.sizes["run"])
+            {name: text.plain(value) for name, value in row.items()} for row in rows_of(dataset)
         ]
     return told
-
-
-def _cell(value: Any) -> Any:
-    """One value of a table: a text, or a number as JSON has them."""
-    return str(value) if isinstance(value, str) else text.plain(value)
 
 
 def kind_of(dataset: xr.Dataset) -> Kind:
@@ -163,13 +158,11 @@ def _simulation_lines(dataset: xr.Dataset) -> list[str]:
 def _length_rows(dataset: xr.Dataset) -> list[str]:
     """The table of lengths, one run in a line."""
     lines = [f"{'id':<44} {'H (m)':>8} {'onset (s)':>10} {'L_c (m)':>9} {'theory':>8}  /theory"]
-    for number in range(min(dataset.sizes["run"], SHOWN_ROWS)):
-        row = dataset.isel(run=number)
-        length, theory = float(row["length"]), float(row["theory_length"])
-        height, onset = float(row["height"]), float(row["onset_time"])
+    for row in rows_of(dataset, range(min(dataset.sizes["run"], SHOWN_ROWS))):
+        length, theory = row["length"], row["theory_length"]
         lines.append(
-            f"{row['id'].item():<44} {height:>8.4g} {onset:>10.4g} {length:>9.4g} {theory:>8.4g}"
-            f"  {length / theory:.3f}"
+            f"{row['id']:<44} {row['height']:>8.4g} {row['onset_time']:>10.4g} {length:>9.4g} "
+            f"{theory:>8.4g}  {length / theory:.3f}"
         )
     hidden = dataset.sizes["run"] - SHOWN_ROWS
     return lines + ([f"and {hidden} more"] if hidden > 0 else [])

@@ -15,6 +15,7 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.record import parameters_of
+from ..analysis.rows import Row, rows_of
 from ..model.perturbation import Perturbation
 from .delay import Growth, growth, realised
 from .mode_history import ModeHistory, from_dataset
@@ -36,8 +37,6 @@ FLOORS = (
     "theory_length", "stability_length", "floor_normal_load", "floor_state",
 )  # fmt: skip
 """Columns that say something of a quiet run."""
-
-Row = dict[str, Any]
 
 
 class Law:
@@ -119,6 +118,5 @@ def _fault(parameters: Any) -> tuple[str, float, float]:
 def _runs(tables: Iterable[xr.Dataset]) -> Iterator[Row]:
     for table in tables:
         names = [name for name in (*MEASURED, "phi0") if name in table]
-        for i in range(table.sizes["run"]):
-            row = {name: table[name].values[i].item() for name in names}
+        for row in rows_of(table, names=names):
             yield {"correlation_length": float("nan")} | row

@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.rows import ratios
+
 COLUMNS = (
     "id", "height", "zeta_over_a", "kind", "strength", "seed", "onset_time", "length", "length_low",
     "length_high", "theory_length", "length_ratio", "stability_length", "stability_length_error",
@@ -28,15 +30,9 @@ DIGITS = 6
 
 def gather(lengths: xr.Dataset) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, of a table of lengths with the stability of each patch."""
-    ratio = lengths["velocity_weakening"].values / lengths["direct_effect"].values
-    theory = lengths["theory_length"].values
-    added = {
-        "zeta_over_a": np.array([float(f"{value:.{DIGITS}g}") for value in ratio]),
-        "length_ratio": lengths["length"].values / theory,
-        "stability_ratio": lengths["stability_length"].values / theory,
-    }
-    table = lengths.assign({name: ("run", values) for name, values in added.items()})
-    return table[list(COLUMNS)].drop_attrs()
+    table = lengths.assign(ratios(lengths))
+    rounded = [float(f"{value:.{DIGITS}g}") for value in table["zeta_over_a"].values]
+    return table.assign(zeta_over_a=("run", np.array(rounded)))[list(COLUMNS)].drop_attrs()
 
 
 def on_grid(table: xr.Dataset) -> xr.Dataset:

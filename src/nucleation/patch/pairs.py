@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.extraction import extract
 from ..analysis.lengths import description
 from ..analysis.record import parameters_of
+from ..analysis.rows import ratios
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
@@ -51,7 +54,8 @@ def pair_description(parameters: Parameters) -> dict[str, Any]:
         "second_poisson_ratio": below.material.poisson_ratio,
         "friction": interface.friction,
         "f_beta": f_beta,
-        "zeta_over_a": interface.zeta / interface.a,
+        "direct_effect": interface.a,
+        "velocity_weakening": interface.zeta,
         "second_n_y": below.mesh.n_y,
         "kind": declared.kind,
         "strength": declared.strength,
@@ -77,12 +81,20 @@ def gather(
     """
     rows = []
     for run, simulation, patch in zip(runs, simulations, patches, strict=True):
-        measured, theory = extract(simulation, settings), run["theory_length"]
+        measured = extract(simulation, settings)
         row = description(run) | pair_description(parameters_of(simulation))
         row |= {name: float(measured[name]) for name in MEASURED}
         row |= {name: float(patch[name]) for name in FITTED}
         row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
-        row["length_ratio"] = row["length"] / theory
-        row["stability_ratio"] = row["stability_length"] / theory
-        rows.append(row)
+        rows.append(row | ratios(row))
     return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+
+
+def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
+    """Some rows of the table, True where they are wanted."""
+    return table.isel(run=np.flatnonzero(rows))
+
+
+def of_study(table: xr.Dataset, study: str) -> xr.Dataset:
+    """The rows of one study."""
+    return chosen(table, table["study"].values == study)

@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.events import without_event
+from ..analysis.rows import rows_of
 from .faults import FAULT, faults
-from .tables import Cell, number, rows_of
+from .tables import Cell, number
 
 
 class OwnStudies(NamedTuple):

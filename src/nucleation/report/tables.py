@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from markupsafe import Markup
 
+from ..analysis.rows import rows_of
 from ..claims.symbols import as_html
 from ..datasets.variables import VARIABLES
 from ..figures.paper import figure_3
@@ -94,12 +94,6 @@ def verdict_counts(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def rows_of(table: xr.Dataset, chosen: Iterable[int]) -> list[dict[str, Any]]:
-    """Some rows of a table, each with its values by their names."""
-    columns = {str(name): table[name].values for name in table.data_vars}
-    return [{name: values[i] for name, values in columns.items()} for i in chosen]
-
-
 LENGTH_COLUMNS = (
     "Simulation", "H (m)", "Onset (s)", "Length (m)", "Range (m)", "Over theory", "Elements",
     "Steps", "Time (s)", "Memory (MB)",
@@ -109,7 +103,7 @@ LENGTH_COLUMNS = (
 def length_rows(lengths: xr.Dataset) -> list[list[Cell]]:
     """One row of :data:`LENGTH_COLUMNS` for every simulation of a table of lengths."""
     rows = []
-    for run in rows_of(lengths, range(lengths.sizes["run"])):
+    for run in rows_of(lengths):
         elements = int(run["n_x"]) * int(run["n_y"])
         low, high = (number(run[name], 3) for name in ("length_low", "length_high"))
         rows.append(

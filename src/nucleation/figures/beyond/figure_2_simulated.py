@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
+from ...patch.pairs import chosen, of_study
 from ...theory.closed_forms import bimaterial_length_ratio
-from .figure_pairs import chosen
 
 STUDY = "figure_2_simulated"
 CONTRAST = np.linspace(0.0, 0.42, 85)
@@ -31,7 +31,7 @@ def draw(table: xr.Dataset) -> Figure:
     Figure
         Two columns wide, two panels.
     """
-    rows = chosen(table, table["study"].values == STUDY)
+    rows = of_study(table, STUDY)
     figure = style.new_figure(style.DOUBLE_COLUMN, 7.6 * style.CENTIMETRE)
     axes = figure.subplots(1, 2, sharey=True)
     panels = (("length", "(a) at the drop"), ("stability_length", "(b) patch turns unstable"))

@@ -8,6 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
+from ...patch.pairs import chosen, of_study
+from ...theory.literature import FINITE_PATCH
 
 STUDY = "pairs_identical"
 SIDES = (
@@ -32,16 +34,11 @@ def draw(table: xr.Dataset) -> Figure:
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 7.4 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
-    _draw_heights(left, chosen(table, table["study"].values == STUDY).sortby("height"))
+    _draw_heights(left, of_study(table, STUDY).sortby("height"))
     _draw_ratios(
         right, chosen(table, np.abs(table["zeta_over_a"].values / _usual(table) - 1) < 0.1)
     )
     return figure
-
-
-def chosen(table: xr.Dataset, rows: np.ndarray) -> xr.Dataset:
-    """Some rows of the table."""
-    return table.isel(run=np.flatnonzero(rows))
 
 
 def _usual(table: xr.Dataset) -> float:
@@ -64,6 +61,10 @@ def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
         )  # fmt: skip
         axes.axhline(0.5 * theory[-1], color=style.GUIDE, linewidth=0.8, linestyle=":",
                      label="half of it")  # fmt: skip
+        axes.axhline(
+            FINITE_PATCH / np.pi * theory[-1], color=style.GUIDE, linewidth=0.8, linestyle="-.",
+            label="finite patch in creep, 0.37 of it",
+        )  # fmt: skip
     axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
     axes.set_title("(a) identical blocks", loc="left")
     axes.legend(fontsize=style.SMALL, loc="lower right")
