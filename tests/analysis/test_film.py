@@ -4,11 +4,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 from PIL import Image
 
 from nucleation.analysis import film
 from nucleation.fem.grid import Grid
 from nucleation.figures.beyond import animation
+from nucleation.model.material import Material
+from nucleation.model.parameters import Parameters
+from nucleation.simulation.run import simulate
 
 pytestmark = pytest.mark.slow
 
@@ -22,9 +26,25 @@ def test_shear_stress_of_a_known_displacement():
     """Bilinear along x and linear along y on a graded mesh: the differences are exact."""
     grid = Grid(2.0, 0.5, 8, 6, 3.0)
     x, y = np.meshgrid(grid.x, grid.y)
-    body = SimpleNamespace(grid=grid, nodal_values=lambda field: (3.0 * y * (1.0 + x), 5.0 * x))
-    stress = film.shear_stress(body, SimpleNamespace(displacement=None), 7.0)
+    body = SimpleNamespace(
+        grid=grid, grid_below=None, nodal_values=lambda field: (3.0 * y * (1.0 + x), 5.0 * x)
+    )
+    still = SimpleNamespace(displacement=None)
+    stress = film.shear_stress(body, still, [Material(shear_modulus=7.0)])
     np.testing.assert_allclose(stress, 7.0 * (3.0 * (1.0 + x) + 5.0), rtol=1e-12)
+    # with a body below, whose nodes are counted downwards, the same field gives its own stress
+    below = Grid(2.0, 0.3, 8, 4, 2.0)
+    x2, y2 = np.meshgrid(below.x, -below.y)
+    body.grid_below = below
+    body.nodal_values_below = lambda field: (3.0 * y2 * (1.0 + x2), 5.0 * x2)
+    materials = [Material(shear_modulus=7.0), Material(shear_modulus=2.0)]
+    both = film.shear_stress(body, still, materials)
+    heights, rows = film.levels(body)
+    assert both.shape == (12, 9) and heights.shape == (12,)
+    np.testing.assert_array_equal(both[5:], stress)
+    np.testing.assert_allclose(both[:5], np.tile(2.0 / 7.0 * stress[:1], (5, 1)), rtol=1e-12)
+    np.testing.assert_allclose(heights[[0, 4, 5, 11]], [-0.3, 0.0, 0.0, 0.5])
+    assert rows.tolist() == list(range(12))
 
 
 def test_film_is_of_the_same_run(filmed, simulation, table):
@@ -56,3 +76,45 @@ def test_animation_has_a_picture_for_every_moment(filmed, table, tmp_path):
     with Image.open(path) as saved:
         assert saved.n_frames == 3
         assert saved.convert("RGB").getpixel((1, 1)) == (255, 255, 255)
+
+
+@pytest.fixture(scope="module")
+def filmed_pair():
+    """A pair of coarse blocks, a layer on one three times as stiff; too short for an event."""
+    parameters = Parameters().replaced(
+        {
+            "height": 0.01, "length": 0.6, "n_x": 40, "n_y": 40, "end_time": 1.0,
+            "second_body": "deformable", "second_height": 0.02, "second_n_y": 5,
+            "second_shear_modulus": 9.3e9, "second_bottom": "clamped",
+        }
+    )  # fmt: skip
+    record = simulate(parameters)
+    row = xr.Dataset({"onset_time": np.nan, "length": 0.2})
+    return record, film.film_dataset(record, row), row
+
+
+def test_film_of_a_pair_shows_both_bodies(filmed_pair):
+    """On either side the stress is that of the interface, so far as elements go."""
+    record, filmed, _ = filmed_pair
+    y, stress = filmed["y"].values, filmed["block_shear_stress"].values
+    assert (y[0], y[-1]) == (-0.02, 0.01) and (y == 0.0).sum() == 2
+    assert (np.diff(y) >= 0.0).all() and y.size == 6 + film.MOST_ROWS  # the upper one is thinned
+    last = record["shear_stress"].sel(time=filmed["time"][-1], x=filmed["x"]).values
+    within = slice(1, 4)
+    assert last[within].mean() > 3e5
+    for level in np.flatnonzero(y == 0.0):
+        beside = stress[-1, level, within].mean()
+        assert beside == pytest.approx(last[within].mean(), rel=0.3)
+    assert np.abs(stress[-1, -1]).max() < 0.2 * last.max() < np.abs(stress[-1, 0]).max()
+
+
+def test_animation_of_a_pair_has_both_bodies_and_the_interface(filmed_pair):
+    _, filmed, row = filmed_pair
+    figure, _ = animation._panels(filmed, row)
+    block = figure.axes[1]
+    assert block.get_ylim() == (-0.02, 0.01)
+    assert len(block.collections) == 2  # filled contours of either body
+    (interface,) = block.lines
+    assert set(interface.get_ydata()) == {0.0}
+    for image in animation.frames(filmed.isel(time=[0, -1]), row):
+        assert image.size[1] > 0.7 * image.size[0]

@@ -16,6 +16,7 @@ from jinja2 import UndefinedError
 
 from nucleation.analysis import moments
 from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.record import parameters_of
 from nucleation.figures import catalogue
 from nucleation.figures.paper import figure_3
 from nucleation.model.quantities import declarations
@@ -70,6 +71,16 @@ def test_csv_has_only_the_datasets_own_columns():
 
 
 # ---- Parts
+
+
+def test_the_player_says_what_lies_below(content):
+    """A pair's run shows the interface, which both blocks have; the page gives both heights."""
+    run = content.player.run
+    parameters = parameters_of(run).replaced({"second_body": "deformable", "second_height": 0.0375})
+    pair = run.assign_attrs(parameters=parameters.to_json())
+    html = page.build(content._replace(player=content.player._replace(run=pair)))
+    assert "on a second block, <i>H</i><sub>2</sub> = 0.0375 m" in html
+    assert "on a second block, <i>H</i>" not in page.build(content)
 
 
 def test_sections_without_content_are_left_out(content):

@@ -1,4 +1,4 @@
-"""A film of one run: the slip rate at the interface and the shear stress in the block.
+"""A film of one run: the slip rate at the interface and the shear stress in the bodies.
 
 A simulation records the bulk at a few instants only. For a film the same run is made once more,
 which gives the same steps, and the stress is taken at chosen ones of its recorded times.
@@ -6,15 +6,18 @@ which gives the same steps, and the stress is taken at chosen ones of its record
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..fem.condensed import Body
+from ..model.material import Material
 from ..simulation.composition import composed
 from ..simulation.run import run
 from ..simulation.state import State
-from .moments import chosen_frames, event_interval, thinned
+from .moments import Indices, chosen_frames, event_interval, thinned
 from .record import parameters_of
 
 Array = NDArray[np.float64]
@@ -24,15 +27,45 @@ MOST_COLUMNS, MOST_ROWS = 241, 31
 SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 
-def shear_stress(body: Body, state: State, shear_modulus: float) -> Array:
-    """Shear stress (Pa) at the nodes, shape (n_y + 1, n_x + 1), by differences of neighbours."""
-    grid, (along_x, along_y) = body.grid, body.nodal_values(state.displacement)
-    shear = np.gradient(along_x, grid.y, axis=0) + np.gradient(along_y, grid.x, axis=1)
-    return shear_modulus * shear
+def shear_stress(body: Body, state: State, materials: Sequence[Material]) -> Array:
+    """Shear stress (Pa) at the nodes, by differences of neighbours.
+
+    Parameters
+    ----------
+    materials : of the (upper) body, and of the second one if there is one.
+
+    Returns
+    -------
+    ndarray
+        Shape (levels, n_x + 1), levels as of :func:`levels`: both bodies have one of their own on
+        the interface, whose stresses are alike as far as the meshes resolve them.
+    """
+    sides = [(body.grid, 1.0, body.nodal_values)]
+    if body.grid_below is not None:
+        sides.append((body.grid_below, -1.0, body.nodal_values_below))
+    found = []
+    for (grid, up, values), material in zip(sides, materials, strict=True):
+        along_x, along_y = values(state.displacement)
+        shear = np.gradient(along_x, up * grid.y, axis=0) + np.gradient(along_y, grid.x, axis=1)
+        found.append(material.shear_modulus * shear)
+    return np.concatenate([*(stress[::-1] for stress in found[1:]), found[0]])
+
+
+def levels(body: Body) -> tuple[Array, Indices]:
+    """Heights y (m) of the nodes from the lowest to the highest, and which of them a film shows.
+
+    The interface's ``y = 0`` is there twice if there is a second body, whose nodes come first.
+    """
+    rows = thinned(np.arange(body.grid.y.size), MOST_ROWS)
+    if body.grid_below is None:
+        return body.grid.y, rows
+    below = body.grid_below.y
+    rows_below = below.size - 1 - thinned(np.arange(below.size), MOST_ROWS)[::-1]
+    return np.concatenate((-below[::-1], body.grid.y)), np.append(rows_below, below.size + rows)
 
 
 def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
-    """Run a simulation once more, and take the stress in its block along the way.
+    """Run a simulation once more, and take the stress in its bodies along the way.
 
     Parameters
     ----------
@@ -47,27 +80,29 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     Dataset
         ``slip_rate`` (m/s) on (time, x), ``block_shear_stress`` (Pa) on (time, y, x), at some of
         the recorded times and of the nodes, near the loaded edge; ``driving_force`` (N/m) and
-        ``maximal_slip_rate`` (m/s) on (step); the run's ``parameters`` as an attribute.
+        ``maximal_slip_rate`` (m/s) on (step); the run's ``parameters`` as an attribute. A second
+        body is in it from ``y = -H2`` to its own ``y = 0``, below that of the upper one.
     """
     parameters = parameters_of(simulation)
     dynamics = composed(parameters)
     grid = dynamics.grid
     farthest = np.fmin(SHOWN_LENGTHS * float(row["length"]), grid.length)
     columns = thinned(np.flatnonzero(grid.x <= farthest), MOST_COLUMNS)
-    rows = thinned(np.arange(grid.y.size), MOST_ROWS)
+    heights, rows = levels(dynamics.body)
     recorded = simulation["time"].values
     event = event_interval(simulation, float(row["onset_time"]))
     frames = chosen_frames(recorded, event, MOST_FRAMES)
+    below = parameters.below
+    materials = [parameters.material, *([below.material] if below else [])]
     stresses = []  # type: ignore[var-annotated]
     for instant in run(parameters, dynamics=dynamics):
         if instant.state.time >= recorded[frames[len(stresses)]]:
-            modulus = parameters.material.shear_modulus
-            stress = shear_stress(dynamics.body, instant.state, modulus)
+            stress = shear_stress(dynamics.body, instant.state, materials)
             stresses.append(stress[np.ix_(rows, columns)].astype(np.float32))
         if len(stresses) == frames.size:
             break
     names = ["slip_rate", "driving_force", "maximal_slip_rate", "step_time"]
-    film = simulation[names].isel(time=frames, x=columns).assign_coords(y=grid.y[rows])
+    film = simulation[names].isel(time=frames, x=columns).assign_coords(y=heights[rows])
     film["block_shear_stress"] = ("time", "y", "x"), np.array(stresses)
     film.attrs = {"parameters": parameters.to_json()}
     return film

@@ -189,9 +189,12 @@ def _run(content: Content) -> dict[str, Any] | None:
         return None
     run, row = content.player
     name = f"{row['id'].values}.nc"
+    parameters = parameters_of(run)
+    below = parameters.below
     return {
         "id": str(row["id"].values),
-        "height": parameters_of(run).geometry.height,
+        "height": parameters.geometry.height,
+        "second_height": below.geometry.height if below else None,
         "onset": float(row["onset_time"]),
         "length": float(row["length"]),
         "frames": run.sizes["time"],

@@ -68,12 +68,13 @@ def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
 
 
 def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
-    """Slip rate above the stress in the block above the force: whole, and near the event."""
-    figure = style.new_figure(7.2, 4.5)
-    grid = figure.add_gridspec(3, 2, height_ratios=(1.15, 1.0, 1.0))
+    """Slip rate above the stress in the bodies above the force: whole, and near the event."""
+    parameters = parameters_of(film)
+    bodies = 1.0 if parameters.below is None else 1.5  # height of their panel
+    figure = style.new_figure(7.2, 4.5 * (2.15 + bodies) / 3.15)
+    grid = figure.add_gridspec(3, 2, height_ratios=(1.15, bodies, 1.0))
     rate, block = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
     whole, near = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
-    parameters = parameters_of(film)
     onset = float(row["onset_time"])
     interval = event_interval(film, onset)
     title = rate.set_title("", loc="left")
@@ -114,20 +115,32 @@ def _rate_panel(axes: Axes, film: xr.Dataset, length: float) -> Update:
 
 
 def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> Update:
-    """Filled contours of the shear stress over the normal stress; heights are stretched."""
+    """Filled contours of the shear stress over the normal stress; heights are stretched.
+
+    Of two bodies each is drawn on its own side of the interface, which is a line then.
+    """
     x, y = film["x"].values, film["y"].values
     ratio = film["block_shear_stress"].values / parameters.loading.normal_stress
-    levels = np.linspace(0.0, float(np.quantile(ratio, SPAN)), LEVELS)
+    colours = np.linspace(0.0, float(np.quantile(ratio, SPAN)), LEVELS)
+    first = int(np.searchsorted(y, 0.0, side="right")) - 1  # of the upper body: y = 0 is its last
+    bodies = [slice(0, first), slice(first, None)] if first else [slice(None)]
 
     def draw(i: int) -> object:
         while axes.collections:
             axes.collections[0].remove()
-        return axes.contourf(x, y, ratio[i], levels, extend="both", cmap=style.SEQUENCE)
+        for own in bodies:
+            drawn = axes.contourf(
+                x, y[own], ratio[i, own], colours, extend="both", cmap=style.SEQUENCE
+            )
+        return drawn
 
-    bar = axes.figure.colorbar(draw(0), ax=axes, pad=0.01, aspect=8, ticks=levels[:: LEVELS // 2])
-    bar.ax.set_yticklabels([f"{level:.2f}" for level in levels[:: LEVELS // 2]])
+    bar = axes.figure.colorbar(draw(0), ax=axes, pad=0.01, aspect=8, ticks=colours[:: LEVELS // 2])
+    bar.ax.set_yticklabels([f"{level:.2f}" for level in colours[:: LEVELS // 2]])
     bar.set_label(r"$\sigma_{xy}/\sigma_0$")
-    axes.set_ylim(0.0, parameters.geometry.height)
+    below = parameters.below
+    axes.set_ylim(-below.geometry.height if below else 0.0, parameters.geometry.height)
+    if below:
+        axes.axhline(0.0, color="white", linewidth=1.2)
     axes.set_xlabel("$x$ (m)", labelpad=1.0)
     axes.set_ylabel("$y$ (m)")
     return draw
@@ -145,7 +158,8 @@ def _force_panel(
         axes.set_xlim(low, high)
     seen = force[(time >= interval[0]) & (time <= interval[1])]
     margin = 0.08 * (seen.max() - seen.min())
-    axes.set_ylim(seen.min() - margin, seen.max() + margin)
+    if margin > 0.0:
+        axes.set_ylim(seen.min() - margin, seen.max() + margin)
 
     def move(i: int) -> None:
         now = float(film["time"][i])
