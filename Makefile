@@ -69,6 +69,7 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 	mkdir -p results/reference
 	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/verification.csv results/pairs.csv \
+		results/pair_modes.csv \
 		results/drop.csv results/map.csv results/floors.csv results/dispersion.csv \
 		results/convergence.csv results/sensitivity.csv \
 		results/figures/*.png results/figures/animation.gif \

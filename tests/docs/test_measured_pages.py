@@ -10,6 +10,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from nucleation.theory.finite_patch import loaded_patch_factor
+from nucleation.theory.literature import FINITE_PATCH
+
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "results" / "reference"
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
@@ -100,6 +103,34 @@ def test_senses_of_the_contrast_are_those_of_the_reference():
         assert len(found) == 5
         assert (found[0], found[-1]) == pytest.approx(ends, abs=0.0051), case
         assert all(f"{end:.2f}" in FINDINGS for end in ends)
+
+
+def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
+    pairs = pd.read_csv(REFERENCE / "pairs.csv")
+    same = pairs[np.isclose(pairs["f_beta"], 0.0)]
+    high = {2.288: same[same["height"] == 0.5].iloc[0]}
+    for weakening in (3.0, 10.0):
+        own = same[(same["study"] == "figure_2_simulated")
+                   & np.isclose(same["zeta_over_a"], weakening)]  # fmt: skip
+        (high[weakening],) = (row for _, row in own.iterrows())
+    said = {2.288: (1.44, 1.39), 3.0: (1.35, 1.32), 10.0: (1.25, 1.24)}
+    for weakening, row in high.items():
+        factors = FINITE_PATCH, loaded_patch_factor(1.0 / (1.0 + weakening))
+        found = [row["stability_ratio"] * np.pi / factor for factor in factors]
+        assert found == pytest.approx(said[weakening], abs=0.0051)
+        assert all(f"{value:.2f}" in FINDINGS for value in said[weakening])
+
+
+def test_mean_lengths_of_both_senses_are_as_stated():
+    """Over M, and over those of identical bodies, for weak and for stronger weakening."""
+    means = {}
+    for weakening in (1.0, 3.0, 10.0):
+        senses = [np.array(ratios(weakening, sign, "length_ratio")) for sign in (1, -1)]
+        means[weakening] = (senses[0] + senses[1])[1:] / (2.0 * senses[0][0])
+    strong = np.concatenate([means[3.0], means[10.0]])
+    assert (strong.min(), strong.max()) == pytest.approx((0.99, 1.14), abs=0.0051)
+    assert means[1.0].max() == pytest.approx(1.50, abs=0.0051)
+    assert "0.99 to 1.14" in FINDINGS and "up to 1.50" in FINDINGS
 
 
 def test_the_map_is_what_the_findings_say():

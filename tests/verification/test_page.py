@@ -80,6 +80,23 @@ def test_bridge_is_that_of_the_reference():
         assert crossing == f"{vanishing(modes):.4f}"
 
 
+def test_bridge_of_two_layers_is_that_of_the_reference():
+    """All far sides with either layer the stiffer one, six wavenumbers each, both directions."""
+    modes = defaultdict(list)
+    for row in reference("pair_modes.csv"):
+        modes[row["id"]].append(row)
+    table = rows("Two layers")
+    assert [row[0] for row in table] == list(modes)
+    for (_, kh, *worst), found in zip(table, modes.values(), strict=True):
+        assert len(found) == 12
+        k = [float(row["mode_wavenumber"]) * float(row["height"]) for row in found]
+        assert kh == f"{min(k):.2f} to {max(k):.2f}"
+        for branch, said in zip("01", worst, strict=True):
+            errors = [float(row["disagreement"]) for row in found if row["branch"] == branch]
+            assert said == f"{100 * max(errors):.2f} %"
+            assert max(errors) < 0.01
+
+
 def vanishing(modes):
     """k / k_c where the faster mode's measured growth changes sign, by linear interpolation."""
     growth = defaultdict(list)

@@ -36,11 +36,31 @@ rule gather_pairs:
         "../scripts/gather_pairs.py"
 
 
+# Single modes between two sliding layers, for Eqs. (7) and (8) and the verification.
+rule pair_modes:
+    output:
+        dataset=f"{RESULTS}/pair_modes.nc",
+        table=f"{RESULTS}/pair_modes.csv",
+    log:
+        f"{RESULTS}/logs/pair_modes.log",
+    threads: 1
+    params:
+        **made_by("pair_modes.py", plugins(settings.base)),
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        loading=asdict(settings.base.loading),
+    message:
+        "Growth of single modes between two layers, time integration and theory"
+    script:
+        "../scripts/pair_modes.py"
+
+
 # What the paper's theory says of two bodies, by simulations: verdicts of their own, for which
 # those of `claims`, and so `make paper`, do not wait.
 rule evaluate_pairs:
     input:
-        PAIRS,
+        table=PAIRS,
+        modes=rules.pair_modes.output.dataset,
     output:
         csv=f"{RESULTS}/tables/claims_pairs.csv",
         markdown=f"{RESULTS}/tables/claims_pairs.md",
@@ -59,6 +79,7 @@ rule pairs:
     input:
         pairs(),
         rules.evaluate_pairs.output,
+        rules.pair_modes.output,
     localrule: True
     message:
         "The table of pairs is in {input[0]} and {input[1]}"

@@ -1,27 +1,45 @@
-"""Eqs. (6), (9) and Figure 2 against simulations of two deformable bodies.
+"""Eqs. (6) to (9) and Figure 2 against simulations of two deformable bodies.
 
-The paper has these as theory alone. The verdicts stand on the table of pairs
-(:func:`nucleation.patch.pairs.gather`), at the declared strength that it states, and are a table of
-their own: the paper's own claims do not wait for these simulations.
+The paper has these as theory alone. Lengths are those of the table of pairs
+(:func:`nucleation.patch.pairs.gather`), at the declared strength that it states; Eqs. (7) and (8)
+are also held against the elastic response that simulated modes between two sliding layers meet
+(:mod:`nucleation.verification.pair_modes`). The verdicts are a table of their own: the paper's own
+claims do not wait for these simulations.
 """
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from ...patch.pairs import chosen, of_study
+from ...verification.pair_modes import measured_response
 from ..claim import Claim, Result, claim
+from ..independent import printed
 from ..said import Missing, Ours, below, words
+
+Array = NDArray[np.float64]
 
 CLAIMS: list[Claim] = []
 
 HALF_SPACE = 1.0  # least height of a half-space over the theory's length
+SLIDING = "Homogeneous sliding of two layers 1.2 wavelengths high, integrated in time."
 STRONG = 0.05  # f beta from which on two materials differ
+
+
+class PairEvidence(NamedTuple):
+    """What the claims on two bodies are judged by."""
+
+    table: xr.Dataset  # of nucleation.patch.pairs.gather
+    modes: xr.Dataset  # of nucleation.verification.pair_modes.pair_modes
 
 
 def rows_of(table: xr.Dataset, study: str) -> xr.Dataset:
     """The rows of a study; raises Missing without any."""
-    rows = table.isel(run=np.flatnonzero(table["study"].values == study))
+    rows = of_study(table, study)
     if not rows.sizes["run"]:
         raise Missing(f"The table of pairs has no runs of the study {study}")
     return rows
@@ -30,15 +48,46 @@ def rows_of(table: xr.Dataset, study: str) -> xr.Dataset:
 def half_spaces(table: xr.Dataset) -> xr.Dataset:
     """Identical blocks as high as half-spaces; raises Missing without any."""
     rows = rows_of(table, "pairs_identical")
-    high = rows.isel(run=np.flatnonzero(rows["height"] >= HALF_SPACE * rows["theory_length"]))
+    high = chosen(rows, (rows["height"] >= HALF_SPACE * rows["theory_length"]).values)
     if not high.sizes["run"]:
         raise Missing("No identical blocks are as high as half-spaces")
     return high
 
 
+def over_effective_modulus(rows: xr.Dataset) -> Array:
+    """Lengths at the drop over L_c^M, the length with the modulus M and no contrast."""
+    return (rows["length_ratio"] * rows["half_space_ratio"]).values
+
+
+def senses(rows: xr.Dataset) -> list[tuple[float, Array, Array, float]]:
+    """For each zeta/a: it, ``|f beta|`` of the pairs, their lengths over L_c^M with the stiffer
+    body below and above, shape (contrast, 2), and that of identical half-spaces.
+
+    Raises Missing where a contrast has been simulated in one sense alone.
+    """
+    ratio, weakening = over_effective_modulus(rows), np.round(rows["zeta_over_a"].values, 3)
+    contrast, found = np.round(rows["f_beta"].values, 6), []
+    for value in np.unique(weakening):
+        own = dict(zip(contrast[weakening == value], ratio[weakening == value], strict=True))
+        differ = sorted(x for x in own if x > 0.0)
+        if not differ or 0.0 not in own or not all(-x in own for x in differ):
+            raise Missing(f"zeta/a = {value:g} lacks a sense of a contrast, or identical bodies")
+        both = np.array([[own[x], own[-x]] for x in differ])
+        found.append((float(value), np.array(differ), both, float(own[0.0])))
+    return found
+
+
 def _note(table: xr.Dataset) -> str:
     strength, kind = float(table["strength"].max()), str(table["kind"].values[0])
     return f"At a declared perturbation {kind} of {strength:g}."
+
+
+def _over_weakenings(values: dict[float, Array], table: xr.Dataset) -> Result:
+    """The value furthest from one of all zeta/a, each zeta/a's own in the note."""
+    own = {z: Ours.worst(found, 1.0).value for z, found in values.items()}
+    each = ", ".join(f"{worst:.3g} for zeta/a = {z:g}" for z, worst in own.items())
+    ours = Ours.worst(np.concatenate(list(values.values())), 1.0)
+    return Result(ours, note=f"{_note(table)} The furthest: {each}.")
 
 
 @claim(
@@ -48,8 +97,81 @@ def _note(table: xr.Dataset) -> str:
     method="length at the drop of identical blocks higher than L_c, over Eq. (6); the paper's "
     "words for its simulations of finite height", said=words("reasonably good"),
 )  # fmt: skip
-def pairs_half_spaces(table: xr.Dataset) -> Result:
-    return Result(Ours.worst(half_spaces(table)["length_ratio"].values, 1.0), note=_note(table))
+def pairs_half_spaces(evidence: PairEvidence) -> Result:
+    high = half_spaces(evidence.table)
+    return Result(Ours.worst(high["length_ratio"].values, 1.0), note=_note(evidence.table))
+
+
+def response_over(modes: xr.Dataset, part: int) -> Ours:
+    """The measured G1 (part 0) or G2 (part 1) of half-spaces over Eq. (7), the worst mode."""
+    high = modes.isel(run=[str(name).startswith("half-spaces") for name in modes["id"].values])
+    if not high.sizes["run"]:
+        raise Missing("No modes between half-spaces were simulated")
+    names = ("second_shear_modulus", "shear_modulus", "poisson_ratio", "second_poisson_ratio")
+    second, first, nu, second_nu = (high[name].values for name in names)
+    expected = []
+    for psi, nu1, nu2 in zip(second / first, nu, second_nu, strict=True):
+        g1 = 0.5 * printed.bimaterial_modulus(psi, nu1, nu2)
+        expected.append((g1, printed.bimaterial_contrast(psi, nu1, nu2) * g1)[part])
+    ratio = measured_response(high)[part] / np.array(expected)[:, None]
+    return Ours.worst(ratio.ravel(), 1.0)
+
+
+@claim(
+    CLAIMS, id="pairs-g1", where="Eqs. (7), (8)",
+    statement="Two different half-spaces have G1 = M/(2 mu).",
+    quotation=r"G_1=\frac{{\C M}}{2 \mu}\text{sign}(k)",
+    method="G1 that single modes between two sliding layers meet, from their growth and frequency "
+    "in the simulation and Eq. (5), over the formula; four pairs, k = 0.6 to 2 k_c, both "
+    "directions; the worst", said=words("computed"),
+)  # fmt: skip
+def pairs_g1(evidence: PairEvidence) -> Result:
+    return Result(response_over(evidence.modes, 0), note=SLIDING)
+
+
+@claim(
+    CLAIMS, id="pairs-g2", where="Eqs. (7), (8)",
+    statement="Two different half-spaces have G2 = beta M/(2 mu).",
+    quotation=r"G_2=\frac{\beta {\C M}}{2\mu}",
+    method="G2 that single modes between two sliding layers meet, from their growth and frequency "
+    "in the simulation and Eq. (5), over the formula; four pairs, k = 0.6 to 2 k_c, both "
+    "directions; the worst", said=words("computed"),
+)  # fmt: skip
+def pairs_g2(evidence: PairEvidence) -> Result:
+    return Result(response_over(evidence.modes, 1), note=SLIDING)
+
+
+@claim(
+    CLAIMS, id="pairs-modulus", where="Eq. (8)",
+    statement="M is the effective modulus of two different half-spaces.",
+    quotation=r"${\C M}$ plays the role of an effective bimaterial modulus",
+    method="length at the drop over M, mean of the two senses of a contrast, over that of "
+    "identical half-spaces with the same zeta/a; the contrast furthest from one",
+    said=words("reasonably good"),
+)  # fmt: skip
+def pairs_modulus(evidence: PairEvidence) -> Result:
+    rows = rows_of(evidence.table, "figure_2_simulated")
+    scaled = {z: both.mean(axis=1) / identical for z, _, both, identical in senses(rows)}
+    return _over_weakenings(scaled, evidence.table)
+
+
+@claim(
+    CLAIMS, id="pairs-contrast", where="Eq. (8)",
+    statement="beta quantifies the bimaterial effect.",
+    quotation=r"hence it quantifies the bimaterial effect",
+    method="difference of the lengths at the drop in the two senses of a contrast over their sum, "
+    "for each unit of f beta, over that of the smallest contrast with the same zeta/a; the one "
+    "furthest from one", said=words("reasonably good"),
+)  # fmt: skip
+def pairs_contrast(evidence: PairEvidence) -> Result:
+    rows = rows_of(evidence.table, "figure_2_simulated")
+    scaled = {}
+    for z, contrast, both, _ in senses(rows):
+        effect = (both[:, 0] - both[:, 1]) / both.sum(axis=1) / contrast
+        if effect.size < 2:
+            raise Missing(f"zeta/a = {z:g} has no two contrasts")
+        scaled[z] = effect[1:] / effect[0]
+    return _over_weakenings(scaled, evidence.table)
 
 
 @claim(
@@ -58,9 +180,9 @@ def pairs_half_spaces(table: xr.Dataset) -> Result:
     method="length at the drop over the theory of the same blocks, all contrasts and zeta/a in "
     "either sense; the one furthest from one", said=words("reasonably good"),
 )  # fmt: skip
-def pairs_bimaterial(table: xr.Dataset) -> Result:
-    rows = rows_of(table, "figure_2_simulated")
-    return Result(Ours.worst(rows["length_ratio"].values, 1.0), note=_note(table))
+def pairs_bimaterial(evidence: PairEvidence) -> Result:
+    rows = rows_of(evidence.table, "figure_2_simulated")
+    return Result(Ours.worst(rows["length_ratio"].values, 1.0), note=_note(evidence.table))
 
 
 @claim(
@@ -70,10 +192,10 @@ def pairs_bimaterial(table: xr.Dataset) -> Result:
     method="largest length at the drop over L_c^M, of all pairs with f beta > 0.05 in either sense",
     said=below(1.0),
 )  # fmt: skip
-def pairs_smaller(table: xr.Dataset) -> Result:
-    rows = rows_of(table, "figure_2_simulated")
-    ratio = (rows["length_ratio"] * rows["half_space_ratio"]).values
-    return Result(Ours.worst(ratio[np.abs(rows["f_beta"].values) > STRONG]), note=_note(table))
+def pairs_smaller(evidence: PairEvidence) -> Result:
+    rows = rows_of(evidence.table, "figure_2_simulated")
+    strong = np.abs(rows["f_beta"].values) > STRONG
+    return Result(Ours.worst(over_effective_modulus(rows)[strong]), note=_note(evidence.table))
 
 
 @claim(
@@ -83,9 +205,9 @@ def pairs_smaller(table: xr.Dataset) -> Result:
     method="largest slope of the length at the drop over L_c^M against |f beta|, each zeta/a and "
     "sense", said=below(0.0),
 )  # fmt: skip
-def pairs_decreasing(table: xr.Dataset) -> Result:
-    rows, slopes = rows_of(table, "figure_2_simulated"), []
-    ratio = (rows["length_ratio"] * rows["half_space_ratio"]).values
+def pairs_decreasing(evidence: PairEvidence) -> Result:
+    rows, slopes = rows_of(evidence.table, "figure_2_simulated"), []
+    ratio = over_effective_modulus(rows)
     contrast, weakening = rows["f_beta"].values, np.round(rows["zeta_over_a"].values, 3)
     for value in np.unique(weakening):
         for sign in (1.0, -1.0):
@@ -94,4 +216,10 @@ def pairs_decreasing(table: xr.Dataset) -> Result:
             slopes += (np.diff(ratio[own]) / np.diff(np.abs(contrast[own]))).tolist()
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
-    return Result(Ours.between(max(slopes), min(slopes), max(slopes)), note=_note(table))
+    return Result(Ours.between(max(slopes), min(slopes), max(slopes)), note=_note(evidence.table))
+
+
+def evaluate(table: xr.Dataset, modes: xr.Dataset) -> list[dict[str, Any]]:
+    """The rows of all claims on two bodies, by the table of pairs and the simulated modes."""
+    evidence = PairEvidence(table, modes)
+    return [{"subject": "two bodies, simulated", **claim.evaluate(evidence)} for claim in CLAIMS]
