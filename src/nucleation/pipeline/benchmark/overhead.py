@@ -41,7 +41,8 @@ def study(runs: int, per_job: int, profile: str = "default") -> dict[str, float]
     runs : a multiple of 4.
     per_job : of them in one job.
     profile : below ``workflow/profiles``; of another than this machine's, the processor time is
-        that of Snakemake alone, and as many jobs run as its nodes have room for.
+        that of Snakemake alone, and as many jobs run as its nodes have room for, so that the
+        overhead is none.
     """
     with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as directory:
         values = yaml.safe_dump(configuration(runs, per_job))

@@ -56,7 +56,8 @@ def with_simulations(command: list[str], directory: Path) -> dict[str, float]:
     dict
         As :class:`Cost`, and: `first_step_seconds` from its start to the beginning of the first
         simulation, `stepping_seconds` of all simulations, `runs`, their number, and
-        `overhead_seconds`, the processor time of a run beside its steps.
+        `overhead_seconds` of a run beside its steps, where there is one after another: wall time,
+        as that of the steps is.
     """
     began = time.time()
     spent = cost(command, directory)
@@ -68,7 +69,7 @@ def with_simulations(command: list[str], directory: Path) -> dict[str, float]:
         "first_step_seconds": first - began,
         "stepping_seconds": stepping,
         "runs": len(paths),
-        "overhead_seconds": (spent.processor_seconds - stepping) / len(paths),
+        "overhead_seconds": (spent.seconds - stepping) / len(paths),
     }
 
 
