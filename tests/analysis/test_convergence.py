@@ -11,7 +11,7 @@ from nucleation.analysis.convergence import COLUMNS, refinement_table, sequences
 def row(**values):
     usual = {
         "id": "run", "height": 0.02, "law": "aging", "phi0": 1.0, "kind": "normal_load",
-        "strength": 1e-5, "seed": 1, "n_x": 400, "n_y": 20,
+        "strength": 1e-5, "correlation_length": 0.0, "seed": 1, "n_x": 400, "n_y": 20,
         "grading": 20.0, "longest_step": 0.02, "tolerance": 1e-2, "length": 0.3,
         "theory_length": 0.5, "block_length": 2.0, "onset_time": 12.0, "steps": 100,
         "wall_seconds": 1.0,
@@ -28,6 +28,7 @@ def test_sequences_differ_in_one_parameter_and_go_from_coarse_to_fine():
     rows += [row(longest_step=step) for step in (0.01, 0.04)] + [row(n_y=40, height=0.3)]
     rows += [row(n_x=3200, tolerance=1e-3), row(n_x=3200, grading=5.0)]
     rows += [row(n_x=3200, kind="none"), row(n_x=3200, strength=1e-3), row(n_x=3200, seed=2)]
+    rows += [row(n_x=3200, correlation_length=0.01)]
     found = sequences(rows, "n_x")
     assert [[r["n_x"] for r in sequence] for sequence in found] == [[400, 800, 1600]] * 2
     assert [{r["height"] for r in sequence} for sequence in found] == [{0.02}, {0.1}]

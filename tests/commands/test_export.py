@@ -26,14 +26,16 @@ def test_series_are_the_records_at_nodes_and_between(nucleation, record):
     node, between = (folder / f"run_x{k * step:g}m.dat" for k in (2, 2.5))
     lines = node.read_text().splitlines()
     (fields,) = [line for line in lines if not line.startswith("#") and "slip" in line]
-    assert fields.split() == ["t", "slip", "slip_rate", "shear_stress", "state"]
+    assert fields.split() == ["t", "slip", "slip_rate", "shear_stress", "normal_stress", "state"]
     data = np.array([line.split() for line in lines if line[0] not in "#t"], dtype=float)
     expected = dataset.isel(x=2)
     np.testing.assert_allclose(data[:, 0], expected["time"])
     np.testing.assert_allclose(data[:, 1], expected["slip"], atol=1e-20)
     np.testing.assert_allclose(10.0 ** data[:, 2], np.abs(expected["slip_rate"]), 1e-9, 1e-299)
     np.testing.assert_allclose(1e6 * data[:, 3], expected["shear_stress"], 1e-9, 1e-9)
-    np.testing.assert_allclose(10.0 ** data[:, 4], expected["state"], rtol=1e-9)
+    np.testing.assert_allclose(-1e6 * data[:, 4], expected["normal_stress"], 1e-9)
+    assert (data[:, 4] > 0.0).all()  # in compression
+    np.testing.assert_allclose(10.0 ** data[:, 5], expected["state"], rtol=1e-9)
     middle = np.loadtxt([line for line in between.read_text().splitlines() if line[0] not in "#t"])
     mean = 0.5 * (dataset["slip"][:, 2] + dataset["slip"][:, 3])
     np.testing.assert_allclose(middle[:, 1], mean, atol=1e-20)
@@ -44,7 +46,7 @@ def test_header_is_that_of_the_benchmarks(nucleation, record):
     folder = record.parent / "series"
     assert nucleation("export", record, folder, "--at", "10cm").code == 0
     lines = (folder / "run_x0.1m.dat").read_text().splitlines()
-    names = lines.index("t slip slip_rate shear_stress state")
+    names = lines.index("t slip slip_rate shear_stress normal_stress state")
     assert all(line.startswith("#") for line in lines[:names])
     header = dict(line[2:].split("=", 1) for line in lines[:names] if "=" in line)
     assert list(header)[:10] == [
@@ -55,10 +57,10 @@ def test_header_is_that_of_the_benchmarks(nucleation, record):
     assert header["code_version"] == __version__
     columns = [value for key, value in header.items() if key.startswith("Column #")]
     assert columns == [" Time (s)", " Slip (m)", " Slip rate (log10 m/s)", " Shear stress (MPa)",
-                       " State (log10 s)"]  # fmt: skip
+                       " Normal stress (MPa)", " State (log10 s)"]  # fmt: skip
     assert lines[names + 1] == "# Here is the time-series data."
     assert int(header["num_time_steps"]) == len(lines) - names - 2
-    assert all(len(line.split()) == 5 for line in lines[names + 2 :])
+    assert all(len(line.split()) == 6 for line in lines[names + 2 :])
 
 
 def test_mistakes_leave_no_file(nucleation, record):

@@ -134,18 +134,18 @@ def drawn_at(axes):
 
 
 @pytest.mark.parametrize(("panel", "name"), [(0, "onset_difference"), (1, "length_difference")])
-def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault(
+def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault_or_kind(
     table, hops, patch, panel, name
 ):
     axes = figure_convergence.draw(table, hops, patch).axes[panel]
-    labels = ["0.005", "0.02", "0.1", "0.1 older", "0.02 slip", "0.02 state"]
+    labels = ["0.005", "0.02", "0.1", "0.1 older", "0.02 slip", "all, state"]
     words = [text.get_text() for text in axes.get_xticklabels()]
     assert panel == 0 or words == labels  # the upper panel has none of its own
     declared = table.isel(run=np.flatnonzero(table["kind"].values != "none"))
     apart = 100.0 * np.abs(declared[name].values)
     points = drawn_at(axes)
     np.testing.assert_allclose(sorted(y for _, y in points), sorted(apart[apart > 0.0]))
-    found = figure_convergence.faults(declared)
+    found = figure_convergence.places(declared)
     for place, rows in enumerate(found.values()):
         own = 100.0 * np.abs(rows[name].values)
         near = [y for x, y in points if abs(x - place) < 0.5]

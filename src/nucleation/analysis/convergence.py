@@ -17,7 +17,9 @@ from .rows import Row, rows_of
 REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
 
-FIXED = (*REFINED, "grading", "height", "law", "phi0", "kind", "strength", "seed")
+FIXED = (
+    *REFINED, "grading", "height", "law", "phi0", "kind", "strength", "correlation_length", "seed",
+)  # fmt: skip
 """What the runs of a sequence have in common, the refined parameter apart."""
 
 COLUMNS = (

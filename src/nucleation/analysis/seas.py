@@ -1,11 +1,11 @@
 """Time series at points of the fault as text, in the format of the SEAS community's benchmarks.
 
-On-fault files of the benchmarks BP1 and BP2 of sequences of earthquakes and aseismic slip (Erickson
-and others, 2020, Seismol. Res. Lett. 91, 874-890, doi:10.1785/0220190248; the benchmarks' own
-descriptions, section on output of time series): a header of lines with ``#`` that give problem,
-author, date, code, its version, element, station, steps and columns; one line without it, the
-names of the fields; and a line for each time with time (s), slip (m), decimal logarithm of the slip
-rate (m/s), shear stress (MPa) and that of the state (s).
+On-fault files of the benchmark BP3, plane strain with inertia and a normal stress that changes
+(Erickson and others, 2023, Bull. Seismol. Soc. Am. 113, 499-523, doi:10.1785/0120220066; those of
+BP1 and BP2 lack the normal stress): a header of lines with ``#`` that give problem, author, date,
+code, its version, element, station, steps and columns; one line without it, the names of the
+fields; and a line for each time with time (s), slip (m), decimal logarithm of the slip rate (m/s),
+shear stress (MPa), normal stress (MPa, positive in compression) and the logarithm of the state (s).
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from .record import Record
 
 FIELDS = (
     ("t", "Time (s)"), ("slip", "Slip (m)"), ("slip_rate", "Slip rate (log10 m/s)"),
-    ("shear_stress", "Shear stress (MPa)"), ("state", "State (log10 s)"),
+    ("shear_stress", "Shear stress (MPa)"), ("normal_stress", "Normal stress (MPa)"),
+    ("state", "State (log10 s)"),
 )  # fmt: skip
 """Names of the fields, and what the header says of them."""
 
@@ -59,7 +60,7 @@ def time_series(simulation: xr.Dataset, position: float) -> str:
 
     columns = (
         record.time, at("slip"), at("slip_rate", True), 1e-6 * at("shear_stress"),
-        at("state", True),
+        -1e-6 * at("normal_stress"), at("state", True),
     )  # fmt: skip
     made = re.match(r"(\d+)-(\d+)-(\d+)", str(simulation.attrs.get("created", "")))
     header = [

@@ -23,10 +23,10 @@ LENGTH = declarations(Geometry)["length"]
 )  # fmt: skip
 @click.option("--force", is_flag=True, help="replace files that exist")
 def command(file: Path, folder: Path, places: tuple[str, ...], force: bool) -> int:
-    """Write slip, slip rate, stress and state at points of the fault, a file for each.
+    """Write slip, slip rate, stresses and state at points of the fault, a file for each.
 
-    The format is that of the SEAS community's benchmarks (fields t slip slip_rate shear_stress
-    state), which its tools for comparison read.
+    The format is that of the SEAS community's benchmark BP3 (fields t slip slip_rate shear_stress
+    normal_stress state), which its tools for comparison read.
 
     \b
     Example:

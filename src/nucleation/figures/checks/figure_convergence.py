@@ -20,7 +20,7 @@ LABELS = {"onset_difference": "Onset apart (%)", "length_difference": "$L_c$ apa
 LEAST = 1e-3  # per cent: smaller differences are drawn there
 LOOKS = (("o", style.VERMILLION), ("s", style.BLUE), ("D", style.BLACK), ("^", style.GREEN))
 KINDS = {
-    "normal_load": "",
+    "normal_load": "load",
     "drive_velocity": "drive",
     "state": "state",
     "strength": "roughness",
@@ -36,6 +36,7 @@ REFINED = {
 }
 ALONG = {"n_x": "Elements along $x$", "longest_step": r"Longest step $\times V/D$"}
 FAULT = ("kind", "law", "phi0", "height", "strength", "seed")
+EVERY_FAULT = "normal_load"  # the kind whose faults are told apart
 
 
 @style.styled
@@ -85,24 +86,26 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
     return figure
 
 
-def faults(table: xr.Dataset) -> dict[tuple[object, ...], xr.Dataset]:
-    """The rows of each perturbed fault by kind, law, age, height, strength and seed, in order."""
-    keys = list(zip(*(table[name].values.tolist() for name in FAULT), strict=True))
+def places(table: xr.Dataset) -> dict[tuple[object, ...], xr.Dataset]:
+    """The rows of each fault under the load, and all rows of each other kind, in order."""
+    rows = zip(*(table[name].values.tolist() for name in FAULT), strict=True)
+    keys = [row if row[0] == EVERY_FAULT else row[:1] for row in rows]
     order = sorted(set(keys), key=lambda key: (list(KINDS).index(str(key[0])), *key[1:]))
     return {key: table.isel(run=[i for i, k in enumerate(keys) if k == key]) for key in order}
 
 
 def _name(key: tuple[object, ...], usual_age: object) -> str:
-    """A fault in a few words: what sets it apart from a height with the aging law."""
-    kind, law, age, height = key[:4]
-    words = [f"{height:g}", KINDS[str(kind)]]
-    words += [str(law)] * (law != "aging") + ["older"] * (age != usual_age)
-    return " ".join(word for word in words if word)
+    """A place in a few words: what sets a fault apart from a height with the aging law."""
+    if key[0] != EVERY_FAULT:
+        return f"all, {KINDS[str(key[0])]}"
+    law, age, height = key[1:4]
+    words = [f"{height:g}", *[str(law)] * (law != "aging"), *["older"] * (age != usual_age)]
+    return " ".join(words)
 
 
 def _draw_differences(axes: Axes, declared: xr.Dataset, name: str) -> None:
-    """How far each run but the finest of its sequence is from that one, by fault."""
-    found = faults(declared)
+    """How far each run but the finest of its sequence is from that one."""
+    found = places(declared)
     usual_age = min(declared["phi0"].values.tolist(), default=0.0)
     axes.axhspan(LEAST / 2.0, GOALS[name], color="0.93", zorder=0)
     for place, rows in enumerate(found.values()):
