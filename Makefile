@@ -42,7 +42,7 @@ test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system
 	@$(PYTEST) -m "not slow and not system"
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
-	PYTHONPATH=src $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
+	PYTHONPATH=src:tests $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
 
 lint: $(STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .

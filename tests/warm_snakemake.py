@@ -35,15 +35,16 @@ class Warm:
         atexit.register(self._server.communicate)  # which ends it
 
     def __call__(
-        self, arguments: Sequence[str], directory: Path, output: Path, *, seconds: int = 600
-    ) -> subprocess.CompletedProcess:
+        self, arguments: Sequence[str], directory: Path, output: Path, *, seconds: int = 600,
+        **environment: str,
+    ) -> subprocess.CompletedProcess:  # fmt: skip
         """Snakemake with these arguments, in a directory, with all it prints in a file.
 
         Raises AssertionError if it takes longer than some seconds.
         """
         call = {
             "arguments": list(arguments), "directory": str(directory), "output": str(output),
-            "environment": dict(os.environ), "seconds": seconds,
+            "environment": {**os.environ, **environment}, "seconds": seconds,
         }  # fmt: skip
         print(json.dumps(call), file=self._server.stdin, flush=True)
         code = int(self._server.stdout.readline())

@@ -89,12 +89,14 @@ def convergence_rows():
 def kind_rows():
     """One row for each other kind: the worst of all faults, and how many of them miss the goal."""
     for kind in OTHER_KINDS:
-        found = sequences([kind])
+        found = [(own, refined, rows) for (own, refined, _), rows in sequences([kind]).items()]
+        along_x = [rows for _, refined, rows in found if refined == "n_x"]
+        steps = [rows for _, refined, rows in found if refined == "longest_step"]
         faults = {own for own, _, _ in found}
-        cells = [f"`{kind}`", strength(next(iter(faults))[4]), str(len(faults))]
-        cells += [_worst([rows[0] for (_, r, _), rows in found.items() if r == "n_x" and rows[2:]])]
-        for refined in ("n_x", "longest_step"):
-            cells += [_worst([judged(rows, r) for (_, r, _), rows in found.items() if r == refined])]
+        cells = [f"`{kind}`", strength(min(faults)[4]), str(len(faults))]
+        cells += [_worst([rows[0] for rows in along_x if len(rows) > 2])]
+        cells += [_worst([judged(rows, "n_x") for rows in along_x])]
+        cells += [_worst([judged(rows, "longest_step") for rows in steps])]
         yield f"| {' | '.join(cells)} |"
 
 

@@ -65,7 +65,7 @@ def _table(place: Place) -> pd.DataFrame:
 def _undisturbed(directory: Path) -> Map:
     """The map, made at one go beside the workflows of a reference."""
     place = _beginning(directory / "map")
-    done = place.run(MAP)
+    done = place.start(MAP).end()
     require(done.status == 0, done.output)
     return Map(place.contents(), _table(place), done.cpu)
 

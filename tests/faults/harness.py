@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import math
 import os
 import re
 import shutil
 import sys
+import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 import yaml
-from processes import ROOT, Done, Lost, Running, require
+from processes import ENVIRONMENT, ROOT, Done, Lost, Running, require
+from warm_snakemake import warm
 
 from nucleation.configuration.load import load
 from nucleation.configuration.runs import Run
@@ -104,9 +107,7 @@ class Place:
         **environment: str,
     ) -> Running:
         """Start snakemake, by the code of a checkout."""
-        command = [sys.executable, "-m", "snakemake", *(arguments or ("lengths",))]
-        command += ["--snakefile", str(checkout / "Snakefile"), "--configfile", "config.yaml"]
-        command += ["--workflow-profile", str(checkout / "workflow/profiles/default")]
+        command = [sys.executable, "-m", "snakemake", *_asked(arguments, checkout)]
         return Running(command, self.directory, prepare, **environment)
 
     def start_alone(
@@ -118,8 +119,11 @@ class Place:
         return Running(command, self.directory, prepare)
 
     def run(self, *arguments: str, **environment: str) -> Done:
-        """Run snakemake to its end."""
-        return self.start(*arguments, **environment).end()
+        """Run snakemake to its end, with nothing that disturbs it on the way."""
+        with tempfile.TemporaryDirectory() as place:
+            asked, printed = _asked(arguments, ROOT), Path(place, "printed")
+            done = warm()(asked, self.directory, printed, **{**ENVIRONMENT, **environment})
+        return Done(done.returncode, done.stdout, math.nan)
 
     def run_alone(self, id: str) -> Done:
         """Run the script of one simulation to its end, a good one."""
@@ -185,6 +189,13 @@ class Place:
             require(path.read_bytes() == content, f"{path.name} was changed")
 
 
+def _asked(arguments: Sequence[str], checkout: Path) -> list[str]:
+    """What snakemake is asked for: the lengths, if nothing else is."""
+    asked = [*(arguments or ("lengths",)), "--snakefile", str(checkout / "Snakefile")]
+    asked += ["--workflow-profile", str(checkout / "workflow/profiles/default")]
+    return [*asked, "--configfile", "config.yaml"]
+
+
 def made(run: Run) -> dict[str, str]:
     """What makes a simulation, as the workflow says it."""
     digest = code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters))
@@ -213,7 +224,7 @@ def make_reference(directory: Path) -> Reference:
     whole = Place(directory / "undisturbed")
     whole.directory.mkdir(parents=True)
     (whole.directory / "config.yaml").write_text(yaml.safe_dump(CONFIG))
-    workflow = whole.run()
+    workflow = whole.start().end()
     require(workflow.status == 0, workflow.output)
     require(not list(whole.results.glob(".kept/*")), "second names were left")
 

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[2]
 ENVIRONMENT = {
     "NUCLEATION_CHECKPOINT_EVERY": "0.05",
     "OMP_NUM_THREADS": "1",
-    "PYTHONPATH": str(ROOT / "src"),
+    "PYTHONPATH": os.pathsep.join(str(ROOT / name) for name in ("src", "tests")),
 }
 PATIENCE = 600.0
 """Seconds after which a process that should have ended is taken to hang."""

@@ -1,0 +1,95 @@
+"""Tables of docs/patch_stability.md against those in results/reference.
+
+Their rows, to copy: ``PYTHONPATH=src python tests/docs/test_patch_page.py``.
+"""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+ROOT = Path(__file__).parents[2]
+REFERENCE = ROOT / "results" / "reference"
+FAULT = ["law", "height", "phi0"]
+SHOWN_LENGTHS = (0.48, 0.53, 0.56, 0.59, 0.63, 0.68)
+"""Of the twins, over the theory's: the nearest of each run are on the page."""
+
+
+def percent(value, digits):
+    return f"{100.0 * value:+.{digits}f} %"
+
+
+def table(name):
+    return pd.read_csv(REFERENCE / f"{name}.csv")
+
+
+def value_rows():
+    """L_s of each fault on both meshes, and what it is over the theory's length."""
+    both = table("patch_stability").set_index(FAULT)
+    paper, declared = (both[both["study"] == name] for name in ("paper", "converged"))
+    for fault, row in paper.iterrows():
+        fine = declared.loc[fault]
+        cells = (
+            fault[0], f"{fault[1]:g}", f"{fault[2]:g}", f"{row['stability_length']:.4f}",
+            f"{fine['stability_length']:.4f}",
+            percent(row["stability_length"] / fine["stability_length"] - 1.0, 1),
+            f"{fine['stability_ratio']:.3f}", f"{fine['stability_frequency']:.1f}",
+        )  # fmt: skip
+        yield f"| {' | '.join(cells)} |"
+
+
+def error_rows():
+    """What refinement of the declared run, and the paper's mesh, change of L_s."""
+    refined = table("patch_convergence")
+    refined = refined[refined["study"] == "patch_convergence"]
+    paper = table("patch_stability").query("study == 'paper' and law == 'aging' and phi0 == 1")
+    base = table("patch_convergence").query("study == 'converged'").iloc[0]
+    for height, rows in refined.groupby("height"):
+        found = [
+            rows[rows["n_x"] > base["n_x"]],
+            rows[rows["n_y"] > base["n_y"]],
+            rows[rows["tolerance"] < base["tolerance"]],
+            paper[paper["height"] == height],
+        ]
+        changes = [own["stability_change"].iloc[0] for own in found]
+        digits = (2, 2, 2, 1)
+        cells = [f"{height:g}", *(percent(x, n) for x, n in zip(changes, digits, strict=True))]
+        yield f"| {' | '.join(cells)} |"
+
+
+def twin_rows():
+    """Growth and frequency of kicks and of the frozen patch, at some lengths."""
+    twins = table("twin_runs")
+    twins["ratio"] = twins["twin_length"] / twins["theory_length"]
+    for _, rows in twins.groupby("id", sort=False):
+        nearest = [(rows["ratio"] - shown).abs().idxmin() for shown in SHOWN_LENGTHS]
+        for _, row in rows.loc[list(dict.fromkeys(nearest))].iterrows():
+            cells = (
+                row["law"], f"{row['height']:g}", f"{row['ratio']:.3f}",
+                *(f"{row[name]:+.2f}" for name in ("twin_growth", "frozen_growth")),
+                *(f"{row[name]:.1f}" for name in ("twin_frequency", "frozen_frequency")),
+            )  # fmt: skip
+            yield f"| {' | '.join(cells)} |"
+
+
+TABLES = (value_rows, error_rows, twin_rows)
+
+
+@pytest.mark.parametrize("rows", TABLES)
+def test_page_states_the_reference(rows):
+    page = (ROOT / "docs" / "patch_stability.md").read_text(encoding="utf-8")
+    stated = list(rows())
+    assert len(stated) >= 3
+    assert "|---|\n" + "\n".join(stated) + "\n\n" in page
+
+
+def test_frozen_patches_grow_as_twins_do():
+    twins = table("twin_runs")
+    apart = twins["twin_growth"] - twins["frozen_growth"]
+    assert apart.min() > 0.05 and apart.max() < 0.25
+    assert (twins["twin_frequency"] / twins["frozen_frequency"] - 1.0).abs().max() < 0.02
+
+
+if __name__ == "__main__":
+    for rows in TABLES:
+        print("\n".join(rows()), end="\n\n")
