@@ -11,7 +11,7 @@ from nucleation.verification.crosscheck import plan
 
 with Job(snakemake, __file__) as job:
     own, freefem = job.input.own, job.input.freefem
-    shown = [i for i, name in enumerate(job.params.ids) if name not in (plan.TIMING, plan.PAIR)]
+    shown = [i for i, name in enumerate(job.params.ids) if name != plan.TIMING]
     drawn = figure_crosscheck.draw(
         [(job.read(own[i]), job.read(freefem[i])) for i in shown],
         job.read(job.input.table).isel(run=np.array(shown)),

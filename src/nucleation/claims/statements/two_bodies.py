@@ -16,7 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...patch.pairs import chosen, of_study
-from ...verification.pair_modes import measured_response
+from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Claim, Result, claim
 from ..independent import printed
 from ..said import Missing, Ours, below, words
@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 CLAIMS: list[Claim] = []
 
 HALF_SPACE = 1.0  # least height of a half-space over the theory's length
-SLIDING = "Homogeneous sliding of two layers 1.2 wavelengths high, integrated in time."
+SLIDING = f"Homogeneous sliding of two layers {DEEP:g} wavelengths high, integrated in time."
 STRONG = 0.05  # f beta from which on two materials differ
 
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from ...analysis.definitions import ExtractionSettings
 from ...analysis.record import Record
 from ...figures import style
+from ...model.parameters import Parameters
 
 OWN, FREEFEM = style.BLACK, style.VERMILLION
 KILO = 1e3
@@ -28,6 +29,8 @@ def draw(
     settings: ExtractionSettings = ExtractionSettings(),
 ) -> Figure:
     """Draw L(t), the driving force and their relative differences, one column for each run.
+
+    The column of two blocks says in a legend of its own what the lower one is.
 
     Parameters
     ----------
@@ -58,10 +61,24 @@ def draw(
         _draw_both(column[0], lengths, row, "length")
         _draw_both(column[1], forces, row)
         _draw_differences(column[2], lengths, forces, row)
-        column[0].set_title(f"$H={records[0].grid.height:g}$ m", pad=3.0)
+        title, below = described(records[0].parameters)
+        column[0].set_title(title, pad=3.0)
+        if below:
+            column[0].legend([], [], title=below, title_fontsize=style.SMALL, loc="lower right")
         column[2].set_xlabel("Time $t$ (s)")
     _label(panels)
     return figure
+
+
+def described(parameters: Parameters) -> tuple[str, str]:
+    """What a run is: the title of its column, and what a pair's lower block is, if there is one."""
+    height, below = parameters.geometry.height, parameters.below
+    if below is None:
+        return f"$H={height:g}$ m", ""
+    second = below.geometry.height
+    heights = f"{height:g}$ m" if second == height else f"{height:g}$ on {second:g} m"
+    ratio = below.material.shear_modulus / parameters.material.shear_modulus
+    return f"two blocks, $H={heights}", f"lower block {below.bottom},\n$\\mu_2={ratio:.3g}\\,\\mu$"
 
 
 def _draw_both(
