@@ -11,10 +11,8 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from ...analysis import lengths
-from ...configuration.load import Configuration, load
+from ...configuration.load import Configuration
 from ...configuration.runs import Run
 from ...datasets import netcdf, provenance
 from ...model.friction.registry import plugins
@@ -79,7 +77,8 @@ def fill(settings: Configuration, directory: Path) -> int:
     """
     size = scale.fill(settings, directory)
     store = Store(directory / settings.results)
-    record = netcdf.read(next(iter((store.results / "simulations").glob("*.nc"))))
+    first = settings.runs[0]
+    record = netcdf.read(store.dataset("simulations", first.id, scale.origin(first)[2]))
     for name, runs in batches_of(settings.runs).items():
         parameters, digest, key = origin(settings, runs)
         rows = (lengths.gather([run.to_dict()], [record], settings.extraction) for run in runs)
@@ -99,15 +98,13 @@ def first_batch(settings: Configuration) -> list[str]:
 
 def measured(runs: int, directory: Path) -> dict[str, Any]:
     """The costs of a map of so many runs, in an empty directory."""
-    path = directory / "config.yaml"
-    path.write_text(yaml.safe_dump(configuration(runs)), encoding="utf-8")
-    settings = load(path)
+    values = configuration(runs)
+    job = first_batch(scale.configured(scale.brief(values), directory))
+    result: dict[str, Any] = {"job": with_simulations(job, directory)}
+    settings = scale.configured(values, directory)
     dry_run = snakemake("figure_map", "--dry-run", "--quiet", "all")
-    result: dict[str, Any] = {
-        "dry_run": cost(dry_run, directory)._asdict(),
-        "job": with_simulations(first_batch(settings), directory),
-        "megabytes_of_datasets": fill(settings, directory) / 1e6,
-    }
+    result["dry_run"] = cost(dry_run, directory)._asdict()
+    result["megabytes_of_datasets"] = fill(settings, directory) / 1e6
     for name, command in COMMANDS.items():
         result[name] = cost(command, directory)._asdict()
     return result

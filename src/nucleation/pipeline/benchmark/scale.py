@@ -32,6 +32,9 @@ HEIGHTS, AGES = 10, (1.0, 2.0, 5.0, 10.0, 20.0)
 SMALLEST = HEIGHTS * len(AGES)
 """The numbers of runs that a study can have are multiples of this."""
 
+BRIEF = 0.5
+"""End time (s) of the runs that are really made."""
+
 STUDY = "many"
 SCRIPT = CHECKOUT / "workflow" / "scripts" / "simulate.py"
 
@@ -57,6 +60,11 @@ def configuration(runs: int) -> dict[str, Any]:
             }
         },
     }  # fmt: skip
+
+
+def brief(values: dict[str, Any]) -> dict[str, Any]:
+    """The same study with runs that end at once: of a job, what surrounds its steps is measured."""
+    return values | {"stepping": values["stepping"] | {"end_time": BRIEF}}
 
 
 def origin(run: Run) -> tuple[dict[str, Any], str, str]:
@@ -102,14 +110,19 @@ COMMANDS = {
 """What is measured, in this order. The dry run has all runs before it; all else finds them made."""
 
 
+def configured(values: dict[str, Any], directory: Path) -> Configuration:
+    """The configuration that commands in a directory find."""
+    path = directory / "config.yaml"
+    path.write_text(yaml.safe_dump(values), encoding="utf-8")
+    return load(path)
+
+
 def measured(runs: int, directory: Path) -> dict[str, Any]:
     """The costs of all :data:`COMMANDS` for a study of so many runs, in an empty directory."""
-    path = directory / "config.yaml"
-    path.write_text(yaml.safe_dump(configuration(runs)), encoding="utf-8")
-    settings = load(path)
-    run = settings.runs[0]
+    run = configured(brief(configuration(runs)), directory).runs[0]
     job = in_a_job("simulate", run.id, origin(run)[2])
     result: dict[str, Any] = {"job": with_simulations(job, directory)}
+    settings = configured(configuration(runs), directory)
     for name, command in COMMANDS.items():
         if name == "lengths":
             result["megabytes_of_datasets"] = fill(settings, directory) / 1e6
