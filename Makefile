@@ -57,7 +57,7 @@ hooks: $(STAMP) ## Have git check what make lint checks before each commit
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
-bench: $(STAMP) ## Measure on one core: PARTS=solver, scale, overhead, progress, or all
+bench: $(STAMP) ## Measure on one core: PARTS="solver scale overhead progress", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.pipeline.benchmark \
 		config/config.yaml $(PARTS)
 

@@ -42,7 +42,7 @@ COMMANDS = {
     "length": "Critical nucleation length of a fault: the theory's, and others in use.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
-    "export": "Write slip, slip rate, stress and state at points of the fault, a file for each.",
+    "export": "Write slip, slip rate, stresses and state at points of the fault, a file for each.",
     "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""
