@@ -51,16 +51,21 @@ class Slurm:
         return int((STATE / f"{daemon}.pid").read_text())
 
     def take_down(self, node: str) -> None:
-        """Kill all that runs on a node, and tell the controller, which would notice in a while."""
+        """Kill all that runs on a node, and tell the controller, which would notice in a while.
+
+        All at once: a step whose parent dies before it would be ended, and leave checkpoints.
+        """
         pid = self.pid(node)
         subprocess.run([*AS_ROOT, "kill", "-KILL", str(pid)], check=True)
         lost = [job["JobId"] for job in self.jobs() if job.get("NodeList") == node]
+        found = []
         for process in psutil.process_iter():
             with contextlib.suppress(psutil.Error):
                 title = re.match(r"slurmstepd: \[(\d+)\.", " ".join(process.cmdline()))
                 job = title[1] if title else process.environ().get("SLURM_JOB_ID")
                 if job in lost:
-                    subprocess.run([*AS_ROOT, "kill", "-KILL", str(process.pid)])
+                    found.append(str(process.pid))
+        subprocess.run([*AS_ROOT, "kill", "-KILL", *found])
         command = Path(f"/proc/{pid}/cmdline")  # empty while it is a zombie
         wait_for(lambda: not command.exists() or not command.read_bytes())
         update = ["scontrol", "update", f"NodeName={node}", "State=DOWN", "Reason=test"]
