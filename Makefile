@@ -67,7 +67,7 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 		figure_pairs figure_2_simulated pairs figure_map floors \
 		--cores $(CORES) --workflow-profile workflow/profiles/default
 	mkdir -p results/reference
-	cp results/lengths.csv results/patch_stability.csv results/patch_convergence.csv \
+	cp results/patch_stability.csv results/patch_convergence.csv \
 		results/twin_runs.csv results/verification.csv results/pairs.csv \
 		results/pair_modes.csv \
 		results/drop.csv results/map.csv results/floors.csv results/dispersion.csv \
@@ -77,7 +77,7 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 		results/tables/claims_pairs.csv results/tables/claims_pairs.md results/reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
 	@# digits beyond the twelfth are those of one machine
-	sed -i -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/reference/lengths.csv
+	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
 
 targets: $(STAMP) ## List what TARGETS may name
 	@$(LAUNCH) targets --quiet all $(OPTIONS) $(CONFIGURED)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from nucleation.model.parameters import Parameters
+from nucleation.pipeline.benchmark import replay
 from nucleation.pipeline.time_left import (
     TimeLeft,
     expected_steps,
@@ -22,24 +23,12 @@ def relative_errors(costs, durations, slots, gap=0.0, parts=(0.1, 0.3, 0.6, 0.9)
 
     Each slot works through runs in their order, with a gap before each.
     """
-    names = [str(i) for i in range(len(durations))]
-    slot_free, events = [0.0] * slots, []
-    for name, duration in zip(names, durations, strict=True):
+    slot_free, runs = [0.0] * slots, []
+    for i, (cost, duration) in enumerate(zip(costs, durations, strict=True)):
         begin = heapq.heappop(slot_free) + gap
         heapq.heappush(slot_free, begin + duration)
-        events += [(begin, 1, name), (begin + duration, 0, name)]
-    last, done, errors = max(slot_free), 0, []
-    wanted = [int(part * len(names)) for part in parts]
-    left = TimeLeft(dict(zip(names, costs, strict=True)))
-    for moment, begins, name in sorted(events):
-        if begins:
-            left.begins(name, moment)
-            left.seconds(moment)
-            continue
-        left.ends(name, moment)
-        done += 1
-        if done in wanted:
-            errors.append(abs(left.seconds(moment) / (last - moment) - 1.0))
+        runs.append(replay.Ran(str(i), cost, begin, begin + duration, duration))
+    errors = np.abs(replay.errors(runs, parts)).tolist()
     assert len(errors) == len(parts)
     return errors
 
