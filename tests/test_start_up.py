@@ -10,7 +10,8 @@ pytestmark = pytest.mark.system
 
 ROOT = Path(__file__).parents[1]
 
-SOLVER = ("numba", "nucleation.fem", "nucleation.simulation.step", "nucleation.simulation.run")
+COMPILED = ("numba", "nucleation.simulation.step", "nucleation.simulation.run")
+SOLVER = (*COMPILED, "nucleation.fem")
 HEAVY = ("xarray", "netCDF4", "matplotlib", "pint")  # a second in all, on a good day
 
 LOADED = """
@@ -58,6 +59,24 @@ def test_help_loads_no_solver(words, tmp_path):
 def test_a_dry_run_loads_no_solver(tmp_path):
     words = ["simulate", "run.nc", "--height=0.1", "--friction-law=dieterich_ruina", "--dry-run"]
     assert loaded(command(*words), (*SOLVER, *HEAVY), tmp_path) == []
+
+
+def test_planning_the_workflow_loads_no_solver(tmp_path):
+    words = ["paper", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path),
+             "--dry-run", "--quiet", "all"]  # fmt: skip
+    code = f"""
+from snakemake.cli import main
+try:
+    main({words!r})
+except SystemExit as end:
+    assert not end.code
+"""
+    assert loaded(code, COMPILED, tmp_path) == []
+
+
+def test_what_reads_and_draws_records_loads_no_solver(tmp_path):
+    code = "import nucleation.analysis.lengths, nucleation.figures.paper.figure_3"
+    assert loaded(code, COMPILED, tmp_path) == []
 
 
 def test_a_simulation_does(tmp_path):

@@ -14,7 +14,7 @@ from nucleation.datasets import netcdf
 from nucleation.pipeline import watch
 from nucleation.pipeline.all_runs import AllRuns, Work, in_words, last_line, planned
 from nucleation.pipeline.watch import Line, Watch
-from nucleation.simulation.control import Outcome
+from nucleation.simulation.outcome import Outcome
 
 BEGAN = 1000.0
 

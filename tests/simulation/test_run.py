@@ -9,8 +9,9 @@ from nucleation.analysis.extraction import extract
 from nucleation.datasets.variables import VARIABLES
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.simulation.control import Outcome, SimulationFailure
+from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.interface import Interface, Tension
+from nucleation.simulation.outcome import Outcome
 from nucleation.simulation.run import run, simulate
 from nucleation.simulation.step import Dynamics
 

@@ -12,7 +12,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from ..simulation.control import Outcome
+from ..simulation.outcome import Outcome
 from .definitions import ExtractionSettings
 from .record import Record
 

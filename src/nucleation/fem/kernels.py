@@ -232,16 +232,17 @@ def rate_of_change(c1, c2, beta, new, u, u_past, out):
 
 
 @compiled
-def tridiagonal_product(lower, diagonal, upper, vector, out):
-    """``out = A vector`` for a tridiagonal matrix and a vector."""
-    last = vector.size - 1
-    for i in range(vector.size):
-        total = diagonal[i] * vector[i]
-        if i > 0:
-            total += lower[i] * vector[i - 1]
-        if i < last:
-            total += upper[i] * vector[i + 1]
-        out[i] = total
+def tridiagonal_products(lower, diagonal, upper, vectors, out):
+    """``out[k] = A vectors[k]`` for a tridiagonal matrix."""
+    last = diagonal.size - 1
+    for k in range(vectors.shape[0]):
+        for i in range(diagonal.size):
+            total = diagonal[i] * vectors[k, i]
+            if i > 0:
+                total += lower[i] * vectors[k, i - 1]
+            if i < last:
+                total += upper[i] * vectors[k, i + 1]
+            out[k, i] = total
 
 
 @compiled

@@ -27,13 +27,17 @@ class Tridiagonal:
     def __matmul__(self, vector: Array) -> Array:
         """Product with a vector, or with an array along its first axis."""
         if vector.ndim == 1:
-            product = np.empty_like(vector)
-            kernels.tridiagonal_product(self.lower, self.diagonal, self.upper, vector, product)
-            return product
+            return self.on_each(vector[None])[0]
         product = self.diagonal[:, None] * vector
         product[1:] += self.lower[1:, None] * vector[:-1]
         product[:-1] += self.upper[:-1, None] * vector[1:]
         return product
+
+    def on_each(self, vectors: Array) -> Array:
+        """Product with each of many vectors, (number, length)."""
+        products = np.empty(vectors.shape)
+        kernels.tridiagonal_products(self.lower, self.diagonal, self.upper, vectors, products)
+        return products
 
     @cached_property
     def transposed(self) -> Tridiagonal:

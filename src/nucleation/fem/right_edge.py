@@ -143,8 +143,8 @@ class RightEdge(EdgeValues):
         n_levels, n_x = body.grid.n_y + 1, body.grid.n_x
         diagonal = np.empty_like(self._inverse)
         kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
-        solution, sums = np.zeros((n_levels, 2, n_x)), np.zeros((3, n_levels))
-        schur = self._edge.dense()
+        solution = np.zeros((n_levels, 2, n_x))
+        sums, rows = np.zeros((n_levels, 3, n_levels)), np.zeros((n_levels, n_levels))
         for i in range(n_levels):
             first = max(i, 1)
             unit = np.zeros(n_levels)
@@ -156,12 +156,12 @@ class RightEdge(EdgeValues):
                 self._inverse, self._lower, diagonal, profiles, body.edge_weights, 2.0 / n_x,
                 first, solution,
             )  # fmt: skip
-            sums[:, : first - 1] = 0.0
-            kernels.edge_sums(body.edge_weights, solution, first - 1, sums)
-            # the rows from i on see only these levels; the others follow by symmetry
-            schur[i:, i] -= self._rows(sums)[i:]
-            schur[i, i + 1 :] = schur[i + 1 :, i]
-        return schur
+            kernels.edge_sums(body.edge_weights, solution, first - 1, sums[i])
+        for matrix, of_edge in zip((*self._x, self._y), np.moveaxis(sums, 1, 0), strict=True):
+            rows += matrix.on_each(of_edge)
+        # an edge value's rows see only the levels from it on, which were summed over
+        lower = np.tril(self._edge.dense() - rows.T)
+        return lower + np.tril(lower, -1).T
 
     @cached_property
     def compliance(self) -> Array:

@@ -16,7 +16,7 @@ from typing import Any
 
 from ..datasets import netcdf
 from ..datasets.variables import DatasetError
-from ..simulation.control import Outcome
+from ..simulation.outcome import Outcome
 from . import keys
 from .time_left import TimeLeft
 

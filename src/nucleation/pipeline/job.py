@@ -6,6 +6,7 @@ what is what it was asked for, and leaves with each result what vouches for it.
 
 from __future__ import annotations
 
+import gc
 import sys
 import time
 import traceback
@@ -59,6 +60,7 @@ class Job:
             sys.stderr = open(self._snakemake.log[0], "a", buffering=1, encoding="utf-8")
         try:
             code.verify_loaded(self.params.code, self._script, *code.ALWAYS, *self.params.modules)
+            gc.freeze()  # what is loaded stays: at its end Python would look through it, for .3 s
             if keys.key_in(self.output[0]) not in (None, keys.joined(self.params.made)):
                 raise DatasetError(f"{self.output[0]} is not what this job makes: plan it again")
             for path, wanted in self.params.expected.items():

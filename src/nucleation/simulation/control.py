@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import enum
 
 import numpy as np
 
@@ -11,26 +10,12 @@ from ..model.parameters import Stepping
 from ..stepping.ladder import rung_below, rung_value
 from ..stepping.scheme import Scheme
 from .interface import NewtonFailure, Tension
+from .outcome import Outcome
 from .state import State
 from .step import Dynamics, StepReport
 
 SAFETY = 0.85  # of the step size against the estimated error
 SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
-
-
-class Outcome(enum.Enum):
-    """How a run ended."""
-
-    END_TIME = "completed: the end time was reached"
-    AFTER_EVENT = "completed: the event and the time asked for after it are covered"
-    STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
-    TENSION = "failed: the interface came under tension, where the friction law has no meaning"
-    NOT_FINITE = "failed: a recorded value is not finite"
-
-    @property
-    def completed(self) -> bool:
-        """Whether the run reached its planned end."""
-        return self.value.startswith("completed")
 
 
 class SimulationFailure(RuntimeError):

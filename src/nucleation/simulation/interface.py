@@ -23,6 +23,7 @@ from scipy.linalg import lapack
 from ..fem.condensed import Condensed, Response
 from ..model.friction.law import Friction
 from ..stepping.bdf import Formula
+from . import kernels
 from .drive import Imposed
 from .state import State
 
@@ -104,15 +105,12 @@ class Factors:
         beta: float,
     ) -> Factors:  # fmt: skip
         """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
-        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
+        active = kernels.coupled(elastic, damping, ACTIVE)
         if not active.size:
             nothing = np.empty((0, 0), dtype=np.float32)
             return cls(active, damping[active], nothing, np.empty(0, dtype=np.int32))
         stiffness, coupling = operator.tangent(active + 1, np.float32)
-        coupling *= coefficient[active, None].astype(np.float32)
-        stiffness += coupling
-        stiffness *= beta
-        stiffness[np.diag_indices_from(stiffness)] += damping[active]
+        kernels.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
         lu, pivots, info = lapack.sgetrf(stiffness.T, overwrite_a=True)  # of the transpose
         if info:
             raise NewtonFailure("the interface's tangent is singular")
@@ -120,15 +118,11 @@ class Factors:
 
     def change(self, damping: Array, elastic: Array) -> float:
         """Largest relative change of a node's slope since, by which an iteration would err."""
-        active = np.flatnonzero(elastic > ACTIVE * np.abs(damping))
-        if not np.array_equal(active, self.active):
-            return np.inf
-        change = np.abs(damping[active] - self.damping) / (elastic[active] + np.abs(self.damping))
-        return float(change.max(initial=0.0))
+        return kernels.change_of_slope(self.active, self.damping, elastic, damping, ACTIVE)
 
     def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
         """Newton's direction for a residual, to first order in the change since factorising."""
-        change = residual / -(elastic + damping)
+        change = kernels.uncoupled(residual, elastic, damping)
         if self.active.size:
             change[self.active], _ = lapack.sgetrs(
                 self.lu, self.pivots, -residual[self.active], trans=1
@@ -168,18 +162,17 @@ class Interface:
         rounding = ROUNDING * np.abs(past.w).max() / beta  # of v = (w - past.w) / beta
         p, normal = response.tangential, response.normal
         most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
+        elastic = beta * operator.diagonal
         for iteration in range(most + 1):
             rates = np.append(imposed.velocity, v)
             coefficient, slope, psi = self._friction(rates, past.log_state, beta)
             if imposed.strength is not None:
                 coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
-            residual = p + coefficient[1:] * normal[1:]
-            damping = slope[1:] * normal[1:]
-            elastic = beta * operator.diagonal
             linear_below = self.friction.linear_below(psi[1:])
-            resolved = np.abs(v) + linear_below
-            scale = (elastic + np.abs(damping)) * (self.tolerance * resolved) + elastic * rounding
-            error = float(np.max(np.abs(residual) / scale))
+            residual, damping, error = kernels.balance(
+                p, normal, coefficient, slope, elastic, np.abs(v) + linear_below,
+                self.tolerance, rounding,
+            )  # fmt: skip
             if not np.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
             if error < 1.0:
@@ -196,8 +189,8 @@ class Interface:
                 v = _updated_by_asinh(v, change, damping, elastic, linear_below)
             else:
                 v = self._updated(v, change)
-            w = past.w + beta * (v - imposed.velocity)
-            dp, dnormal = operator.apply(w - response.w)
+            w, change = kernels.moved(v, imposed.velocity, beta, past.w, response.w)
+            dp, dnormal = operator.apply(change)
             p, normal = response.tangential + dp, response.normal + dnormal
         raise NewtonFailure(f"no convergence in {most} iterations")
 
@@ -221,12 +214,12 @@ class Interface:
         forms agree to first order in the change, so that convergence stays quadratic.
         """
         v0 = self.friction.regularisation_slip_rate
-        ratio = change / self.friction.slip_speed(v)
-        updated = v + change
-        shrinking = (np.abs(ratio) > 0.5) & (v * change < 0.0)
-        if shrinking.any():
-            shift = np.clip(ratio[shrinking], -LARGEST_SHIFT, LARGEST_SHIFT)
-            updated[shrinking] = v0 * np.sinh(np.arcsinh(v[shrinking] / v0) + shift)
+        updated, shrinking = kernels.updated(v, change, v0)
+        if shrinking.size:
+            before = v[shrinking]
+            ratio = change[shrinking] / self.friction.slip_speed(before)
+            shift = np.clip(ratio, -LARGEST_SHIFT, LARGEST_SHIFT)
+            updated[shrinking] = v0 * np.sinh(np.arcsinh(before / v0) + shift)
         return updated
 
 

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 
 from ..model.parameters import FIRST_STEP, Parameters
 from .composition import composed
-from .control import Control, Instant, Outcome, SimulationFailure, accepted_step
+from .control import Control, Instant, SimulationFailure, accepted_step
+from .outcome import Outcome
 from .recording import Recorder
 from .start import at_rest
 from .state import State

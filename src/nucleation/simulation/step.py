@@ -174,7 +174,11 @@ def extrapolated(state: State, step: Step, velocity: float, friction: Friction) 
         SLOW * velocity, SLOW_IN_EVENT * float(fastest), SLIGHT_SLIP * distance / step.length
     )
     scaled = step.extrapolation @ np.arcsinh(state.past_slip_rates / scale)
-    scaled = np.clip(scaled, -LARGEST_RATE_EXPONENT, LARGEST_RATE_EXPONENT)
-    largest = 10.0 * fastest
-    rate = np.clip(scale * np.sinh(scaled), -largest, largest)
+    rate = scale * np.sinh(_within(scaled, LARGEST_RATE_EXPONENT))
+    rate = _within(rate, 10.0 * fastest)
     return Guess(rate, step.extrapolation @ state.past_log_states, scale)
+
+
+def _within(values: Array, largest: float) -> Array:
+    """Values cut at a size; :func:`numpy.clip` takes four times as long on a few hundred."""
+    return np.minimum(np.maximum(values, -largest), largest)

@@ -75,12 +75,12 @@ def beta_of_step(step: float, previous_step: float) -> float:
 
 def extrapolation_weights(time: float, past: Array) -> Array:
     """Lagrange weights that extrapolate values at the `past` times (s) to `time` (s)."""
-    weights = np.ones(past.size)
-    for i, own in enumerate(past):
-        for j, other in enumerate(past):
+    times, weights = past.tolist(), [1.0] * past.size
+    for i, own in enumerate(times):
+        for j, other in enumerate(times):
             if i != j:
                 weights[i] *= (time - other) / (own - other)
-    return weights
+    return np.array(weights)
 
 
 def error_factor(formula: Formula, past: Array) -> float:
@@ -90,8 +90,8 @@ def error_factor(formula: Formula, past: Array) -> float:
     ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))`` and the extrapolation's is ``A y'''`` with
     ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
     """
-    h = formula.step
-    first, second = past[0] - past[1], past[0] - past[2]
+    h, (now, before, earlier) = formula.step, past.tolist()
+    first, second = now - before, now - earlier
     r = h / first
     scheme = h**3 * (1 + r) ** 2 / (6 * r * (1 + 2 * r))
     extrapolation = h * (h + first) * (h + second) / 6
