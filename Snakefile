@@ -173,22 +173,24 @@ def runs_in(*studies):
     return [run for run in settings.runs if run.study in studies]
 
 
+def is_pair(study):
+    """Whether all runs of a study have two bodies."""
+    runs = settings.runs_of(study)
+    return bool(runs) and all(run.parameters.below is not None for run in runs)
+
+
+PAIR_STUDIES = [study for study in settings.studies if is_pair(study)]
+
+
 def simulations(*studies):
-    """The datasets of their simulations, which one job makes each."""
-    for study in studies:
-        many = settings.studies[study].runs_per_job if study in settings.studies else 1
-        if many > 1:
-            raise WorkflowError(
-                f"studies.{study}.runs_per_job = {many} is not allowed: results are made of its "
-                "simulations one by one; it must be 1, or be left out"
-            )
+    """The datasets of their simulations."""
     return [simulation(run.id) for run in runs_in(*studies)]
 
 
 def made(*studies):
-    """What jobs make of their runs: simulations, or batches of them."""
-    names = [run.batch for run in runs_in(*studies) if run.batch]
-    single = [simulation(run.id) for run in runs_in(*studies) if not run.batch]
+    """What jobs make of their runs: simulations, or the tables of batches of them."""
+    names = [run.batch for run in runs_in(*studies) if run.study in TABLED]
+    single = [simulation(run.id) for run in runs_in(*studies) if run.study not in TABLED]
     return [*single, *map(batch, dict.fromkeys(names))]
 
 

@@ -1,6 +1,7 @@
 """Many simulations in one job: the same results, found again one by one, whatever happens."""
 
 import os
+import shutil
 import signal
 import time
 from collections import Counter
@@ -155,9 +156,59 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
     assert_same_datasets(slow, single)
 
 
-def test_a_study_that_is_read_one_by_one_has_no_batches(workflow):
-    values = configuration(2)
-    values["studies"]["sensitivity"] = values["studies"].pop("many")
-    done = workflow.configured(values)("--dry-run", "sensitivity")
-    assert done.returncode != 0
-    assert "studies.sensitivity.runs_per_job = 2 is not allowed" in done.stdout
+def read_one_by_one(per_job):
+    """The same runs as a study of whose simulations, one by one, other results are made."""
+    values = configuration(per_job)
+    values["studies"]["quiet"] = values["studies"].pop("many")
+    return values
+
+
+def begun(workflow):
+    """How many simulations were begun, by the logs."""
+    logs = (workflow.directory / "results/logs").glob("*/*.log")
+    return sum(path.read_text().count("begun") for path in logs)
+
+
+def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
+    """Without a table of its own; of what is there already, nothing is made again."""
+    quiet = workflow.configured(read_one_by_one(2))
+    planned = quiet.planned("lengths")
+    assert {name: planned[name] for name in planned if "simulate" in name} == {
+        "simulate_quiet_0": 1, "simulate_quiet_1": 1, "simulate_quiet_2": 1,
+    }  # fmt: skip
+    done = quiet("lengths", "--cores", "2")
+    assert done.returncode == 0, done.stdout
+    made, (_, single) = datasets(quiet), batched
+    expected = {netcdf.read(path).attrs["key"]: path for path in datasets(single).values()}
+    for path in made.values():
+        here = netcdf.read(path)
+        there = netcdf.read(expected[here.attrs["key"]])
+        assert here.drop_attrs().identical(there.drop_attrs())
+    assert len(made) == begun(quiet) == 5 and quiet.planned("lengths") == {}
+
+    lost, *others = sorted(made.values())
+    kept = {path: path.read_bytes() for path in others}
+    lost.unlink()
+    shutil.rmtree(quiet.directory / "results/logs")
+    assert len([name for name in quiet.planned("lengths") if "simulate" in name]) == 1
+    done = quiet("lengths", "--cores", "1")
+    assert done.returncode == 0, done.stdout
+    assert lost.is_file() and {path: path.read_bytes() for path in others} == kept
+    assert begun(quiet) == 1
+    other = workflow.configured(read_one_by_one(3), "other.yaml")
+    assert other.planned("lengths") == {}
+
+
+def test_a_run_that_fails_costs_its_batch_nothing_that_was_finished(workflow):
+    values = read_one_by_one(3)
+    values["studies"]["quiet"]["runs"] = [
+        {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
+    ]  # fmt: skip
+    values["studies"]["quiet"]["defaults"] = SHORT | {"tolerance": 1e-9, "end_time": 0.2}
+    failing = workflow.configured(values)
+    done = failing("lengths", "--cores", "1")
+    assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
+    again = failing("lengths", "--cores", "1")
+    assert again.returncode != 0
+    log = next((failing.directory / "results/logs/batches").glob("quiet*.log")).read_text()
+    assert log.count("taken from") == 2 and log.count("begun") == 1

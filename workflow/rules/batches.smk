@@ -1,10 +1,20 @@
 # Simulations that take seconds, many in one job (a study's runs_per_job): one start of Python and one
-# job of Snakemake for all of them. Each has its own dataset, made as by the rule `simulate`; the
-# batch's is the table of what was measured.
+# job of Snakemake for all of them. Each has its own dataset, made as by the rule `simulate`. Where
+# other results are made of these one by one, they are what the job makes; else it is the table of
+# what was measured, and Snakemake need not know of thousands of files.
 BATCHES = {}
 for _run in settings.runs:
     if _run.batch:
         BATCHES.setdefault(_run.batch, []).append(_run)
+
+ONE_BY_ONE = {
+    *("paper", "converged", "patch_convergence", "sensitivity", "quiet", "convergence_quiet"),
+    *PAIR_STUDIES,
+}
+"""Studies whose simulations other results are made of."""
+TABLED = [study for study in dict.fromkeys(runs[0].study for runs in BATCHES.values())
+          if study not in ONE_BY_ONE]  # fmt: skip
+"""Studies in batches that are measured by the job that makes them."""
 
 
 def laws_of(name):
@@ -27,7 +37,8 @@ def batch(name):
     return keyed("batches", name, "batch.py", batch_parameters(name), modules=laws_of(name))
 
 
-batched = of_key(batch, "batch", BATCHES)
+MEASURED = [name for name, runs in BATCHES.items() if runs[0].study in TABLED]
+batched = of_key(batch, "batch", MEASURED)
 
 
 def batch_parameter(name):
@@ -38,6 +49,15 @@ def code_of(run):
     return PLANNER.code(script_path("simulate.py"), plugins(run.parameters))
 
 
+def places(name):
+    """Where the datasets of a batch belong, and the code that makes each."""
+    return [(simulation(run.id), code_of(run)) for run in BATCHES[name]]
+
+
+def batch_memory(name):
+    return lambda wildcards, attempt: max(memory(run, attempt) for run in BATCHES[name])
+
+
 rule batch:
     output:
         place_of("batches"),
@@ -46,22 +66,47 @@ rule batch:
     priority: 1
     threads: 1
     resources:
-        mem_mb=lambda wildcards, attempt: max(
-            memory(run, attempt) for run in BATCHES[batched(wildcards)]
-        ),
+        mem_mb=lambda wildcards, attempt: batch_memory(batched(wildcards))(wildcards, attempt),
         runtime=ceil(settings.limits.runtime),
     params:
         **made_by("batch.py", lambda wildcards: laws_of(batched(wildcards))),
         runs=batch_parameter("runs"),
         extraction=batch_parameter("extraction"),
         measure=batch_parameter("measure"),
-        places=lambda wildcards: [
-            (simulation(run.id), code_of(run)) for run in BATCHES[batched(wildcards)]
-        ],
+        places=lambda wildcards: places(batched(wildcards)),
     message:
         "Simulations {wildcards.name}"
     script:
         "../scripts/batch.py"
+
+
+SEVERAL = {name: f"simulate_{name.replace('-', '_')}" for name in BATCHES if name not in MEASURED}
+for _name in SEVERAL:
+
+    rule:
+        name:
+            SEVERAL[_name]
+        output:
+            # kept where they are already there: the job makes what is missing
+            [update(path) for path, _ in places(_name)],
+        log:
+            f"{RESULTS}/logs/batches/{_name}.log",
+        priority: 2  # they take longest
+        threads: 1
+        resources:
+            mem_mb=batch_memory(_name),
+            runtime=ceil(settings.limits.runtime),
+        params:
+            **made_by("batch.py", laws_of(_name)),
+            runs=batch_parameters(_name)["runs"],
+            places=places(_name),
+        message:
+            f"Simulations {_name}"
+        script:
+            "../scripts/batch.py"
+
+
+workflow.ruleorder(*SEVERAL.values(), "simulate")
 
 
 rule simulations:

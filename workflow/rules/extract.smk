@@ -15,9 +15,6 @@ def measured(*studies):
     return [*made(*present), *(with_csv(study_lengths(study)) for study in present)]
 
 
-BATCHED = [study for study in settings.studies if settings.studies[study].runs_per_job > 1]
-
-
 rule extract:
     input:
         lambda wildcards: simulations(wildcards.study),
@@ -27,7 +24,7 @@ rule extract:
     log:
         f"{RESULTS}/logs/extract/{{study}}.log",
     wildcard_constraints:
-        study=one_of(study for study in settings.studies if study not in BATCHED),
+        study=one_of(study for study in settings.studies if study not in TABLED),
     params:
         **made_by("extract.py"),
         parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),
@@ -46,7 +43,7 @@ rule join_batches:
     log:
         f"{RESULTS}/logs/extract/{{study}}.log",
     wildcard_constraints:
-        study=one_of(BATCHED),
+        study=one_of(TABLED),
     params:
         **made_by("join_batches.py"),
         ids=lambda wildcards: [run.id for run in settings.runs_of(wildcards.study)],

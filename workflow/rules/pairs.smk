@@ -3,15 +3,6 @@
 PAIRS = f"{RESULTS}/pairs.nc"
 
 
-def is_pair(study):
-    """Whether all runs of a study have two bodies."""
-    runs = settings.runs_of(study)
-    return bool(runs) and all(run.parameters.below is not None for run in runs)
-
-
-PAIR_STUDIES = [study for study in settings.studies if is_pair(study)]
-
-
 def pairs():
     """The table, with the patches and simulations in it."""
     return [*with_csv(PAIRS), *patches(*PAIR_STUDIES), *simulations(*PAIR_STUDIES)]

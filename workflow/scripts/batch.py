@@ -1,4 +1,4 @@
-"""Run the simulations of a batch one after another, and measure each.
+"""Run the simulations of a batch one after another, and measure each if its table is asked for.
 
 Each has its own dataset as soon as it is finished: whatever happens to the others, it is used when
 the batch is made again. One that fails does not keep the others from being made.
@@ -18,11 +18,11 @@ from nucleation.simulation.checkpoints import Stopped
 from nucleation.simulation.run import simulate
 
 with Job(snakemake, __file__) as job:
-    if not job.fetched():
-        given = {name: job.params[name] for name in ("runs", "extraction", "measure")}
-        extraction = ExtractionSettings(**job.params.extraction)
+    params = job.params
+    measure = params.get("measure")
+    if measure is None or not job.fetched():
         rows, failures = [], []
-        for run, (path, code) in zip(job.params.runs, job.params.places, strict=True):
+        for run, (path, code) in zip(params.runs, params.places, strict=True):
             result = Result(Path(path), key_in(path), code)
             try:
                 parameters = Parameters.from_dict(run["parameters"])
@@ -33,9 +33,13 @@ with Job(snakemake, __file__) as job:
                 continue
             except Stopped as stopped:
                 job.end(f"{run['id']}: {stopped}")
-            rows.append(measured(run, record, extraction, job.params.measure))
+            if measure:
+                extraction = ExtractionSettings(**params.extraction)
+                rows.append(measured(run, record, extraction, measure))
         if failures:
-            count = f"{len(failures)} of {len(job.params.runs)} runs failed"
+            count = f"{len(failures)} of {len(params.runs)} runs failed"
             job.end("\n  ".join([f"{count}, the others are kept:", *failures]))
-        job.write(lengths.join(rows), job.output[0], given)
-        job.keep()
+        if measure:
+            given = {name: params[name] for name in ("runs", "extraction", "measure")}
+            job.write(lengths.join(rows), job.output[0], given)
+            job.keep()

@@ -47,8 +47,7 @@ class StudySettings(Checked):
         choices=("lengths", "own"), default="lengths",
     )  # fmt: skip
     runs_per_job: int = quantity(
-        "simulations that one job makes, one after another; more than one where runs take seconds, "
-        "and nothing but their lengths is asked for",
+        "simulations that one job makes, one after another; more than one where runs take seconds",
         low=1, high=10000, closed="both", default=1,
     )  # fmt: skip
     measure: str = quantity(

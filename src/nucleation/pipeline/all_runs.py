@@ -40,8 +40,8 @@ def planned(jobs: Iterable[Any]) -> list[Work]:
     """
     found = []
     for job in jobs:
-        paths = [*job.output, *_named(job)]
-        runs = tuple(Path(path) for path in map(str, paths) if _is_run(path))
+        paths = dict.fromkeys(map(str, (*job.output, *_named(job))))
+        runs = tuple(Path(path) for path in paths if _is_run(path))
         if runs and job.log:
             found.append(Work(runs, Path(job.log[0])))
     return found
