@@ -10,7 +10,8 @@ SEED ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/environment.stamp
-PYTEST = $(BIN)/python -m pytest -n $(CORES) --dist loadfile --no-loadscope-reorder
+# one more than there are cores: the tests of a cluster mostly wait
+PYTEST = $(BIN)/python -m pytest -n $(shell expr $(CORES) + 1) --dist loadfile --no-loadscope-reorder
 PAPERS := config/config.yaml
 CONFIG ?= $(PAPERS)
 # The launcher looks at a configuration before Snakemake, which runs what some of them hold.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import atexit
 import functools
+import gc
 import importlib
 import json
 import os
@@ -18,11 +19,15 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from warm_jobs import serve_jobs
+
 PACKAGES = (
-    "snakemake.cli", "snakemake.parser", "snakemake.report", "snakemake.dag", "pandas", "pint",
-    "scipy.special", "scipy.optimize", "xarray", "yaml", "jsonschema",
+    "snakemake.cli", "snakemake.parser", "snakemake.report", "snakemake.dag", "snakemake.script",
+    "pandas", "pint", "scipy.special", "scipy.optimize", "xarray", "yaml", "jsonschema", "click",
+    "numba", "scipy.linalg", "scipy.fft", "netCDF4", "tqdm", "matplotlib.figure", "jinja2",
+    "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf", "plotly.graph_objects",
 )  # fmt: skip
-"""What a call would import. One that is missing here costs time, no more."""
+"""What a call and its jobs would import. One that is missing here costs time, no more."""
 
 
 class Warm:
@@ -93,12 +98,15 @@ def become(call: Mapping) -> None:
     sys.stdin = os.fdopen(0)  # the other one has read ahead
     sys.argv = ["snakemake", *call["arguments"]]
     sys.path[0] = call["directory"]  # as with python -m
+    serve_jobs()
     importlib.import_module("snakemake.cli").main(call["arguments"])
 
 
 if __name__ == "__main__":
     for package in PACKAGES:
         importlib.import_module(package)
+    importlib.import_module("numba").njit(lambda: 0)()  # as the first compiled function does
+    gc.freeze()
     wanted = serve()
     if wanted is not None:
         become(wanted)

@@ -23,7 +23,7 @@ from scipy.linalg import lapack
 from ..fem.condensed import Condensed, Response
 from ..model.friction.law import Friction
 from ..stepping.bdf import Formula
-from . import kernels
+from . import newton
 from .drive import Imposed
 from .state import State
 
@@ -105,12 +105,12 @@ class Factors:
         beta: float,
     ) -> Factors:  # fmt: skip
         """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
-        active = kernels.coupled(elastic, damping, ACTIVE)
+        active = newton.coupled(elastic, damping, ACTIVE)
         if not active.size:
             nothing = np.empty((0, 0), dtype=np.float32)
             return cls(active, damping[active], nothing, np.empty(0, dtype=np.int32))
         stiffness, coupling = operator.tangent(active + 1, np.float32)
-        kernels.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
+        newton.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
         lu, pivots, info = lapack.sgetrf(stiffness.T, overwrite_a=True)  # of the transpose
         if info:
             raise NewtonFailure("the interface's tangent is singular")
@@ -118,11 +118,11 @@ class Factors:
 
     def change(self, damping: Array, elastic: Array) -> float:
         """Largest relative change of a node's slope since, by which an iteration would err."""
-        return kernels.change_of_slope(self.active, self.damping, elastic, damping, ACTIVE)
+        return newton.change_of_slope(self.active, self.damping, elastic, damping, ACTIVE)
 
     def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
         """Newton's direction for a residual, to first order in the change since factorising."""
-        change = kernels.uncoupled(residual, elastic, damping)
+        change = newton.uncoupled(residual, elastic, damping)
         if self.active.size:
             change[self.active], _ = lapack.sgetrs(
                 self.lu, self.pivots, -residual[self.active], trans=1
@@ -169,7 +169,7 @@ class Interface:
             if imposed.strength is not None:
                 coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
             linear_below = self.friction.linear_below(psi[1:])
-            residual, damping, error = kernels.balance(
+            residual, damping, error = newton.balance(
                 p, normal, coefficient, slope, elastic, np.abs(v) + linear_below,
                 self.tolerance, rounding,
             )  # fmt: skip
@@ -189,7 +189,7 @@ class Interface:
                 v = _updated_by_asinh(v, change, damping, elastic, linear_below)
             else:
                 v = self._updated(v, change)
-            w, change = kernels.moved(v, imposed.velocity, beta, past.w, response.w)
+            w, change = newton.moved(v, imposed.velocity, beta, past.w, response.w)
             dp, dnormal = operator.apply(change)
             p, normal = response.tangential + dp, response.normal + dnormal
         raise NewtonFailure(f"no convergence in {most} iterations")
@@ -214,7 +214,7 @@ class Interface:
         forms agree to first order in the change, so that convergence stays quadratic.
         """
         v0 = self.friction.regularisation_slip_rate
-        updated, shrinking = kernels.updated(v, change, v0)
+        updated, shrinking = newton.updated(v, change, v0)
         if shrinking.size:
             before = v[shrinking]
             ratio = change[shrinking] / self.friction.slip_speed(before)
