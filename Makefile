@@ -10,8 +10,7 @@ SEED ?=
 VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/environment.stamp
-# one more than there are cores: the tests of a cluster mostly wait
-PYTEST = $(BIN)/python -m pytest -n $(shell expr $(CORES) + 1) --dist loadfile --no-loadscope-reorder
+PYTEST = $(BIN)/python -m pytest --dist loadfile --no-loadscope-reorder
 PAPERS := config/config.yaml
 CONFIG ?= $(PAPERS)
 # The launcher looks at a configuration before Snakemake, which runs what some of them hold.
@@ -36,11 +35,12 @@ report: $(STAMP) ## Make results/report.html: verdicts, figures, theory with sli
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(LAUNCH) $(TARGETS) $(OPTIONS) --configfile config/quick.yaml
 
+# One worker more than there are cores: the tests of a cluster mostly wait.
 test: $(STAMP) ## Run the tests
-	@$(PYTEST)
+	@$(PYTEST) -n $(shell expr $(CORES) + 1)
 
 test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system, in a minute
-	@$(PYTEST) -m "not slow and not system"
+	@$(PYTEST) -n $(CORES) -m "not slow and not system"
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	PYTHONPATH=src:tests $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)

@@ -90,6 +90,7 @@ def outcome(path, written):
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*multi-threaded")  # a child only reads
 @pytest.mark.parametrize("make", [numbers, texts])
 def test_damage_is_refused_in_one_way(make, tmp_path):
     path = tmp_path / "record.nc"
