@@ -17,6 +17,7 @@ def nodes():
     elastic = random.uniform(0.5, 2.0, N)
     damping = 10.0 ** random.uniform(0.0, 8.0, N)
     damping[::7] *= -1.0  # where friction weakens
+    damping[-1] = 1e9  # the last one is alone
     return elastic, damping, random
 
 
@@ -56,8 +57,10 @@ def test_coupled_nodes_and_the_change_of_their_slope(nodes):
 def test_other_coupled_nodes_are_an_infinite_change(nodes):
     elastic, damping, _ = nodes
     active = newton.coupled(elastic, damping, RATIO)
-    alone = np.setdiff1d(np.arange(N), active)[0]
-    for others in (active[1:], active[:-1], np.sort(np.append(active, alone)), active[:0]):
+    alone = np.setdiff1d(np.arange(N), active)
+    assert alone[-1] > active[-1]
+    replaced = np.sort(np.append(active[1:], alone[0]))
+    for others in (active[1:], active[:-1], replaced, np.append(active, alone[-1]), active[:0]):
         before = damping[others]
         assert newton.change_of_slope(others, before, elastic, damping, RATIO) == np.inf
 
@@ -87,6 +90,7 @@ def test_uncoupled_and_moved(nodes):
 def test_updated(nodes):
     random = nodes[2]
     v, change, v0 = random.normal(size=N), random.normal(size=N), 0.5
+    v[:2], change[:2] = 1.0, -np.sqrt(1.25) * np.array([0.49, 0.51])
     new, shrinking = newton.updated(v, change, v0)
     assert_array_equal(new, v + change)
     ratio = change / np.sqrt(v * v + v0**2)
