@@ -212,3 +212,30 @@ def test_a_run_that_fails_costs_its_batch_nothing_that_was_finished(workflow):
     assert again.returncode != 0
     log = next((failing.directory / "results/logs/batches").glob("quiet*.log")).read_text()
     assert log.count("taken from") == 2 and log.count("begun") == 1
+
+
+@pytest.mark.parametrize("whole", [False, True], ids=["the job", "all of it"])
+def test_a_killed_batch_of_datasets_keeps_what_is_finished(workflow, batched, whole):
+    """Snakemake removes what a failed job has made; what it was is taken from under its key."""
+    slow = workflow.configured(read_one_by_one(5))
+    process = slow.start("lengths", "--cores", "1")
+    while len(datasets(slow)) < 2:
+        time.sleep(0.02)
+        assert process.poll() is None
+    if whole:
+        process.kill()
+    for child in os.popen(f"pgrep -f {slow.directory}.*batch.py").read().split():
+        os.kill(int(child), signal.SIGKILL)
+    process.communicate(timeout=120)
+    if whole:
+        slow("--unlock")
+    shutil.rmtree(slow.directory / "results/logs")
+    done = slow("lengths", "--cores", "1")
+    assert done.returncode == 0, done.stdout
+    assert len(datasets(slow)) == 5 and 1 <= begun(slow) <= 3
+    _, single = batched
+    expected = {netcdf.read(path).attrs["key"]: path for path in datasets(single).values()}
+    for path in datasets(slow).values():
+        here = netcdf.read(path)
+        there = netcdf.read(expected[here.attrs["key"]])
+        assert here.drop_attrs().identical(there.drop_attrs())

@@ -92,6 +92,9 @@ for _name in SEVERAL:
         log:
             f"{RESULTS}/logs/batches/{_name}.log",
         priority: 2  # they take longest
+        # that of the rule above, if a cluster's profile has one
+        group:
+            lambda wildcards: workflow.group_settings.overwrite_groups.get("batch")
         threads: 1
         resources:
             mem_mb=batch_memory(_name),

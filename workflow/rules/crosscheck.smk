@@ -1,5 +1,5 @@
 # The independent solver: the same runs by FreeFem++ and by the project's own solver. Not a part of
-# `paper`: it needs a program that make doesn't install, and takes ten minutes.
+# `paper`: it needs a program that make doesn't install, and takes twenty minutes.
 from nucleation.verification.crosscheck import freefem, plan
 
 CROSSCHECKS = plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)

@@ -218,3 +218,19 @@ def test_refusal_by_slurm_is_shown(slurm, workflow_type, tmp_path):
     assert done.returncode != 0
     assert "invalid partition specified: nowhere" in done.stdout
     assert "--wrap" not in done.stdout, "the reason, without some kB of command"
+
+
+def test_batches_that_make_their_datasets_share_a_job(slurm, workflow_type, tmp_path):
+    """As those do of which a table is made: one on each of its cores."""
+    short = {"n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0}
+    study = {"length_over_critical": 4.0, "runs_per_job": 2, "defaults": short,
+             "runs": [{"height": [0.02, 0.03, 0.04]}]}  # fmt: skip
+    made = workflow_type(tmp_path, profile="slurm").configured({"studies": {"quiet": study}})
+    process = made.start("lengths", *OFTEN)
+    try:
+        output, _ = process.communicate(timeout=600)
+        assert process.returncode == 0, output
+        assert [job["NumCPUs"] for job in slurm.jobs(made.directory)] == ["2"]
+    finally:
+        slurm.end(process, made.directory)
+    assert len(list((tmp_path / "results/simulations").glob("quiet-*.nc"))) == 3
