@@ -19,14 +19,35 @@ SHORT = {
 HEIGHTS = (0.02, 0.03, 0.04, 0.05, 0.06)
 
 
-def configuration(per_job, heights=HEIGHTS):
+def configuration(per_job, heights=HEIGHTS, study_name="many"):
     study = {
         "length_over_critical": 4.0,
         "runs_per_job": per_job,
         "defaults": SHORT,
         "runs": [{"height": list(heights)}],
     }
-    return {"results": "results", "studies": {"many": study}}
+    return {"results": "results", "studies": {study_name: study}}
+
+
+def with_one_that_fails(study_name):
+    """Three runs in a batch; a second step can't be as short as one asks: it fails and says so."""
+    values = configuration(3, study_name=study_name)
+    study = values["studies"][study_name]
+    study["runs"] = [
+        {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
+    ]  # fmt: skip
+    study["defaults"] = SHORT | {"tolerance": 1e-9, "end_time": 0.2}
+    return values
+
+
+READ_ONE_BY_ONE = "quiet"
+"""A study of whose simulations, one by one, other results are made."""
+
+
+def begun(workflow):
+    """How many simulations were begun, by the logs."""
+    logs = (workflow.directory / "results/logs").glob("*/*.log")
+    return sum(path.read_text().count("begun") for path in logs)
 
 
 def lengths_of(workflow):
@@ -82,18 +103,21 @@ def test_results_are_those_of_single_jobs(batched):
         lengths_of(workflow).drop(columns=cost), lengths_of(single).drop(columns=cost)
     )
     assert len(datasets(workflow)) == 5
+    assert datasets(workflow).keys() == datasets(single).keys()
     assert_same_datasets(workflow, single)
     assert workflow.planned("lengths") == {}
 
 
 def assert_same_datasets(one, other):
-    """The same runs, with the same values to the last bit."""
-    found, expected = datasets(one), datasets(other)
+    """The same runs by their keys, whatever the study, with the same values to the last bit."""
+    found, expected = (
+        {dataset.attrs["key"]: dataset.drop_attrs()
+         for dataset in map(netcdf.read, datasets(made).values())}
+        for made in (one, other)
+    )  # fmt: skip
     assert found.keys() == expected.keys()
-    for name, path in found.items():
-        here, there = netcdf.read(path), netcdf.read(expected[name])
-        assert here.drop_attrs().identical(there.drop_attrs())
-        assert here.attrs["key"] == there.attrs["key"]
+    for key, dataset in found.items():
+        assert dataset.identical(expected[key])
 
 
 def test_what_exists_is_not_made_again(batched):
@@ -118,18 +142,11 @@ def test_a_run_of_two_studies_is_made_once(workflow):
     assert both.planned("lengths").items() >= {"simulate": 2, "batch": 1}.items()
     done = both("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
-    logs = [path.read_text() for path in (both.directory / "results/logs").glob("*/*.log")]
-    assert sum(log.count("begun") for log in logs) == len(datasets(both)) == 4
+    assert begun(both) == len(datasets(both)) == 4
 
 
 def test_runs_that_fail_do_not_take_the_others_with_them(workflow):
-    # a second step can't be as short as that: the run fails and says so
-    values = configuration(3, (0.02, 0.03, 0.04))
-    values["studies"]["many"]["runs"] = [
-        {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
-    ]  # fmt: skip
-    values["studies"]["many"]["defaults"] = SHORT | {"tolerance": 1e-9, "end_time": 0.2}
-    failing = workflow.configured(values)
+    failing = workflow.configured(with_one_that_fails("many"))
     done = failing("lengths", "--cores", "1")
     assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
     assert len([name for name in datasets(failing) if "failed" not in name]) == 2
@@ -153,25 +170,13 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
     after = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
     assert kept.items() <= after.items() and len(after) == 5
     _, single = batched
+    assert datasets(slow).keys() == datasets(single).keys()
     assert_same_datasets(slow, single)
-
-
-def read_one_by_one(per_job):
-    """The same runs as a study of whose simulations, one by one, other results are made."""
-    values = configuration(per_job)
-    values["studies"]["quiet"] = values["studies"].pop("many")
-    return values
-
-
-def begun(workflow):
-    """How many simulations were begun, by the logs."""
-    logs = (workflow.directory / "results/logs").glob("*/*.log")
-    return sum(path.read_text().count("begun") for path in logs)
 
 
 def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     """Without a table of its own; of what is there already, nothing is made again."""
-    quiet = workflow.configured(read_one_by_one(2))
+    quiet = workflow.configured(configuration(2, study_name=READ_ONE_BY_ONE))
     planned = quiet.planned("lengths")
     assert {name: planned[name] for name in planned if "simulate" in name} == {
         "simulate_quiet_0": 1, "simulate_quiet_1": 1, "simulate_quiet_2": 1,
@@ -179,11 +184,7 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     done = quiet("lengths", "--cores", "2")
     assert done.returncode == 0, done.stdout
     made, (_, single) = datasets(quiet), batched
-    expected = {netcdf.read(path).attrs["key"]: path for path in datasets(single).values()}
-    for path in made.values():
-        here = netcdf.read(path)
-        there = netcdf.read(expected[here.attrs["key"]])
-        assert here.drop_attrs().identical(there.drop_attrs())
+    assert_same_datasets(quiet, single)
     assert len(made) == begun(quiet) == 5 and quiet.planned("lengths") == {}
 
     lost, *others = sorted(made.values())
@@ -195,17 +196,12 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     assert done.returncode == 0, done.stdout
     assert lost.is_file() and {path: path.read_bytes() for path in others} == kept
     assert begun(quiet) == 1
-    other = workflow.configured(read_one_by_one(3), "other.yaml")
+    other = workflow.configured(configuration(3, study_name=READ_ONE_BY_ONE), "other.yaml")
     assert other.planned("lengths") == {}
 
 
 def test_a_run_that_fails_costs_its_batch_nothing_that_was_finished(workflow):
-    values = read_one_by_one(3)
-    values["studies"]["quiet"]["runs"] = [
-        {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
-    ]  # fmt: skip
-    values["studies"]["quiet"]["defaults"] = SHORT | {"tolerance": 1e-9, "end_time": 0.2}
-    failing = workflow.configured(values)
+    failing = workflow.configured(with_one_that_fails(READ_ONE_BY_ONE))
     done = failing("lengths", "--cores", "1")
     assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
     again = failing("lengths", "--cores", "1")
@@ -217,7 +213,7 @@ def test_a_run_that_fails_costs_its_batch_nothing_that_was_finished(workflow):
 @pytest.mark.parametrize("whole", [False, True], ids=["the job", "all of it"])
 def test_a_killed_batch_of_datasets_keeps_what_is_finished(workflow, batched, whole):
     """Snakemake removes what a failed job has made; what it was is taken from under its key."""
-    slow = workflow.configured(read_one_by_one(5))
+    slow = workflow.configured(configuration(5, study_name=READ_ONE_BY_ONE))
     process = slow.start("lengths", "--cores", "1")
     while len(datasets(slow)) < 2:
         time.sleep(0.02)
@@ -234,8 +230,4 @@ def test_a_killed_batch_of_datasets_keeps_what_is_finished(workflow, batched, wh
     assert done.returncode == 0, done.stdout
     assert len(datasets(slow)) == 5 and 1 <= begun(slow) <= 3
     _, single = batched
-    expected = {netcdf.read(path).attrs["key"]: path for path in datasets(single).values()}
-    for path in datasets(slow).values():
-        here = netcdf.read(path)
-        there = netcdf.read(expected[here.attrs["key"]])
-        assert here.drop_attrs().identical(there.drop_attrs())
+    assert_same_datasets(slow, single)

@@ -12,8 +12,11 @@ ONE_BY_ONE = {
     *PAIR_STUDIES,
 }
 """Studies whose simulations other results are made of."""
-TABLED = [study for study in dict.fromkeys(runs[0].study for runs in BATCHES.values())
-          if study not in ONE_BY_ONE]  # fmt: skip
+TABLED = [
+    name
+    for name, study in settings.studies.items()
+    if study.runs_per_job > 1 and name not in ONE_BY_ONE
+]
 """Studies in batches that are measured by the job that makes them."""
 
 
@@ -54,8 +57,8 @@ def places(name):
     return [(simulation(run.id), code_of(run)) for run in BATCHES[name]]
 
 
-def batch_memory(name):
-    return lambda wildcards, attempt: max(memory(run, attempt) for run in BATCHES[name])
+def batch_memory(name, attempt):
+    return max(memory(run, attempt) for run in BATCHES[name])
 
 
 rule batch:
@@ -66,7 +69,7 @@ rule batch:
     priority: 1
     threads: 1
     resources:
-        mem_mb=lambda wildcards, attempt: batch_memory(batched(wildcards))(wildcards, attempt),
+        mem_mb=lambda wildcards, attempt: batch_memory(batched(wildcards), attempt),
         runtime=ceil(settings.limits.runtime),
     params:
         **made_by("batch.py", lambda wildcards: laws_of(batched(wildcards))),
@@ -97,7 +100,7 @@ for _name in SEVERAL:
             lambda wildcards: workflow.group_settings.overwrite_groups.get("batch")
         threads: 1
         resources:
-            mem_mb=batch_memory(_name),
+            mem_mb=lambda wildcards, attempt, name=_name: batch_memory(name, attempt),
             runtime=ceil(settings.limits.runtime),
         params:
             **made_by("batch.py", laws_of(_name)),
