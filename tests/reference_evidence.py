@@ -29,18 +29,6 @@ def of_study(tables, study):
     return tables.isel(run=np.flatnonzero(tables["study"].values == study))
 
 
-def longer_blocks(config):
-    """Rows of the study of sensitivity whose block differs in length, and their bases."""
-    frame = pd.read_csv(REFERENCE / "sensitivity.csv").drop_duplicates("id")
-    frame = frame[frame.variation.isin(["base", "L x 2"])]
-    runs = {run.id: run for run in config.runs_of("sensitivity")}
-    labels = pd.DataFrame(
-        [runs[id].labels | {"block_length": runs[id].parameters.geometry.length} for id in frame.id]
-    )
-    rows = {**labels, "id": frame.id, "length": frame.length}
-    return xr.Dataset({name: ("run", column.to_numpy()) for name, column in rows.items()})
-
-
 def dispersion():
     """results/dispersion.nc from its table, what the claims read of it."""
     frame = pd.read_csv(REFERENCE / "dispersion.csv")
@@ -86,7 +74,7 @@ def _evidence():
         interface=config.main_text_interface,
         theory=theory,
         dispersion=dispersion(),
-        lengths=(*(of_study(lengths, study) for study in STUDIES), longer_blocks(config)),
+        lengths=tuple(of_study(lengths, study) for study in STUDIES),
         measures={},
         patches={str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
     )

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from nucleation.configuration.load import load, read_yaml
-from nucleation.configuration.runs import first_realisations
 
 ROOT = Path(__file__).parents[2]
 
@@ -23,16 +22,13 @@ def paper(workflow):
 
 def test_default_target_is_the_whole_paper(paper):
     config = load(paper.config)
-    runs = len(config.runs_of("paper"))
-    batches = {run.batch for run in config.runs_of("converged")}
-    assert len(batches) == 6
-    blocks = [run.id for run in config.runs_of("sensitivity") if "length" in run.given]
-    assert len(blocks) == 2  # each with the base of its height, for the claim on the block's length
-    runs += 4
+    batches = {run.batch for study in ("paper", "converged") for run in config.runs_of(study)}
+    assert len(batches) == 10
+    runs = len(config.runs_of("long_blocks"))
+    assert runs == 2  # for the claim on the block's length, with the runs of their heights
     once = ("theory", "gather_lengths", "write_table_s1", "paper", *DRAWN, *CLAIMING)
-    patches = len(first_realisations(config.runs_of("converged")))
     assert paper.planned() == {
-        "simulate": runs, "extract": 2, "patch": patches, **dict.fromkeys(once, 1),
+        "simulate": runs, "extract": 2, "patches_converged": 1, **dict.fromkeys(once, 1),
         **{f"simulate_{name.replace('-', '_')}": 1 for name in batches},
     }  # fmt: skip
 

@@ -1,6 +1,8 @@
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
 # article that tells of them. Both stand on the paper's runs and the converged ones; claims about
 # runs that the configuration does not have can't be checked, and say so.
+import itertools
+
 from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
 
 CLAIMS = f"{RESULTS}/claims.json"
@@ -8,19 +10,21 @@ ARTICLE = f"{RESULTS}/article.md"
 TEMPLATE = Path(BASE, "docs", "article.md.in")
 CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
 """Studies that claims are about."""
-IN_BLOCKS = ("length", "n_x", "time_after_event")
-"""What may differ where the block's length is varied."""
+
+
+def element(run):
+    """All that a run is given but for the block's length, of which there is that of an element (m)."""
+    given, mesh = run.parameters.to_dict(), run.parameters.mesh
+    given["geometry"]["length"] = round(given["geometry"]["length"] / mesh.n_x, 9)
+    given["mesh"]["n_x"] = None
+    return given
 
 
 def longer():
-    """Runs whose block is longer than another's with all else the same, and the others."""
-    alike = {}
-    for run in runs_in(LONGER):
-        mark = {name: value for name, value in run.given.items() if name not in IN_BLOCKS}
-        alike.setdefault(repr(sorted(mark.items())), []).append(run)
-    pairs = [runs for runs in alike.values()
-             if len({run.parameters.geometry.length for run in runs}) > 1]  # fmt: skip
-    return [run for runs in pairs for run in runs]
+    """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
+    pairs = itertools.product(runs_in(LONGER), runs_in(JUDGED))
+    alike = [pair for pair in pairs if element(pair[0]) == element(pair[1])]
+    return list(itertools.chain(*alike))
 
 
 localrules:
@@ -51,7 +55,7 @@ rule evaluate_claims:
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
-        longer=[run.to_dict() for run in longer()],
+        longer=[{**run.to_dict(), "study": LONGER} for run in longer()],
         patch_ids=[run.id for run in patched_runs(JUDGED)],
     message:
         "Claims of the paper, our numbers and the verdicts"

@@ -25,6 +25,7 @@ rule extract:
         f"{RESULTS}/logs/extract/{{study}}.log",
     wildcard_constraints:
         study=one_of(study for study in settings.studies if study not in TABLED),
+    priority: 1
     params:
         **made_by("extract.py"),
         parameters=lambda wildcards: settings.lengths_parameters(wildcards.study),

@@ -15,7 +15,7 @@ rule simulate:
         f"{RESULTS}/logs/simulate/{{name}}.{{key}}.log",
     benchmark:
         f"{RESULTS}/logs/simulate/{{name}}.{{key}}.tsv"
-    priority: 1  # before the short jobs, which then fill all cores at the end
+    priority: 1  # with all that the verdicts wait for: what is only drawn fills the cores at the end
     threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: memory(simulated(wildcards), attempt),

@@ -4,6 +4,7 @@ rule theory:
         THEORY,
     log:
         f"{RESULTS}/logs/theory.log",
+    priority: 1
     params:
         **made_by("theory.py", plugins(settings.base)),
         parameters=settings.theory_parameters(),

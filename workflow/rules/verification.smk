@@ -13,7 +13,7 @@ rule dispersion:
         table=f"{RESULTS}/dispersion.csv",
     log:
         f"{RESULTS}/logs/dispersion.log",
-    priority: 1  # with the simulations: the verdicts wait for it
+    priority: 1  # the verdicts wait for it
     threads: 1
     params:
         **made_by("dispersion.py", plugins(settings.base)),

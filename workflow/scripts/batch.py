@@ -5,14 +5,12 @@ the batch is made again. One that fails does not keep the others from being made
 """
 
 import sys
-from pathlib import Path
 
 from nucleation.analysis import lengths
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Parameters
 from nucleation.patch.batches import measured
-from nucleation.pipeline.job import Job, Result
-from nucleation.pipeline.keys import key_in
+from nucleation.pipeline.job import Job
 from nucleation.pipeline.running import Failed, record_of
 from nucleation.simulation.checkpoints import Stopped
 from nucleation.simulation.run import simulate
@@ -22,8 +20,7 @@ with Job(snakemake, __file__) as job:
     measure = params.get("measure")
     if measure is None or not job.fetched():
         rows, failures = [], []
-        for run, (path, code) in zip(params.runs, params.places, strict=True):
-            result = Result(Path(path), key_in(path), code)
+        for run, result in zip(params.runs, job.results, strict=True):
             try:
                 parameters = Parameters.from_dict(run["parameters"])
                 record = record_of(job, simulate, parameters, result)

@@ -21,8 +21,9 @@ from .said import Missing, Ours
 JUDGED, PAPERS = "converged", "paper"
 """Studies: the one that verdicts stand on, and the one on the paper's own mesh."""
 
-LONGER = "sensitivity"
-"""Study with runs whose block is longer than that of others with the same height."""
+LONGER = "long_blocks"
+"""Study with runs in longer blocks than those of the study :data:`JUDGED`; in tables of lengths
+also the runs that they are compared with."""
 
 MESH = "A coarse mesh lets the force drop early"
 """Section of docs/findings.md on the difference of the two."""
@@ -38,7 +39,7 @@ class Evidence:
     interface : the main text's rounded friction.
     theory : dataset of the theory's curves.
     dispersion : dataset of single modes integrated in time.
-    lengths : tables of lengths, one for each study judged, and of the runs with longer blocks.
+    lengths : tables of lengths, one for each study judged, and of the study :data:`LONGER`.
     measures : what is read from each of their simulations, by id.
     patches : stability of the patches of the study :data:`JUDGED`, by id of each fault's first
         realisation.

@@ -10,7 +10,7 @@ import gc
 import sys
 import time
 import traceback
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, NamedTuple
@@ -89,6 +89,14 @@ class Job:
         return Result(Path(self.output[0]), self.key, self.params.code)
 
     @property
+    def results(self) -> list[Result]:
+        """What a job makes whose results each bear their own key: its `places`, or one's own."""
+        places = self.params.get("places")
+        if places is None:
+            return [self.own]
+        return [Result(Path(path), keys.key_in(path) or "", code) for path, code in places]
+
+    @property
     def _store(self) -> Store:
         return Store(self._snakemake.config.get("results", "results"))
 
@@ -133,23 +141,41 @@ class Job:
         """Several inputs, read one at a time."""
         return map(self.read, paths)
 
-    def attributes(self, parameters: Any, result: Result | None = None) -> dict[str, str]:
-        """Attributes of a dataset that say how this job made it; of its own or another result."""
+    def attributes(
+        self, parameters: Any, result: Result | None = None, sources: Iterable[str] | None = None
+    ) -> dict[str, str]:
+        """Attributes of a dataset that say how this job made it; of its own or another result.
+
+        `sources` are the inputs that it is made from, if not those of the job's own result.
+        """
         made = result or self.own
         return provenance.attributes(
-            parameters, made.code, f"snakemake {made.path}", self._sources(), key=made.key
+            parameters, made.code, f"snakemake {made.path}", self._sources(sources), key=made.key
         )
 
-    def _sources(self) -> Mapping[str, str]:
-        results = self._store.results
+    def _sources(self, paths: Iterable[str] | None) -> Mapping[str, str]:
+        results, known = self._store.results, self.params.expected
+        if paths is not None:
+            known = {path: keys.key_in(path) for path in paths}
         return {
             str(Path(path).relative_to(results) if Path(path).is_relative_to(results) else path): k
-            for path, k in self.params.expected.items()
+            for path, k in known.items()
         }
 
-    def write(self, dataset: xr.Dataset, path: str, parameters: Any) -> None:
-        """Write a dataset with its origin; `parameters` is what it depends on."""
-        netcdf.write(dataset, path, **self.attributes(parameters))
+    def write(
+        self,
+        dataset: xr.Dataset,
+        path: str | Result,
+        parameters: Any,
+        sources: Iterable[str] | None = None,
+    ) -> None:
+        """Write a dataset with its origin; `parameters` is what it depends on.
+
+        A result of its own key stands in the place of a path; `sources` as of :meth:`attributes`.
+        """
+        result = path if isinstance(path, Result) else None
+        place = path.path if isinstance(path, Result) else path
+        netcdf.write(dataset, place, **self.attributes(parameters, result, sources))
 
     def write_text(self, text: str, path: str) -> None:
         """Write a text file."""
