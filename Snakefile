@@ -199,6 +199,11 @@ def one_of(names):
     return "|".join(names) or "(?!)"
 
 
+def grouped_like(name):
+    """The group of a rule on a cluster: that of another one, if the profile puts it in any."""
+    return lambda wildcards: workflow.group_settings.overwrite_groups.get(name)
+
+
 def needed(files, what):
     """An input function that gives some files, or says what the configuration lacks for them."""
 

@@ -95,9 +95,8 @@ for _name in SEVERAL:
         log:
             f"{RESULTS}/logs/batches/{_name}.log",
         priority: 2  # they take longest
-        # that of the rule above, if a cluster's profile has one
         group:
-            lambda wildcards: workflow.group_settings.overwrite_groups.get("batch")
+            grouped_like("batch")
         threads: 1
         resources:
             mem_mb=lambda wildcards, attempt, name=_name: batch_memory(name, attempt),

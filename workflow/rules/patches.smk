@@ -91,6 +91,8 @@ for _name, _ids in TOGETHER.items():
         log:
             f"{RESULTS}/logs/patch/{_name}.log",
         priority: 1
+        group:
+            grouped_like("patch")
         params:
             **made_by(
                 "patch.py", sorted({law for id in _ids for law in plugins(RUNS[id].parameters)})
