@@ -8,7 +8,8 @@ for _run in settings.runs:
         BATCHES.setdefault(_run.batch, []).append(_run)
 
 ONE_BY_ONE = {
-    *("paper", "converged", "patch_convergence", "sensitivity", "quiet", "convergence_quiet"),
+    *("paper", "converged", "long_blocks", "patch_convergence", "sensitivity"),
+    *("quiet", "convergence_quiet"),
     *PAIR_STUDIES,
 }
 """Studies whose simulations other results are made of."""
