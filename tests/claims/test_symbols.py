@@ -49,6 +49,12 @@ def test_roots_and_powers_in_html():
     )
 
 
+@pytest.mark.parametrize("text", ["phi(v) = D is", "|v|/V is"])
+def test_brackets_and_bars_are_as_high_as_the_line(text):
+    shown = as_html(text)
+    assert shown.count('<mo stretchy="false">') == 2 and shown.count("<mo>") <= 1
+
+
 def test_formulas_of_all_claims_are_well_formed_and_whole():
     """No sign of a formula stands beside one, as when each letter was typeset for itself."""
     for claims in table.SUBJECTS.values():

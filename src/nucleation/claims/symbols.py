@@ -164,11 +164,13 @@ def _sign(match: re.Match[str]) -> Token:
     if sign == ROOT:
         return Token(*place, "root", r"\sqrt", "msqrt")
     if sign == "|":
-        return Token(*place, "bar", "|", "<mo>|</mo>")
+        return Token(*place, "bar", "|", '<mo stretchy="false">|</mo>')
     if sign in OPERATORS:
         tex, character = OPERATORS[sign]
         return Token(*place, "sign", tex, f"<mo>{character}</mo>")
-    return Token(*place, "open" if sign in BRACKETS else "close", sign, f"<mo>{sign}</mo>")
+    # as high as the line: without a font for mathematics browsers stretch them to twice of it
+    mathml = f'<mo stretchy="false">{sign}</mo>'
+    return Token(*place, "open" if sign in BRACKETS else "close", sign, mathml)
 
 
 def _symbol(name: str, power: str | None) -> tuple[str, str]:
