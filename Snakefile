@@ -199,6 +199,16 @@ def one_of(names):
     return "|".join(names) or "(?!)"
 
 
+def laws_of(runs):
+    """Code that some runs load by name."""
+    return sorted({law for run in runs for law in plugins(run.parameters)})
+
+
+def code_of(script, run):
+    """The code that makes a run's result."""
+    return PLANNER.code(script_path(script), plugins(run.parameters))
+
+
 def grouped_like(name):
     """The group of a rule on a cluster: that of another one, if the profile puts it in any."""
     return lambda wildcards: workflow.group_settings.overwrite_groups.get(name)

@@ -2,6 +2,7 @@
 
 import copy
 import json
+from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
@@ -45,3 +46,11 @@ def messages(config: object) -> str:
     with pytest.raises(ParameterError) as caught:
         configure(config)
     return str(caught.value)
+
+
+def assert_one_problem(config: object, fragments: Iterable[str]) -> None:
+    """A configuration has one problem, and what is told of it has all of these fragments."""
+    text = messages(config)
+    for fragment in fragments:
+        assert fragment in text
+    assert text.startswith("the configuration has one problem:\n")

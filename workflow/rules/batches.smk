@@ -21,11 +21,6 @@ TABLED = [
 """Studies in batches that are measured by the job that makes them."""
 
 
-def laws_of(name):
-    """Code that the runs of a batch load by name."""
-    return sorted({law for run in BATCHES[name] for law in plugins(run.parameters)})
-
-
 def batch_parameters(name):
     """What a batch's table depends on."""
     return {
@@ -38,7 +33,9 @@ def batch_parameters(name):
 @functools.cache
 def batch(name):
     """The table of the runs of one batch."""
-    return keyed("batches", name, "batch.py", batch_parameters(name), modules=laws_of(name))
+    return keyed(
+        "batches", name, "batch.py", batch_parameters(name), modules=laws_of(BATCHES[name])
+    )
 
 
 MEASURED = [name for name, runs in BATCHES.items() if runs[0].study in TABLED]
@@ -49,13 +46,9 @@ def batch_parameter(name):
     return lambda wildcards: batch_parameters(batched(wildcards))[name]
 
 
-def code_of(run):
-    return PLANNER.code(script_path("simulate.py"), plugins(run.parameters))
-
-
 def places(name):
     """Where the datasets of a batch belong, and the code that makes each."""
-    return [(simulation(run.id), code_of(run)) for run in BATCHES[name]]
+    return [(simulation(run.id), code_of("simulate.py", run)) for run in BATCHES[name]]
 
 
 def batch_memory(name, attempt):
@@ -73,7 +66,7 @@ rule batch:
         mem_mb=lambda wildcards, attempt: batch_memory(batched(wildcards), attempt),
         runtime=ceil(settings.limits.runtime),
     params:
-        **made_by("batch.py", lambda wildcards: laws_of(batched(wildcards))),
+        **made_by("batch.py", lambda wildcards: laws_of(BATCHES[batched(wildcards)])),
         runs=batch_parameter("runs"),
         extraction=batch_parameter("extraction"),
         measure=batch_parameter("measure"),
@@ -103,7 +96,7 @@ for _name in SEVERAL:
             mem_mb=lambda wildcards, attempt, name=_name: batch_memory(name, attempt),
             runtime=ceil(settings.limits.runtime),
         params:
-            **made_by("batch.py", laws_of(_name)),
+            **made_by("batch.py", laws_of(BATCHES[_name])),
             runs=batch_parameters(_name)["runs"],
             places=places(_name),
         message:

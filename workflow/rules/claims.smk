@@ -1,8 +1,6 @@
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
 # article that tells of them. Both stand on the paper's runs and the converged ones; claims about
 # runs that the configuration does not have can't be checked, and say so.
-import itertools
-
 from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
 
 CLAIMS = f"{RESULTS}/claims.json"
@@ -22,9 +20,12 @@ def element(run):
 
 def longer():
     """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
-    pairs = itertools.product(runs_in(LONGER), runs_in(JUDGED))
-    alike = [pair for pair in pairs if element(pair[0]) == element(pair[1])]
-    return list(itertools.chain(*alike))
+    blocks, judged = ([(element(run), run) for run in runs_in(study)] for study in (LONGER, JUDGED))
+    return [run for like, block in blocks for other, base in judged if other == like
+            for run in (block, base)]  # fmt: skip
+
+
+BLOCKS = longer() if runs_in(LONGER) else []
 
 
 localrules:
@@ -38,7 +39,7 @@ rule evaluate_claims:
         dispersion=DISPERSION,
         lengths=[study_lengths(study) for study in CLAIMED],
         simulations=simulations(*CLAIMED),
-        longer=[simulation(run.id) for run in longer()],
+        longer=[simulation(run.id) for run in BLOCKS],
         patches=patches(JUDGED),
     output:
         json=CLAIMS,
@@ -55,7 +56,7 @@ rule evaluate_claims:
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
-        longer=[{**run.to_dict(), "study": LONGER} for run in longer()],
+        longer=[{**run.to_dict(), "study": LONGER} for run in BLOCKS],
         patch_ids=[run.id for run in patched_runs(JUDGED)],
     message:
         "Claims of the paper, our numbers and the verdicts"
@@ -87,7 +88,7 @@ rule claims:
         THEORY,
         with_csv(DISPERSION),
         measured(*CLAIMED),
-        [simulation(run.id) for run in longer()],
+        [simulation(run.id) for run in BLOCKS],
         patches(JUDGED),
     message:
         "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"

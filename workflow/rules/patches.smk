@@ -37,10 +37,6 @@ def patches(*studies):
     return [patch(run.id) for run in patched_runs(*studies)]
 
 
-def patch_code(id):
-    return PLANNER.code(script_path("patch.py"), plugins(RUNS[id].parameters))
-
-
 patched, twinned = run_of_key(patch, "patch of"), run_of_key(twin, "twins of")
 
 
@@ -74,33 +70,31 @@ rule patch:
 
 # Each takes a fifth of a second, a job more than one: those of a study are made in one.
 TOGETHER = {
-    f"patches_{study.replace('-', '_')}": [run.id for run in patched_runs(study)]
+    f"patches_{study.replace('-', '_')}": patched_runs(study)
     for study in dict.fromkeys([*sum(PATCH_TABLES.values(), ()), *PAIR_STUDIES])
     if len(patched_runs(study)) > 1
 }
-for _name, _ids in TOGETHER.items():
+for _name, _runs in TOGETHER.items():
 
     rule:
         name:
             _name
         input:
-            [simulation(id) for id in _ids],
+            [simulation(run.id) for run in _runs],
         output:
             # kept where they are already there: the job makes what is missing
-            [update(patch(id)) for id in _ids],
+            [update(patch(run.id)) for run in _runs],
         log:
             f"{RESULTS}/logs/patch/{_name}.log",
         priority: 1
         group:
             grouped_like("patch")
         params:
-            **made_by(
-                "patch.py", sorted({law for id in _ids for law in plugins(RUNS[id].parameters)})
-            ),
+            **made_by("patch.py", laws_of(_runs)),
             extraction=asdict(settings.extraction),
-            places=[(patch(id), patch_code(id)) for id in _ids],
+            places=[(patch(run.id), code_of("patch.py", run)) for run in _runs],
         message:
-            f"Stability of the creeping patches of the study {RUNS[_ids[0]].study}"
+            f"Stability of the creeping patches of the study {_runs[0].study}"
         script:
             "../scripts/patch.py"
 
