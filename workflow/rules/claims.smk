@@ -1,108 +1,64 @@
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
 # article that tells of them. Both stand on the paper's runs and the converged ones; claims about
 # runs that the configuration does not have can't be checked, and say so.
-from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
-
-CLAIMS = f"{RESULTS}/claims.json"
-ARTICLE = f"{RESULTS}/article.md"
-TEMPLATE = Path(BASE, "docs", "article.md.in")
-CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
-"""Studies that claims are about."""
-
-
-def element(run):
-    """All that a run is given but for the block's length, of which there is that of an element (m)."""
-    given, mesh = run.parameters.to_dict(), run.parameters.mesh
-    given["geometry"]["length"] = round(given["geometry"]["length"] / mesh.n_x, 9)
-    given["mesh"]["n_x"] = None
-    return given
-
-
-def longer():
-    """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
-    blocks, judged = ([(element(run), run) for run in runs_in(study)] for study in (LONGER, JUDGED))
-    return [run for like, block in blocks for other, base in judged if other == like
-            for run in (block, base)]  # fmt: skip
-
-
-BLOCKS = longer() if runs_in(LONGER) else []
-
-
-localrules:
-    claims,
-    article,
-
-
 rule evaluate_claims:
     input:
-        theory=THEORY,
-        dispersion=DISPERSION,
-        lengths=[study_lengths(study) for study in CLAIMED],
-        simulations=simulations(*CLAIMED),
-        longer=[simulation(run.id) for run in BLOCKS],
-        patches=patches(JUDGED),
+        theory=only("theory"),
+        dispersion=only("dispersion"),
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        simulations=lambda wildcards: simulations(*CLAIMED),
+        longer=lambda wildcards: simulations_of(BLOCKS),
+        patches=lambda wildcards: patches(*in_role("converged")),
     output:
-        json=CLAIMS,
-        csv=f"{RESULTS}/tables/claims.csv",
-        markdown=f"{RESULTS}/tables/claims.md",
+        link("tables/claims", "json"),
     log:
-        f"{RESULTS}/logs/claims.log",
+        log("tables/claims"),
     threads: 1
     params:
-        **made_by("claims.py", [*plugins(settings.base), *EVOLUTIONS]),
-        material=asdict(settings.base.material),
-        friction=asdict(settings.base.friction),
-        loading=asdict(settings.base.loading),
-        main_text_interface=asdict(settings.main_text_interface),
-        extraction=asdict(settings.extraction),
+        call="nucleation.claims.evaluation:of_paper",
+        loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
+        **CONFIGURED("material", "friction", "loading"),
+        interface=asdict(settings.main_text_interface),
+        settings=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
-        longer=[{**run.to_dict(), "study": LONGER} for run in BLOCKS],
-        patch_ids=[run.id for run in patched_runs(JUDGED)],
+        longer_runs=[{**run, "study": LONGER} for run in as_dicts(BLOCKS)],
+        patch_ids=[run.id for run in patched_runs(*in_role("converged"))],
     message:
         "Claims of the paper, our numbers and the verdicts"
     script:
-        "../scripts/claims.py"
+        STEP
+
+
+# What the paper's theory says of two bodies, by simulations: verdicts of their own, for which
+# those of `claims`, and so `make paper`, do not wait.
+rule evaluate_pairs:
+    input:
+        pairs=only("gather_pairs"),
+        modes=only("pair_modes"),
+    output:
+        link("tables/claims_pairs", "md"),
+    log:
+        log("tables/claims_pairs"),
+    params:
+        call="nucleation.claims.evaluation:of_pairs",
+    message:
+        "Claims on two bodies, by simulations"
+    script:
+        STEP
 
 
 rule write_article:
     input:
-        claims=CLAIMS,
-        lengths=[study_lengths(study) for study in CLAIMED],
+        template=str(Path(BASE, "docs", "article.md.in")),
+        claims=only("evaluate_claims"),
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
     output:
-        ARTICLE,
+        link("article", "md"),
     log:
-        f"{RESULTS}/logs/article.log",
+        log("article"),
     params:
-        **made_by("article.py"),
-        template=lambda wildcards: TEMPLATE.read_text("utf-8"),
+        call="nucleation.claims.evaluation:write_article",
     message:
         "Article on the replication, its numbers from the results"
     script:
-        "../scripts/article.py"
-
-
-rule claims:
-    """A verdict on every statement of the paper."""
-    input:
-        rules.evaluate_claims.output,
-        THEORY,
-        with_csv(DISPERSION),
-        measured(*CLAIMED),
-        [simulation(run.id) for run in BLOCKS],
-        patches(JUDGED),
-    message:
-        "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"
-
-
-rule article:
-    """The replication as a short article."""
-    input:
-        ARTICLE,
-        rules.claims.input,
-        rules.figure_1.input,
-        rules.figure_2.input,
-        rules.figure_3.input,
-        rules.figure_s1.input,
-        rules.figure_s2.input,
-    message:
-        "The article is in {input[0]}"
+        STEP

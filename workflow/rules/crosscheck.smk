@@ -13,120 +13,79 @@ def freefem_scripts(wildcards):
     return FREEFEM_SCRIPTS
 
 
-def crosscheck_parameters(id):
-    return {
-        "parameters": CROSSCHECKS[id].to_dict(),
-        "settings": asdict(settings.crosscheck),
-        "extraction": asdict(settings.extraction),
-    }
-
-
-@functools.cache
-def crosscheck_record(id, solver):
-    """The record of one run by one of the solvers, own or freefem."""
-    parameters, sources = crosscheck_parameters(id), {"scripts": FREEFEM_SCRIPTS}
-    if solver == "own":
-        parameters, sources = {"parameters": parameters["parameters"]}, {}
-    laws = plugins(CROSSCHECKS[id])
-    return keyed(f"crosscheck/{solver}", id, f"crosscheck_{solver}.py", parameters, sources, laws)
-
-
-def crosscheck_records(solver):
-    return [crosscheck_record(id, solver) for id in CROSSCHECKS]
+def crosschecks(solver):
+    """An input function that gives the records of all runs by one of the solvers."""
+    return lambda wildcards: steps.several(f"crosscheck_{solver}", CROSSCHECKS)
 
 
 rule crosscheck_own:
     output:
-        place_of("crosscheck/own"),
+        link("crosscheck/own/{name}"),
     log:
-        f"{RESULTS}/logs/crosscheck/own/{{name}}.{{key}}.log",
+        log("crosscheck/own/{name}"),
     threads: 1
     params:
-        **made_by("crosscheck_own.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
+        call="nucleation.verification.crosscheck.compare:own",
+        loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
         parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
     message:
         "Crosscheck {wildcards.name} with the project's solver"
     script:
-        "../scripts/crosscheck_own.py"
+        STEP
 
 
 rule crosscheck_freefem:
     input:
         scripts=freefem_scripts,
     output:
-        place_of("crosscheck/freefem"),
+        link("crosscheck/freefem/{name}"),
     log:
-        f"{RESULTS}/logs/crosscheck/freefem/{{name}}.{{key}}.log",
+        log("crosscheck/freefem/{name}"),
     threads: 1
     params:
-        **made_by("crosscheck_freefem.py", lambda wildcards: plugins(CROSSCHECKS[wildcards.name])),
+        call="nucleation.verification.crosscheck.freefem:of_run",
+        loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
         parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-        settings=asdict(settings.crosscheck),
-        extraction=asdict(settings.extraction),
+        crosscheck=asdict(settings.crosscheck),
+        settings=asdict(settings.extraction),
     message:
         "Crosscheck {wildcards.name} with FreeFem++"
     script:
-        "../scripts/crosscheck_freefem.py"
+        STEP
 
 
 rule compare_crosscheck:
     input:
-        own=crosscheck_records("own"),
-        freefem=crosscheck_records("freefem"),
+        own=crosschecks("own"),
+        freefem=crosschecks("freefem"),
     output:
-        dataset=f"{RESULTS}/crosscheck.nc",
-        table=f"{RESULTS}/crosscheck.csv",
+        link("crosscheck"),
     log:
-        f"{RESULTS}/logs/crosscheck.log",
+        log("crosscheck"),
     params:
-        **made_by("compare_crosscheck.py"),
+        call="nucleation.verification.crosscheck.compare:table",
         ids=list(CROSSCHECKS),
-        extraction=asdict(settings.extraction),
+        settings=asdict(settings.extraction),
     message:
         "Crosscheck: differences of the two solvers"
     script:
-        "../scripts/compare_crosscheck.py"
+        STEP
 
 
 rule draw_figure_crosscheck:
     input:
-        own=crosscheck_records("own"),
-        freefem=crosscheck_records("freefem"),
-        table=rules.compare_crosscheck.output.dataset,
+        own=crosschecks("own"),
+        freefem=crosschecks("freefem"),
+        table=only("compare_crosscheck"),
     output:
-        figure("figure_crosscheck"),
+        link("figures/figure_crosscheck", "png"),
     log:
-        f"{RESULTS}/logs/draw/figure_crosscheck.log",
+        log("figures/figure_crosscheck"),
     params:
-        **made_by("figure_crosscheck.py"),
+        call="nucleation.figures.checks.figure_crosscheck:draw_runs",
         ids=list(CROSSCHECKS),
-        extraction=asdict(settings.extraction),
+        settings=asdict(settings.extraction),
     message:
         "Crosscheck: patch length and driving force by both solvers"
     script:
-        "../scripts/figure_crosscheck.py"
-
-
-localrules:
-    figure_crosscheck,
-    crosscheck,
-
-
-rule figure_crosscheck:
-    """The figure of both solvers."""
-    input:
-        rules.draw_figure_crosscheck.output,
-        rules.compare_crosscheck.output,
-        crosscheck_records("own"),
-        crosscheck_records("freefem"),
-    message:
-        "The crosscheck's figure is in {input[0]}"
-
-
-rule crosscheck:
-    """The same runs by an independent solver."""
-    input:
-        table=rules.compare_crosscheck.output.table,
-        figure=rules.figure_crosscheck.input,
-    message:
-        "The two solvers are compared in {input.table} and {input.figure[0]}"
+        STEP

@@ -1,66 +1,52 @@
-# One rule draws each figure, and one target of the figure's name asks for it together with what it
-# stands on (see the Snakefile). What is drawn comes from datasets alone: a rule's inputs bear the
-# names of the parameters of the figure's `draw`.
-def shown(height):
-    """The simulation of the paper's study that a figure shows, by height (m)."""
-    try:
-        return settings.find(
-            study="paper", law="aging", height=height, phi0=settings.base.loading.initial_state
-        ).id
-    except ParameterError as error:
-        raise WorkflowError(f"a figure can't be drawn: {error}") from None
-
-
-def inset_id(wildcards):
-    return shown(settings.figures.inset_height)
-
-
-def space_time_id(wildcards):
-    return shown(settings.figures.space_time_height)
-
-
+# One rule draws each figure. What is drawn comes from datasets alone: a rule's inputs bear the names
+# of the parameters of the function that draws.
 def drawing(name):
     """The module that draws a figure."""
     (path,) = Path(SOURCE, "nucleation", "figures").rglob(f"{name}.py")
     return ".".join(path.relative_to(SOURCE).with_suffix("").parts)
 
 
+def only(*paths):
+    """An input function that gives the results of rules, by name."""
+    return lambda wildcards: steps(*paths)
+
+
 DRAWN = {
     "figure_1": {},
-    "figure_2": {"theory": THEORY},
+    "figure_2": {"theory": only("theory")},
     "figure_3": {
-        "theory": THEORY,
-        "lengths": LENGTHS,
-        "inset_simulation": lambda wildcards: simulation(inset_id(wildcards)),
+        "theory": only("theory"),
+        "lengths": only("gather_lengths"),
+        "simulation": lambda wildcards: steps("simulate", inset_id(wildcards)),
     },
-    "figure_s1": {"theory": THEORY},
+    "figure_s1": {"theory": only("theory")},
     "figure_s2": {
-        "lengths": study_lengths("paper"),
-        "simulation": lambda wildcards: simulation(space_time_id(wildcards)),
+        "lengths": lambda wildcards: lengths_of(*in_role("paper"))[0],
+        "simulation": lambda wildcards: steps("simulate", space_time_id(wildcards)),
     },
     "figure_patch_stability": {
-        "table": PATCHES,
-        "patches": patches(*PATCH_TABLES["patch_stability"]),
-        "twins": TWINS,
+        "table": only("gather_patches", "patch_stability"),
+        "patches": lambda wildcards: patches(*PATCH_TABLES["patch_stability"]),
+        "twins": only("gather_twins"),
     },
     "figure_3_extended": {
-        "theory": THEORY,
-        "lengths": LENGTHS,
-        "table": PATCHES,
-        "noisy": study_lengths("noisy") if "noisy" in settings.studies else [],
+        "theory": only("theory"),
+        "lengths": only("gather_lengths"),
+        "table": only("gather_patches", "patch_stability"),
+        "noisy": lambda wildcards: lengths_of(*in_role("noisy")),
     },
-    "figure_drop": {"table": DROP},
-    "figure_map": {"grid": MAP},
-    "figure_dispersion": {"dispersion": DISPERSION},
-    "figure_verification": {"convergence": VERIFICATION},
+    "figure_drop": {"table": only("gather_drop")},
+    "figure_map": {"grid": only("gather_map")},
+    "figure_dispersion": {"dispersion": only("dispersion")},
+    "figure_verification": {"convergence": only("verification")},
     "figure_convergence": {
-        "table": CONVERGENCE,
-        "hops": lambda wildcards: [hops(run.id) for run in hopping(wildcards)],
-        "patch": lambda wildcards: patch(hopping(wildcards)[0].id),
+        "table": only("convergence"),
+        "hops": lambda wildcards: steps.several("hops", [run.id for run in hopping()]),
+        "patch": lambda wildcards: steps("patch", hopping()[0].id),
     },
-    "figure_sensitivity": {"table": SENSITIVITY},
-    "figure_pairs": {"table": PAIRS},
-    "figure_2_simulated": {"table": PAIRS},
+    "figure_sensitivity": {"table": only("sensitivity")},
+    "figure_pairs": {"table": only("gather_pairs")},
+    "figure_2_simulated": {"table": only("gather_pairs")},
 }
 """The figures that are drawn from datasets alone, with these."""
 
@@ -75,84 +61,75 @@ for _name, _inputs in DRAWN.items():
         input:
             **_inputs,
         output:
-            figure(_name),
+            captioned(link(f"figures/{_name}", "png"), _name),
         log:
-            f"{RESULTS}/logs/draw/{_name}.log",
+            log(f"figures/{_name}"),
         params:
-            **made_by("draw.py", [drawing(_name)]),
-            id=SHOWN_RUNS.get(_name, ""),
+            call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
+            **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
         message:
             FIGURES[_name].title
         script:
-            "../scripts/draw.py"
+            STEP
 
 
-rule write_table_s1:
-    output:
-        csv=f"{RESULTS}/tables/table_s1.csv",
-        markdown=f"{RESULTS}/tables/table_s1.md",
-    log:
-        f"{RESULTS}/logs/table_s1.log",
-    params:
-        **made_by("table_s1.py", plugins(settings.base)),
-        friction=asdict(settings.base.friction),
-    message:
-        "Table S1: parameters of the friction law"
-    script:
-        "../scripts/table_s1.py"
-
-
-TARGETS = {
-    "figure_1": [],
-    "figure_2": [THEORY],
-    "figure_3": [THEORY, rules.lengths.input],
-    "figure_s1": [THEORY],
-    "figure_s2": [measured("paper")],
-    "figure_patch_stability": [
-        frozen("patch_stability"),
-        frozen("patch_convergence") if runs_in("patch_convergence") else [],
-        with_csv(TWINS),
-        twins(),
-    ],
-    "figure_3_extended": [
-        THEORY,
-        rules.lengths.input,
-        frozen("patch_stability"),
-        measured("noisy"),
-    ],
-    "figure_drop": [
-        with_csv(DROP),
-        modes,
-        measured("drop", "quiet", *FLOORS),
-    ],
-    "figure_map": [with_csv(MAP), measured("map")],
-    "figure_dispersion": [rules.dispersion.output],
-    "figure_verification": [rules.verification.output],
-    "figure_convergence": [rules.convergence.output, hops_shown, measured(*CONVERGENCE_STUDIES)],
-    "figure_sensitivity": [rules.sensitivity.output, simulations("sensitivity")],
-    "figure_pairs": [pairs()],
-    "figure_2_simulated": [pairs()],
-}
-"""What stands behind each figure, all the way down."""
-
-for _name, _behind in TARGETS.items():
-
-    rule:
-        name:
-            _name
-        input:
-            figure(_name),
-            *_behind,
-        localrule: True
-        message:
-            f"{FIGURES[_name].title} is in {{input[0]}}"
-
-    list(workflow.rules)[-1].docstring = f"{FIGURES[_name].title}."
-
-
-rule table_s1:
-    """Table S1: parameters of the friction law."""
+# Any study against the theory, by what it varies.
+rule draw_study:
     input:
-        rules.write_table_s1.output,
+        table=lambda wildcards: lengths_of(wildcards.name)[0],
+    output:
+        link("figures/study_{name}", "png"),
+    log:
+        log("figures/study_{name}"),
+    params:
+        call="nucleation.figures.beyond.figure_studies:draw_study",
+        varied=lambda wildcards: varied(settings.runs_of(wildcards.name)),
+        entries=lambda wildcards: {
+            name: asdict(study_parameters()[name])
+            for name in varied(settings.runs_of(wildcards.name))
+        },
+        theory=lambda wildcards: theory_curves(
+            settings.runs_of(wildcards.name),
+            settings.studies[wildcards.name],
+            settings.base,
+            settings.main_text_interface,
+        ),
     message:
-        "Table S1 is in {input}"
+        "Figure of the study {wildcards.name}: simulations and theory"
+    script:
+        STEP
+
+
+rule film:
+    input:
+        lengths=only("gather_lengths"),
+        simulation=lambda wildcards: steps("simulate", inset_id(wildcards)),
+    output:
+        link("film"),
+    log:
+        log("film"),
+    threads: 1
+    params:
+        call="nucleation.analysis.film:of_run",
+        id=inset_id,
+    message:
+        "Film: a run once more, for the stress in its block"
+    script:
+        STEP
+
+
+rule draw_animation:
+    input:
+        film=only("film"),
+        lengths=only("gather_lengths"),
+    output:
+        captioned(link("figures/animation", "gif"), "animation"),
+    log:
+        log("figures/animation"),
+    params:
+        call="nucleation.figures.beyond.animation:of_run",
+        id=inset_id,
+    message:
+        "Animation of creep, nucleation and rupture"
+    script:
+        STEP

@@ -1,162 +1,133 @@
-# Beyond the paper: the linear stability of each simulation's own creeping patch, and twin runs that
-# confirm it. The tables leave out what the configuration has no studies for.
-PATCHES = f"{RESULTS}/patch_stability.nc"
-TWINS = f"{RESULTS}/twin_runs.nc"
-PATCH_TABLES = {
-    "patch_stability": ("paper", "converged"),
-    "patch_convergence": ("converged", "patch_convergence"),
-}
-"""Tables of patches by the studies in them."""
-
-
-def of_simulation(kind, id, script):
-    """What a script reads from one simulation by the settings of extraction."""
-    parameters = {"extraction": asdict(settings.extraction)}
-    return keyed(kind, id, script, parameters, {"": [simulation(id)]}, plugins(RUNS[id].parameters))
-
-
-@functools.cache
-def patch(id):
-    """The stability of one simulation's patch."""
-    return of_simulation("patches", id, "patch.py")
-
-
-@functools.cache
-def twin(id):
-    """The twin runs of one run."""
-    parameters = {"run": RUNS[id].to_dict(), "extraction": asdict(settings.extraction)}
-    return keyed("twins", id, "twin.py", parameters, modules=plugins(RUNS[id].parameters))
-
-
-def patched_runs(*studies):
-    """The runs whose patches are followed: of each fault the first realisation."""
-    return first_realisations(runs_in(*studies))
-
-
-def patches(*studies):
-    return [patch(run.id) for run in patched_runs(*studies)]
-
-
-patched, twinned = run_of_key(patch, "patch of"), run_of_key(twin, "twins of")
-
-
-def frozen(table):
-    """A table of patches, with the patches and simulations in it."""
-    studies = PATCH_TABLES[table]
-    behind = [simulation(run.id) for run in patched_runs(*studies)]
-    return [*with_csv(f"{RESULTS}/{table}.nc"), *patches(*studies), *behind]
-
-
-def twins():
-    return [twin(run.id) for run in runs_in("twin_runs")]
-
-
+# Beyond the paper: the linear stability of each simulation's own creeping patch, twin runs that
+# confirm it, the modes of quiet runs, and hops of the front over nodes.
 rule patch:
     input:
-        lambda wildcards: simulation(patched(wildcards).id),
+        simulation=lambda wildcards: steps("simulate", wildcards.name),
     output:
-        place_of("patches"),
+        link("patches/{name}"),
     log:
-        f"{RESULTS}/logs/patch/{{name}}.{{key}}.log",
+        log("patches/{name}"),
     priority: 1
     params:
-        **made_by("patch.py", lambda wildcards: plugins(patched(wildcards).parameters)),
-        extraction=asdict(settings.extraction),
+        call="nucleation.patch.growth:follow_patch",
+        loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
+        settings=asdict(settings.extraction),
     message:
         "Stability of the creeping patch of {wildcards.name}"
     script:
-        "../scripts/patch.py"
+        STEP
 
 
 # Each takes a fifth of a second, a job more than one: those of a study are made in one.
-TOGETHER = {
-    f"patches_{study.replace('-', '_')}": patched_runs(study)
-    for study in dict.fromkeys([*sum(PATCH_TABLES.values(), ()), *PAIR_STUDIES])
-    if len(patched_runs(study)) > 1
-}
-for _name, _runs in TOGETHER.items():
+for _study in PATCHED_TOGETHER:
 
     rule:
         name:
-            _name
+            f"patches_{_study}"
         input:
-            [simulation(run.id) for run in _runs],
+            simulations=lambda wildcards, study=_study: simulations_of(patched_runs(study)),
         output:
-            # kept where they are already there: the job makes what is missing
-            [update(patch(run.id)) for run in _runs],
+            [task.link for task in together("patch", patched_runs(_study), f"patches-{_study}")],
         log:
-            f"{RESULTS}/logs/patch/{_name}.log",
+            f"{RESULTS}/logs/patches/{_study}.log",
         priority: 1
         group:
-            grouped_like("patch")
+            "patches"
         params:
-            **made_by("patch.py", laws_of(_runs)),
-            extraction=asdict(settings.extraction),
-            places=[(patch(run.id), code_of("patch.py", run)) for run in _runs],
+            each=together("patch", patched_runs(_study), f"patches-{_study}"),
         message:
-            f"Stability of the creeping patches of the study {_runs[0].study}"
+            f"Stability of the creeping patches of the study {_study}"
         script:
-            "../scripts/patch.py"
-
-
-workflow.ruleorder(*TOGETHER, "patch")
+            STEP
 
 
 rule gather_patches:
     input:
-        needed(
-            lambda wildcards: patches(*PATCH_TABLES[wildcards.table]),
+        patches=needed(
+            lambda wildcards: patches(*PATCH_TABLES[wildcards.name]),
             "study paper, converged or patch_convergence",
         ),
     output:
-        dataset=f"{RESULTS}/{{table}}.nc",
-        table=f"{RESULTS}/{{table}}.csv",
+        link("{name}"),
     log:
-        f"{RESULTS}/logs/{{table}}.log",
+        log("{name}"),
     wildcard_constraints:
-        table="|".join(PATCH_TABLES),
+        name="|".join(PATCH_TABLES),
     params:
-        **made_by("gather_patches.py"),
-        runs=lambda wildcards: [
-            run.to_dict() for run in patched_runs(*PATCH_TABLES[wildcards.table])
-        ],
+        call="nucleation.patch.growth:table",
+        runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.name])),
     message:
-        "Patch lengths at which growth begins: {wildcards.table}"
+        "Patch lengths at which growth begins: {wildcards.name}"
     script:
-        "../scripts/gather_patches.py"
+        STEP
 
 
 rule twin:
     output:
-        place_of("twins"),
+        link("twins/{name}"),
     log:
-        f"{RESULTS}/logs/twin/{{name}}.{{key}}.log",
+        log("twins/{name}"),
     threads: 1
     resources:
-        mem_mb=lambda wildcards, attempt: 2 * memory(twinned(wildcards), attempt),
+        mem_mb=lambda wildcards, attempt: 2 * memory(RUNS[wildcards.name], attempt),
         runtime=ceil(settings.limits.runtime),
     params:
-        **made_by("twin.py", lambda wildcards: plugins(twinned(wildcards).parameters)),
-        run=lambda wildcards: twinned(wildcards).to_dict(),
-        extraction=asdict(settings.extraction),
+        call="nucleation.patch.twins:of_run",
+        loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
+        run=lambda wildcards: RUNS[wildcards.name].to_dict(),
+        settings=asdict(settings.extraction),
     message:
         "Twin runs of {wildcards.name}"
     script:
-        "../scripts/twin.py"
+        STEP
 
 
 rule gather_twins:
     input:
-        twins(),
+        twins=lambda wildcards: twins(),
     output:
-        dataset=TWINS,
-        table=f"{RESULTS}/twin_runs.csv",
+        link("twin_runs"),
     log:
-        f"{RESULTS}/logs/twin_runs.log",
+        log("twin_runs"),
     params:
-        **made_by("gather_twins.py"),
-        runs=[run.to_dict() for run in runs_in("twin_runs")],
+        call="nucleation.patch.twins:table",
+        runs=as_dicts(runs_in("twin_runs")),
     message:
         "Growth of kicks in twin runs"
     script:
-        "../scripts/gather_twins.py"
+        STEP
+
+
+rule hops:
+    input:
+        simulation=lambda wildcards: steps("simulate", wildcards.name),
+    output:
+        link("hops/{name}"),
+    log:
+        log("hops/{name}"),
+    params:
+        call="nucleation.patch.hops:follow_hops",
+        loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
+        settings=asdict(settings.extraction),
+    message:
+        "Hops of the front of {wildcards.name}"
+    script:
+        STEP
+
+
+rule mode:
+    input:
+        simulation=lambda wildcards: steps("simulate", wildcards.name),
+    output:
+        link("modes/{name}"),
+    log:
+        log("modes/{name}"),
+    threads: 1
+    params:
+        call="nucleation.patch.mode_history:of_run",
+        loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
+        settings=asdict(settings.extraction),
+    message:
+        "Mode of the creeping patch of {wildcards.name}"
+    script:
+        STEP

@@ -1,23 +1,19 @@
-# The report: one HTML file with every figure that the configuration has the studies for, the
-# theory with sliders, a player of the run of Figure S2, tables and provenance; and the animation,
-# of the run in the inset of Figure 3.
-from nucleation.figures import catalogue
-
-FILM = f"{RESULTS}/film.nc"
-ANIMATION = f"{RESULTS}/figures/animation.gif"
-REPORT_FILES = [
-    str(Path(SOURCE, "nucleation", "report", name))
-    for name in ("template.html", "page.css", "page.js", "theory.js", "drop.js", "map.js")
-]
+# The report: one HTML file with every figure that the configuration has the studies for, the theory
+# with sliders, a player of the run of Figure S2, tables and provenance.
 OF_THE_PAPER = DEFAULT == "paper"
 REPORTED = catalogue.drawable(list(settings.studies), papers=OF_THE_PAPER)
 OWN_STUDIES = {
-    study: settings.studies[study].description for study in SHARED if study not in (PAPERS, JUDGED)
+    study: settings.studies[study].description for study in SHARED if study not in CLAIMED
 }
 """What the studies are for that the paper does not have and that share lengths.csv."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
 """What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
 the paper's figures nor the verdicts, which are about the paper's runs."""
+TABLES = {"theory": "theory", "lengths": "gather_lengths", "drop": "gather_drop",
+          "map": "gather_map", "twin_runs": "gather_twins", "sensitivity": "sensitivity",
+          "pairs": "gather_pairs", "convergence": "convergence", "dispersion": "dispersion",
+          "verification": "verification"}  # fmt: skip
+"""The rules of the datasets that figures are downloaded with."""
 
 
 def explored():
@@ -28,100 +24,57 @@ def explored():
     return own[0].parameters.material, own[0].interface
 
 
-localrules:
-    animation,
-    report,
+def pictured(name):
+    """A picture of the report."""
+    if name in FIGURES:
+        return steps(f"draw_{name}")
+    return steps("draw_study", name.removeprefix("study_"))
 
 
-def shown_files(name):
-    """The files of a figure or of the animation, the one that is looked at last."""
-    return [ANIMATION] if name == "animation" else figure(name)
+def dataset_behind(name):
+    """A dataset that figures are downloaded with."""
+    if name in PATCH_TABLES:
+        return steps("gather_patches", name)
+    return steps(TABLES[name])
 
 
-def caption_params(wildcards):
+def caption_values(wildcards):
     shown = {name: {"id": chosen(wildcards)} for name, chosen in SHOWN_RUNS.items()
              if name in REPORTED}  # fmt: skip
     return shown | {f"study_{study}": {"study": study} for study in OWN_STUDIES}
 
 
-def player_input(wildcards):
-    """The run in the player; without the paper's study there is none."""
-    if "figure_s2" not in REPORTED:
-        return []
-    return simulation(space_time_id(wildcards))
-
-
-def quiet_modes(wildcards):
-    """The modes from which the page has the law of the drop."""
-    return modes(wildcards) if "quiet" in settings.studies else []
-
-
-rule film:
-    input:
-        lengths=LENGTHS,
-        simulation=lambda wildcards: simulation(inset_id(wildcards)),
-    output:
-        FILM,
-    log:
-        f"{RESULTS}/logs/film.log",
-    threads: 1
-    params:
-        **made_by("film.py"),
-        id=inset_id,
-    message:
-        "Film: a run once more, for the stress in its block"
-    script:
-        "../scripts/film.py"
-
-
-rule draw_animation:
-    input:
-        film=FILM,
-        lengths=LENGTHS,
-    output:
-        captioned(ANIMATION, "animation"),
-    log:
-        f"{RESULTS}/logs/draw/animation.log",
-    params:
-        **made_by("animation.py"),
-        id=inset_id,
-    message:
-        "Animation of creep, nucleation and rupture"
-    script:
-        "../scripts/animation.py"
-
-
-rule animation:
-    """Creep, nucleation and rupture as an animation."""
-    input:
-        rules.draw_animation.output,
-        FILM,
-        rules.lengths.input,
-    message:
-        "The animation is in {input[0]}"
-
-
 rule write_report:
     input:
-        figures=[path for name in ENTRIES for path in shown_files(name)],
+        figures=lambda wildcards: [pictured(name) for name in ENTRIES],
         captions=[caption_file(name if name in FIGURES else "figure_studies") for name in ENTRIES],
-        datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
-        player=player_input,
-        modes=quiet_modes,
-        claims=CLAIMS if OF_THE_PAPER else [],
-        page=REPORT_FILES,
+        datasets=lambda wildcards: [
+            dataset_behind(name) for name in catalogue.datasets_of(ENTRIES.values())
+        ],
+        player=lambda wildcards: (
+            [steps("simulate", space_time_id(wildcards))] if "figure_s2" in REPORTED else []
+        ),
+        modes=lambda wildcards: modes("quiet"),
+        claims=lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
+        page_files=sorted(
+            str(path)
+            for kind in ("html", "css", "js")
+            for path in Path(SOURCE, "nucleation", "report").glob(f"*.{kind}")
+        ),
     output:
-        f"{RESULTS}/report.html",
+        link("report", "html"),
     log:
-        f"{RESULTS}/logs/report.log",
+        log("report"),
     params:
-        **made_by("report.py", plugins(settings.base)),
-        figures=list(ENTRIES),
+        call="nucleation.report.writing:write",
+        loads=plugins(settings.base),
+        names=list(ENTRIES),
+        dataset_names=catalogue.datasets_of(ENTRIES.values()),
         studies=OWN_STUDIES,
-        captions=caption_params,
+        caption_values=caption_values,
         material=asdict(explored()[0]),
         friction=asdict(settings.base.friction),
-        main_text_interface=asdict(explored()[1]),
+        interface=asdict(explored()[1]),
         warnings=(
             {}
             if OF_THE_PAPER
@@ -131,22 +84,10 @@ rule write_report:
             }
         ),
         leads=not OF_THE_PAPER,
-        extraction=asdict(settings.extraction),
+        settings=asdict(settings.extraction),
         config=config,
-        player=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
+        player_id=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
     message:
         "Report"
     script:
-        "../scripts/report.py"
-
-
-rule report:
-    """Everything on one page, results/report.html."""
-    input:
-        rules.write_report.output,
-        rules.claims.input if OF_THE_PAPER else [],
-        [getattr(rules, name).input for name in REPORTED],
-        [getattr(rules, f"figure_study_{study}").input for study in OWN_STUDIES],
-        rules.lengths.input if OWN_STUDIES else [],
-    message:
-        "The report is in {input[0]}"
+        STEP

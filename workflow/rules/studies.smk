@@ -1,138 +1,190 @@
-# Beyond the paper: what mesh, steps, parameters and definitions do to the critical length.
-#
-# Every study whose name begins with `convergence` takes part in the table of refinement. The runs of
-# HOPPING at the height of Figure S2, quiet ones, show the hops of the front.
-CONVERGENCE = f"{RESULTS}/convergence.nc"
-SENSITIVITY = f"{RESULTS}/sensitivity.nc"
-HOPPING = "convergence_quiet"
+# Which runs play which role, and the results that are made of each.
+def in_role(*roles):
+    """Names of the studies in some roles."""
+    return [name for name in settings.studies if name in roles]
+
+
+def runs_in(*studies):
+    """The runs of those of some studies that the configuration has."""
+    return [run for run in settings.runs if run.study in studies]
+
+
+def as_dicts(runs):
+    return [run.to_dict() for run in runs]
+
+
+def laws_of(runs):
+    """Code that some runs load by name."""
+    return sorted({law for run in runs for law in plugins(run.parameters)})
+
+
+def is_pair(study):
+    """Whether all runs of a study have two bodies."""
+    runs = settings.runs_of(study)
+    return bool(runs) and all(run.parameters.below is not None for run in runs)
+
+
+PAIR_STUDIES = [study for study in settings.studies if is_pair(study)]
 CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
+CLAIMED = in_role(PAPERS, JUDGED)
+"""Studies that claims are about."""
+FLOORS = in_role("paper", "convergence_quiet")
+"""Studies of quiet runs, whose drops say how noisy their meshes are."""
+PATCH_TABLES = {
+    "patch_stability": ("paper", "converged"),
+    "patch_convergence": ("converged", "patch_convergence"),
+}
+"""Tables of patches by the studies in them."""
+
+ONE_BY_ONE = {
+    *in_role("paper", "converged", "long_blocks", "patch_convergence", "sensitivity", "quiet"),
+    *in_role("convergence_quiet"),
+    *PAIR_STUDIES,
+}
+"""Studies whose simulations other results are made of, one by one."""
+TABLED = [
+    name
+    for name, study in settings.studies.items()
+    if study.runs_per_job > 1 and name not in ONE_BY_ONE
+]
+"""Studies in batches that are measured by the job that makes them."""
+
+BATCHES = {}
+for _run in settings.runs:
+    if _run.batch:
+        BATCHES.setdefault(_run.batch, []).append(_run)
+
+BATCHED_ONE_BY_ONE = [name for name, runs in BATCHES.items() if runs[0].study not in TABLED]
 
 
-localrules:
-    figure_studies,
+def together(rule, runs, job):
+    """What one job has to do to make the results of a rule for several runs."""
+    return steps.together(rule, [run.id for run in runs], job)
 
 
-def hopping(wildcards):
+def batches_of(study):
+    return dict.fromkeys(run.batch for run in settings.runs_of(study))
+
+
+def simulations_of(runs):
+    return [steps("simulate", run.id) for run in runs]
+
+
+def simulations(*studies):
+    return simulations_of(runs_in(*studies))
+
+
+def made_by_jobs(*studies):
+    """What jobs make of the runs of studies: simulations, or the tables of batches of them."""
+    runs = runs_in(*studies)
+    batches = dict.fromkeys(run.batch for run in runs if run.study in TABLED)
+    single = [run for run in runs if run.study not in TABLED]
+    return [*simulations_of(single), *steps.several("batch", batches)]
+
+
+def batched_simulations(made):
+    """Names and keys of the simulations of the batches among some results."""
+    names = [one.shown.removeprefix("batches/") for one in made.values()
+             if one.shown.startswith("batches/")]  # fmt: skip
+    simulated = [steps.made("simulate", run.id) for name in names for run in BATCHES[name]]
+    return [(one.shown, one.key) for one in simulated]
+
+
+def lengths_of(*studies):
+    """The tables of lengths of those of some studies that the configuration has."""
+    present = [study for study in studies if study in settings.studies]
+    return [steps("join_batches" if s in TABLED else "extract", s) for s in present]
+
+
+def patched_runs(*studies):
+    """The runs whose patches are followed: of each fault the first realisation."""
+    return first_realisations(runs_in(*studies))
+
+
+def patches(*studies):
+    return steps.several("patch", [run.id for run in patched_runs(*studies)])
+
+
+PATCHED_TOGETHER = [
+    study
+    for study in dict.fromkeys([*in_role(*sum(PATCH_TABLES.values(), ())), *PAIR_STUDIES])
+    if len(patched_runs(study)) > 1
+]
+
+
+def twins():
+    return steps.several("twin", [run.id for run in runs_in("twin_runs")])
+
+
+def modes(study):
+    return steps.several("mode", [run.id for run in runs_in(study)])
+
+
+def fault(run):
+    """What sets the faults of quiet runs apart."""
+    return run.parameters.geometry.height, run.parameters.friction.evolution
+
+
+def floor_runs():
+    """The runs whose modes say how noisy meshes are: of the faults that have several."""
+    faults = {fault(run) for run in runs_in("convergence_quiet")}
+    return [run for run in runs_in("quiet") if fault(run) in faults]
+
+
+def hopping():
     """The runs whose hops are shown, from coarse to fine."""
     height = settings.figures.space_time_height
-    runs = [run for run in runs_in(HOPPING) if run.parameters.geometry.height == height]
+    runs = [run for run in runs_in("convergence_quiet") if run.parameters.geometry.height == height]
     if not runs:
-        raise WorkflowError(f"there is no study {HOPPING} with a run of height {height:g}")
+        raise WorkflowError(f"no quiet study of convergence has a run of height {height:g} m")
     return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
 
 
-# Any study against the theory, by what it varies: results/figures/study_NAME.pdf and .png.
-rule draw_figure_study:
-    input:
-        table=study_lengths("{study}"),
-    output:
-        figure("study_{study}"),
-    log:
-        f"{RESULTS}/logs/draw/study_{{study}}.log",
-    wildcard_constraints:
-        study="|".join(settings.studies),
-    params:
-        **made_by("figure_studies.py"),
-        varied=lambda wildcards: varied(settings.runs_of(wildcards.study)),
-        theory=lambda wildcards: theory_curves(
-            settings.runs_of(wildcards.study),
-            settings.studies[wildcards.study],
-            settings.base,
-            settings.main_text_interface,
-        ),
-    message:
-        "Figure of the study {wildcards.study}: simulations and theory"
-    script:
-        "../scripts/figure_studies.py"
+def mapped(wildcards):
+    """The table of the map's lengths, with the stability of each patch."""
+    for name in in_role("map"):
+        study = settings.studies[name]
+        if study.measure != "stability" or study.runs_per_job == 1:
+            raise WorkflowError(
+                f"studies.{name}: measure = {study.measure} with runs_per_job = "
+                f"{study.runs_per_job} is not allowed: the map needs measure: stability, with "
+                "more than one run per job"
+            )
+        return lengths_of(name)[0]
+    return []
 
 
-for _study in settings.studies:
-
-    rule:
-        name:
-            f"figure_study_{_study}"
-        input:
-            figure(f"study_{_study}"),
-            measured(_study),
-        localrule: True
-        message:
-            "The study's figure is in {input[0]}"
-
-    list(workflow.rules)[-1].docstring = f"Figure of the study {_study}."
+def shown_run(height):
+    """The simulation of the paper's study that a figure shows, by height (m)."""
+    try:
+        return settings.find(
+            study="paper", law="aging", height=height, phi0=settings.base.loading.initial_state
+        ).id
+    except ParameterError as error:
+        raise WorkflowError(f"a figure can't be drawn: {error}") from None
 
 
-rule figure_studies:
-    """A figure of each study, simulations and theory."""
-    input:
-        needed(
-            [path for study in SHARED for path in figure(f"study_{study}")],
-            "study with table: lengths",
-        ),
-        measured(*SHARED),
-    message:
-        f"The studies' figures are in {RESULTS}/figures"
+def inset_id(wildcards):
+    return shown_run(settings.figures.inset_height)
 
 
-rule convergence:
-    input:
-        [study_lengths(study) for study in CONVERGENCE_STUDIES],
-    output:
-        dataset=CONVERGENCE,
-        table=f"{RESULTS}/convergence.csv",
-    log:
-        f"{RESULTS}/logs/convergence.log",
-    params:
-        **made_by("convergence.py"),
-    message:
-        "Critical lengths against mesh and steps"
-    script:
-        "../scripts/convergence.py"
+def space_time_id(wildcards):
+    return shown_run(settings.figures.space_time_height)
 
 
-@functools.cache
-def hops(id):
-    """The hops of one simulation's front."""
-    return of_simulation("hops", id, "hops.py")
+def element(run):
+    """All that a run is given but for the block's length, of which there is that of an element (m)."""
+    given, mesh = run.parameters.to_dict(), run.parameters.mesh
+    given["geometry"]["length"] = round(given["geometry"]["length"] / mesh.n_x, 9)
+    given["mesh"]["n_x"] = None
+    return given
 
 
-hopped = run_of_key(hops, "hops of")
+def longer():
+    """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
+    blocks, judged = ([(element(run), run) for run in runs_in(study)] for study in (LONGER, JUDGED))
+    return [run for like, block in blocks for other, base in judged if other == like
+            for run in (block, base)]  # fmt: skip
 
 
-rule hops:
-    input:
-        lambda wildcards: simulation(hopped(wildcards).id),
-    output:
-        place_of("hops"),
-    log:
-        f"{RESULTS}/logs/hops/{{name}}.{{key}}.log",
-    params:
-        **made_by("hops.py", lambda wildcards: plugins(hopped(wildcards).parameters)),
-        extraction=asdict(settings.extraction),
-    message:
-        "Hops of the front of {wildcards.name}"
-    script:
-        "../scripts/hops.py"
-
-
-def hops_shown(wildcards):
-    """The hops in the figure of convergence, and the patch of the coarsest run."""
-    runs = hopping(wildcards)
-    return [*(hops(run.id) for run in runs), patch(runs[0].id)]
-
-
-rule sensitivity:
-    input:
-        needed(simulations("sensitivity"), "study sensitivity"),
-    output:
-        dataset=SENSITIVITY,
-        table=f"{RESULTS}/sensitivity.csv",
-    log:
-        f"{RESULTS}/logs/sensitivity.log",
-    params:
-        **made_by("sensitivity.py"),
-        runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
-        extraction=asdict(settings.extraction),
-    message:
-        "Sensitivity of critical lengths"
-    script:
-        "../scripts/sensitivity.py"
+BLOCKS = longer() if runs_in(LONGER) else []

@@ -7,11 +7,12 @@ run is compared with the finest one of its sequence.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import xarray as xr
 
+from .lengths import Files, join, with_csv
 from .rows import Row, rows_of
 
 REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
@@ -82,3 +83,8 @@ def _beside_the_finest(sequence: Sequence[Row]) -> list[Row]:
         }
         for row in sequence
     ]
+
+
+def table(tables: Iterable[xr.Dataset]) -> Files:
+    """The step ``convergence``: :func:`refinement_table` of some tables with its CSV."""
+    return with_csv(refinement_table(join(tables)), COLUMNS)

@@ -35,14 +35,10 @@ def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
 
 
-def in_table(path: Path, ids: list[str]) -> list[str]:
-    """The same from the CSV of a study's table; empty if it isn't there, or is of other runs."""
-    if not path.exists():
-        return []
+def in_table(path: Path) -> list[str]:
+    """The same from the CSV of a study's table."""
     with path.open(encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    known = rows and "reached_length" in rows[0]
-    return without_event(rows) if known and [row["id"] for row in rows] == ids else []
+        return without_event(csv.DictReader(stream))
 
 
 def why(row: Mapping[str, Any]) -> str:

@@ -17,6 +17,7 @@ from ..model.material import Material
 from ..simulation.composition import composed
 from ..simulation.run import run
 from ..simulation.state import State
+from .lengths import row
 from .moments import Indices, chosen_frames, event_interval, thinned
 from .record import parameters_of
 
@@ -106,3 +107,8 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     film["block_shear_stress"] = ("time", "y", "x"), np.array(stresses)
     film.attrs = {"parameters": parameters.to_json()}
     return film
+
+
+def of_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> xr.Dataset:
+    """The step ``film``: of a run of a table of lengths."""
+    return film_dataset(simulation, row(lengths, id))

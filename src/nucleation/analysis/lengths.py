@@ -207,3 +207,24 @@ def columns_csv(columns: tuple[str, ...] = COLUMNS) -> str:
 def to_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> str:
     """A table of runs as comma-separated text, in the order of the columns."""
     return table.to_dataframe()[list(columns)].to_csv(index=False)
+
+
+Files = dict[str, Any]
+"""The files of a result by their suffix: a dataset, texts."""
+
+
+def with_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> Files:
+    """A table as dataset and as comma-separated text."""
+    return {".nc": table, ".csv": to_csv(table, columns)}
+
+
+def of_study(
+    runs: list[dict[str, Any]], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
+) -> Files:
+    """The step ``extract``: the lengths of one study."""
+    return with_csv(gather(runs, simulations, settings))
+
+
+def of_studies(tables: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_lengths``: those of several, and what the columns are."""
+    return with_csv(join(tables)) | {".columns.csv": columns_csv()}

@@ -19,6 +19,7 @@ from ..model.parameters import ALIASES, Parameters, names
 from ..model.quantities import Quantity
 from .definitions import ExtractionSettings
 from .extraction import extract
+from .lengths import Files, with_csv
 from .record import Record
 
 COLUMNS = (
@@ -190,3 +191,10 @@ def _row(
         "onset_change": onset / base_onset - 1.0,
         "status": case.simulation.attrs["status"],
     }
+
+
+def table(
+    runs: list[Row], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
+) -> Files:
+    """The step ``sensitivity``: :func:`sensitivity_table` with its CSV."""
+    return with_csv(sensitivity_table(runs, simulations, settings), COLUMNS)

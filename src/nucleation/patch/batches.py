@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -46,3 +46,22 @@ def in_order(table: xr.Dataset, ids: Sequence[str]) -> xr.Dataset:
     """The rows of a table in the order of some ids, which are those of its rows."""
     places = {name: i for i, name in enumerate(table["id"].values.tolist())}
     return table.isel(run=np.array([places[name] for name in ids], dtype=int))
+
+
+def table(
+    runs: Sequence[dict[str, Any]], records: Iterable[xr.Dataset | None],
+    settings: ExtractionSettings, measure: str,
+) -> xr.Dataset:  # fmt: skip
+    """The step ``batch``: the rows of its runs, without those that have no record."""
+    rows = [
+        measured(run, record, settings, measure)
+        for run, record in zip(runs, records, strict=True)
+        if record is not None
+    ]
+    return lengths.join(rows) if rows else xr.Dataset()
+
+
+def of_study(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> lengths.Files:
+    """The step ``join_batches``: a study's table, its runs in their order."""
+    joined = in_order(lengths.join(tables), ids)
+    return lengths.with_csv(joined, tuple(map(str, joined.data_vars)))

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.lengths import Files, with_csv
 from ..analysis.record import parameters_of
 from ..analysis.rows import Row, rows_of
 from ..model.perturbation import Perturbation
@@ -120,3 +121,15 @@ def _runs(tables: Iterable[xr.Dataset]) -> Iterator[Row]:
         names = [name for name in (*MEASURED, "phi0") if name in table]
         for row in rows_of(table, names=names):
             yield {"correlation_length": float("nan")} | row
+
+
+def table(
+    drops: Iterable[xr.Dataset], quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]
+) -> Files:
+    """The step ``drop``: :func:`gather` with its CSV."""
+    return with_csv(gather([*drops, *quiet], modes), COLUMNS)
+
+
+def floors_table(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> Files:
+    """The step ``noise``: :func:`floors` with its CSV."""
+    return with_csv(floors(quiet, modes), FLOORS)

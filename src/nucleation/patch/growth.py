@@ -16,7 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
-from ..analysis.lengths import description
+from ..analysis.lengths import Files, description, with_csv
 from ..analysis.record import Record
 from ..fem.bodies import body_of
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
@@ -62,7 +62,8 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
         at = near[np.abs(record.length[near] - fit["stability_length"]).argmin()]
         patch = record.patch(at)
         mode[patch.nodes], _ = patch.mode(record.growth([at])[0])
-    return record.dataset(fit, mode)
+    found = record.dataset(fit, mode)
+    return found.assign_attrs(parameters=simulation.attrs["parameters"])
 
 
 class _Creep:
@@ -211,3 +212,8 @@ def gather(
         row["stability_ratio"] = row["stability_length"] / row["theory_length"]
         row["stability_change"] = row["stability_length"] / value - 1.0
     return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+
+
+def table(runs: list[dict[str, Any]], patches: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_patches``: :func:`gather` with its CSV."""
+    return with_csv(gather(runs, patches), COLUMNS)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.lengths import Files, to_csv
 from ..analysis.rows import ratios
 
 COLUMNS = (
@@ -57,3 +58,9 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
 def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
     """The mean of a variable over realisations; NaN where one of them has none."""
     return grid[name].mean("seed", skipna=False)
+
+
+def table(lengths: xr.Dataset) -> Files:
+    """The step ``map``: the table as CSV, and on its grid."""
+    rows = gather(lengths)
+    return {".nc": on_grid(rows), ".csv": to_csv(rows, COLUMNS)}

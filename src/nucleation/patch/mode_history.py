@@ -173,3 +173,8 @@ def _weights(
     along_x[0, nodes], along_x[1, nodes] = by_force * f * force, left[n:]
     load, shift = (p[nodes] + f * normal[nodes] for p, normal in loads)
     return complex(by_force @ load), complex(-by_force @ shift), along_x[0], along_x[1]
+
+
+def of_run(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
+    """The step ``mode``: the history of a quiet run's mode as a dataset."""
+    return to_dataset(follow_mode(simulation, settings))

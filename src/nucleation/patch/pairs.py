@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.extraction import extract
-from ..analysis.lengths import description
+from ..analysis.lengths import Files, description, with_csv
 from ..analysis.record import parameters_of
 from ..analysis.rows import ratios
 from ..model.linearised import linearised
@@ -98,3 +98,11 @@ def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
 def of_study(table: xr.Dataset, study: str) -> xr.Dataset:
     """The rows of one study."""
     return chosen(table, table["study"].values == study)
+
+
+def table(
+    runs: list[dict[str, Any]], simulations: Iterable[xr.Dataset],
+    patches: Iterable[xr.Dataset], settings: ExtractionSettings,
+) -> Files:  # fmt: skip
+    """The step ``gather_pairs``: :func:`gather` with its CSV."""
+    return with_csv(gather(runs, simulations, patches, settings), COLUMNS)

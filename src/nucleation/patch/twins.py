@@ -23,7 +23,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import Extent, ExtractionSettings
-from ..analysis.lengths import description
+from ..analysis.lengths import Files, description, with_csv
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
@@ -200,3 +200,13 @@ def gather(runs: Iterable[dict[str, Any]], datasets: Iterable[xr.Dataset]) -> xr
         for i in range(twins.sizes["twin"])
     ]
     return xr.Dataset({name: ("twin", [row[name] for row in rows]) for name in COLUMNS})
+
+
+def of_run(run: dict[str, Any], settings: ExtractionSettings) -> xr.Dataset:
+    """The step ``twin``: the twins of a run of a study."""
+    return follow_twins(Parameters.from_dict(run["parameters"]), run["theory_length"], settings)
+
+
+def table(runs: list[dict[str, Any]], twins: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_twins``: :func:`gather` with its CSV."""
+    return with_csv(gather(runs, twins), COLUMNS)

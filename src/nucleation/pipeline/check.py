@@ -1,18 +1,21 @@
-"""Results that are stale, incomplete, damaged or foreign, found from the files themselves.
+"""Results that are stale, incomplete, damaged or foreign, and those that nothing refers to.
 
-What each file has to be is known from the rules (:class:`nucleation.pipeline.planning.Planner`);
-what it is, from its content, its record and the key it bears. Nothing is run, nothing is changed.
+What each result has to be is known from the rules (:mod:`.steps`); what it is, from the store and
+from the links of a directory of results into it (:mod:`.view`).
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
+import os
+import sys
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
-from ..datasets import seal
-from . import cache, keys
-from .keys import Store
+from .steps import LINKS
+from .store import ASIDE, Store, StoreError, path_in, read_note, suffixes
+from .view import records
 
 LEFTOVERS = {
     ".*.tmp": "half a file of a run that was killed: delete it",
@@ -20,11 +23,11 @@ LEFTOVERS = {
     "*.failed.nc": "the record of a run that failed",
 }
 
-UNUSED = "unused"
-"""State of a result of other parameters or other code, which no finding is."""
+OWN = {"store", "logs", LINKS, "reference"}
+"""Directories below the results that hold no links to results."""
 
-Expected = Mapping[str, Mapping[str, str] | None]
-"""What makes each file, of :func:`nucleation.pipeline.keys.parts`; None where no rule does."""
+UNUSED = "unused"
+"""State of a result of other parameters or other code, which is no finding."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,57 +45,86 @@ class Finding:
         return f"{self.state:<10}  {self.path}: {self.reason}"
 
 
-def files(results: Path) -> list[str]:
-    """Finished files of a configuration, without logs and what is another configuration's."""
-    others = {path.parent for path in results.glob("*/simulations")} | {results / "reference"}
-    hidden = (keys.RECORDS, cache.KEPT)
-    return [
-        str(path)
-        for path in sorted(results.rglob("*"))
-        if path.is_file()
-        and others.isdisjoint(path.parents)
-        and path.relative_to(results).parts[0] not in ("logs", *hidden)
-    ]
-
-
-def check_results(store: Store, expected: Expected, wanted: Iterable[str]) -> list[Finding]:
-    """All results that are not what the present configuration and code make.
+def check_results(results: Path, expected: Mapping[str, str]) -> list[Finding]:
+    """All that is not what the present configuration and code make.
 
     Parameters
     ----------
-    store : of the results.
-    expected : of the files that are there, from :func:`files`.
-    wanted : keys of all datasets that the configuration asks for.
+    results : directory of the results.
+    expected : keys of all results that the configuration can ask for, by the name that each is
+        shown under.
     """
-    wanted = set(wanted)
-    found: list[Finding] = []
-    for name, parts in expected.items():
-        path = Path(name)
+    store = Store(results / "store")
+    found = [*_entries(store), *_shown(results, store, expected)]
+    gone = unused(store, expected)
+    return found + [Finding(store.entry(key), UNUSED, "make prune removes it") for key in gone]
+
+
+def unused(store: Store, expected: Mapping[str, str]) -> list[str]:
+    """Keys in a store that neither the configuration nor any directory of results refers to."""
+    kept = {*expected.values()}
+    for record in records(store):
+        kept.update(*(target["keys"] for target in record["targets"].values()))
+    return [key for key in store.keys() if key not in kept]
+
+
+def _entries(store: Store) -> Iterator[Finding]:
+    """Entries that are not right, and what has been left between them."""
+    for key in store.keys():
+        try:
+            read_note(store.entry(key), whole=True)
+        except StoreError as error:
+            state = "foreign" if "another key" in str(error) else "damaged"
+            yield Finding(store.entry(key), state, f"{error}: make it again, and it is moved aside")
+    for path in sorted(store.directory.glob("*")):
+        if path.name.startswith(".") and path.suffix == ".tmp":
+            yield Finding(path, "incomplete", LEFTOVERS[".*.tmp"])
+    for path in sorted((store.directory / ASIDE).glob("*/*")):
+        yield Finding(path, "damaged", "it was moved aside, since it is not what it should be")
+
+
+def _shown(results: Path, store: Store, expected: Mapping[str, str]) -> Iterator[Finding]:
+    """Files among the results that are not links to the present ones."""
+    for path in sorted(results.rglob("*")):
+        name = path.relative_to(results)
+        if name.parts[0] in OWN or path.is_dir() or _is_of_others(path, results):
+            continue
         leftover = [text for pattern, text in LEFTOVERS.items() if path.match(pattern)]
         if leftover:
-            found.append(Finding(path, "incomplete", leftover[0]))
-        elif keys.key_in(path):
-            found += _of_keyed(path, wanted)
-        elif parts is None:
-            found.append(Finding(path, "foreign", "nothing in the configuration makes it"))
-        elif problem := store.problem(path, parts):
-            state = "stale" if "changed" in problem else "damaged"
-            found.append(Finding(path, "foreign" if "vouches" in problem else state, problem))
-    return found
+            yield Finding(path, "incomplete", leftover[0])
+            continue
+        key = next((key for key in map(expected.get, _names(name)) if key), None)
+        if key is None:
+            yield Finding(path, "foreign", "nothing in the configuration makes it")
+        elif not _shows(path, store, key):
+            yield Finding(path, "stale", "it is of other parameters or other code: make it again")
 
 
-def _of_keyed(path: Path, wanted: set[str]) -> Iterator[Finding]:
-    """What is wrong with a dataset that bears its key."""
-    key = keys.key_in(path)
+def _names(name: Path) -> Iterator[str]:
+    """Names without their suffix, of which a part may be ``.columns.csv``."""
+    text = name.as_posix()
+    while "." in Path(text).name:
+        text = text.rpartition(".")[0]
+        yield text
+
+
+def _is_of_others(path: Path, results: Path) -> bool:
+    """Whether a file belongs to the results of another configuration, below these."""
+    return any(
+        (parent / "store").is_dir() for parent in path.parents if results in parent.parents
+    )
+
+
+def _shows(path: Path, store: Store, key: str) -> bool:
+    """Whether a file is that of an entry: a link to it, or a copy."""
+    entry = store.entry(key)
+    if path.is_symlink():
+        return os.path.realpath(path).startswith(f"{os.path.realpath(entry)}{os.sep}")
     try:
-        held = seal.verified(path).get("key")  # ten times as fast as reading the values
-    except (ValueError, OSError) as error:
-        yield Finding(path, "damaged", f"{error}: delete it, and it is made again")
-        return
-    if held != key:
-        yield Finding(path, "foreign", f"it holds the result of another key, {held}")
-    elif key not in wanted:
-        yield Finding(path, UNUSED, "of other parameters or other code; make prune removes it")
+        files = [path_in(entry, suffix) for suffix in suffixes(read_note(entry))]
+    except StoreError:
+        return False
+    return any(f.suffix == path.suffix and f.read_bytes() == path.read_bytes() for f in files)
 
 
 def report(findings: list[Finding]) -> str:
@@ -100,3 +132,35 @@ def report(findings: list[Finding]) -> str:
     wrong = [found for found in findings if found.state != UNUSED]
     end = f"{len(wrong)} findings: these results are not current" if wrong else "All is current"
     return "\n".join([*map(str, findings), end])
+
+
+def prune(results: Path, expected: Mapping[str, str], remove: bool) -> str:
+    """List what nothing refers to, and remove it if that is asked for; what was done, in words."""
+    store = Store(results / "store")
+    keys = unused(store, expected)
+    lines = []
+    for key in keys:
+        note, size = store.note(key) or {}, sum(f.stat().st_size for f in store.entry(key).iterdir())
+        lines.append(f"{store.entry(key)}  {note.get('name', '')}  {size / 1e6:.1f} MB")
+        if remove:
+            store.remove(key)
+    done = "removed" if remove else "that nothing refers to; PRUNE=yes removes them"
+    return "\n".join([*lines, f"{len(keys)} results {done}"])
+
+
+def run(snakemake: Any) -> None:
+    """The targets ``check`` and ``prune``; the latter removes if ``PRUNE`` is ``yes``."""
+    params = snakemake.params
+    results, expected = Path(params.results), dict(params.expected)
+    try:
+        if params.says == "prune":
+            print(prune(results, expected, os.environ.get("PRUNE") == "yes"))
+            return
+        findings = check_results(results, expected)
+    except (StoreError, OSError) as error:
+        sys.exit(str(error))
+    print(report(findings))
+    if any(found.state != UNUSED for found in findings):
+        sys.exit("check: there are findings")
+
+

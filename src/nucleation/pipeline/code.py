@@ -13,10 +13,7 @@ import contextlib
 import hashlib
 import importlib
 import importlib.metadata
-import importlib.util
 import json
-import os
-import sys
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -40,9 +37,6 @@ ALWAYS = (f"{PACKAGE}.datasets.netcdf",)
 
 PARSED = ROOT / "__pycache__" / "digests.json"
 """What is kept of each source, by its content, so that a start of the workflow parses nothing."""
-
-RACE = 2.0
-"""Seconds within which Python takes bytecode for current though the source has changed since."""
 
 
 class CodeError(RuntimeError):
@@ -98,48 +92,16 @@ def forget() -> None:
         function.cache_clear()
 
 
-def verify_loaded(planned: str, *roots: str) -> None:
-    """Make sure that this process runs the code that a job was planned with.
+def load(*roots: str) -> None:
+    """Import all code of some roots, and read it anew at the next question.
 
-    All modules that the code may import later are imported here: an edit after this can't reach
-    the process any more.
-
-    Raises
-    ------
-    CodeError
-        If the code is another one, or Python has taken outdated bytecode for it.
+    Code that is imported later as well is imported here: an edit after this can't reach the
+    process any more, and one before it changes the digest.
     """
     for path in sorted(closure(*roots)):
         if path.is_relative_to(ROOT):
             importlib.import_module(_name(path))
     forget()
-    if digest(*roots) != planned:
-        raise CodeError(
-            f"the code of {', '.join(Path(r).name for r in roots)} has changed since this job was "
-            "planned: start the workflow again"
-        )
-    for path in closure(*roots):
-        _refuse_outdated_bytecode(path)
-
-
-def _refuse_outdated_bytecode(path: Path) -> None:
-    """Compare bytecode with its source where their times leave a doubt.
-
-    Python tells them apart by size and time in whole seconds alone: an edit right after an import
-    goes unnoticed.
-    """
-    try:
-        compiled = Path(importlib.util.cache_from_source(str(path)))
-        if os.stat(compiled).st_mtime - os.stat(path).st_mtime > RACE:
-            return
-    except (OSError, NotImplementedError):
-        return  # no bytecode, no doubt
-    module = sys.modules.get(_name(path)) if path.is_relative_to(ROOT) else None
-    if module is None or module.__spec__ is None or module.__spec__.loader is None:
-        return
-    loaded = module.__spec__.loader.get_code(module.__name__)  # type: ignore[attr-defined]
-    if loaded != compile(path.read_bytes(), str(path), "exec", dont_inherit=True):
-        raise CodeError(f"{compiled} is outdated bytecode: remove it, start the workflow again")
 
 
 @cache
@@ -163,14 +125,17 @@ def _fingerprint(path: Path) -> str:
 @cache
 def _source(path: Path) -> Source:
     content = path.read_bytes()
-    return _parsed(hashlib.sha256(content).hexdigest(), content)
+    return _parsed(path, hashlib.sha256(content).hexdigest(), content)
 
 
-def _parsed(name: str, content: bytes) -> Source:
+def _parsed(path: Path, name: str, content: bytes) -> Source:
     """A file's :class:`Source`, by the digest of its bytes: parsed once, and kept on the disk."""
     kept = _kept()
     if name not in kept:
-        kept[name] = parse(content)
+        try:
+            kept[name] = parse(content)
+        except SyntaxError as error:
+            raise CodeError(f"{path}:{error.lineno}: {error.msg}") from None
         kept["changed"] = True
     return Source(*kept[name])
 
@@ -185,10 +150,20 @@ def _keep_parsed() -> None:
 
 @cache
 def _kept() -> dict[str, Any]:
+    """What is on the disk, as far as it has the form of :class:`Source`."""
     try:
-        return dict(json.loads(PARSED.read_text()))
-    except (OSError, ValueError):
+        found = dict(json.loads(PARSED.read_text()))
+    except (OSError, ValueError, TypeError):
         return {}
+    return {name: value for name, value in found.items() if _is_source(value)}
+
+
+def _is_source(value: Any) -> bool:
+    match value:
+        case [str(), list(uses), list(libraries)]:
+            three = all(isinstance(use, list) and len(use) == 3 for use in uses)
+            return three and all(isinstance(name, str) for name in libraries)
+    return False
 
 
 @cache

@@ -1,201 +1,255 @@
-"""What every job of the workflow does besides its own work.
+"""What every job of the workflow does: find its result in a store, or make it and put it there.
 
-It says in its log what happens, refuses to run other code than it was planned with, reads only
-what is what it was asked for, and leaves with each result what vouches for it.
+A job says in its log what happens. It refuses to run other code than it was planned with, reads
+only what is what it was asked for, and leaves a link to its result for Snakemake.
 """
 
 from __future__ import annotations
 
+import contextlib
 import gc
+import importlib
+import inspect
+import os
+import shutil
 import sys
 import time
 import traceback
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import is_dataclass
 from pathlib import Path
-from types import TracebackType
-from typing import Any, NamedTuple
+from typing import Any
 
 import xarray as xr
 
 from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError
 from ..model.quantities import ParameterError
-from . import cache, code, keys
-from .keys import Store
+from . import code, keys
+from .steps import LINKS, Sources, Task, task_of
+from .store import STEM, Store, StoreError, give_all, others, read_note
 
-EXPECTED = (DatasetError, ParameterError, code.CodeError, OSError)
+EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 """Failures that are told in one line: what to do about them is outside of the code."""
 
 
-class Result(NamedTuple):
-    """A dataset that bears its key: its place, the key, and the digest of what makes it."""
-
-    path: Path
-    key: str
-    code: str
-
-
 class Job:
-    """A job, as a context: ``with Job(snakemake, __file__) as job``.
+    """The results that a job makes, one or several.
 
     Parameters
     ----------
     snakemake : what Snakemake gives to a script.
-    script : path of the script.
-
-    Raises
-    ------
-    SystemExit
-        With one line, if something is wrong that is not an error of the code.
     """
 
-    def __init__(self, snakemake: Any, script: str) -> None:
-        self._snakemake, self._script = snakemake, script
-        self.params, self.input, self.output = snakemake.params, snakemake.input, snakemake.output
-        self.key = keys.key_in(self.output[0]) or keys.joined(self.params.made)
-        self._began = time.monotonic()
+    def __init__(self, snakemake: Any) -> None:
+        params = dict(snakemake.params.items())
+        inputs = {role: _plain(value) for role, value in snakemake.input.items()}
+        each = params.get("each")
+        one = task_of(str(snakemake.output[0]), params, inputs) if each is None else None
+        self.tasks = [Task(*task) for task in each] if one is None else [one]
+        self.params, self.rule = params, str(snakemake.rule)
+        self.log = str(snakemake.log[0]) if snakemake.log else ""
+        self.results = Path(str(snakemake.output[0]).rpartition(f"/{LINKS}/")[0])
+        self.store = Store(self.results / "store")
+        self._others = others()
 
-    def __enter__(self) -> Job:
-        if self._snakemake.log:
-            sys.stderr = open(self._snakemake.log[0], "a", buffering=1, encoding="utf-8")
-        try:
-            code.verify_loaded(self.params.code, self._script, *code.ALWAYS, *self.params.modules)
-            gc.freeze()  # what is loaded stays: at its end Python would look through it, for .3 s
-            if keys.key_in(self.output[0]) not in (None, keys.joined(self.params.made)):
-                raise DatasetError(f"{self.output[0]} is not what this job makes: plan it again")
-            for path, wanted in self.params.expected.items():
-                self._verify(path, wanted)
-        except EXPECTED as error:
-            self._refuse(error)
-        return self
+    def verify(self) -> None:
+        """Make sure that this process has the code, parameters and sources it was planned with."""
+        for roots in dict.fromkeys(task.roots for task in self.tasks):
+            code.load(*roots)
+        for task in self.tasks:
+            if task.key != keys.key_in(task.link):
+                raise code.CodeError(
+                    f"the code, the parameters or the sources of {Path(task.link).name} have "
+                    "changed since this job was planned: start the workflow again"
+                )
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
-    ) -> None:
-        if isinstance(error, EXPECTED):
-            self._refuse(error)
-        if error is not None:
-            if not isinstance(error, SystemExit):
-                traceback.print_exception(error)  # into the log
-            return
-        for path in map(str, self.output):
-            if keys.key_in(path) is None:
-                self._store.sign(path, self.params.made)
-        print(f"done in {time.monotonic() - self._began:.1f} s", file=sys.stderr)
+    def found(self, key: str) -> bool:
+        """Whether a store has a result; it is in the job's own store then."""
+        if self.store.note(key) is not None:
+            return True
+        source = self.store.take(key, self._others)
+        if source is not None:
+            print(f"taken from {source}", file=sys.stderr)
+        return source is not None
 
-    @property
-    def own(self) -> Result:
-        """The job's first result."""
-        return Result(Path(self.output[0]), self.key, self.params.code)
+    def make(self, task: Task) -> None:
+        """Have the result of a task in the store."""
+        if not self.found(task.key):
+            self.make_with(task, **self.read(task))
 
-    @property
-    def results(self) -> list[Result]:
-        """What a job makes whose results each bear their own key: its `places`, or one's own."""
-        places = self.params.get("places")
-        if places is None:
-            return [self.own]
-        return [Result(Path(path), keys.key_in(path) or "", code) for path, code in places]
+    def make_with(self, task: Task, **inputs: Any) -> None:
+        """Make the result of a task from its inputs."""
+        module, _, name = task.call.partition(":")
+        function = getattr(importlib.import_module(module), name)
+        given = arguments(function, {**task.values, "origin": self._origin(task)})
+        self.put(task, task.key, function(**given, **inputs))
 
-    @property
-    def _store(self) -> Store:
-        return Store(self._snakemake.config.get("results", "results"))
+    def read(self, task: Task) -> dict[str, Any]:
+        """What a function is given for the inputs of its task, by their roles."""
+        return {role: self._input(paths) for role, paths in task.sources.items()}
 
-    def end(self, message: str) -> None:
-        """End the job without its result, for a reason that its log and Snakemake's output tell."""
-        print(message, file=sys.stderr)
-        sys.stderr = sys.__stderr__
-        sys.exit(message)
+    def _input(self, paths: str | list[str]) -> Any:
+        """One input, or several, of which datasets are read when they are asked for."""
+        return Inputs(self, paths) if isinstance(paths, list) else self.open(paths)
 
-    def _refuse(self, error: BaseException) -> None:
-        self.end(f"{self._snakemake.rule}: {error}")
-
-    def _verify(self, path: str, wanted: str) -> None:
-        """Make sure of a file with a plain name; one with its key in it is verified when read."""
-        if Path(path).suffix == ".nc":
-            return
-        known = len(wanted) == keys.LENGTH
-        found = self._store.key_of(path) if known else keys.content(path)
-        if found != wanted:
-            raise DatasetError(f"{path} is not what this job was planned with: run it again")
-
-    # -- reading and writing --------------------------------------------------------------------
-
-    def read(self, path: str, key: str | None = None) -> xr.Dataset:
-        """An input, whole and of the key that the job was planned with; or any dataset of a key.
+    def open(self, path: str) -> Any:
+        """A dataset, whole and of the key in its path; of any other file the path.
 
         Raises
         ------
-        DatasetError
-            Otherwise, naming the file.
+        StoreError
+            If it is another result; one in the job's own store is moved aside.
         """
-        dataset = netcdf.read(path)
-        wanted = key or self.params.expected[str(path)]
-        if dataset.attrs.get("key") != wanted:
-            raise DatasetError(
-                f"{path} is another result than it should be (its key is "
-                f"{dataset.attrs.get('key', 'missing')}, not {wanted}): delete it, run it again"
-            )
-        return dataset
+        key = keys.key_in(path)
+        if key is None:
+            return Path(path)
+        entry = Path(path).resolve().parent
+        try:
+            if Path(path).suffix != ".nc":
+                read_note(entry, key, whole=True)
+                return entry / f"{STEM}{Path(path).suffix}"
+            dataset = netcdf.read(path)
+            if dataset.attrs.get("key") != key:
+                found = dataset.attrs.get("key", "missing")
+                raise DatasetError(f"{path} is another result than it should be: its key is {found}")
+            return dataset
+        except (DatasetError, StoreError) as error:
+            self.store.set_aside(key)
+            raise StoreError(
+                f"{error}. It was moved aside: run this again, and it is made again"
+            ) from None
 
-    def read_all(self, paths: Any) -> Any:
-        """Several inputs, read one at a time."""
-        return map(self.read, paths)
+    def put(self, task: Task, key: str, made: Any) -> None:
+        """Put what a function has returned into the store: all files of the result, and its note."""
+        origin = self._origin(task)
 
-    def attributes(
-        self, parameters: Any, result: Result | None = None, sources: Iterable[str] | None = None
-    ) -> dict[str, str]:
-        """Attributes of a dataset that say how this job made it; of its own or another result.
+        def write(place: Path) -> None:
+            for suffix, content in _files(made):
+                write_one(content, place / f"{STEM}{suffix}", origin)
 
-        `sources` are the inputs that it is made from, if not those of the job's own result.
-        """
-        made = result or self.own
+        about = {name: origin[name] for name in ("created", "code_digest", "versions")}
+        self.store.put(key, write, about | {"rule": self.rule, "name": Path(task.link).name})
+        give_all(self.store.entry(key))
+
+    def _origin(self, task: Task) -> dict[str, str]:
+        sources = _sources(task.sources)
         return provenance.attributes(
-            parameters, made.code, f"snakemake {made.path}", self._sources(sources), key=made.key
+            task.values, task.code, f"snakemake {task.link}", sources, key=task.key
         )
 
-    def _sources(self, paths: Iterable[str] | None) -> Mapping[str, str]:
-        results, known = self._store.results, self.params.expected
-        if paths is not None:
-            known = {path: keys.key_in(path) for path in paths}
-        return {
-            str(Path(path).relative_to(results) if Path(path).is_relative_to(results) else path): k
-            for path, k in known.items()
-        }
+    def leave_link(self, task: Task) -> None:
+        """Tell Snakemake that a result is there."""
+        link, key = Path(task.link), str(keys.key_in(task.link))
+        lay(link, self.store.entry(key) / f"{STEM}{link.suffix}")
 
-    def write(
-        self,
-        dataset: xr.Dataset,
-        path: str | Result,
-        parameters: Any,
-        sources: Iterable[str] | None = None,
-    ) -> None:
-        """Write a dataset with its origin; `parameters` is what it depends on.
 
-        A result of its own key stands in the place of a path; `sources` as of :meth:`attributes`.
-        """
-        result = path if isinstance(path, Result) else None
-        place = path.path if isinstance(path, Result) else path
-        netcdf.write(dataset, place, **self.attributes(parameters, result, sources))
+def lay(link: Path, target: Path) -> None:
+    """Put a relative link in place, or a copy where links can't be."""
+    link.parent.mkdir(parents=True, exist_ok=True)
+    new = link.with_name(f".{link.name}.{os.getpid()}.tmp")
+    with contextlib.suppress(FileNotFoundError):
+        new.unlink()
+    try:
+        new.symlink_to(os.path.relpath(target.absolute(), link.parent.absolute()))
+    except OSError:
+        shutil.copyfile(target, new)
+    new.replace(link)
 
-    def write_text(self, text: str, path: str) -> None:
-        """Write a text file."""
-        netcdf.write_text(text, path)
 
-    # -- results that cost much -----------------------------------------------------------------
+class Inputs(Sequence[Any]):
+    """Inputs of one role, each read when it is asked for."""
 
-    def fetched(self, result: Result | None = None) -> bool:
-        """Whether a dataset was found under its key, in the cache or kept from before."""
-        wanted = result or self.own
-        shared = cache.shared()
-        for place in (self._store.results / cache.KEPT, *([shared] if shared else [])):
-            if cache.fetch(place, wanted.key, wanted.path):
-                print(f"taken from {place}", file=sys.stderr)
-                return True
-        return False
+    def __init__(self, job: Job, paths: list[str]) -> None:
+        self._job, self._paths = job, paths
 
-    def keep(self, result: Result | None = None) -> None:
-        """Keep a dataset under its key, for others and for what may still fail."""
-        made = result or self.own
-        cache.hold(self._store.results, made.key, made.path)
-        if shared := cache.shared():
-            cache.keep(shared, made.key, made.path)
+    def __len__(self) -> int:
+        return len(self._paths)
+
+    def __getitem__(self, i: Any) -> Any:
+        return self._job.open(self._paths[i])
+
+
+def arguments(function: Any, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values for a function, those as dataclasses that it wants so; `origin` only if it asks."""
+    wanted = inspect.signature(function).parameters
+    found = {}
+    for name, value in values.items():
+        if name == "origin" and name not in wanted:
+            continue
+        kind = wanted[name].annotation if name in wanted else None
+        if isinstance(kind, str):
+            kind = function.__globals__.get(kind)
+        if isinstance(kind, type) and is_dataclass(kind) and isinstance(value, Mapping):
+            value = getattr(kind, "from_dict", lambda given, kind=kind: kind(**given))(value)
+        found[name] = value
+    return found
+
+
+def _files(made: Any) -> Iterator[tuple[str, Any]]:
+    """Contents of files by suffix, of whatever a function returns."""
+    if isinstance(made, Mapping) and not isinstance(made, xr.Dataset):
+        yield from made.items()
+    else:
+        yield (".nc" if isinstance(made, xr.Dataset) else ""), made
+
+
+def write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
+    """Write one file: a dataset with its origin, a text, or whatever writes itself."""
+    if isinstance(content, xr.Dataset):
+        own = content.attrs.get("parameters", origin["parameters"])
+        netcdf.write(content, path, **{**origin, "parameters": own})
+    elif isinstance(content, str):
+        netcdf.write_text(content, path)
+    elif callable(content):
+        content(path)
+    else:
+        from ..figures import style  # a figure: matplotlib is loaded by what has drawn it
+
+        style.save(content, path, origin["key"])
+
+
+def _sources(sources: Sources) -> dict[str, list[str]]:
+    """Keys of what a result is made from, by their role."""
+    return {
+        role: [keys.of_file(path) for path in ([given] if isinstance(given, str) else given)]
+        for role, given in sources.items()
+    }
+
+
+def _plain(value: Any) -> str | list[str]:
+    return str(value) if isinstance(value, str) else [str(path) for path in value]
+
+
+@contextlib.contextmanager
+def running(snakemake: Any) -> Iterator[Job]:
+    """A job that says in its log what happens, and in one line why it ends without its results."""
+    job, began = Job(snakemake), time.monotonic()
+    if job.log:
+        Path(job.log).parent.mkdir(parents=True, exist_ok=True)
+        sys.stderr = open(job.log, "a", buffering=1, encoding="utf-8")
+    try:
+        job.verify()
+        gc.freeze()  # what is loaded stays: at its end Python would look through it, for .3 s
+        yield job
+    except EXPECTED as error:
+        end(f"{job.rule}: {error}")
+    except Exception as error:
+        traceback.print_exception(error)  # into the log
+        raise
+    print(f"done in {time.monotonic() - began:.1f} s", file=sys.stderr)
+
+
+def end(message: str) -> None:
+    """End the job without its result, for a reason that its log and Snakemake's output tell."""
+    print(message, file=sys.stderr)
+    sys.stderr = sys.__stderr__
+    sys.exit(message)
+
+
+def run(snakemake: Any) -> None:
+    """Make the results of a job and link them."""
+    with running(snakemake) as job:
+        for task in job.tasks:
+            job.make(task)
+            job.leave_link(task)

@@ -1,10 +1,7 @@
-"""A result is its inputs: the key of what makes it, and the record beside it that vouches for it.
+"""A result is identified by its inputs: a key is a digest of code, parameters and sources.
 
-A key is a digest of parameters, code and the keys of what is read, so it is known before anything
-is computed. Costly datasets bear it in their names (``simulations/NAME.KEY.nc``): another
-parameter or other code is another file, and what exists under a key is used whatever it is called.
-Files with plain names have a record in ``.made/`` beside the results: key and digest of the bytes.
-Neither times of files nor Snakemake's notes take part.
+It is known before anything is computed. :mod:`.store` keeps results under their keys, and links to
+them bear the key in their names. Times of files play no part, nor do Snakemake's notes.
 """
 
 from __future__ import annotations
@@ -17,22 +14,19 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..datasets.files import replacing
-
 LENGTH = 16
 """Hexadecimal digits of a key: 64 bits, of which thousands of results never share one."""
 
-KEYED = re.compile(rf"\.([0-9a-f]{{{LENGTH}}})\.nc$")
-"""The end of a name that bears its key."""
+PATTERN = rf"[0-9a-f]{{{LENGTH}}}"
 
-PARTS = ("code", "parameters", "sources")
-"""What makes a result."""
+IN_NAME = re.compile(rf"\.({PATTERN})\.\w+$")
+"""The end of the name of a link."""
 
-RECORDS = ".made"
-"""Directory below the results with the records of files with plain names."""
+IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")
+"""The end of the path of a file in a store."""
 
 
-def key(code: str, parameters: Any, sources: Mapping[str, Sequence[str]]) -> str:
+def key(code: str, parameters: Mapping[str, Any], sources: Mapping[str, Sequence[str]]) -> str:
     """The key of a result.
 
     Parameters
@@ -44,20 +38,8 @@ def key(code: str, parameters: Any, sources: Mapping[str, Sequence[str]]) -> str
     sources : mapping of str to sequence of str
         Keys of what it is made from, by the role that it plays.
     """
-    return joined(parts(code, parameters, sources))
-
-
-def parts(code: str, parameters: Any, sources: Mapping[str, Sequence[str]]) -> dict[str, str]:
-    """Digests of what makes a result: the arguments of :func:`key`, one by one."""
-    return {
-        name: hashlib.sha256(plain(values).encode()).hexdigest()
-        for name, values in zip(PARTS, (code, parameters, sources), strict=True)
-    }
-
-
-def joined(digests: Mapping[str, str]) -> str:
-    """The key of what makes a result, from :func:`parts`."""
-    return hashlib.sha256(plain(dict(digests)).encode()).hexdigest()[:LENGTH]
+    text = plain([code, parameters, sources])
+    return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 
 def plain(values: Any) -> str:
@@ -76,80 +58,17 @@ def _plain_one(value: Any) -> Any:
 
 
 def key_in(path: str | Path) -> str | None:
-    """The key in the name of a dataset, None if its name is a plain one."""
-    found = KEYED.search(str(path))
+    """The key that the path of a link or of a file in a store bears; None of any other file."""
+    found = IN_NAME.search(str(path)) or IN_STORE.search(str(path))
     return found[1] if found else None
+
+
+def of_file(path: str | Path) -> str:
+    """The key of what is read: the one that its path bears, or else its content."""
+    return key_in(path) or (content(path) if Path(path).is_file() else "missing")
 
 
 def content(path: str | Path) -> str:
     """Digest of a file's bytes."""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-class Store:
-    """The results of one directory, found by their keys and records.
-
-    Parameters
-    ----------
-    results : directory of all results; paths below it are as users write them.
-    """
-
-    def __init__(self, results: str | Path) -> None:
-        self.results = Path(results)
-        self._found: dict[str, dict[str, str]] = {}
-
-    def dataset(self, kind: str, name: str, wanted: str) -> str:
-        """The path of a dataset that bears its key: where it is, or else where it will be.
-
-        Whatever an existing file is called, its key decides.
-        """
-        own = f"{name}.{wanted}.nc"
-        known = self._listed(kind)
-        chosen = known.get(wanted, own)
-        known.setdefault(wanted, own)
-        return str(self.results / kind / chosen)
-
-    def _listed(self, kind: str) -> dict[str, str]:
-        """Names in a directory by their keys, looked up once."""
-        if kind not in self._found:
-            paths = sorted((self.results / kind).glob("[!.]*.nc"))
-            self._found[kind] = {k: p.name for p in paths if (k := key_in(p))}
-        return self._found[kind]
-
-    def record_of(self, path: str | Path) -> Path:
-        """Where the record of a file with a plain name is."""
-        name = Path(path).relative_to(self.results)
-        return self.results / RECORDS / f"{name}.json"
-
-    def sign(self, path: str | Path, made: Mapping[str, str]) -> None:
-        """Leave a record that a file was made by what :func:`parts` says."""
-        with replacing(self.record_of(path)) as temporary:
-            temporary.write_text(json.dumps({**made, "content": content(path)}, indent=1) + "\n")
-
-    def key_of(self, path: str | Path) -> str | None:
-        """The key that a file's record vouches for; None without a record that fits the file."""
-        record = self._record(path)
-        if record is None or record.pop("content") != content(path):
-            return None
-        return joined(record)
-
-    def _record(self, path: str | Path) -> dict[str, str] | None:
-        """What a file's record says: its parts and its content; None if it can't be told."""
-        try:
-            record = json.loads(self.record_of(path).read_text("utf-8"))
-            return {name: record[name] for name in (*PARTS, "content")}
-        except (OSError, ValueError, KeyError, TypeError):
-            return None
-
-    def problem(self, path: str | Path, wanted: Mapping[str, str]) -> str | None:
-        """Why a file with a plain name is not what :func:`parts` says, or None if it is."""
-        if not Path(path).is_file():
-            return "it is missing"
-        found = self._record(path)
-        if found is None:
-            return "nothing vouches for it: there is no record of how it was made"
-        if found.pop("content") != content(path):
-            return "it is not what was written"
-        changed = [name for name, digest in wanted.items() if found[name] != digest]
-        return f"its {' and '.join(changed)} changed" if changed else None

@@ -1,9 +1,9 @@
-"""Simulations of jobs: from their file, from under their key, or made, from a checkpoint on."""
+"""Simulations of jobs: from a store, or made, from a checkpoint on."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,92 +12,79 @@ import xarray as xr
 from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
-from ..simulation.checkpoints import Checkpoint
-from . import code
-from .job import Job, Result
+from ..simulation.checkpoints import Checkpoint, Stopped
+from . import code, keys
+from .job import Job, end, running
 from .progress import Progress
+from .steps import LINKS, Task
+from .store import path_in
 
-Simulate = Callable[..., xr.Dataset]
+SIMULATE = "nucleation.simulation.run:simulate"
+UNFINISHED = "unfinished"
+"""Directory below the results with checkpoints, and records of runs that failed."""
 
 
 class Failed(Exception):
     """A run ended without its result, and has left a record."""
 
 
-def record_of(job: Job, simulate: Simulate, parameters: Parameters, result: Result) -> xr.Dataset:
-    """The record of a run, found or made, and now in its place.
+def task_of_run(run: dict[str, Any], results: Path) -> Task:
+    """The task to simulate a run, from :meth:`nucleation.configuration.runs.Run.to_dict`."""
+    loads = plugins(Parameters.from_dict(run["parameters"]))
+    task = Task("", SIMULATE, loads, {"parameters": run["parameters"]}, {})
+    return task._replace(link=f"{results}/{LINKS}/simulations/{run['id']}.{task.key}.nc")
 
-    Parameters
-    ----------
-    job : which asks for it.
-    simulate : :func:`nucleation.simulation.run.simulate`. The caller imports it, so that it counts
-        as code that the caller's result depends on.
-    parameters : of the run.
-    result : where it belongs, its key and code.
+
+def record_of(job: Job, task: Task) -> xr.Dataset:
+    """The record of a run, found or made, and now in the store.
 
     Raises
     ------
-    DatasetError
+    StoreError
         If what is there is damaged or of another key.
     Failed
-        If the run ends before its end time or event; its record is beside the place of the result.
+        If the run ends before its end time or event; its record is among the unfinished.
     Stopped
         If a signal has stopped the run, which has left a checkpoint.
     """
-    if result.path.is_file() or job.fetched(result):
-        return job.read(str(result.path), result.key)
-    checkpoint = checkpoint_of(parameters, result.path, result.code)
+    key, name = task.key, Path(task.link).stem
+    if job.found(key):
+        return job.open(str(path_in(job.store.entry(key), ".nc")))
+    from ..simulation.run import simulate
+
+    parameters = Parameters.from_dict(task.values["parameters"])
+    place = job.results / UNFINISHED / f"{name}.nc"
+    checkpoint = checkpoint_of(parameters, place, task.code)
     checkpoint.listen()
-    dataset, path = run_to_file(
-        simulate,
-        parameters,
-        result.path,
-        job.attributes(parameters.to_dict(), result),
-        checkpoint=checkpoint,
-        progress=Progress(parameters, sys.stderr),
-    )
-    if path != result.path:
-        raise Failed(f"{result.path.stem}: {dataset.attrs['status']}; its record is in {path}")
-    job.keep(result)
+    dataset = simulated(simulate, parameters, checkpoint, Progress(parameters, sys.stderr))
+    failed = place.with_suffix(".failed.nc")
+    if not dataset.attrs["completed"]:
+        origin = provenance.attributes(task.values["parameters"], task.code, "", key=key)
+        netcdf.write(dataset, failed, **origin)
+        checkpoint.remove()
+        raise Failed(f"{name}: {dataset.attrs['status']}; its record is in {failed}")
+    job.put(task, key, dataset)
+    checkpoint.remove()
+    failed.unlink(missing_ok=True)
     return dataset
 
 
-def run_to_file(
-    simulate: Simulate,
+def simulated(
+    simulate: Callable[..., xr.Dataset],
     parameters: Parameters,
-    output: Path,
-    attributes: Mapping[str, Any],
-    *,
     checkpoint: Checkpoint,
     progress: Callable[[Any], None],
-) -> tuple[xr.Dataset, Path]:
-    """Simulate, from the checkpoint if there is one, and write the record.
+) -> xr.Dataset:
+    """The record of a run, from its checkpoint on if there is one.
 
     Parameters
     ----------
-    simulate, parameters : as of :func:`record_of`.
-    output : place of the result; the record of a failed run goes beside it, as ``.failed.nc``.
-    attributes : of the dataset, from :func:`nucleation.datasets.provenance.attributes`.
-    checkpoint : of :func:`checkpoint_of`; it is removed once the record is written.
+    simulate : :func:`nucleation.simulation.run.simulate`.
+    parameters : of the run.
+    checkpoint : of :func:`checkpoint_of`; to be removed once the record is written.
     progress : called with every accepted step.
-
-    Returns
-    -------
-    The record, and where it was written.
-
-    Raises
-    ------
-    Stopped
-        If a signal has stopped the run, which has left a checkpoint.
     """
-    dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
-    failed = output.with_suffix(".failed.nc")
-    path = output if dataset.attrs["completed"] else failed
-    netcdf.write(dataset, path, **attributes)
-    checkpoint.remove()
-    if path == output:
-        failed.unlink(missing_ok=True)
-    return dataset, path
+    return simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
 
 
 def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Checkpoint:
@@ -107,5 +94,49 @@ def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Che
 
 
 def simulation_code(parameters: Parameters) -> str:
-    """Digest of the code that a simulation runs, outside of the workflow."""
-    return code.digest("nucleation.simulation.run", *code.ALWAYS, *plugins(parameters))
+    """Digest of the code that a simulation runs, as in the workflow."""
+    return Task("", SIMULATE, plugins(parameters), {}, {}).code
+
+
+def run(snakemake: Any) -> None:
+    """Make the simulations of a job and link them; one that fails does not keep the others."""
+    with running(snakemake) as job:
+        failures: list[str] = []
+        for task in job.tasks:
+            for _ in _records(job, [task], failures):
+                job.leave_link(task)
+        _stop_on(failures, len(job.tasks))
+
+
+def run_batch(snakemake: Any) -> None:
+    """Make the simulations of a batch, and the table of what is measured of them."""
+    with running(snakemake) as job:
+        (task,) = job.tasks
+        failures: list[str] = []
+        if not job.found(task.key):
+            runs = task.values["runs"]
+            tasks = [task_of_run(one, job.results) for one in runs]
+            job.make_with(task, records=_records(job, tasks, failures))
+            _stop_on(failures, len(runs))
+        job.leave_link(task)
+
+
+def _records(job: Job, tasks: Iterable[Task], failures: list[str]) -> Iterator[xr.Dataset | None]:
+    """The record of each run; None of one that failed, which is noted."""
+    for task in tasks:
+        try:
+            yield record_of(job, task)
+        except Failed as failure:
+            failures.append(str(failure))
+            print(failure, file=sys.stderr)
+            yield None
+        except Stopped as stopped:
+            end(f"{Path(task.link).stem}: {stopped}")
+
+
+def _stop_on(failures: list[str], number: int) -> None:
+    if failures and number == 1:
+        end(failures[0])
+    if failures:
+        count = f"{len(failures)} of {number} runs failed"
+        end("\n  ".join([f"{count}, the others are kept:", *failures]))

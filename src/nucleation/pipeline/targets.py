@@ -1,10 +1,6 @@
-"""What a user may ask the workflow for: the default, and what a name it lacks may have meant."""
+"""The target that a configuration stands for."""
 
 from __future__ import annotations
-
-import difflib
-from collections.abc import Iterable
-from typing import Any
 
 from ..configuration.load import Configuration
 from ..model.quantities import ParameterError
@@ -27,19 +23,3 @@ def default_target(settings: Configuration) -> str:
     except ParameterError:
         return STUDIES
     return PAPER
-
-
-def unknown_target(asked: str, rules: Iterable[Any]) -> str:
-    """What to say of a target that no rule makes.
-
-    Parameters
-    ----------
-    asked : name of a rule or path of a file, as on the command line.
-    rules : Snakemake's.
-    """
-    concrete = [rule for rule in rules if not rule.has_wildcards()]
-    known = [name for rule in concrete for name in (rule.name, *map(str, rule.output))]
-    close = difflib.get_close_matches(asked, known, n=3)
-    if close:
-        return f"no target {asked}: did you mean {' or '.join(close)}?"
-    return f"no target {asked}: docs/workflow.md and `snakemake --list-target-rules` name them"

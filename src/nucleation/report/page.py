@@ -217,7 +217,10 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
     for picture in content.pictures:
         shown, *others = picture.files
         downloads = [
-            {"name": path.name, "address": encode.data_address(path.read_bytes(), path.name)}
+            {
+                "name": f"{picture.name}{path.suffix}",
+                "address": encode.data_address(path.read_bytes(), path.name),
+            }
             for path in others
         ]
         downloads += [_table(content.results, data) for data in picture.data]

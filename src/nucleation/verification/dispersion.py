@@ -11,15 +11,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from ..model.friction.law import Friction
 from ..model.linearised import (
     interface_state,
 )
-from ..model.parameters import Geometry, Mesh, Parameters
+from ..model.material import Material
+from ..model.parameters import Geometry, Loading, Mesh, Parameters
 from ..simulation.interface import Interface
 from ..simulation.periodic import sliding_period, sliding_state
 from ..theory.critical import critical_wavenumber
@@ -189,3 +192,9 @@ def to_csv(dataset: xr.Dataset) -> str:
     table = columns.assign(disagreement=disagreement(dataset)).to_dataframe().reset_index()
     order = ["height", "wavenumber_over_critical", "branch", "mode_wavenumber", *rates]
     return table[[*order, "disagreement"]].to_csv(index=False, float_format="%.8g")
+
+
+def table(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
+    """The step ``dispersion``: :func:`dispersion_dataset` with its CSV."""
+    found = dispersion_dataset(Parameters(material=material, friction=friction, loading=loading))
+    return {".nc": found, ".csv": to_csv(found)}

@@ -10,7 +10,7 @@ slip and state by BDF3, and the order in dt is three.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -211,3 +211,9 @@ def to_csv(dataset: xr.Dataset) -> str:
                     numbers = ("" if np.isnan(x) else f"{x:.6g}" for x in row)
                     lines.append(f"{problem},{refinement}," + ",".join(numbers))
     return "\n".join(lines) + "\n"
+
+
+def table() -> dict[str, Any]:
+    """The step ``verification``: :func:`convergence_dataset` with its CSV."""
+    found = convergence_dataset()
+    return {".nc": found, ".csv": to_csv(found)}

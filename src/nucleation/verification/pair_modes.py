@@ -16,8 +16,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..model.friction.law import Friction
 from ..model.linearised import interface_state
-from ..model.parameters import Parameters
+from ..model.material import Material
+from ..model.parameters import Loading, Parameters
 from ..theory.closed_forms import bimaterial_contrast
 from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
@@ -174,3 +176,9 @@ def to_csv(dataset: xr.Dataset) -> str:
     table = dataset.assign(wavenumber_over_critical=ratio, disagreement=disagreement(dataset))
     frame = table.to_dataframe(["run", "branch"]).reset_index().drop(columns="run")
     return frame.to_csv(index=False, float_format="%.8g")
+
+
+def table(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
+    """The step ``pair_modes``: :func:`pair_modes` with its CSV."""
+    found = pair_modes(Parameters(material=material, friction=friction, loading=loading))
+    return {".nc": found, ".csv": to_csv(found)}

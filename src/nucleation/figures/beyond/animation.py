@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ...analysis.lengths import row
 from ...analysis.moments import event_interval
 from ...analysis.record import parameters_of
 from ...datasets.files import replacing
@@ -166,3 +168,9 @@ def _force_panel(
         point.set_data([(now - origin) * scale], [np.interp(now, time, force)])
 
     return move
+
+
+def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Any]:
+    """The step ``draw_animation``: a GIF."""
+    images = frames(film, row(lengths, id))
+    return {".gif": lambda path: save(images, path)}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -260,3 +261,11 @@ def _edges(axes: list[Array]) -> list[Array]:
         borders = np.concatenate([ends[:1], middle, ends[1:]])
         found.append(np.exp(borders) if log else borders)
     return found
+
+
+def draw_study(
+    table: xr.Dataset, varied: Values, entries: dict[str, dict[str, Any]], theory: Curves
+) -> Figure:
+    """The step ``draw_study``: :func:`draw` with plain declarations of what is varied."""
+    declared = {name: Quantity(**entry) for name, entry in entries.items()}
+    return draw(table, varied, declared, theory)

@@ -13,6 +13,7 @@ from ...analysis.definitions import ExtractionSettings
 from ...analysis.record import Record
 from ...figures import style
 from ...model.parameters import Parameters
+from ...verification.crosscheck import plan
 
 OWN, FREEFEM = style.BLACK, style.VERMILLION
 KILO = 1e3
@@ -137,3 +138,13 @@ def _label(panels: np.ndarray) -> None:
         axes.set_title(f"({letter})", loc="left", pad=3.0)
     figure = panels[0, 0].figure
     figure.align_ylabels(panels[:, 0])
+
+
+def draw_runs(
+    ids: Sequence[str], own: Sequence[xr.Dataset], freefem: Sequence[xr.Dataset],
+    table: xr.Dataset, settings: ExtractionSettings,
+) -> Figure:  # fmt: skip
+    """The step ``draw_figure_crosscheck``: all runs but the one that times steps."""
+    shown = [i for i, name in enumerate(ids) if name != plan.TIMING]
+    records = [(own[i], freefem[i]) for i in shown]
+    return draw(records, table.isel(run=np.array(shown)), settings)

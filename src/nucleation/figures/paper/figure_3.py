@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...analysis.lengths import over_realisations
+from ...analysis.lengths import over_realisations, row
 from ...figures import slip_rate_snapshots, style
 
 USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
@@ -177,3 +177,10 @@ def _number(value: float) -> str:
     if exponent >= 3.0 and exponent == round(exponent):
         return f"10^{{{exponent:.0f}}}"
     return f"{value:g}"
+
+
+def draw_run(
+    theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str
+) -> Figure:
+    """The step ``draw_figure_3``: with one of the runs in the inset."""
+    return draw(theory, lengths, simulation, row(lengths, id))

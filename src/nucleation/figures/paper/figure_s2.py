@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
+from ...analysis.lengths import row
 from ...figures import space_time, style
 from ...model.parameters import Parameters
 
@@ -144,3 +145,8 @@ def _label(panels: np.ndarray, row: xr.Dataset) -> None:
         across = force.get_xaxis_transform()
         place = {"xy": (float(row["onset_time"]), 0.0), "xycoords": across, "xytext": (-4.0, 5.0)}
         force.annotate("onset", color=style.GUIDE, ha="right", **place, **beside)
+
+
+def draw_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+    """The step ``draw_figure_s2``: one of the runs of a table."""
+    return draw(simulation, row(lengths, id))

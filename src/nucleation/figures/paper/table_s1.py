@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -65,3 +67,10 @@ def to_markdown(table: list[Row]) -> str:
         symbol = row.symbol.replace("*", r"\*")
         lines.append(f"| {symbol} | {value_text(row.value)} | {row.unit} | {row.description} |")
     return "\n".join(lines) + "\n"
+
+
+def files(friction: Friction) -> dict[str, str]:
+    """The step ``table_s1``: CSV and Markdown."""
+    found, text = rows(friction), io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([Row._fields, *found])
+    return {".csv": text.getvalue(), ".md": to_markdown(found)}

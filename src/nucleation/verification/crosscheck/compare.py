@@ -9,7 +9,7 @@ front from node to node shakes, begins to tell the two apart.
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 
 from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
+from ...analysis.lengths import Files, with_csv
 from ...analysis.record import Record
+from ...datasets.variables import DatasetError
 from ...model.parameters import Parameters
 from ...simulation.run import simulate
 
@@ -102,3 +104,27 @@ def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:
     """The table of all rows, by the runs' names, on the dimension ``run``."""
     listed: Sequence[dict[str, object]] = [{"id": name, **row} for name, row in rows.items()]
     return xr.Dataset({name: ("run", [row[name] for row in listed]) for name in COLUMNS})
+
+
+def own(parameters: Parameters) -> xr.Dataset:
+    """The step ``crosscheck_own``: :func:`simulate_timed`, refused if it is not complete.
+
+    Raises
+    ------
+    DatasetError
+        With the reason.
+    """
+    record = simulate_timed(parameters)
+    if not record.attrs["completed"]:
+        raise DatasetError(f"the run has no result: {record.attrs['status']}")
+    return record
+
+
+def table(
+    ids: Sequence[str], own: Iterable[xr.Dataset], freefem: Iterable[xr.Dataset],
+    settings: ExtractionSettings,
+) -> Files:  # fmt: skip
+    """The step ``compare_crosscheck``: each run by both solvers."""
+    records = zip(ids, own, freefem, strict=True)
+    rows = {name: compare(first, second, settings) for name, first, second in records}
+    return with_csv(gather(rows), COLUMNS)

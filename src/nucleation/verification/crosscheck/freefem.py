@@ -10,14 +10,17 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import xarray as xr
 
 from ...analysis.definitions import ExtractionSettings
 from ...model.parameters import Parameters
+from ...model.quantities import ParameterError
 from ...simulation.realisation import Series, Sheet
 from .plan import FIXED, KINDS, CrosscheckSettings
 
@@ -180,3 +183,22 @@ def read(directory: Path, parameters: Parameters) -> xr.Dataset:
         "processor_seconds": float(rows["elapsed_time"][-1]),
     }
     return xr.Dataset(data, coords=coords, attrs=attributes)
+
+
+def of_run(
+    scripts: Sequence[Path], parameters: Parameters, crosscheck: CrosscheckSettings,
+    settings: ExtractionSettings,
+) -> xr.Dataset:  # fmt: skip
+    """The step ``crosscheck_freefem``: a run with these scripts, its own records thrown away.
+
+    Raises
+    ------
+    ParameterError
+        If FreeFem++ is missing or failed.
+    """
+    with TemporaryDirectory() as directory:
+        try:
+            found = run(scripts[0].parent, Path(directory), parameters, crosscheck, settings)
+        except FreeFemError as error:
+            raise ParameterError(str(error)) from None
+    return found.assign_attrs(parameters=parameters.to_json())

@@ -1,0 +1,73 @@
+"""From the workflow's results to the tables of claims and the article: the steps of both."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from ..analysis import lengths as table_of_lengths
+from ..analysis.definitions import ExtractionSettings
+from ..model.friction.law import Friction
+from ..model.linearised import InterfaceState
+from ..model.material import Material
+from ..model.parameters import Loading
+from . import article, table
+from .evidence import Evidence
+from .measure import measure
+from .statements import two_bodies
+
+Rows = list[dict[str, Any]]
+
+
+def of_paper(
+    material: Material, friction: Friction, loading: Loading, interface: InterfaceState,
+    settings: ExtractionSettings, theory: xr.Dataset, dispersion: xr.Dataset,
+    lengths: Iterable[xr.Dataset], simulations: Iterable[xr.Dataset], ids: Sequence[str],
+    longer: Sequence[xr.Dataset], longer_runs: Rows,
+    patches: Iterable[xr.Dataset], patch_ids: Sequence[str],
+) -> dict[str, str]:  # fmt: skip
+    """The step ``claims``: a verdict on every statement of the paper.
+
+    Parameters
+    ----------
+    material, friction, loading, interface, theory, dispersion : as of :class:`.Evidence`.
+    settings : how lengths are read.
+    lengths : tables of the studies judged.
+    simulations, ids : of the runs of these studies, with their names.
+    longer, longer_runs : simulations in longer blocks, with those they are compared with.
+    patches, patch_ids : stability of patches, with the names of their runs.
+    """
+    tables, blocks = list(lengths), list(longer)
+    if blocks:
+        tables.append(table_of_lengths.gather(longer_runs, blocks, settings))
+    named = itertools.chain(
+        zip(ids, simulations, strict=True),
+        zip([run["id"] for run in longer_runs], blocks, strict=True),
+    )
+    evidence = Evidence(
+        material, friction, loading, interface, theory, dispersion, tuple(tables),
+        measures={id: measure(dataset, settings) for id, dataset in named},
+        patches=dict(zip(patch_ids, patches, strict=True)),
+    )  # fmt: skip
+    rows = table.evaluate(evidence)
+    return _files(rows) | {".json": table.to_json(rows)}
+
+
+def of_pairs(pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
+    """The step ``claims_pairs``: what the theory says of two bodies, by simulations of them."""
+    return _files(two_bodies.evaluate(pairs, modes))
+
+
+def _files(rows: Rows) -> dict[str, str]:
+    return {".csv": table.to_csv(rows), ".md": table.to_markdown(rows)}
+
+
+def write_article(template: Path, claims: Path, lengths: Iterable[xr.Dataset]) -> dict[str, str]:
+    """The step ``article``: its text, with numbers from the claims and lengths."""
+    rows = json.loads(claims.read_text("utf-8"))
+    return {".md": article.render(template.read_text("utf-8"), rows, list(lengths))}

@@ -1,0 +1,163 @@
+"""What follows from the rules: keys of results, where they are, and what stands behind a target.
+
+A rule says which function makes its result (``call``), code that is loaded by name (``loads``), all
+other parameters, and inputs. From these follows the key. What a store has under a key is a plain
+file to Snakemake; what it lacks is a link ``.links/NAME.KEY.nc`` that a job has to make. So nothing
+of Snakemake decides what is current, and a dry run lists what will be computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+from . import code, keys
+from .store import Store, path_in
+
+LINKS = ".links"
+"""Directory below the results with what jobs tell Snakemake they have made."""
+
+ABOUT = ("call", "loads", "simulates", "each")
+"""Parameters of rules that are no parameters of a result."""
+
+Sources = dict[str, "str | list[str]"]
+"""Inputs by their role: a path, or a list of them."""
+
+
+class Made(NamedTuple):
+    """A result that a rule makes."""
+
+    path: str  # in the store; or the link, if it is still to be made
+    key: str
+    shown: str  # its name in the directory of results, without a suffix
+    sources: Sources
+
+
+class Task(NamedTuple):
+    """All that a job has to know of one result."""
+
+    link: str
+    call: str
+    loads: list[str]
+    values: dict[str, Any]
+    sources: Sources
+
+    @property
+    def key(self) -> str:
+        """Of the result, from what it is made of."""
+        sources = {role: [*map(keys.of_file, _listed(p))] for role, p in self.sources.items()}
+        function = self.call.partition(":")[2]
+        return keys.key(self.code, {"": function, **self.values}, sources)
+
+    @property
+    def code(self) -> str:
+        """Digest of the code that makes it."""
+        return code.digest(*self.roots)
+
+    @property
+    def roots(self) -> tuple[str, ...]:
+        """The modules that this code begins with."""
+        return (self.call.partition(":")[0], *code.ALWAYS, *self.loads)
+
+
+def task_of(link: str, params: Mapping[str, Any], sources: Sources) -> Task:
+    """The task that a rule's parameters and inputs describe."""
+    values = {name: value for name, value in params.items() if name not in ABOUT}
+    return Task(link, params["call"], list(params.get("loads", ())), values, sources)
+
+
+def _listed(paths: str | list[str]) -> list[str]:
+    return [paths] if isinstance(paths, str) else paths
+
+
+class Steps:
+    """The results of a workflow's rules.
+
+    Parameters
+    ----------
+    rules : Snakemake's; one is asked for once it is used, so it may stand further down.
+    results : directory of the results.
+    """
+
+    def __init__(self, rules: Any, results: str) -> None:
+        self._rules, self._results = rules, results
+        self.store = Store(f"{results}/store")
+        self._made: dict[str, Made] = {}
+        self._together: dict[tuple[str, str], str] = {}
+        self.made = cache(self._find)
+
+    def link(self, name: str, suffix: str = "nc") -> str:
+        """Output of a rule whose result is shown under a name: a link that bears the key."""
+        return f"{self._results}/{LINKS}/{name}.{{key}}.{suffix}"
+
+    def __call__(self, rule: str, name: str = "") -> str:
+        """The path of a result: in the store, or that of the link which is to be made.
+
+        Parameters
+        ----------
+        rule : name of the rule.
+        name : value of its wildcard ``name``, if it has one.
+        """
+        return self.made(rule, name).path
+
+    def several(self, rule: str, names: Iterable[str]) -> list[str]:
+        """The paths of some results of one rule."""
+        return [self(rule, name) for name in names]
+
+    def together(self, rule: str, names: Iterable[str], job: str) -> list[Task]:
+        """Have results of a rule made by a job for all of them; what this job has to do."""
+        tasks = []
+        for name in names:
+            self._together[rule, name] = job
+            tasks.append(self._task(rule, name)[0])
+        return tasks
+
+    def _task(self, rule: str, name: str) -> tuple[Task, str]:
+        """What a result is made of, and the name it is shown under."""
+        said = getattr(self._rules, rule)
+        wildcards = SimpleNamespace(name=name)
+        sources = {role: _plain(_given(value, wildcards)) for role, value in said.input.items()}
+        params = {
+            role: _given(value, wildcards)
+            for role, value in said.params.items()
+            if role not in ("simulates", "each")
+        }
+        pattern = str(said.output[0])
+        before, _, after = pattern.replace("{name}", name).partition(".{key}")
+        shown = before.partition(f"/{LINKS}/")[2]
+        task = task_of("", params, sources)
+        if (rule, name) in self._together:
+            before = f"{self._results}/{LINKS}/{self._together[rule, name]}/{name}"
+        return task._replace(link=f"{before}.{task.key}{after}"), shown
+
+    def _find(self, rule: str, name: str = "") -> Made:
+        task, shown = self._task(rule, name)
+        key, suffix = str(keys.key_in(task.link)), task.link.rpartition(".")[2]
+        done = self.store.note(key) is not None
+        path = str(path_in(self.store.entry(key), f".{suffix}")) if done else task.link
+        made = Made(path, key, shown, task.sources)
+        self._made[path] = made
+        return made
+
+    def behind(self, paths: Iterable[str]) -> dict[str, Made]:
+        """All results among some files and what these are made of, all the way down, by path."""
+        found: dict[str, Made] = {}
+        waiting = list(paths)
+        while waiting:
+            path = waiting.pop()
+            if path in self._made and path not in found:
+                found[path] = self._made[path]
+                for sources in found[path].sources.values():
+                    waiting += _listed(sources)
+        return found
+
+
+def _given(value: Any, wildcards: Any) -> Any:
+    return value(wildcards) if isinstance(value, Callable) else value  # type: ignore[arg-type]
+
+
+def _plain(paths: Any) -> str | list[str]:
+    """Paths as plain texts, without what Snakemake knows of them."""
+    return str(paths) if isinstance(paths, str) else [str(path) for path in paths]

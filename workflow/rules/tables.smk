@@ -1,0 +1,107 @@
+# Tables beyond the paper: each is made of others, of simulations, or of what was read from these.
+rule gather_drop:
+    input:
+        drops=needed(lambda wildcards: lengths_of(*in_role("drop")), "study drop"),
+        quiet=lambda wildcards: lengths_of(*FLOORS),
+        modes=needed(lambda wildcards: modes("quiet"), "study quiet"),
+    output:
+        link("drop"),
+    log:
+        log("drop"),
+    params:
+        call="nucleation.patch.drop_table:table",
+        loads=EVOLUTIONS,
+    message:
+        "Drops, and the law of the drop"
+    script:
+        STEP
+
+
+rule gather_floors:
+    input:
+        quiet=lambda wildcards: lengths_of(*FLOORS),
+        modes=needed(
+            lambda wildcards: steps.several("mode", [run.id for run in floor_runs()]),
+            "fault of the study convergence_quiet in a study quiet",
+        ),
+    output:
+        link("floors"),
+    log:
+        log("floors"),
+    params:
+        call="nucleation.patch.drop_table:floors_table",
+        loads=EVOLUTIONS,
+    message:
+        "Noise of meshes and steps"
+    script:
+        STEP
+
+
+rule gather_map:
+    input:
+        lengths=needed(mapped, "study map"),
+    output:
+        link("map"),
+    log:
+        log("map"),
+    params:
+        call="nucleation.patch.map_table:table",
+    message:
+        "The map of lengths over height and weakening"
+    script:
+        STEP
+
+
+# All studies whose base is deformable in every run.
+rule gather_pairs:
+    input:
+        simulations=needed(
+            lambda wildcards: simulations(*PAIR_STUDIES), "study of two deformable bodies"
+        ),
+        patches=lambda wildcards: patches(*PAIR_STUDIES),
+    output:
+        link("pairs"),
+    log:
+        log("pairs"),
+    params:
+        call="nucleation.patch.pairs:table",
+        runs=as_dicts(runs_in(*PAIR_STUDIES)),
+        settings=asdict(settings.extraction),
+    message:
+        "Lengths of the patches between two deformable bodies"
+    script:
+        STEP
+
+
+rule convergence:
+    input:
+        tables=needed(lambda wildcards: lengths_of(*CONVERGENCE_STUDIES), "study of convergence"),
+    output:
+        link("convergence"),
+    log:
+        log("convergence"),
+    params:
+        call="nucleation.analysis.convergence:table",
+    message:
+        "Critical lengths against mesh and steps"
+    script:
+        STEP
+
+
+rule sensitivity:
+    input:
+        simulations=needed(
+            lambda wildcards: simulations(*in_role("sensitivity")), "study sensitivity"
+        ),
+    output:
+        link("sensitivity"),
+    log:
+        log("sensitivity"),
+    params:
+        call="nucleation.analysis.sensitivity:table",
+        runs=as_dicts(runs_in("sensitivity")),
+        settings=asdict(settings.extraction),
+    message:
+        "Sensitivity of critical lengths"
+    script:
+        STEP

@@ -1,0 +1,139 @@
+# What users ask for. A target needs results and all that these are made of; its own job, which takes
+# no time and always runs, lays links to them under plain names (docs/reuse.md).
+PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
+
+
+def drawn(name):
+    return [steps(f"draw_{name}")]
+
+
+def article():
+    found = [steps("write_article"), steps("evaluate_claims")]
+    return [*found, *(steps(f"draw_{name}") for name in PAPERS_FIGURES)]
+
+
+def of_study(name):
+    return [steps("draw_study", name), *lengths_of(name)]
+
+
+TARGETS = {
+    "paper": (
+        "Every figure, table and verdict of the paper.",
+        lambda: [*article(), steps("write_table_s1"), steps("gather_lengths")],
+    ),
+    "studies": (
+        "Tables and figures of all studies.",
+        lambda: [
+            *(path for study in settings.studies for path in of_study(study)),
+            *([steps("gather_lengths")] if SHARED else []),
+        ],
+    ),
+    "simulations": (
+        "The simulations of the studies that share lengths.csv.",
+        lambda: needed(lambda _: made_by_jobs(*SHARED), "study with table: lengths")(None),
+    ),
+    "lengths": ("Onset and critical length of each of them.", lambda: [steps("gather_lengths")]),
+    "claims": ("A verdict on every statement of the paper.", lambda: [steps("evaluate_claims")]),
+    "article": ("The replication as a short article.", article),
+    "table_s1": ("Table S1: parameters of the friction law.", lambda: [steps("write_table_s1")]),
+    **{
+        name: (f"{FIGURES[name].title}.", lambda name=name: drawn(name))
+        for name in [*DRAWN, "animation"]
+    },
+    "figure_studies": (
+        "A figure of each study that shares lengths.csv.",
+        lambda: needed(
+            lambda _: [path for study in SHARED for path in of_study(study)],
+            "study with table: lengths",
+        )(None),
+    ),
+    **{
+        f"figure_study_{study}": (f"Figure of the study {study}.", lambda study=study: of_study(study))
+        for study in settings.studies
+    },
+    "pairs": (
+        "Two deformable bodies: lengths over the theory of the own far sides, and verdicts.",
+        lambda: [steps("gather_pairs"), steps("evaluate_pairs"), steps("pair_modes")],
+    ),
+    "floors": (
+        "How noisy each mesh is with its steps, as a declared strength.",
+        lambda: [steps("gather_floors")],
+    ),
+    "patch_convergence": (
+        "Where patches turn unstable on refined meshes.",
+        lambda: [steps("gather_patches", "patch_convergence")],
+    ),
+    "figure_crosscheck": (
+        "The figure of both solvers.",
+        lambda: [steps("draw_figure_crosscheck"), steps("compare_crosscheck")],
+    ),
+    "crosscheck": (
+        "The same runs by an independent solver.",
+        lambda: [steps("draw_figure_crosscheck"), steps("compare_crosscheck")],
+    ),
+    "report": ("Everything on one page, results/report.html.", lambda: [steps("write_report")]),
+}
+"""What each target is for, and the results it leads to; `steps.behind` adds what these stand on."""
+
+if runs_in("patch_convergence"):
+    TARGETS["figure_patch_stability"] = (
+        TARGETS["figure_patch_stability"][0],
+        lambda: [*drawn("figure_patch_stability"), steps("gather_patches", "patch_convergence")],
+    )
+
+
+@functools.cache
+def wanted(target):
+    """All results that a target leads to, by path."""
+    return steps.behind(TARGETS[target][1]())
+
+
+def shown(target):
+    """Names and keys of what a target shows, the results it is for first."""
+    first = [*dict.fromkeys(TARGETS[target][1]())]
+    everything = wanted(target)
+    made = [everything[path] for path in dict.fromkeys([*first, *everything])]
+    return [(one.shown, one.key) for one in made]
+
+
+def everything(wildcards):
+    """Names and keys of all results that any target can lead to."""
+    found = {}
+    for target in TARGETS:
+        try:
+            found |= {made.shown: made.key for made in wanted(target).values()}
+            found |= dict(batched_simulations(wanted(target)))
+        except WorkflowError:
+            pass  # the configuration lacks what this target needs
+    return found
+
+
+# What of the results is stale, incomplete, damaged or foreign, without running anything else; and
+# which results nothing refers to any more.
+for _name, _says in (
+    ("check", "List what is stale, incomplete, damaged or foreign."),
+    ("prune", "List results that nothing refers to, and with PRUNE=yes remove them."),
+):
+
+    rule:
+        name:
+            _name
+        params:
+            results=RESULTS,
+            expected=everything,
+            says=_name,
+        localrule: True
+        message:
+            _says
+        script:
+            "../scripts/check.py"
+
+
+rule targets:
+    """What there is to ask for."""
+    params:
+        listing={name: text for name, (text, _) in TARGETS.items()},
+    localrule: True
+    run:
+        for name, text in params.listing.items():
+            print(f"{name:{max(map(len, params.listing))}}  {text}")
