@@ -62,20 +62,17 @@ bench: $(STAMP) ## Measure on one core: PARTS="solver scale overhead progress", 
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.pipeline.benchmark \
 		config/config.yaml $(PARTS)
 
+REFERENCE := patch_stability.csv patch_convergence.csv twin_runs.csv verification.csv pairs.csv \
+	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
+	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \
+	tables/claims_pairs.csv tables/claims_pairs.md
+
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
-	$(BIN)/snakemake paper figure_patch_stability figure_3_extended figure_convergence \
-		figure_sensitivity figure_verification figure_dispersion figure_drop animation \
-		figure_pairs figure_2_simulated pairs figure_map floors \
-		--cores $(CORES) --workflow-profile workflow/profiles/default
+	$(BIN)/snakemake paper patch_convergence figure_patch_stability figure_3_extended \
+		figure_convergence figure_sensitivity figure_verification figure_dispersion figure_drop \
+		animation figure_pairs figure_2_simulated pairs figure_map floors $(OPTIONS)
 	mkdir -p results/reference
-	cp results/patch_stability.csv results/patch_convergence.csv \
-		results/twin_runs.csv results/verification.csv results/pairs.csv \
-		results/pair_modes.csv \
-		results/drop.csv results/map.csv results/floors.csv results/dispersion.csv \
-		results/convergence.csv results/sensitivity.csv \
-		results/figures/*.png results/figures/animation.gif \
-		results/tables/claims.csv results/tables/claims.md \
-		results/tables/claims_pairs.csv results/tables/claims_pairs.md results/reference/
+	cd results && install -m 644 $(REFERENCE) reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md
 	@# digits beyond the twelfth are those of one machine
 	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
@@ -86,8 +83,8 @@ targets: $(STAMP) ## List what TARGETS may name
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(LAUNCH) check $(OPTIONS) $(CONFIGURED)
 
-prune: $(STAMP) ## Remove datasets of earlier parameters or code, which nothing uses
-	$(LAUNCH) prune $(OPTIONS) $(CONFIGURED)
+prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
+	PRUNE="$(PRUNE)" $(LAUNCH) prune $(OPTIONS) $(CONFIGURED)
 
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
 	@$(BIN)/python -m nucleation.pipeline.bundle write "$(or $(FILE),results.tar)" "$(CONFIG)"
