@@ -156,13 +156,13 @@ for _target in TARGETS:
         default_target: _target == DEFAULT
         input:
             lambda wildcards, target=_target: [*wanted(target)],
+        localrule: True
         params:
             shown=lambda wildcards, target=_target: shown(target),
             batched=lambda wildcards, target=_target: batched_simulations(wanted(target)),
             results=RESULTS,
             says=TARGETS[_target][0],
             main=lambda wildcards, target=_target: len(dict.fromkeys(TARGETS[target][1]())),
-        localrule: True
         message:
             TARGETS[_target][0]
         script:

@@ -15,9 +15,9 @@ rule evaluate_claims:
         log("tables/claims"),
     threads: 1
     params:
+        **CONFIGURED("material", "friction", "loading"),
         call="nucleation.claims.evaluation:of_paper",
         loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
-        **CONFIGURED("material", "friction", "loading"),
         interface=asdict(settings.main_text_interface),
         settings=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],

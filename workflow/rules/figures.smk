@@ -65,8 +65,8 @@ for _name, _inputs in DRAWN.items():
         log:
             log(f"figures/{_name}"),
         params:
-            call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
             **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
+            call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
         message:
             FIGURES[_name].title
         script:

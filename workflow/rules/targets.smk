@@ -48,7 +48,10 @@ TARGETS = {
         )(None),
     ),
     **{
-        f"figure_study_{study}": (f"Figure of the study {study}.", lambda study=study: of_study(study))
+        f"figure_study_{study}": (
+            f"Figure of the study {study}.",
+            lambda study=study: of_study(study),
+        )
         for study in settings.studies
     },
     "pairs": (
@@ -118,11 +121,11 @@ for _name, _says in (
     rule:
         name:
             _name
+        localrule: True
         params:
             results=RESULTS,
             expected=everything,
             says=_name,
-        localrule: True
         message:
             _says
         script:
@@ -130,10 +133,10 @@ for _name, _says in (
 
 
 rule targets:
+    localrule: True
     """What there is to ask for."""
     params:
         listing={name: text for name, (text, _) in TARGETS.items()},
-    localrule: True
     run:
         for name, text in params.listing.items():
             print(f"{name:{max(map(len, params.listing))}}  {text}")

@@ -165,7 +165,7 @@ def _planned(run: Run) -> dict[str, Any]:
 
 def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
-    from ..datasets import provenance
+    from ..datasets import netcdf, provenance
     from ..pipeline.progress import Progress
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
@@ -178,8 +178,9 @@ def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
     try:
         with _listening(checkpoint):
             dataset, path = run_to_file(
-                simulate, run.parameters, output, attributes,
-                checkpoint=checkpoint, progress=progress,
+                simulate, run.parameters, output,
+                lambda dataset, path: netcdf.write(dataset, path, **attributes),
+                checkpoint, progress,
             )  # fmt: skip
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)

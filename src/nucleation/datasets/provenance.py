@@ -41,7 +41,7 @@ def attributes(
     parameters: Any,
     code_digest: str,
     command: str,
-    sources: Mapping[str, str] | None = None,
+    sources: Mapping[str, Any] | None = None,
     key: str = "",
 ) -> dict[str, str]:
     """The attributes of a dataset that say how it was made (all of them text).
@@ -54,7 +54,7 @@ def attributes(
         From :func:`nucleation.pipeline.code.digest`.
     command : str
         A command that makes the dataset again.
-    sources : mapping of path to key
+    sources : mapping of role to keys
         What it is made from.
     key : str
         Of the dataset in the workflow (:func:`nucleation.pipeline.keys.key`), if it is from there.

@@ -179,8 +179,6 @@ def _number(value: float) -> str:
     return f"{value:g}"
 
 
-def draw_run(
-    theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str
-) -> Figure:
+def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
     """The step ``draw_figure_3``: with one of the runs in the inset."""
     return draw(theory, lengths, simulation, row(lengths, id))
