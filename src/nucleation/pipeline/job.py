@@ -83,7 +83,8 @@ class Job:
         """Make the result of a task from its inputs."""
         module, _, name = task.call.partition(":")
         function = getattr(importlib.import_module(module), name)
-        given = arguments(function, {**task.values, "origin": self.origin(task)})
+        values = {**task.values, "origin": self.origin(task)}
+        given = arguments(function, values)
         self.put(task, task.key, function(**given, **inputs))
 
     def read(self, task: Task) -> dict[str, Any]:
