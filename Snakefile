@@ -47,6 +47,7 @@ from nucleation.model.quantities import ParameterError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
+from nucleation.configuration.roles import PAIRS as PAIR_ROLES, REFINEMENTS, ROLES, forgotten
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.studies import theory_curves
 
@@ -77,11 +78,11 @@ if workflow.resource_settings.cores is not None and workflow.resource_settings.c
     raise WorkflowError("--cores must be 1 or more: with less, Snakemake waits forever")
 
 if workflow.is_main_process:  # and not again in each job
-    for warning in [*advise(settings.runs), cache.shared() and cache.warning(cache.shared())]:
+    for warning in [*forgotten(config, settings), *advise(settings.runs), cache.shared() and cache.warning(cache.shared())]:
         if warning:
             logger.warning(f"Warning: {warning}")
 
-RESULTS = os.path.normpath(settings.results)
+RESULTS = settings.results
 STORE = keys.Store(RESULTS)
 PLANNER = Planner(workflow, STORE)
 decide_by_keys(PLANNER)
@@ -95,7 +96,7 @@ DEFAULT = default_target(settings)
 
 
 EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
-"""Code of the paper's law with either evolution, for what computes with both."""
+"""Code of the paper's law with either evolution, which the verdicts compare."""
 
 
 def script_path(script):
@@ -173,13 +174,7 @@ def runs_in(*studies):
     return [run for run in settings.runs if run.study in studies]
 
 
-def is_pair(study):
-    """Whether all runs of a study have two bodies."""
-    runs = settings.runs_of(study)
-    return bool(runs) and all(run.parameters.below is not None for run in runs)
-
-
-PAIR_STUDIES = [study for study in settings.studies if is_pair(study)]
+PAIR_STUDIES = settings.studies_for(*PAIR_ROLES)
 
 
 def simulations(*studies):

@@ -7,16 +7,10 @@ for _run in settings.runs:
     if _run.batch:
         BATCHES.setdefault(_run.batch, []).append(_run)
 
-ONE_BY_ONE = {
-    *("paper", "converged", "long_blocks", "patch_convergence", "sensitivity"),
-    *("quiet", "convergence_quiet"),
-    *PAIR_STUDIES,
-}
-"""Studies whose simulations other results are made of."""
 TABLED = [
     name
     for name, study in settings.studies.items()
-    if study.runs_per_job > 1 and name not in ONE_BY_ONE
+    if study.runs_per_job > 1 and not ROLES[study.role].one_by_one
 ]
 """Studies in batches that are measured by the job that makes them."""
 

@@ -12,7 +12,7 @@ localrules:
 def wanted_keys(wildcards):
     """Keys of all datasets that the configuration can ask for."""
     paths = [kind(id) for kind in (simulation, patch, twin, hops) for id in RUNS]
-    paths += [mode(run.id) for run in runs_in("quiet")] + [*map(batch, MEASURED)]
+    paths += [mode(run.id) for run in settings.runs_for("quiet")] + [*map(batch, MEASURED)]
     paths += [*crosscheck_records("own"), *crosscheck_records("freefem")]
     return [keys.key_in(path) for path in paths]
 

@@ -6,7 +6,7 @@ from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
 CLAIMS = f"{RESULTS}/claims.json"
 ARTICLE = f"{RESULTS}/article.md"
 TEMPLATE = Path(BASE, "docs", "article.md.in")
-CLAIMED = [study for study in (PAPERS, JUDGED) if study in settings.studies]
+CLAIMED = settings.studies_for(PAPERS, JUDGED)
 """Studies that claims are about."""
 
 
@@ -20,12 +20,12 @@ def element(run):
 
 def longer():
     """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
-    blocks, judged = ([(element(run), run) for run in runs_in(study)] for study in (LONGER, JUDGED))
+    blocks, judged = ([(element(run), run) for run in settings.runs_for(role)] for role in (LONGER, JUDGED))
     return [run for like, block in blocks for other, base in judged if other == like
             for run in (block, base)]  # fmt: skip
 
 
-BLOCKS = longer() if runs_in(LONGER) else []
+BLOCKS = longer() if settings.runs_for(LONGER) else []
 
 
 localrules:
@@ -40,7 +40,7 @@ rule evaluate_claims:
         lengths=[study_lengths(study) for study in CLAIMED],
         simulations=simulations(*CLAIMED),
         longer=[simulation(run.id) for run in BLOCKS],
-        patches=patches(JUDGED),
+        patches=patches(*settings.studies_for(JUDGED)),
     output:
         json=CLAIMS,
         csv=f"{RESULTS}/tables/claims.csv",
@@ -56,8 +56,8 @@ rule evaluate_claims:
         main_text_interface=asdict(settings.main_text_interface),
         extraction=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
-        longer=[{**run.to_dict(), "study": LONGER} for run in BLOCKS],
-        patch_ids=[run.id for run in patched_runs(JUDGED)],
+        longer=[{**run.to_dict(), "role": LONGER} for run in BLOCKS],
+        patch_ids=[run.id for run in patched_runs(*settings.studies_for(JUDGED))],
     message:
         "Claims of the paper, our numbers and the verdicts"
     script:
@@ -89,7 +89,7 @@ rule claims:
         with_csv(DISPERSION),
         measured(*CLAIMED),
         [simulation(run.id) for run in BLOCKS],
-        patches(JUDGED),
+        patches(*settings.studies_for(JUDGED)),
     message:
         "Claims and verdicts are in {input[0]}, {input[1]} and {input[2]}"
 

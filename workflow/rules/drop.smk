@@ -1,5 +1,5 @@
-# What the length at the drop means (docs/drop.md): the study `drop` of declared strengths, kinds and
-# seeds, and the law that predicts it from the modes of the quiet runs of the study `quiet`.
+# What the length at the drop means (docs/drop.md): the role `drop`, of declared strengths, kinds and
+# seeds, and the law that predicts it from the modes of the runs with the role `quiet`.
 DROP = f"{RESULTS}/drop.nc"
 
 
@@ -10,7 +10,7 @@ def mode(id):
 
 
 moded = run_of_key(mode, "mode of")
-FLOORS = [study for study in ("paper", HOPPING) if study in settings.studies]
+FLOORS = settings.studies_for("paper", HOPPING)
 """Studies of quiet runs, whose drops say how noisy their meshes are."""
 
 
@@ -21,8 +21,8 @@ def fault(run):
 
 def floor_runs():
     """The runs whose modes say how noisy meshes are: of the faults that have several."""
-    faults = {fault(run) for run in runs_in(HOPPING)}
-    return [run for run in runs_in("quiet") if fault(run) in faults]
+    faults = {fault(run) for run in settings.runs_for(HOPPING)}
+    return [run for run in settings.runs_for("quiet") if fault(run) in faults]
 
 
 def floor_modes(wildcards):
@@ -47,13 +47,13 @@ rule mode:
 
 
 def modes(wildcards):
-    return [mode(run.id) for run in runs_in("quiet")]
+    return [mode(run.id) for run in settings.runs_for("quiet")]
 
 
 rule gather_drop:
     input:
-        drops=needed([study_lengths(s) for s in ("drop",) if s in settings.studies], "study drop"),
-        modes=needed(modes, "study quiet"),
+        drops=needed([study_lengths(s) for s in settings.studies_for("drop")], "study with role: drop"),
+        modes=needed(modes, "study with role: quiet"),
         quiet=[study_lengths(study) for study in FLOORS],
     output:
         dataset=DROP,
@@ -61,7 +61,7 @@ rule gather_drop:
     log:
         f"{RESULTS}/logs/drop.log",
     params:
-        **made_by("gather_drop.py", EVOLUTIONS),
+        **made_by("gather_drop.py", laws_of(settings.runs_for("quiet"))),
     message:
         "Drops, and the law of the drop"
     script:
@@ -70,7 +70,7 @@ rule gather_drop:
 
 rule gather_floors:
     input:
-        modes=needed(floor_modes, f"fault of the study {HOPPING} in a study quiet"),
+        modes=needed(floor_modes, f"fault with the role {HOPPING} and the role quiet"),
         quiet=[study_lengths(study) for study in FLOORS],
     output:
         dataset=f"{RESULTS}/floors.nc",
@@ -78,7 +78,7 @@ rule gather_floors:
     log:
         f"{RESULTS}/logs/floors.log",
     params:
-        **made_by("gather_floors.py", EVOLUTIONS),
+        **made_by("gather_floors.py", laws_of(settings.runs_for("quiet"))),
     message:
         "Noise of meshes and steps"
     script:

@@ -4,6 +4,11 @@ def study_lengths(study):
     return f"{RESULTS}/lengths/{study}.nc"
 
 
+def lengths_of(role):
+    """The table of the one study that has a role; nothing without it."""
+    return next(map(study_lengths, settings.studies_for(role)), [])
+
+
 def with_csv(dataset):
     """A dataset that is a table, and its CSV."""
     return [dataset, str(Path(dataset).with_suffix(".csv"))]

@@ -2,11 +2,9 @@
 # stands on (see the Snakefile). What is drawn comes from datasets alone: a rule's inputs bear the
 # names of the parameters of the figure's `draw`.
 def shown(height):
-    """The simulation of the paper's study that a figure shows, by height (m)."""
+    """The simulation that a figure shows, by height (m)."""
     try:
-        return settings.find(
-            study="paper", law="aging", height=height, phi0=settings.base.loading.initial_state
-        ).id
+        return settings.shown(height).id
     except ParameterError as error:
         raise WorkflowError(f"a figure can't be drawn: {error}") from None
 
@@ -35,7 +33,7 @@ DRAWN = {
     },
     "figure_s1": {"theory": THEORY},
     "figure_s2": {
-        "lengths": study_lengths("paper"),
+        "lengths": lengths_of("paper"),
         "simulation": lambda wildcards: simulation(space_time_id(wildcards)),
     },
     "figure_patch_stability": {
@@ -47,7 +45,7 @@ DRAWN = {
         "theory": THEORY,
         "lengths": LENGTHS,
         "table": PATCHES,
-        "noisy": study_lengths("noisy") if "noisy" in settings.studies else [],
+        "noisy": lengths_of("noisy"),
     },
     "figure_drop": {"table": DROP},
     "figure_map": {"grid": MAP},
@@ -107,10 +105,10 @@ TARGETS = {
     "figure_2": [THEORY],
     "figure_3": [THEORY, rules.lengths.input],
     "figure_s1": [THEORY],
-    "figure_s2": [measured("paper")],
+    "figure_s2": [measured(*settings.studies_for("paper"))],
     "figure_patch_stability": [
         frozen("patch_stability"),
-        frozen("patch_convergence") if runs_in("patch_convergence") else [],
+        frozen("patch_convergence") if settings.runs_for("patch_convergence") else [],
         with_csv(TWINS),
         twins(),
     ],
@@ -118,18 +116,18 @@ TARGETS = {
         THEORY,
         rules.lengths.input,
         frozen("patch_stability"),
-        measured("noisy"),
+        measured(*settings.studies_for("noisy")),
     ],
     "figure_drop": [
         with_csv(DROP),
         modes,
-        measured("drop", "quiet", *FLOORS),
+        measured(*settings.studies_for("drop", "quiet"), *FLOORS),
     ],
-    "figure_map": [with_csv(MAP), measured("map")],
+    "figure_map": [with_csv(MAP), measured(*settings.studies_for("map"))],
     "figure_dispersion": [rules.dispersion.output],
     "figure_verification": [rules.verification.output],
     "figure_convergence": [rules.convergence.output, hops_shown, measured(*CONVERGENCE_STUDIES)],
-    "figure_sensitivity": [rules.sensitivity.output, simulations("sensitivity")],
+    "figure_sensitivity": [rules.sensitivity.output, simulations(*settings.studies_for("sensitivity"))],
     "figure_pairs": [pairs()],
     "figure_2_simulated": [pairs()],
 }

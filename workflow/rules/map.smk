@@ -1,22 +1,11 @@
-# Where the theory is right, over the block's height and the weakening of friction: the study `map`,
+# Where the theory is right, over the block's height and the weakening of friction: the role `map`,
 # of a thousand runs that take seconds each, in batches.
 MAP = f"{RESULTS}/map.nc"
 
 
-def mapped(wildcards):
-    """The table of the study's lengths, with the stability of each patch."""
-    study = settings.studies.get("map")
-    if study is not None and (study.measure != "stability" or study.runs_per_job == 1):
-        raise WorkflowError(
-            f"studies.map: measure = {study.measure} with runs_per_job = {study.runs_per_job} is "
-            "not allowed: the map needs measure: stability, with more than one run per job"
-        )
-    return [study_lengths("map")] if study else []
-
-
 rule gather_map:
     input:
-        needed(mapped, "study map"),
+        needed(lengths_of("map"), "study with role: map"),
     output:
         dataset=MAP,
         table=f"{RESULTS}/map.csv",

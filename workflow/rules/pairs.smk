@@ -1,5 +1,5 @@
-# Beyond the paper's simulations: two deformable bodies, as in its theory. All studies whose base is
-# deformable in every run are in one table, results/pairs.csv.
+# Beyond the paper's simulations: two deformable bodies, as in its theory. All studies with
+# such a role are in one table, results/pairs.csv.
 PAIRS = f"{RESULTS}/pairs.nc"
 
 
@@ -10,7 +10,7 @@ def pairs():
 
 rule gather_pairs:
     input:
-        simulations=needed(simulations(*PAIR_STUDIES), "study of two deformable bodies"),
+        simulations=needed(simulations(*PAIR_STUDIES), f"study with role: {', '.join(PAIR_ROLES)}"),
         patches=patches(*PAIR_STUDIES),
     output:
         dataset=PAIRS,

@@ -3,8 +3,8 @@
 PATCHES = f"{RESULTS}/patch_stability.nc"
 TWINS = f"{RESULTS}/twin_runs.nc"
 PATCH_TABLES = {
-    "patch_stability": ("paper", "converged"),
-    "patch_convergence": ("converged", "patch_convergence"),
+    "patch_stability": settings.studies_for("paper", "converged"),
+    "patch_convergence": settings.studies_for("converged", "patch_convergence"),
 }
 """Tables of patches by the studies in them."""
 
@@ -48,7 +48,7 @@ def frozen(table):
 
 
 def twins():
-    return [twin(run.id) for run in runs_in("twin_runs")]
+    return [twin(run.id) for run in settings.runs_for("twin_runs")]
 
 
 rule patch:
@@ -71,7 +71,7 @@ rule patch:
 # Each takes a fifth of a second, a job more than one: those of a study are made in one.
 TOGETHER = {
     f"patches_{study.replace('-', '_')}": patched_runs(study)
-    for study in dict.fromkeys([*sum(PATCH_TABLES.values(), ()), *PAIR_STUDIES])
+    for study in dict.fromkeys([*sum(PATCH_TABLES.values(), []), *PAIR_STUDIES])
     if len(patched_runs(study)) > 1
 }
 for _name, _runs in TOGETHER.items():
@@ -106,7 +106,7 @@ rule gather_patches:
     input:
         needed(
             lambda wildcards: patches(*PATCH_TABLES[wildcards.table]),
-            "study paper, converged or patch_convergence",
+            "study with role: paper, converged or patch_convergence",
         ),
     output:
         dataset=f"{RESULTS}/{{table}}.nc",
@@ -155,7 +155,7 @@ rule gather_twins:
         f"{RESULTS}/logs/twin_runs.log",
     params:
         **made_by("gather_twins.py"),
-        runs=[run.to_dict() for run in runs_in("twin_runs")],
+        runs=[run.to_dict() for run in settings.runs_for("twin_runs")],
     message:
         "Growth of kicks in twin runs"
     script:

@@ -10,11 +10,11 @@ REPORT_FILES = [
     for name in ("template.html", "page.css", "page.js", "theory.js", "drop.js", "map.js")
 ]
 OF_THE_PAPER = DEFAULT == "paper"
-REPORTED = catalogue.drawable(list(settings.studies), papers=OF_THE_PAPER)
+REPORTED = catalogue.drawable({study.role for study in settings.studies.values()}, OF_THE_PAPER)
 OWN_STUDIES = {
-    study: settings.studies[study].description for study in SHARED if study not in (PAPERS, JUDGED)
+    study: settings.studies[study].description for study in SHARED if study not in CLAIMED
 }
-"""What the studies are for that the paper does not have and that share lengths.csv."""
+"""What the studies are for on which no verdict stands and that share lengths.csv."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
 """What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
 the paper's figures nor the verdicts, which are about the paper's runs."""
@@ -53,7 +53,7 @@ def player_input(wildcards):
 
 def quiet_modes(wildcards):
     """The modes from which the page has the law of the drop."""
-    return modes(wildcards) if "quiet" in settings.studies else []
+    return modes(wildcards)
 
 
 rule film:
@@ -115,7 +115,7 @@ rule write_report:
     log:
         f"{RESULTS}/logs/report.log",
     params:
-        **made_by("report.py", plugins(settings.base)),
+        **made_by("report.py", [*plugins(settings.base), *laws_of(settings.runs_for("quiet"))]),
         figures=list(ENTRIES),
         studies=OWN_STUDIES,
         captions=caption_params,

@@ -1,11 +1,10 @@
 # Beyond the paper: what mesh, steps, parameters and definitions do to the critical length.
 #
-# Every study whose name begins with `convergence` takes part in the table of refinement. The runs of
-# HOPPING at the height of Figure S2, quiet ones, show the hops of the front.
+# The runs with the role HOPPING at the height of Figure S2, quiet ones, show the hops of the front.
 CONVERGENCE = f"{RESULTS}/convergence.nc"
 SENSITIVITY = f"{RESULTS}/sensitivity.nc"
 HOPPING = "convergence_quiet"
-CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
+CONVERGENCE_STUDIES = settings.studies_for(*REFINEMENTS)
 
 
 localrules:
@@ -15,9 +14,9 @@ localrules:
 def hopping(wildcards):
     """The runs whose hops are shown, from coarse to fine."""
     height = settings.figures.space_time_height
-    runs = [run for run in runs_in(HOPPING) if run.parameters.geometry.height == height]
+    runs = [run for run in settings.runs_for(HOPPING) if run.parameters.geometry.height == height]
     if not runs:
-        raise WorkflowError(f"there is no study {HOPPING} with a run of height {height:g}")
+        raise WorkflowError(f"there is no study with role: {HOPPING} and a run of height {height:g}")
     return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
 
 
@@ -122,7 +121,7 @@ def hops_shown(wildcards):
 
 rule sensitivity:
     input:
-        needed(simulations("sensitivity"), "study sensitivity"),
+        needed(simulations(*settings.studies_for("sensitivity")), "study with role: sensitivity"),
     output:
         dataset=SENSITIVITY,
         table=f"{RESULTS}/sensitivity.csv",
@@ -130,7 +129,7 @@ rule sensitivity:
         f"{RESULTS}/logs/sensitivity.log",
     params:
         **made_by("sensitivity.py"),
-        runs=[run.to_dict() for run in settings.runs_of("sensitivity")],
+        runs=[run.to_dict() for run in settings.runs_for("sensitivity")],
         extraction=asdict(settings.extraction),
     message:
         "Sensitivity of critical lengths"

@@ -12,6 +12,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -96,7 +97,7 @@ class Store:
     """
 
     def __init__(self, results: str | Path) -> None:
-        self.results = Path(results)
+        self.results = Path(os.path.normpath(results))  # as rules have it, a/../b as b
         self._found: dict[str, dict[str, str]] = {}
 
     def dataset(self, kind: str, name: str, wanted: str) -> str:

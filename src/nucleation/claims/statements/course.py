@@ -159,7 +159,7 @@ def contact_kept(evidence: Evidence) -> Result:
     statement="The block's length plays no role.",
     quotation=r"such that it plays no role in the obtained results",
     method="relative change of L_c in runs with a longer block, elements as long, range over the "
-    f"definitions, the same for both runs; the worst (study {LONGER})",
+    f"definitions, the same for both runs; the worst (role {LONGER})",
     said=words("negligible"),
 )  # fmt: skip
 def length_plays_no_role(evidence: Evidence) -> Result:
@@ -171,7 +171,7 @@ def length_plays_no_role(evidence: Evidence) -> Result:
         if row["height"] == base["height"] and row["block_length"] > base["block_length"]
     ]
     if not changes:
-        raise Missing(f"The study {LONGER} has no run with a longer block")
+        raise Missing(f"The role {LONGER} has no run with a longer block")
     ours = max(changes, key=lambda change: abs(change.value))
     strength = evidence.interface.friction * evidence.loading.normal_stress
     shown = [run for study in (JUDGED, PAPERS) for run in evidence.each_measured(study)]
