@@ -44,6 +44,8 @@ from nucleation.pipeline.time_left import predicted_cost
 from nucleation.model.friction.registry import plugins
 from nucleation.model.friction.law import Friction
 from nucleation.model.quantities import ParameterError
+from nucleation.datasets import provenance
+from nucleation.datasets.variables import DatasetError
 from nucleation.figures.catalogue import FIGURES
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.settings import estimated_megabytes
@@ -66,12 +68,13 @@ try:
     for path in workflow.configfiles:
         read_yaml(path)  # finds keys that stand twice, of which Snakemake keeps the last
     settings = configure(config, names_asked_for(sys.argv))
+    provenance.moment()
     unusable = directory_problem(settings.results, write=not workflow.dryrun)
     if unusable is None and cache.shared() is not None:
         unusable = cache.problem(cache.shared())
     if unusable:
         raise ParameterError(unusable)
-except ParameterError as error:
+except (ParameterError, DatasetError) as error:
     raise WorkflowError(str(error)) from None
 
 if workflow.resource_settings.cores is not None and workflow.resource_settings.cores < 1:

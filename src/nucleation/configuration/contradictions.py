@@ -148,7 +148,7 @@ def results_problems(results: str) -> Iterator[str]:
             f"results = {results!r} is not allowed: a directory must be named without braces, "
             "< and >, wildcards, control characters, and spaces at its ends"
         )
-    if set(PurePosixPath(results).parts) <= {"/", ".."}:
+    if set(PurePosixPath(results).parts) <= {"/", "//", ".."}:
         yield f"results = {results!r} is not allowed: it must be a directory of its own"
     first = PurePosixPath(results).parts[:1]
     if first and (first[0] in CODE or (first[0].startswith(".") and first[0] != "..")):

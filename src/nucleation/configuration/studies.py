@@ -227,6 +227,7 @@ def _prepared(
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = replace(parameters, friction=friction)
+    _ = friction.evolution_law  # a file that can't be loaded is told of before any work
     if settings.interface == "main_text":
         interface = loaded(main_text, loading)
     else:

@@ -79,7 +79,7 @@ FIGURES: dict[str, Entry] = {
     ),
     "figure_convergence": Entry(
         "Critical length against mesh and steps", CHECKS,
-        ("convergence_x", "convergence_quiet"), (Data("convergence"),)
+        ("convergence", "convergence_quiet"), (Data("convergence"),)
     ),
     "figure_dispersion": Entry(
         "Growth of single modes: simulation and theory", CHECKS, (),
