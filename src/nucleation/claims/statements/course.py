@@ -159,7 +159,7 @@ def contact_kept(evidence: Evidence) -> Result:
     statement="The block's length plays no role.",
     quotation=r"such that it plays no role in the obtained results",
     method="relative change of L_c in runs with a longer block, elements as long, range over the "
-    f"definitions, the same for both runs; the worst (role {LONGER})",
+    f"definitions, the same for both runs; the worst (study {LONGER})",
     said=words("negligible"),
 )  # fmt: skip
 def length_plays_no_role(evidence: Evidence) -> Result:
