@@ -103,7 +103,7 @@ def test_every_explained_deviation_has_its_number(reference):
 def test_reference_is_what_the_code_gives(rows, reference):
     """Rows that need no simulation, only the tables of the reference set."""
     assert list(reference) == list(rows)
-    simulated = ("is not among the results", f"no such run: study {LONGER}")
+    simulated = ("is not among the results", f"no such run: role {LONGER}")
     evaluated = [
         row for row in rows.values() if not any(words in row["reason"] for words in simulated)
     ]
@@ -208,7 +208,7 @@ def test_configuration_without_the_runs_can_not_be_checked():
     for name in ("onset-time", "theory-agreement", "stability-lost-at-length", "mesh-along"):
         row = by_id[name].evaluate(nothing)
         assert row["verdict"] == Verdict.UNCHECKED
-        assert "no such run: study" in row["reason"]
+        assert "no such run: role" in row["reason"]
     assert by_id["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
 
 
@@ -240,7 +240,7 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     base = on.lengths[0].isel(run=[0, 0, 1]).copy(deep=True)
     ids = ["short", "long", "other"]
     longer = base.assign(
-        id=("run", ids), study=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
+        id=("run", ids), role=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
         length=("run", [0.2, 0.203, 0.5]),
     )  # fmt: skip
     factors = dict(zip(ids, (0.2, 0.203, 0.5), strict=True))

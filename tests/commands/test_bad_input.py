@@ -64,6 +64,7 @@ SIMULATE = [
     (["run.txt"], ["OUTPUT = 'run.txt'", "must end in .nc"]),
     (["there.nc"], ["there.nc exists already", "--force"]),
     (["file/run.nc"], ["can't be written", "no writable directory"]),
+    (["no/where/run.nc"], ["there is no directory", "no/where; mkdir -p", "no/where"]),
     (["new.nc", "--height", "5 s"], ["--height", "m is needed", "(0, 1e+06) m"]),
     (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
     (["new.nc", "--n-x", "60.5"], ["n_x = 60.5 is not", "an integer in [8, 100000]"]),
@@ -100,6 +101,7 @@ SHOW = [
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
     (["plain.nc", "--plot", "new.png"], ["no plot of this kind"]),
+    (["theory.nc", "--plot", "no/new.png"], ["there is no directory", "mkdir -p"]),
 ]
 
 LINES = [

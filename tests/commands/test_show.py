@@ -39,8 +39,8 @@ def files(tmp_path_factory):
     values = PARAMETERS.to_dict()
     digest = simulation_code(PARAMETERS)
     short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
-    row = {"id": "a-run", "study": "mine", "parameters": values, "theory_length": 0.238,
-           "interface": dataclasses.asdict(InterfaceState())}  # fmt: skip
+    row = {"id": "a-run", "study": "mine", "role": "own", "parameters": values,
+           "theory_length": 0.238, "interface": dataclasses.asdict(InterfaceState())}  # fmt: skip
     curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))
     theory = theory_dataset(Material(), Friction(), InterfaceState(), curves)
     patch = xr.Dataset(

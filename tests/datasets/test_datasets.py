@@ -29,6 +29,7 @@ def record() -> xr.Dataset:
 TEXTS = (
     "id",
     "study",
+    "role",
     "law",
     "friction_law",
     "below",
@@ -139,6 +140,13 @@ def test_attributes_are_text(monkeypatch):
     assert attributes["created"] == "1970-01-01T00:00:00+00:00"
     assert attributes["parameters"] == '{"a": [1], "b": 1e-09}'
     assert json.loads(attributes["versions"])["numpy"] == np.__version__
+
+
+@pytest.mark.parametrize("seconds", ["abc", "1.5", "9" * 30])
+def test_a_time_of_results_that_is_none_is_refused(monkeypatch, seconds):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", seconds)
+    with pytest.raises(DatasetError, match=f"SOURCE_DATE_EPOCH = '{seconds}' is not allowed"):
+        provenance.attributes({}, "digest", "make it")
 
 
 def test_joined_tables_keep_their_longest_text(tmp_path):

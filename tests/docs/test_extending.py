@@ -64,12 +64,17 @@ def test_additions_are_in_style(checkout):
     run(["ruff", "format", "--check", *ADDED], checkout)
 
 
-def test_study_and_figure(checkout):
-    """The page's last command, which needs everything before it."""
+@pytest.fixture(scope="module")
+def drawn(checkout):
+    """The page's last command carried out, which needs everything before it."""
     *_, (_, command) = commands(samples(PAGE))
     program, *arguments = command.split()
     assert program == ".venv/bin/snakemake"
     run(["snakemake", *arguments], checkout)
+    return arguments
+
+
+def test_study_and_figure(checkout, drawn):
     results = checkout / "results" / "laws"
     assert (results / "figures" / "figure_laws.png").stat().st_size > 10_000
     table = pd.read_csv(results / "lengths.csv")
@@ -81,3 +86,14 @@ def test_study_and_figure(checkout):
     assert (paper["halfway"] != paper["aging"]).all()
     for ratio in (paper["halfway"] / paper["aging"], other["halfway"] / paper["halfway"].loc[0.02]):
         assert ratio.between(0.7, 1.4).all()
+
+
+@pytest.mark.slow
+def test_report_has_the_laws(checkout, drawn):
+    """To the end: nothing between the law's file and the page names the laws that there are."""
+    target, *arguments = drawn
+    assert target == "figure_laws"
+    run(["snakemake", "report", *arguments], checkout)
+    page = (checkout / "results" / "laws" / "report.html").read_text(encoding="utf-8")
+    for law in ("halfway", "aging", "slip"):
+        assert re.search(rf'"label": ?"laws, {law} law', page), law

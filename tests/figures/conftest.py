@@ -65,6 +65,7 @@ def lengths() -> xr.Dataset:
     columns = {
         "id": [f"{s}-{k}" for k, s in enumerate(study)],
         "study": study,
+        "role": study,
         "law": law,
         "height": height,
         "phi0": phi0,

@@ -17,6 +17,7 @@ from nucleation.patch.mode_history import from_dataset, to_dataset
 def drops(**changes):
     columns = {
         "study": ["drop"] * 4,
+        "role": ["drop"] * 4,
         "id": list("abcd"),
         "law": ["aging"] * 4,
         "height": [0.02, 0.02, 0.02, 0.3],

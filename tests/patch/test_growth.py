@@ -114,7 +114,13 @@ def test_line_through_the_crossing():
 def test_table_compares_with_the_reference_study():
     def run(study, height):
         values = dataclasses.replace(PARAMETERS, geometry=Geometry(height, 1.8)).to_dict()
-        return {"id": study, "study": study, "parameters": values, "theory_length": 0.4}
+        return {
+            "id": study,
+            "study": "mine",
+            "role": study,
+            "parameters": values,
+            "theory_length": 0.4,
+        }
 
     runs = [run("paper", 0.02), run("converged", 0.02), run("paper", 0.1)]
     patches = [

@@ -93,7 +93,7 @@ def test_rate_of_a_known_amplitude():
 
 def test_table_has_a_row_for_each_twin(followed):
     description = {
-        "id": "a", "study": "twin_runs", "parameters": PARAMETERS.to_dict(),
+        "id": "a", "study": "twin_runs", "role": "twin_runs", "parameters": PARAMETERS.to_dict(),
         "theory_length": THEORY,
     }  # fmt: skip
     table = gather([description, description], [followed, followed])

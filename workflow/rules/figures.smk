@@ -21,7 +21,7 @@ DRAWN = {
     },
     "figure_s1": {"theory": only("theory")},
     "figure_s2": {
-        "lengths": lambda wildcards: lengths_of(*in_role("paper"))[0],
+        "lengths": lambda wildcards: table_of("paper"),
         "simulation": lambda wildcards: steps("simulate", space_time_id(wildcards)),
     },
     "figure_patch_stability": {
@@ -33,7 +33,7 @@ DRAWN = {
         "theory": only("theory"),
         "lengths": only("gather_lengths"),
         "table": only("gather_patches", "patch_stability"),
-        "noisy": lambda wildcards: lengths_of(*in_role("noisy")),
+        "noisy": lambda wildcards: table_of("noisy"),
     },
     "figure_drop": {"table": only("gather_drop")},
     "figure_map": {"grid": only("gather_map")},

@@ -45,7 +45,7 @@ rule gather_patches:
     input:
         patches=needed(
             lambda wildcards: patches(*PATCH_TABLES[wildcards.name]),
-            "study paper, converged or patch_convergence",
+            "study with role: paper, converged or patch_convergence",
         ),
     output:
         link("{name}"),
@@ -91,7 +91,7 @@ rule gather_twins:
         log("twin_runs"),
     params:
         call="nucleation.patch.twins:table",
-        runs=as_dicts(runs_in("twin_runs")),
+        runs=as_dicts(runs_for("twin_runs")),
     message:
         "Growth of kicks in twin runs"
     script:

@@ -78,7 +78,7 @@ TARGETS = {
 }
 """What each target is for, and the results it leads to; `steps.behind` adds what these stand on."""
 
-if runs_in("patch_convergence"):
+if in_role("patch_convergence"):
     TARGETS["figure_patch_stability"] = (
         TARGETS["figure_patch_stability"][0],
         lambda: [*drawn("figure_patch_stability"), steps("gather_patches", "patch_convergence")],
@@ -111,32 +111,19 @@ def everything(wildcards):
     return found
 
 
-# What of the results is stale, incomplete, damaged or foreign, without running anything else; and
-# which results nothing refers to any more.
-for _name, _says in (
-    ("check", "List what is stale, incomplete, damaged or foreign."),
-    ("prune", "List results that nothing refers to, and with PRUNE=yes remove them."),
-):
+# Questions about results, which nothing is made for; `targets` says what there is to ask for.
+for _name in ("check", "prune", "targets"):
 
     rule:
         name:
             _name
         localrule: True
         params:
+            asked=_name,
             results=RESULTS,
-            expected=everything,
-            says=_name,
+            expected=everything if _name != "targets" else {},
+            targets={name: text for name, (text, _) in TARGETS.items()},
         message:
-            _says
+            f"{_name} of {RESULTS}"
         script:
             "../scripts/check.py"
-
-
-rule targets:
-    localrule: True
-    """What there is to ask for."""
-    params:
-        listing={name: text for name, (text, _) in TARGETS.items()},
-    run:
-        for name, text in params.listing.items():
-            print(f"{name:{max(map(len, params.listing))}}  {text}")

@@ -34,12 +34,12 @@ DIAGNOSTICS = ("status", "steps", "wall_seconds", "peak_megabytes")
 SECOND_BODY = ("second_height", "second_shear_modulus", "second_poisson_ratio")
 
 COLUMNS = (
-    "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
-    "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
-    "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
-    "velocity_weakening", "friction_law", "below", "initial_stress", "initial_shear_stress",
-    "simulated_time", "reached_length", "kind", "strength", "seed",
-    "correlation_length", "far_side", *SECOND_BODY,
+    "id", "study", "role", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length",
+    *DIAGNOSTICS, "block_length", "grading", "tolerance", "longest_step", "density",
+    "slip_distance", "velocity", "applied_stress", "shear_modulus", "poisson_ratio",
+    "friction_coefficient", "direct_effect", "velocity_weakening", "friction_law", "below",
+    "initial_stress", "initial_shear_stress", "simulated_time", "reached_length", "kind",
+    "strength", "seed", "correlation_length", "far_side", *SECOND_BODY,
 )  # fmt: skip
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
 
@@ -128,6 +128,7 @@ def description(run: dict[str, Any]) -> dict[str, Any]:
     return declared(run) | {
         "id": run["id"],
         "study": run["study"],
+        "role": run["role"],
         "law": parameters["friction"]["evolution"],
         "height": parameters["geometry"]["height"],
         "phi0": parameters["loading"]["initial_state"],

@@ -21,7 +21,7 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     ----------
     template : str
         Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
-        number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(study)``,
+        number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(role)``,
         its rows of lengths, one for each fault; and the filters ``digits(n)``, ``percent(n)`` and
         ``typeset``, of texts with formulas.
     claims : list of dict
@@ -48,8 +48,8 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
         for row in over_realisations(table).to_dataframe().to_dict("records")
     ]
 
-    def runs(study: str) -> list[dict[str, Any]]:
-        return [row for row in records if row["study"] == study]
+    def runs(role: str) -> list[dict[str, Any]]:
+        return [row for row in records if row["role"] == role]
 
     def ours(id: str) -> str:
         return number_text(by_id[id]) or "not computed"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import math
-import os
 import shlex
 import signal
 import sys
@@ -26,6 +25,7 @@ from ..model.quantities import ParameterError, declarations
 from ..theory.estimates import growth_time
 from .given import of_dataset, of_file, of_run
 from .options import STUDY, flat, given_of, merged, parameter_options, planned
+from .output import require_writable
 from .text import event_lines, outcome, parameter_lines, plain
 
 RATIO = declarations(StudySettings)["length_over_critical"]
@@ -106,11 +106,7 @@ def _check_output(output: Path, force: bool) -> None:
     """Refuse an output that can't be written, before hours are spent on it."""
     if output.suffix != ".nc":
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
-    if output.exists() and not force:
-        raise ParameterError(f"{output} exists already; --force replaces it")
-    folder = next(p for p in output.absolute().parents if p.exists())
-    if not folder.is_dir() or not os.access(folder, os.W_OK):
-        raise ParameterError(f"{output} can't be written: {folder} is no writable directory")
+    require_writable(output, force)
 
 
 def _plan_lines(run: Run) -> list[str]:

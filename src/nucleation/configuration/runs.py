@@ -10,6 +10,7 @@ from ..model.friction.constants import CONSTANTS, constants
 from ..model.linearised import InterfaceState
 from ..model.parameters import Parameters, names
 from ..model.quantities import plain
+from .roles import OWN
 from .study_names import study_parameters
 
 
@@ -27,12 +28,14 @@ class Run:
     interface: InterfaceState = InterfaceState()  # friction of the theory
     given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
     batch: str = dataclasses.field(default="", compare=False)  # of runs made by one job
+    role: str = OWN  # of its study
 
     def to_dict(self) -> dict[str, Any]:
         """The run as plain nested dictionaries: what it is, not who asks for it."""
         return {
             "id": self.id,
             "study": self.study,
+            "role": self.role,
             "parameters": self.parameters.to_dict(),
             "theory_length": self.theory_length,
             "interface": plain(self.interface),

@@ -55,6 +55,7 @@ VARIABLES: dict[str, Variable] = {
     # Table of nucleation lengths, one row per simulation
     "id": Variable("", "name of the simulation"),
     "study": Variable("", "study of the configuration"),
+    "role": Variable("", "what the study is for"),
     "law": Variable("", "state evolution law"),
     "height": Variable("m", "block height", "H"),
     "phi0": Variable("s", "initial state variable", "phi0"),

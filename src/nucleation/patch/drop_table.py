@@ -22,8 +22,8 @@ from .delay import Growth, growth, realised
 from .mode_history import ModeHistory, from_dataset
 
 MEASURED = (
-    "study", "id", "law", "height", "kind", "strength", "seed", "correlation_length", "n_x", "n_y",
-    "longest_step", "onset_time", "length", "theory_length",
+    "study", "role", "id", "law", "height", "kind", "strength", "seed", "correlation_length", "n_x",
+    "n_y", "longest_step", "onset_time", "length", "theory_length",
 )  # fmt: skip
 
 PREDICTED = (
@@ -34,7 +34,7 @@ PREDICTED = (
 COLUMNS = (*MEASURED, *PREDICTED)
 
 FLOORS = (
-    "study", "id", "law", "height", "n_x", "n_y", "longest_step", "onset_time", "length",
+    "study", "role", "id", "law", "height", "n_x", "n_y", "longest_step", "onset_time", "length",
     "theory_length", "stability_length", "floor_normal_load", "floor_state",
 )  # fmt: skip
 """Columns that say something of a quiet run."""

@@ -179,8 +179,8 @@ def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
 
 
 COLUMNS = (
-    "id", "study", "law", "height", "phi0", "n_x", "n_y", "grading", "tolerance", "longest_step",
-    *FITTED, "theory_length", "stability_ratio", "stability_change",
+    "id", "study", "role", "law", "height", "phi0", "n_x", "n_y", "grading", "tolerance",
+    "longest_step", *FITTED, "theory_length", "stability_ratio", "stability_change",
 )  # fmt: skip
 
 SAME = ("law", "height", "phi0")
@@ -195,7 +195,7 @@ def gather(
     ----------
     runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
     patches : of :func:`follow_patch`, in the same order.
-    reference : the study with whose run of the same law, height and initial state each run is
+    reference : the role with whose run of the same law, height and initial state each run is
         compared: ``stability_change`` is the length over that run's, minus one, NaN without one.
     """
     rows = [
@@ -205,7 +205,7 @@ def gather(
     compared = {
         tuple(row[name] for name in SAME): row["stability_length"]
         for row in rows
-        if row["study"] == reference
+        if row["role"] == reference
     }
     for row in rows:
         value = compared.get(tuple(row[name] for name in SAME), float("nan"))

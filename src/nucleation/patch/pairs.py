@@ -22,7 +22,7 @@ from .growth import FITTED
 MEASURED = ("onset_time", "length", "length_low", "length_high")
 
 COLUMNS = (
-    "id", "study", "law", "far_side", "height", "second_height", "shear_modulus",
+    "id", "study", "role", "law", "far_side", "height", "second_height", "shear_modulus",
     "second_shear_modulus", "poisson_ratio", "second_poisson_ratio", "friction", "f_beta",
     "zeta_over_a", "n_x", "n_y", "second_n_y", "kind", "strength", "seed", *MEASURED,
     "theory_length", "length_ratio", *FITTED, "stability_ratio", "half_space_ratio", "steps",
@@ -95,9 +95,9 @@ def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
     return table.isel(run=np.flatnonzero(rows))
 
 
-def of_study(table: xr.Dataset, study: str) -> xr.Dataset:
-    """The rows of one study."""
-    return chosen(table, table["study"].values == study)
+def of_role(table: xr.Dataset, role: str) -> xr.Dataset:
+    """The rows of the studies with one role."""
+    return chosen(table, table["role"].values == role)
 
 
 def table(

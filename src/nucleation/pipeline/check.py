@@ -150,16 +150,19 @@ def prune(results: Path, expected: Mapping[str, str], remove: bool) -> str:
 
 
 def run(snakemake: Any) -> None:
-    """The targets ``check`` and ``prune``; the latter removes if ``PRUNE`` is ``yes``."""
+    """The targets ``check``, ``prune`` (which removes if ``PRUNE`` is ``yes``) and ``targets``."""
     params = snakemake.params
     results, expected = Path(params.results), dict(params.expected)
+    findings: list[Finding] = []
     try:
-        if params.says == "prune":
+        if params.asked == "targets":
+            print("\n".join(f"{name:24} {text}" for name, text in params.targets.items()))
+        elif params.asked == "prune":
             print(prune(results, expected, os.environ.get("PRUNE") == "yes"))
-            return
-        findings = check_results(results, expected)
+        else:
+            findings = check_results(results, expected)
+            print(report(findings))
     except (StoreError, OSError) as error:
         sys.exit(str(error))
-    print(report(findings))
     if any(found.state != UNUSED for found in findings):
         sys.exit("check: there are findings")

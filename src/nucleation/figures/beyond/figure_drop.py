@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
+from ...model.friction.registry import USUAL_EVOLUTION
 
-SHOWN = ("aging", 0.02)  # law and height (m) of the panels over the strength
+SHOWN = (USUAL_EVOLUTION, 0.02)  # law and height (m) of the panels over the strength
 KINDS = {
     "normal_load": ("o", style.VERMILLION, "load"),
     "state": ("s", style.BLUE, "state"),
@@ -145,7 +146,7 @@ def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
     for runs in groups(table):
         kind = str(runs["kind"].values[0])
         marker, colour, label = KINDS[kind]
-        filled = runs["law"].values[0] == "aging"
+        filled = runs["law"].values[0] == USUAL_EVOLUTION
         axes.plot(
             runs["strength"].values[0],
             runs["length"].values.mean() / runs["predicted_length"].values[0],

@@ -15,13 +15,14 @@ import dataclasses
 import importlib
 import os
 import pkgutil
+import traceback
 from collections.abc import Collection, Iterator
 from functools import cache, lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from ..quantities import Quantity, declarations
+from ..quantities import ParameterError, Quantity, declarations
 
 if TYPE_CHECKING:
     from ..parameters import Parameters
@@ -74,8 +75,30 @@ EVOLUTIONS = Files("evolutions")
 
 @cache
 def module(package: str, name: str) -> ModuleType:
-    """The module of one law."""
-    return importlib.import_module(f"{package}.{name}")
+    """The module of one law.
+
+    Raises
+    ------
+    ParameterError
+        If its file can't be loaded, naming file and line.
+    """
+    try:
+        return importlib.import_module(f"{package}.{name}")
+    except Exception as error:
+        place, line = _origin(error)
+        raise ParameterError(
+            f"{place}, line {line}: the law {name} can't be loaded: {type(error).__name__}: "
+            f"{getattr(error, 'msg', None) or error}"
+        ) from error
+
+
+def _origin(error: Exception) -> tuple[str, int | None]:
+    """File and line at which a module's loading ended."""
+    if isinstance(error, SyntaxError):
+        return str(error.filename), error.lineno
+    frames = traceback.extract_tb(error.__traceback__)
+    last = [frame for frame in frames if not frame.filename.startswith("<frozen")][-1]
+    return last.filename, last.lineno
 
 
 def law_class(name: str) -> type[Friction]:

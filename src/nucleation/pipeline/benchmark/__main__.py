@@ -64,10 +64,7 @@ def write_json(result: dict[str, Any], path: Path) -> None:
 
 def measure_solver(settings: Configuration, results: Path) -> None:
     """Print the solver's speed, and write bench.json and the work-precision diagram."""
-    parameters = settings.find(
-        study="paper", law="aging", height=settings.figures.space_time_height,
-        phi0=settings.base.loading.initial_state,
-    ).parameters  # fmt: skip
+    parameters = settings.shown(settings.figures.space_time_height).parameters
     result = benchmark(parameters)
     print(report(result), flush=True)
     write_json(result, results / "bench.json")
@@ -86,7 +83,7 @@ def measure_scale(numbers: tuple[int, ...], results: Path) -> None:
 
 def measure_overhead(settings: Configuration, results: Path, profile: str) -> None:
     """Print what a run costs beside its steps and on the disk, and write bench_overhead.json."""
-    (run, *_) = settings.runs_of("map")
+    (run, *_) = settings.runs_for("map")
     result = overhead.overhead(run.parameters, profile)
     print(overhead.report(result), flush=True)
     write_json(result, results / "bench_overhead.json")
