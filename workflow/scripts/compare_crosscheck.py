@@ -14,4 +14,4 @@ with Job(snakemake, __file__) as job:
     }
     table = compare.gather(rows)
     job.write(table, job.output.dataset, job.params.extraction)
-    job.write_text(lengths.to_csv(table, compare.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

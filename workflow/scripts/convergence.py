@@ -6,4 +6,4 @@ from nucleation.pipeline.job import Job
 with Job(snakemake, __file__) as job:
     table = convergence.refinement_table(lengths.join(job.read_all(job.input)))
     job.write(table, job.output.dataset, {})
-    job.write_text(lengths.to_csv(table, convergence.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

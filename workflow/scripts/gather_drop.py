@@ -8,4 +8,4 @@ with Job(snakemake, __file__) as job:
     drops = [*job.read_all(job.input.drops), *job.read_all(job.input.quiet)]
     table = drop_table.gather(drops, job.read_all(job.input.modes))
     job.write(table, job.output.dataset, {})
-    job.write_text(lengths.to_csv(table, drop_table.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

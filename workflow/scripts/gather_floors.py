@@ -7,4 +7,4 @@ from nucleation.pipeline.job import Job
 with Job(snakemake, __file__) as job:
     table = drop_table.floors(job.read_all(job.input.quiet), job.read_all(job.input.modes))
     job.write(table, job.output.dataset, {})
-    job.write_text(lengths.to_csv(table, drop_table.FLOORS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

@@ -7,4 +7,4 @@ from nucleation.pipeline.job import Job
 with Job(snakemake, __file__) as job:
     table = map_table.gather(job.read(job.input[0]))
     job.write(map_table.on_grid(table), job.output.dataset, {})
-    job.write_text(lengths.to_csv(table, map_table.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

@@ -10,4 +10,4 @@ with Job(snakemake, __file__) as job:
     settings = ExtractionSettings(**job.params.extraction)
     table = pairs.gather(job.params.runs, simulations, patches, settings)
     job.write(table, job.output.dataset, job.params.runs)
-    job.write_text(lengths.to_csv(table, pairs.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

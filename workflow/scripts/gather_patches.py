@@ -1,10 +1,10 @@
 """Gather the lengths at which the patches of simulations turn unstable."""
 
 from nucleation.analysis import lengths
-from nucleation.patch import growth
+from nucleation.patch.tables import gather_stability
 from nucleation.pipeline.job import Job
 
 with Job(snakemake, __file__) as job:
-    table = growth.gather(job.params.runs, job.read_all(job.input))
+    table = gather_stability(job.params.runs, job.read_all(job.input))
     job.write(table, job.output.dataset, job.params.runs)
-    job.write_text(lengths.to_csv(table, growth.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

@@ -7,4 +7,4 @@ from nucleation.pipeline.job import Job
 with Job(snakemake, __file__) as job:
     table = in_order(lengths.join(job.read_all(job.input)), job.params.ids)
     job.write(table, job.output.dataset, {"ids": job.params.ids})
-    job.write_text(lengths.to_csv(table, tuple(table.data_vars)), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

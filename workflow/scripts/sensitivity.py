@@ -10,4 +10,4 @@ with Job(snakemake, __file__) as job:
         runs, job.read_all(job.input), ExtractionSettings(**extraction)
     )
     job.write(table, job.output.dataset, {"runs": runs, "extraction": extraction})
-    job.write_text(lengths.to_csv(table, sensitivity.COLUMNS), job.output.table)
+    job.write_text(lengths.to_csv(table), job.output.table)

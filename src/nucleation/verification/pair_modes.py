@@ -16,13 +16,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..datasets.shared import SHARED
+from ..datasets.variables import annotate
 from ..model.linearised import interface_state
 from ..model.parameters import Parameters
 from ..theory.closed_forms import bimaterial_contrast
 from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import bodies_of
-from .dispersion import by_direction, disagreement, measured_rates
+from .dispersion import MODES_OF_SLIDING, by_direction, disagreement, measured_rates
 
 Array = NDArray[np.float64]
 
@@ -165,7 +167,7 @@ def pair_modes(
         found[f"{kind}_growth"] = ("run", "branch"), rates.real
         found[f"{kind}_frequency"] = ("run", "branch"), rates.imag
     columns = {name: ("run", [row[name] for row in rows]) for name in rows[0]}
-    return xr.Dataset(columns | found)
+    return annotate(xr.Dataset(columns | found), SHARED | MODES_OF_SLIDING)
 
 
 def to_csv(dataset: xr.Dataset) -> str:

@@ -17,19 +17,32 @@ from numpy.typing import NDArray
 
 from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
+from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.record import Record
+from ...datasets.variables import Variable, annotate, some, table
 from ...model.parameters import Parameters
 from ...simulation.run import simulate
+from .freefem import STEPS
 
 Array = NDArray[np.float64]
 SETTLED = 20.0  # start of the comparison, in units of D/V
 BEFORE_ONSET = 0.9  # end of the comparison, as a part of the earlier onset
 INSTANTS = 2000  # at which two records are compared
-COLUMNS = (
-    "id", "height", "n_x", "n_y", "onset_time", "onset_time_freefem", "length", "length_freefem",
-    "patch_length_rms", "patch_length_largest", "patch_length_elements", "driving_force_rms",
-    "driving_force_largest", "step_seconds", "step_seconds_freefem", "steps", "steps_freefem",
-)  # fmt: skip
+COLUMNS = {
+    **some(LENGTHS, "id", "height", "n_x", "n_y", "onset_time"),
+    "onset_time_freefem": Variable("s", "onset of the event, by FreeFem++", "t"),
+    "length": LENGTHS["length"],
+    "length_freefem": Variable("m", "critical nucleation length, by FreeFem++", "L_c"),
+    "patch_length_rms": Variable("1", "relative difference of L(t), root mean square"),
+    "patch_length_largest": Variable("1", "relative difference of L(t), largest"),
+    "patch_length_elements": Variable("1", "largest difference of L(t) over the element's length"),
+    "driving_force_rms": Variable("1", "relative difference of f_d(t), root mean square"),
+    "driving_force_largest": Variable("1", "relative difference of f_d(t), largest"),
+    "step_seconds": Variable("s", "processor time of a step, median"),
+    "step_seconds_freefem": Variable("s", "processor time of a step of FreeFem++, median"),
+    "steps": LENGTHS["steps"],
+    "steps_freefem": Variable("1", "number of time steps of FreeFem++"),
+}
 
 
 def compare(
@@ -87,7 +100,7 @@ def simulate_timed(parameters: Parameters) -> xr.Dataset:
     elapsed: list[float] = []
     began = time.process_time()
     record = simulate(parameters, progress=lambda _: elapsed.append(time.process_time() - began))
-    return record.assign(elapsed_time=("step", elapsed))
+    return annotate(record.assign(elapsed_time=("step", elapsed)), STEPS)
 
 
 def _seconds_per_step(record: xr.Dataset) -> float:
@@ -101,4 +114,4 @@ def _rms(values: Array) -> float:
 def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:
     """The table of all rows, by the runs' names, on the dimension ``run``."""
     listed: Sequence[dict[str, object]] = [{"id": name, **row} for name, row in rows.items()]
-    return xr.Dataset({name: ("run", [row[name] for row in listed]) for name in COLUMNS})
+    return table(listed, COLUMNS)
