@@ -241,7 +241,7 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     ids = ["short", "long", "other"]
     longer = base.assign(
         id=("run", ids), study=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
-        length=("run", [0.2, 0.203, 0.5]),
+        length=("run", [0.2, 0.203, 0.5]), ensemble=("run", ids),
     )  # fmt: skip
     factors = dict(zip(ids, (0.2, 0.203, 0.5), strict=True))
     shown = {str(id): 1.0 for table in on.lengths[:2] for id in table["id"].values}

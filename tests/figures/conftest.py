@@ -66,6 +66,7 @@ def lengths() -> xr.Dataset:
         "id": [f"{s}-{k}" for k, s in enumerate(study)],
         "study": study,
         "law": law,
+        "ensemble": [f"{i}" for i in range(14)],
         "height": height,
         "phi0": phi0,
         "onset_time": np.full(14, ONSET),
