@@ -58,7 +58,8 @@ def in_page(
         )  # fmt: skip
         own = interface if same else linearised(parameters.friction, loading)
         shown = _fault(history, run_length(parameters, own))
-        case = Case("", parameters, shown["theory_length"])
+        length = shown["theory_length"]  # also of the block, which is not of the fault
+        case = Case("", parameters.replaced({"geometry.length": length}), length)
         base = first.setdefault(shown["label"], case)
         if base is not case:
             shown["label"] += f", {variation(case, base)[1]}"
