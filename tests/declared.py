@@ -1,6 +1,7 @@
 """What all modules declare of their datasets' variables."""
 
 import importlib
+import inspect
 import pkgutil
 
 from nucleation.datasets.variables import Variable
@@ -14,7 +15,10 @@ def declarations():
     for wing in WINGS:
         package = importlib.import_module(f"nucleation.{wing}")
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
-            for name, value in vars(importlib.import_module(module.name)).items():
+            imported = importlib.import_module(module.name)
+            if "Variable(" not in inspect.getsource(imported):
+                continue  # it has what others declare
+            for name, value in vars(imported).items():
                 if isinstance(value, dict) and any(isinstance(v, Variable) for v in value.values()):
                     found[module.name, name] = value
     return found

@@ -9,7 +9,8 @@ from nucleation.analysis import lengths
 from nucleation.datasets.variables import DatasetError, Variable, annotate, require_annotated, table
 from nucleation.pipeline import code
 
-RECORDING = "nucleation.simulation.recording"
+RECORDED = "nucleation.simulation.recorded"
+CROSSCHECK = "nucleation.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
     "id", "study", "law", "friction_law", "below", "far_side", "kind", "initial_stress", "status",
@@ -33,10 +34,12 @@ def test_a_name_means_the_same_wherever_it_is_declared():
 @pytest.mark.parametrize(
     ("root", "known"),
     [
-        ("nucleation.simulation.run", {RECORDING}),
-        ("nucleation.patch.growth", {RECORDING, "nucleation.patch.growth"}),
-        ("nucleation.patch.mode_history", {RECORDING, "nucleation.patch.mode_history"}),
-        ("nucleation.patch.twins", {RECORDING, "nucleation.patch.twins"}),
+        ("nucleation.simulation.run", {RECORDED}),
+        ("nucleation.patch.growth", {RECORDED, "nucleation.patch.growth"}),
+        ("nucleation.patch.mode_history", {RECORDED, "nucleation.patch.mode_history"}),
+        ("nucleation.patch.twins", {RECORDED, "nucleation.patch.twins"}),
+        (f"{CROSSCHECK}.timed", {RECORDED, f"{CROSSCHECK}.plan"}),
+        (f"{CROSSCHECK}.freefem", {RECORDED, f"{CROSSCHECK}.plan", f"{CROSSCHECK}.freefem"}),
     ],
 )
 def test_no_column_of_a_table_is_in_the_key_of_a_costly_dataset(root, known):

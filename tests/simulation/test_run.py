@@ -11,7 +11,7 @@ from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.interface import Interface, Tension
 from nucleation.simulation.outcome import Outcome
-from nucleation.simulation.recording import RECORDED
+from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.run import run, simulate
 from nucleation.simulation.step import Dynamics
 

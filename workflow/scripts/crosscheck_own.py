@@ -4,7 +4,7 @@ import sys
 
 from nucleation.model.parameters import Parameters
 from nucleation.pipeline.job import Job
-from nucleation.verification.crosscheck.compare import simulate_timed
+from nucleation.verification.crosscheck.timed import simulate_timed
 
 with Job(snakemake, __file__) as job:
     record = simulate_timed(Parameters.from_dict(job.params.parameters))

@@ -16,7 +16,7 @@ from ..datasets.variables import Variable, annotate
 from ..fem.condensed import Body
 from ..model.material import Material
 from ..simulation.composition import composed
-from ..simulation.recording import RECORDED
+from ..simulation.recorded import RECORDED
 from ..simulation.run import run
 from ..simulation.state import State
 from .moments import Indices, chosen_frames, event_interval, thinned

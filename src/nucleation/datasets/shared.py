@@ -1,6 +1,6 @@
 """Variables that tables and datasets of several wings have: which fault they are about.
 
-What a simulation records is declared in :mod:`nucleation.simulation.recording`, so that no
+What a simulation records is declared in :mod:`nucleation.simulation.recorded`, so that no
 simulation depends on this module.
 """
 

@@ -18,7 +18,7 @@ from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record
 from ..datasets.variables import Variable, annotate
 from ..fem.bodies import body_of
-from ..simulation.recording import RECORDED
+from ..simulation.recorded import RECORDED
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 Array = NDArray[np.float64]

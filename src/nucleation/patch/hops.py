@@ -17,7 +17,7 @@ from ..analysis.extraction import MEASURED
 from ..analysis.record import Record
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, annotate
-from ..simulation.recording import RECORDED
+from ..simulation.recorded import RECORDED
 
 Array = NDArray[np.float64]
 

@@ -31,7 +31,7 @@ from ..analysis.record import Record, parameters_of
 from ..datasets.variables import Variable, annotate
 from ..fem.bodies import BodyOperator, body_of
 from ..model.parameters import Parameters
-from ..simulation.recording import RECORDED
+from ..simulation.recorded import RECORDED
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 Array = NDArray[np.float64]

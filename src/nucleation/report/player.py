@@ -11,7 +11,7 @@ from ..analysis.moments import chosen_frames, event_interval, thinned
 from ..analysis.record import Record
 from ..datasets.variables import annotate, some
 from ..patch.growth import FOLLOWED
-from ..simulation.recording import RECORDED
+from ..simulation.recorded import RECORDED
 
 Array = NDArray[np.float64]
 

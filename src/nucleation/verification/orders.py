@@ -16,12 +16,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from ..analysis.convergence import COLUMNS as REFINEMENT
 from ..datasets.variables import Variable, annotate
 from ..model.friction.law import Friction
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
-from ..simulation.recording import RECORDED
+from ..simulation.recorded import RECORDED
 from ..stepping.scheme import BDF
 from .manufactured.dynamics import Manufactured, ManufacturedFriction
 from .manufactured.fields import Displacement, Factor, Power, Sine, Term
@@ -42,7 +41,7 @@ ERRORS = {
 }
 COORDINATES = {
     "problem": Variable("", "elastodynamics alone, or with friction by an evolution law"),
-    "refinement": REFINEMENT["refinement"],
+    "refinement": Variable("", "what is refined from level to level"),
 }
 
 MATERIAL = Material()

@@ -8,7 +8,6 @@ front from node to node shakes, begins to tell the two apart.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -19,10 +18,7 @@ from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.record import Record
-from ...datasets.variables import Variable, annotate, some, table
-from ...model.parameters import Parameters
-from ...simulation.run import simulate
-from .freefem import STEPS
+from ...datasets.variables import Variable, some, table
 
 Array = NDArray[np.float64]
 SETTLED = 20.0  # start of the comparison, in units of D/V
@@ -52,7 +48,7 @@ def compare(
 
     Parameters
     ----------
-    own, theirs : records of the same run by :func:`simulate_timed` and
+    own, theirs : records of the same run by :func:`.timed.simulate_timed` and
         :func:`nucleation.verification.crosscheck.freefem.run`.
     settings : edge of the patch and drop of the force.
 
@@ -93,14 +89,6 @@ def compare(
         "steps": own.attrs["steps"],
         "steps_freefem": theirs.attrs["steps"],
     }
-
-
-def simulate_timed(parameters: Parameters) -> xr.Dataset:
-    """The record of the project's own solver, with the processor's ``elapsed_time`` (s)."""
-    elapsed: list[float] = []
-    began = time.process_time()
-    record = simulate(parameters, progress=lambda _: elapsed.append(time.process_time() - began))
-    return annotate(record.assign(elapsed_time=("step", elapsed)), STEPS)
 
 
 def _seconds_per_step(record: xr.Dataset) -> float:

@@ -20,8 +20,8 @@ from ...analysis.definitions import ExtractionSettings
 from ...datasets.variables import Variable, annotate, some
 from ...model.parameters import Parameters
 from ...simulation.realisation import Series, Sheet
-from ...simulation.recording import RECORDED
-from .plan import FIXED, KINDS, CrosscheckSettings
+from ...simulation.recorded import RECORDED
+from .plan import FIXED, KINDS, TIMES, CrosscheckSettings
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # where Debian has them; the program looks elsewhere
@@ -45,7 +45,7 @@ STEPS = {
     **some(RECORDED, "step_time", "step_size", "driving_force", "maximal_slip_rate"),
     "newton_iterations": RECORDED["newton_iterations"],
     "factorisations": Variable("1", "factorised matrices of the step"),
-    "elapsed_time": Variable("s", "processor time since the start of the run"),
+    **TIMES,
 }
 
 
