@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from declared import VARIABLES
 
 from nucleation.datasets import netcdf
+from nucleation.datasets.variables import annotate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
@@ -125,8 +127,9 @@ def directory(tmp_path_factory):
     curve = ("height", np.ones(2))
     theory = {"critical_length": curve, "thin_limit_length": curve}
     height = {"height": np.arange(2.0)}
-    netcdf.write(xr.Dataset(theory, height), folder / "theory.nc")
-    netcdf.write(xr.Dataset({"x": ("n", np.ones(2))}), folder / "plain.nc")
+    netcdf.write(annotate(xr.Dataset(theory, height), VARIABLES), folder / "theory.nc")
+    plain = annotate(xr.Dataset({"x": ("n", np.ones(2))}), VARIABLES)
+    netcdf.write(plain, folder / "plain.nc")
     xr.Dataset({"x": ("n", np.ones(2))}).to_netcdf(folder / "foreign.nc")
     return folder
 

@@ -5,12 +5,14 @@ import dataclasses
 import numpy as np
 import pytest
 import xarray as xr
+from declared import VARIABLES
 from matplotlib.image import imread
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import gather
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
+from nucleation.datasets.variables import annotate
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
@@ -27,6 +29,7 @@ PARAMETERS = Parameters(
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):
     path = folder / f"{name}.nc"
+    dataset = annotate(dataset, VARIABLES)
     netcdf.write(dataset, path, **provenance.attributes(parameters, digest, f"make {name}"))
     return path
 

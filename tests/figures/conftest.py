@@ -67,6 +67,7 @@ def lengths() -> xr.Dataset:
         "study": study,
         "role": study,
         "law": law,
+        "ensemble": [f"{i}" for i in range(14)],
         "height": height,
         "phi0": phi0,
         "onset_time": np.full(14, ONSET),

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 
 import pytest
 import xarray as xr
+from nucleation.pipeline.all_runs import AllRuns, Work, in_words, last_line, planned
+from nucleation.pipeline.watch import Line, Watch
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from nucleation.datasets import netcdf
 from nucleation.pipeline import watch
-from nucleation.pipeline.all_runs import AllRuns, Work, in_words, last_line, planned
-from nucleation.pipeline.watch import Line, Watch
 from nucleation.simulation.outcome import Outcome
 
 BEGAN = 1000.0

@@ -5,13 +5,13 @@ import json
 
 import pytest
 import xarray as xr
+from nucleation.pipeline.time_left import predicted_cost
 
 from nucleation.datasets import netcdf
 from nucleation.model.linearised import linearised
 from nucleation.model.parameters import Parameters
 from nucleation.pipeline.benchmark import replay
 from nucleation.pipeline.benchmark.replay import Ran
-from nucleation.pipeline.time_left import predicted_cost
 from nucleation.theory.critical import run_length
 
 

@@ -4,15 +4,15 @@ import heapq
 
 import numpy as np
 import pytest
-
-from nucleation.model.parameters import Parameters
-from nucleation.pipeline.benchmark import replay
 from nucleation.pipeline.time_left import (
     TimeLeft,
     expected_steps,
     mean_of_censored,
     predicted_cost,
 )
+
+from nucleation.model.parameters import Parameters
+from nucleation.pipeline.benchmark import replay
 from nucleation.theory.estimates import growth_time
 
 RUNS = 400

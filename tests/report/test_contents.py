@@ -62,8 +62,9 @@ def test_run_of_the_player_can_be_downloaded(html, content, tmp_path):
 
 
 def test_csv_has_only_the_datasets_own_columns():
+    metres = {"units": "m"}
     table = xr.Dataset(
-        {"height": ("run", [0.1, 0.2]), "id": ("run", ["a", "b"]), "steps": ("run", [1, 2])}
+        {"height": ("run", [0.1, 0.2], metres), "id": ("run", ["a", "b"]), "steps": ("run", [1, 2])}
     )
     assert tables.csv_text(table) == "height (m),id,steps\n0.1,a,1\n0.2,b,2\n"
     assert tables.csv_text(table, ("id",)) == "id\na\nb\n"

@@ -73,6 +73,12 @@ for _name, _inputs in DRAWN.items():
             STEP
 
 
+def declarations(names):
+    """What parameters are, for the axes of a figure."""
+    found = {name: asdict(study_parameters()[name]) for name in names}
+    return {name: entry | {"choices": list(entry["choices"])} for name, entry in found.items()}
+
+
 # Any study against the theory, by what it varies.
 rule draw_study:
     input:
@@ -84,10 +90,7 @@ rule draw_study:
     params:
         call="nucleation.figures.beyond.figure_studies:draw_study",
         varied=lambda wildcards: varied(settings.runs_of(wildcards.name)),
-        entries=lambda wildcards: {
-            name: asdict(study_parameters()[name])
-            for name in varied(settings.runs_of(wildcards.name))
-        },
+        entries=lambda wildcards: declarations(varied(settings.runs_of(wildcards.name))),
         theory=lambda wildcards: theory_curves(
             settings.runs_of(wildcards.name),
             settings.studies[wildcards.name],

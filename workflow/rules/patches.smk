@@ -54,7 +54,7 @@ rule gather_patches:
     wildcard_constraints:
         name="|".join(PATCH_TABLES),
     params:
-        call="nucleation.patch.growth:table",
+        call="nucleation.patch.tables:stability_files",
         runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.name])),
     message:
         "Patch lengths at which growth begins: {wildcards.name}"
@@ -90,7 +90,7 @@ rule gather_twins:
     log:
         log("twin_runs"),
     params:
-        call="nucleation.patch.twins:table",
+        call="nucleation.patch.tables:twin_files",
         runs=as_dicts(runs_for("twin_runs")),
     message:
         "Growth of kicks in twin runs"

@@ -9,7 +9,7 @@ rule gather_drop:
     log:
         log("drop"),
     params:
-        call="nucleation.patch.drop_table:table",
+        call="nucleation.patch.drop_table:drop_files",
         loads=laws_of(runs_for("quiet")),
     message:
         "Drops, and the law of the drop"
@@ -29,7 +29,7 @@ rule gather_floors:
     log:
         log("floors"),
     params:
-        call="nucleation.patch.drop_table:floors_table",
+        call="nucleation.patch.drop_table:floor_files",
         loads=laws_of(runs_for("quiet")),
     message:
         "Noise of meshes and steps"
@@ -45,7 +45,7 @@ rule gather_map:
     log:
         log("map"),
     params:
-        call="nucleation.patch.map_table:table",
+        call="nucleation.patch.map_table:files",
     message:
         "The map of lengths over height and weakening"
     script:
@@ -65,7 +65,7 @@ rule gather_pairs:
     log:
         log("pairs"),
     params:
-        call="nucleation.patch.pairs:table",
+        call="nucleation.patch.pairs:files",
         runs=as_dicts(runs_in(*PAIR_STUDIES)),
         settings=asdict(settings.extraction),
     message:
@@ -84,7 +84,7 @@ rule convergence:
     log:
         log("convergence"),
     params:
-        call="nucleation.analysis.convergence:table",
+        call="nucleation.analysis.convergence:files",
     message:
         "Critical lengths against mesh and steps"
     script:
@@ -101,7 +101,7 @@ rule sensitivity:
     log:
         log("sensitivity"),
     params:
-        call="nucleation.analysis.sensitivity:table",
+        call="nucleation.analysis.sensitivity:files",
         runs=as_dicts(runs_for("sensitivity")),
         settings=asdict(settings.extraction),
     message:

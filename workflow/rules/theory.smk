@@ -26,7 +26,7 @@ rule dispersion:
     threads: 1
     params:
         **CONFIGURED("material", "friction", "loading"),
-        call="nucleation.verification.dispersion:table",
+        call="nucleation.verification.dispersion:files",
         loads=plugins(settings.base),
     message:
         "Dispersion: growth of single modes, time integration and theory"
@@ -43,7 +43,7 @@ rule pair_modes:
     threads: 1
     params:
         **CONFIGURED("material", "friction", "loading"),
-        call="nucleation.verification.pair_modes:table",
+        call="nucleation.verification.pair_modes:files",
         loads=plugins(settings.base),
     message:
         "Growth of single modes between two layers, time integration and theory"
@@ -59,7 +59,7 @@ rule verification:
         log("verification"),
     threads: 1
     params:
-        call="nucleation.verification.orders:table",
+        call="nucleation.verification.orders:files",
         loads=EVOLUTIONS,
     message:
         "Convergence: errors of manufactured solutions against element size and time step"

@@ -63,13 +63,9 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
 def paired(
     paper: list[dict[str, Any]], converged: list[dict[str, Any]]
 ) -> list[tuple[dict[str, Any], dict[str, Any] | None]]:
-    """The rows of one study, each with that of the other study for the same block, or None."""
-
-    def block(row: dict[str, Any]) -> tuple[Any, ...]:
-        return row["law"], row["height"], row["phi0"]
-
-    others = {block(row): row for row in converged}
-    return [(row, others.get(block(row))) for row in paper]
+    """The rows of one study, each with that of the other study for the same fault, or None."""
+    others = {row["fault"]: row for row in converged}
+    return [(row, others.get(row["fault"])) for row in paper]
 
 
 def digits(value: float | None, number: int) -> str:

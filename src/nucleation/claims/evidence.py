@@ -11,9 +11,10 @@ import xarray as xr
 
 from ..analysis.lengths import over_realisations, realisations
 from ..model.friction.law import Friction
+from ..model.identity import fault
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..model.parameters import Loading
+from ..model.parameters import Geometry, Loading, Parameters
 from .claim import Cause, Result
 from .measure import Measures, mean
 from .said import Missing, Ours
@@ -58,9 +59,10 @@ class Evidence:
     def rows(self, role: str, **labels: Any) -> list[dict[str, Any]]:
         """Rows of the table of lengths, sorted by height (m); raises Missing if there is none.
 
-        One for each fault: the mean of its realisations, of which ``members`` are the names.
+        One for each fault of the configuration's material, friction and loads: the mean of its
+        realisations, of which ``members`` are the names.
         """
-        records = [row for table in self.lengths for row in _faults(table)]
+        records = [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
         wanted = {"role": role, **labels}
         found = [row for row in records if all(_same(row[k], v) for k, v in wanted.items())]
         if not found:
@@ -75,6 +77,16 @@ class Evidence:
     def series(self, role: str) -> list[dict[str, Any]]:
         """The aging law's rows with a role over all heights, age 1 s."""
         return self.rows(role, law="aging", phi0=1.0)
+
+    def _is_own(self, row: dict[str, Any]) -> bool:
+        """Whether a row is of the configuration's material, friction and loads, on a rigid base."""
+        own = Parameters(
+            self.material,
+            self.friction.changed({"evolution": row["law"]}),
+            dataclasses.replace(self.loading, initial_state=float(row["phi0"])),
+            Geometry(height=float(row["height"])),
+        )
+        return bool(row["fault"] == fault(own))
 
     def measured(self, row: dict[str, Any]) -> Measures:
         """What was read from the simulations of a row, their mean; raises Missing without one."""

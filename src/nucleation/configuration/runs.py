@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..model.friction.constants import CONSTANTS, constants
+from ..model.identity import ensemble
 from ..model.linearised import InterfaceState
 from ..model.parameters import Parameters, names
 from ..model.quantities import plain
@@ -74,8 +75,8 @@ def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
 
 
 def first_realisations(runs: Iterable[Run]) -> list[Run]:
-    """The runs without those that differ from an earlier one in the declared seed alone."""
-    faults: dict[Any, Run] = {}
+    """The runs of each study without those that differ from an earlier one in the seed alone."""
+    first: dict[tuple[str, str], Run] = {}
     for run in runs:
-        faults.setdefault((run.study, run.parameters.replaced({"perturbation.seed": 0})), run)
-    return list(faults.values())
+        first.setdefault((run.study, ensemble(run.parameters)), run)
+    return list(first.values())

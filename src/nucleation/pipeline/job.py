@@ -77,15 +77,14 @@ class Job:
     def make(self, task: Task) -> None:
         """Have the result of a task in the store."""
         if not self.found(task.key):
-            self.make_with(task, **self.read(task))
+            self.put(task, task.key, self.called(task, **self.read(task)))
 
-    def make_with(self, task: Task, **inputs: Any) -> None:
-        """Make the result of a task from its inputs."""
+    def called(self, task: Task, **inputs: Any) -> Any:
+        """What the function of a task returns for its inputs."""
         module, _, name = task.call.partition(":")
         function = getattr(importlib.import_module(module), name)
         values = {**task.values, "origin": self.origin(task)}
-        given = arguments(function, values)
-        self.put(task, task.key, function(**given, **inputs))
+        return function(**arguments(function, values), **inputs)
 
     def read(self, task: Task) -> dict[str, Any]:
         """What a function is given for the inputs of its task, by their roles."""
@@ -125,7 +124,7 @@ class Job:
             ) from None
 
     def put(self, task: Task, key: str, made: Any) -> None:
-        """Put what a function has returned into the store: all files of the result, and its note."""
+        """Put what a function has returned into the store: all files of the result."""
         origin = self.origin(task)
 
         def write(place: Path) -> None:

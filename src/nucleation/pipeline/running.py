@@ -136,8 +136,9 @@ def run_batch(snakemake: Any) -> None:
         if not job.found(task.key):
             runs = task.values["runs"]
             tasks = [task_of_run(one, job.results) for one in runs]
-            job.make_with(task, records=_records(job, tasks, failures))
-            _stop_on(failures, len(runs))
+            table = job.called(task, records=_records(job, tasks, failures))
+            _stop_on(failures, len(runs))  # before a table without them is kept
+            job.put(task, task.key, table)
         job.leave_link(task)
 
 

@@ -136,7 +136,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": _player(content),
-        "drop": drop_law.in_page(content.modes, content.interface),
+        "drop": drop_law.in_page(content.modes, content.friction, content.interface),
         "map": length_map.in_page(content.results.get("map")),
         "colours": {
             "theory": style.THEORY,

@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.moments import chosen_frames, event_interval, thinned
 from ..analysis.record import Record
+from ..datasets.variables import annotate, some
+from ..patch.growth import FOLLOWED
+from ..simulation.recorded import RECORDED
 
 Array = NDArray[np.float64]
 
@@ -62,8 +65,10 @@ def player_dataset(
         ]
     )
     kept = np.unique(steps)
-    return fields.assign(
+    shown = fields.assign(
         patch_length=("time", record.lengths[frames]),
         step_time=("step", step_time[kept]),
         driving_force=("step", force[kept]),
-    ).assign_attrs(event_start=event[0], event_end=event[1])
+    )
+    shown = annotate(shown, RECORDED | some(FOLLOWED, "patch_length"))
+    return shown.assign_attrs(event_start=event[0], event_end=event[1])

@@ -13,7 +13,6 @@ from markupsafe import Markup
 
 from ..analysis.rows import rows_of
 from ..claims.symbols import as_html
-from ..datasets.variables import VARIABLES
 from ..figures.laws import USUAL_AGE, looks, usual_law
 from .faults import faults
 
@@ -169,9 +168,6 @@ def csv_text(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> str:
     chosen = dataset[list(variables)] if variables else dataset
     frame = chosen.to_dataframe().reset_index()
     frame = frame.drop(columns=[c for c in frame if c not in dataset.variables])
-    return frame.rename(columns=_with_unit).to_csv(index=False)
-
-
-def _with_unit(name: str) -> str:
-    units = VARIABLES[name].units
-    return name if units in ("", "1") else f"{name} ({units})"
+    units = {name: dataset[name].attrs.get("units", "1") for name in frame}
+    titles = {n: n if unit == "1" else f"{n} ({unit})" for n, unit in units.items()}
+    return frame.rename(columns=titles).to_csv(index=False)

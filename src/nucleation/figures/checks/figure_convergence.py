@@ -36,7 +36,7 @@ REFINED = {
     "tolerance": "tolerance",
 }
 ALONG = {"n_x": "Elements along $x$", "longest_step": r"Longest step $\times V/D$"}
-FAULT = ("kind", "law", "phi0", "height", "strength", "seed")
+FAULT = ("kind", "law", "phi0", "height", "strength", "seed", "fault")
 EVERY_FAULT = "normal_load"  # the kind whose faults are told apart
 
 

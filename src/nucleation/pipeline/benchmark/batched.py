@@ -83,8 +83,9 @@ def fill(settings: Configuration, directory: Path) -> int:
         parameters, digest, key = origin(settings, runs)
         rows = (lengths.gather([run.to_dict()], [record], settings.extraction) for run in runs)
         table = lengths.join(rows)
-        unstable = UNSTABLE_AT * table["theory_length"].drop_attrs()
-        table = table.assign({STABILITY[0]: unstable, STABILITY[1]: 0.01 * unstable})
+        unstable = UNSTABLE_AT * table["theory_length"].values
+        values = zip(STABILITY.items(), (unstable, 0.01 * unstable), strict=True)
+        table = table.assign({n: ("run", v, c.attributes) for (n, c), v in values})
         attributes = provenance.attributes(parameters, digest, "make bench", key=key)
         netcdf.write(table, store.dataset("batches", name, key), **attributes)
     return size
