@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
-from nucleation.fem.block import Block
+from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BlockOperator
 from nucleation.figures.checks import work_precision
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping

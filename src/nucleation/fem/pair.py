@@ -1,10 +1,10 @@
 """Two elastic blocks on one another, condensed on their common interface y = 0.
 
-Both blocks have the modes of :mod:`.block`, on grids with the same elements along x, and are put in
-series (:mod:`.series`). The upper one is driven at its left edge, the lower one held there. On the
-right edge, free in both, the corner ``u_y(L, 0)`` is an unknown that both blocks share. With it all
-of ``u_y`` may shift if no far side holds it: inertia fixes that in motion, and in statics, where no
-force acts on it, the corner stays.
+Both blocks have the modes of :mod:`.block_modes`, on grids with the same elements along x, and are
+put in series (:mod:`.series`). The upper one is driven at its left edge, the lower one held there.
+On the right edge, free in both, the corner ``u_y(L, 0)`` is an unknown that both blocks share. With
+it all of ``u_y`` may shift if no far side holds it: inertia fixes that in motion, and in statics,
+where no force acts on it, the corner stays.
 """
 
 from __future__ import annotations

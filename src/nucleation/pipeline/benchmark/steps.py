@@ -9,10 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
-from ...fem.block import Block
+from ...fem.block import Block, BlockOperator
 from ...fem.bodies import body_of
 from ...fem.grid import Grid
-from ...fem.operator import BlockOperator
 from ...model.parameters import Parameters
 from ...model.perturbation import KINDS, Perturbation
 from ...model.second_body import BOTTOMS
@@ -121,7 +120,7 @@ def perturbed(parameters: Parameters) -> dict[str, dict[str, float]]:
     """(h) Time of a step under each kind of perturbation over that of a quiet one, in turn.
 
     And how many solves of the block a step takes: the shortcut of one serves while the block's
-    right edge moves as predicted (:meth:`nucleation.fem.operator.BlockOperator.responses`).
+    right edge moves as predicted (:meth:`nucleation.fem.block.BlockOperator.responses`).
     """
     kinds = [Perturbation(kind=kind, strength=STRENGTH, seed=1) for kind in KINDS]
     runs = [dataclasses.replace(parameters, perturbation=declared) for declared in kinds]
