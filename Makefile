@@ -58,9 +58,8 @@ hooks: $(STAMP) ## Have git check what make lint checks before each commit
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
-bench: $(STAMP) ## Measure on one core: PARTS="solver scale overhead progress", the first by itself
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.pipeline.benchmark \
-		config/config.yaml $(PARTS)
+bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $(PARTS)
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper figure_patch_stability figure_3_extended figure_convergence \

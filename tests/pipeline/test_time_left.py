@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from nucleation.model.parameters import Parameters
-from nucleation.pipeline.benchmark import replay
 from nucleation.pipeline.time_left import (
     TimeLeft,
     expected_steps,
@@ -23,12 +22,18 @@ def relative_errors(costs, durations, slots, gap=0.0, parts=(0.1, 0.3, 0.6, 0.9)
 
     Each slot works through runs in their order, with a gap before each.
     """
-    slot_free, runs = [0.0] * slots, []
-    for i, (cost, duration) in enumerate(zip(costs, durations, strict=True)):
+    slot_free, events = [0.0] * slots, []
+    for i, duration in enumerate(durations):
         begin = heapq.heappop(slot_free) + gap
         heapq.heappush(slot_free, begin + duration)
-        runs.append(replay.Ran(str(i), cost, begin, begin + duration, duration))
-    errors = np.abs(replay.errors(runs, parts)).tolist()
+        events += [(begin, True, str(i)), (begin + duration, False, str(i))]
+    left, last = TimeLeft({str(i): cost for i, cost in enumerate(costs)}), max(events)[0]
+    done, errors, wanted = 0, [], [int(part * len(durations)) for part in parts]
+    for moment, begins, name in sorted(events):
+        (left.begins if begins else left.ends)(name, moment)
+        told, done = left.seconds(moment), done + (not begins)
+        if not begins and done in wanted:
+            errors.append(abs(told / (last - moment) - 1.0))
     assert len(errors) == len(parts)
     return errors
 
