@@ -1,7 +1,7 @@
 """The datasets' variables in one table, and netCDF files written whole or not at all.
 
 Numerics and metadata are two layers: computations return bare datasets, :func:`annotate` gives
-every variable its unit, long name and paper symbol from :data:`VARIABLES`.
+every variable its unit, long name and paper symbol from :data:`~.variables.VARIABLES`.
 """
 
 from __future__ import annotations

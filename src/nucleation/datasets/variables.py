@@ -226,7 +226,9 @@ def annotate(dataset: xr.Dataset) -> xr.Dataset:
     """
     unknown = sorted(str(name) for name in dataset.variables if name not in VARIABLES)
     if unknown:
-        raise DatasetError(f"not in the table of variables (nucleation.datasets.netcdf): {unknown}")
+        raise DatasetError(
+            f"not in the table of variables (nucleation.datasets.variables): {unknown}"
+        )
     annotated = dataset.copy()
     for name in dataset.variables:
         entry = VARIABLES[str(name)]

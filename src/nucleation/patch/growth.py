@@ -192,7 +192,7 @@ def gather(
 
     Parameters
     ----------
-    runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
     patches : of :func:`follow_patch`, in the same order.
     reference : the study with whose run of the same law, height and initial state each run is
         compared: ``stability_change`` is the length over that run's, minus one, NaN without one.
