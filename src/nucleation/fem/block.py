@@ -11,16 +11,14 @@ import dataclasses
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from .block_modes import BlockModes
 from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
 from .field import Field
 from .right_edge import RightEdge, predicted, relative_error
 from .separable import LoadedResponse, SeparableOperator
-
-Array = NDArray[np.float64]
 
 
 class Block(BlockModes):

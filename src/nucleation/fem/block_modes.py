@@ -16,15 +16,13 @@ assembled matrix to round-off (tests/fem/test_block.py).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
 from ..model.material import Material
+from ..types import Array
 from .field import Field
 from .grid import Grid
 from .separable import SeparableBody
-
-Array = NDArray[np.float64]
 
 
 class BlockModes(SeparableBody):

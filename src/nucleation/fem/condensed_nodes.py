@@ -18,11 +18,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..types import Array
 from . import kernels
 from .block_modes import BlockModes
 from .right_edge import EdgeValues
-
-Array = NDArray[np.float64]
 
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
 

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from .block import Block
 from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
@@ -23,8 +23,6 @@ from .field import Field
 from .right_edge import EdgeValues, inverse_within, predicted, relative_error
 from .separable import LoadedResponse
 from .series import Series, TwoBodies
-
-Array = NDArray[np.float64]
 
 
 class Pair(TwoBodies[Block]):

@@ -26,12 +26,11 @@ from scipy import fft
 from scipy.linalg import circulant
 
 from ..model.material import Material
+from ..types import Array
 from .condensed import Balance, Expectation
 from .field import Field
 from .grid import Grid
 from .separable import LoadedResponse, SeparableBody, SeparableOperator
-
-Array = NDArray[np.float64]
 
 
 class PeriodicBlock(SeparableBody):

@@ -11,15 +11,13 @@ from abc import ABC, abstractmethod
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from ..types import Array
 from . import kernels
 from .block_modes import BlockModes
 from .condensed import Expectation
 from .field import Field
-
-Array = NDArray[np.float64]
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 

@@ -20,14 +20,13 @@ from collections.abc import Sequence
 from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from . import kernels
 from .field import Field, Motion, Terms
 from .grid import Grid
 from .separable import SeparableBody, SeparableOperator, rate_of_change
 
-Array = NDArray[np.float64]
 Layer = TypeVar("Layer", bound=SeparableBody)
 
 

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.moments import chosen_frames, event_interval, thinned
 from ..analysis.record import Record
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 MOST_FRAMES = (150, 140, 40)  # before, in and after the event
 MOST_NODES = 401

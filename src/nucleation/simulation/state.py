@@ -10,11 +10,9 @@ import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..fem.field import Field, Motion
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 
 @dataclasses.dataclass(frozen=True)

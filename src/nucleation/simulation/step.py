@@ -14,16 +14,14 @@ from collections import OrderedDict
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..fem.condensed import Body, Expectation, Operator
 from ..fem.field import Field, Motion
 from ..stepping.scheme import Scheme, Step
+from ..types import Array
 from .drive import Drive, Imposed
 from .interface import Friction, InterfaceSolution, Past, Solver
 from .state import State, pushed
-
-Array = NDArray[np.float64]
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
