@@ -100,9 +100,7 @@ class PairOperator(CondensedOnNodes):
             self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
             self.upper.substitute(lowest)
             corner = self.upper.edge.corner_reaction(loads.upper, lowest, modes.upper.edge)
-            return PairResponse(
-                w, tangential, np.append(normal, corner), load, given, start, swept
-            )  # fmt: skip
+            return PairResponse(w, tangential, np.append(normal, corner), load, given, start, swept)
         self._substitute(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)

@@ -83,9 +83,7 @@ class TwoBodies(Generic[Layer]):
     def parts(self, field: Field) -> Parts:
         """The two bodies' fields in one of the pair, not copied."""
         n = self.grid.n_y + 1
-        return Parts(
-            Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:])
-        )  # fmt: skip
+        return Parts(Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:]))
 
     def joined(self, upper: Field, lower: Field) -> Field:
         """The pair's field of two bodies' fields."""

@@ -30,7 +30,7 @@ def sliding_period(parameters: Parameters, interface: Interface | None = None) -
     load = body.top_load(loading.normal_stress, shear)
     return Dynamics(
         body, interface or Interface(law), Steady(loading.velocity, load), BDF(body.crossing_time)
-    )  # fmt: skip
+    )
 
 
 def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:

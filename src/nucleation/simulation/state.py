@@ -35,9 +35,7 @@ class State:
         cls, motion: Motion, slip_rate: Array, log_state: Array, w: Array, body_memory: Array
     ) -> State:
         """The state at time zero, without a past."""
-        return cls(
-            (motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory
-        )  # fmt: skip
+        return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory)
 
     def to_arrays(self) -> dict[str, Array]:
         """The state as plain arrays by name, to be stored; exact."""

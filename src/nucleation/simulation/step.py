@@ -77,9 +77,7 @@ class Dynamics:
         w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
         expected = Expectation(state.motions, step.length, state.last_step, state.body_memory)
         for response in operator.responses(load, w, expected):
-            solution = self.interface.solve(
-                operator, response, past, imposed, guess.slip_rate[1:]
-            )  # fmt: skip
+            solution = self.interface.solve(operator, response, past, imposed, guess.slip_rate[1:])
             balance = operator.balance(response, solution.w, expected)
             if balance.holds:
                 break
