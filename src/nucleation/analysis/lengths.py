@@ -87,7 +87,7 @@ def gather(
     Parameters
     ----------
     runs : iterable of dict
-        From :meth:`nucleation.configuration.studies.Run.to_dict`.
+        From :meth:`nucleation.configuration.runs.Run.to_dict`.
     simulations : iterable of Dataset
         Their simulations, in the same order.
     settings : ExtractionSettings

@@ -123,7 +123,7 @@ def sensitivity_table(
     Parameters
     ----------
     runs : iterable of dict
-        From :meth:`nucleation.configuration.studies.Run.to_dict`; the first of each height is the
+        From :meth:`nucleation.configuration.runs.Run.to_dict`; the first of each height is the
         base.
     simulations : iterable of Dataset
         Their simulations, in the same order.

@@ -90,7 +90,7 @@ def gather(
 
     Parameters
     ----------
-    runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
     simulations : of the runs, in their order.
     patches : of :func:`.growth.follow_patch`, in the same order.
     settings : how lengths are read.

@@ -12,8 +12,7 @@ from ..analysis.record import Record
 from ..datasets.variables import annotate, some
 from ..patch.growth import FOLLOWED
 from ..simulation.recorded import RECORDED
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 MOST_FRAMES = (150, 140, 40)  # before, in and after the event
 MOST_NODES = 401

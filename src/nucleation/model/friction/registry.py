@@ -20,13 +20,9 @@ from collections.abc import Collection, Iterator
 from functools import cache, lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..quantities import ParameterError, Quantity, declarations
-
-if TYPE_CHECKING:
-    from ..parameters import Parameters
-    from .law import Friction
+from ..quantities import Checked, ParameterError, Quantity, declarations
 
 USUAL_LAW = "product"
 USUAL_EVOLUTION = "aging"
@@ -101,12 +97,12 @@ def _origin(error: Exception) -> tuple[str, int | None]:
     return last.filename, last.lineno
 
 
-def law_class(name: str) -> type[Friction]:
-    """The class of the friction law with a name."""
+def law_class(name: str) -> type[Checked]:
+    """The class, of :class:`~nucleation.model.friction.law.Friction`, of the law with a name."""
     return module(LAWS.package, name).Law
 
 
-def plugins(parameters: Parameters | Friction) -> tuple[str, ...]:
+def plugins(parameters: Any) -> tuple[str, ...]:
     """The dotted names of the modules that a run finds by name, and so imports by no statement.
 
     A digest that follows import statements misses them: whoever digests the code of something that
@@ -123,7 +119,7 @@ def plugins(parameters: Parameters | Friction) -> tuple[str, ...]:
     tuple of str
         Module of the friction law, module of its state evolution.
     """
-    friction: Any = getattr(parameters, "friction", parameters)
+    friction = getattr(parameters, "friction", parameters)
     return f"{LAWS.package}.{friction.law}", f"{EVOLUTIONS.package}.{friction.evolution}"
 
 
