@@ -40,8 +40,7 @@ REFERENCE = (1e-4, 0.02)
 
 def of_figure_s2(settings: Configuration) -> Parameters:
     """The simulation that is measured."""
-    height, age = settings.figures.space_time_height, settings.base.loading.initial_state
-    return settings.find(study="paper", law="aging", height=height, phi0=age).parameters
+    return settings.shown(settings.figures.space_time_height).parameters
 
 
 def measured(parameters: Parameters) -> dict[str, Any]:

@@ -6,14 +6,13 @@ A study says its role in its section of the configuration; names are the user's,
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-if TYPE_CHECKING:
-    from ..model.parameters import Parameters
-    from .load import Configuration
-    from .runs import Run
-    from .settings import FigureSettings
-    from .studies import StudySettings
+from ..model.parameters import Parameters
+from .settings import FigureSettings
+
+Run = Any
+"""Of :mod:`.runs`, which knows this module."""
 
 OWN = "own"
 
@@ -101,7 +100,7 @@ def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
 
 
 def role_problems(
-    studies: Mapping[str, StudySettings],
+    studies: Mapping[str, Any],
     runs: Sequence[Run],
     figures: FigureSettings,
     base: Parameters,
@@ -120,7 +119,7 @@ def role_problems(
         yield from _not_shown(name, settings.role, own, figures, base)
 
 
-def _problems(name: str, role: str, settings: StudySettings, runs: Sequence[Run]) -> Iterator[str]:
+def _problems(name: str, role: str, settings: Any, runs: Sequence[Run]) -> Iterator[str]:
     """What a study and its runs have that does not go with a role."""
     given = [(f"studies.{name}.{n.name}", n, getattr(settings, n.name)) for n in ROLES[role].study]
     for need in ROLES[role].runs:
@@ -150,7 +149,7 @@ def _not_shown(
             )
 
 
-def forgotten(values: Mapping[str, Any], settings: Configuration) -> list[str]:
+def forgotten(values: Mapping[str, Any], settings: Any) -> list[str]:
     """A warning about studies that went by their names, if no study says a role.
 
     Parameters
