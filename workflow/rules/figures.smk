@@ -6,11 +6,6 @@ def drawing(name):
     return ".".join(path.relative_to(SOURCE).with_suffix("").parts)
 
 
-def only(*paths):
-    """An input function that gives the results of rules, by name."""
-    return lambda wildcards: steps(*paths)
-
-
 DRAWN = {
     "figure_1": {},
     "figure_2": {"theory": only("theory")},

@@ -44,6 +44,11 @@ for _run in settings.runs:
 BATCHED_ONE_BY_ONE = [name for name, runs in BATCHES.items() if runs[0].study not in TABLED]
 
 
+def only(rule, name=""):
+    """An input function that gives the result of a rule."""
+    return lambda wildcards: steps(rule, name)
+
+
 def together(rule, runs, job):
     """What one job has to do to make the results of a rule for several runs."""
     return steps.together(rule, [run.id for run in runs], job)

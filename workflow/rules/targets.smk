@@ -122,7 +122,7 @@ for _name in ("check", "prune", "targets"):
             asked=_name,
             results=RESULTS,
             expected=everything if _name != "targets" else {},
-            targets={name: text for name, (text, _) in TARGETS.items()},
+            targets=lambda wildcards: {name: text for name, (text, _) in TARGETS.items()},
         message:
             f"{_name} of {RESULTS}"
         script:
