@@ -49,6 +49,7 @@ from nucleation.figures import catalogue
 from nucleation.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
+from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.steps import Steps
 from nucleation.pipeline.store import StoreError, others
