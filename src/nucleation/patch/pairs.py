@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.extraction import extract
+from ..analysis import lengths
 from ..analysis.lengths import description
 from ..analysis.record import parameters_of
 from ..analysis.rows import ratios
@@ -29,6 +30,10 @@ COLUMNS = (
     "wall_seconds",
 )  # fmt: skip
 """``f_beta`` is positive where the lower body is the stiffer one."""
+
+
+REALISATION: dict[str, Any] = {"perturbation.seed": 0, "recording.record": "everything"}
+"""What realisations of one fault may differ in, as one value for all."""
 
 
 def pair_description(parameters: Parameters) -> dict[str, Any]:
@@ -76,18 +81,38 @@ def gather(
     ----------
     runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
     simulations : of the runs, in their order.
-    patches : of :func:`.growth.follow_patch`, in the same order.
+    patches : of :func:`.growth.follow_patch`, of each fault's first realisation in the same order;
+        the others have its L_s, which the perturbation hardly moves.
     settings : how lengths are read.
     """
-    rows = []
-    for run, simulation, patch in zip(runs, simulations, patches, strict=True):
-        measured = extract(simulation, settings)
-        row = description(run) | pair_description(parameters_of(simulation))
+    rows, waiting, fitted = [], iter(patches), {}
+    for run, simulation in zip(runs, simulations, strict=True):
+        parameters, measured = parameters_of(simulation), extract(simulation, settings)
+        fault = run["study"], parameters.replaced(REALISATION)
+        if fault not in fitted:
+            patch = next(waiting)
+            fitted[fault] = {name: float(patch[name]) for name in FITTED}
+        row = description(run) | pair_description(parameters) | fitted[fault]
         row |= {name: float(measured[name]) for name in MEASURED}
-        row |= {name: float(patch[name]) for name in FITTED}
         row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
         rows.append(row | ratios(row))
     return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+
+
+def over_realisations(table: xr.Dataset) -> xr.Dataset:
+    """A table of pairs with one row for each fault, the mean of its realisations.
+
+    ``length_ratio_low`` and ``length_ratio_high`` are the least and the largest of them, without
+    the range over definitions that ``length_low`` and ``length_high`` have; ``realisations`` counts
+    them.
+    """
+    given = table.drop_vars("length_ratio")
+    ratio = [table["length_ratio"].values[rows] for rows in lengths.realisations(given)]
+    ends = {"": np.mean, "_low": np.min, "_high": np.max}
+    return lengths.over_realisations(given).assign(
+        {f"length_ratio{end}": ("run", np.array([f(own) for own in ratio]))
+         for end, f in ends.items()}
+    )  # fmt: skip
 
 
 def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
