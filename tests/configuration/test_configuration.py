@@ -95,7 +95,7 @@ def test_converged_study_has_the_papers_runs():
 def realisations(runs):
     """How many realisations each fault has."""
     faults = Counter(
-        run.parameters.replaced({"perturbation.seed": 0, "recording.record": "everything"})
+        run.parameters.replaced({"perturbation.seed": 0, "recording.record": "lengths"})
         for run in runs
     )
     return list(faults.values())

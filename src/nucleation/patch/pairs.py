@@ -32,10 +32,6 @@ COLUMNS = (
 """``f_beta`` is positive where the lower body is the stiffer one."""
 
 
-REALISATION: dict[str, Any] = {"perturbation.seed": 0, "recording.record": "everything"}
-"""What realisations of one fault may differ in, as one value for all."""
-
-
 def pair_description(parameters: Parameters) -> dict[str, Any]:
     """The columns that say which bodies and which perturbation a run has.
 
@@ -88,7 +84,7 @@ def gather(
     rows, waiting, fitted = [], iter(patches), {}
     for run, simulation in zip(runs, simulations, strict=True):
         parameters, measured = parameters_of(simulation), extract(simulation, settings)
-        fault = run["study"], parameters.replaced(REALISATION)
+        fault = run["study"], parameters.replaced({"perturbation.seed": 0})
         if fault not in fitted:
             patch = next(waiting)
             fitted[fault] = {name: float(patch[name]) for name in FITTED}

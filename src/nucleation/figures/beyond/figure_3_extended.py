@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...analysis.lengths import over_realisations
+from ...analysis.lengths import join, over_realisations
 from ...figures import style
 
 USUAL_AGE = 1.0  # s
@@ -51,6 +51,7 @@ DROPS = (
     Series("length", "converged", None, False, 4.8, False, r"drop, load steady to $10^{-5}$"),
 )
 BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
+JUDGED = "converged"
 STABILITY = ("converged", "paper")  # growth begins: in the first of these studies that is there
 
 
@@ -74,13 +75,16 @@ def draw(
         The same with ``stability_length`` in place of ``length``.
     noisy : Dataset
         Lengths of the aging law's faults under a stronger perturbation: a band from these to those
-        of the study `converged` is drawn if they are given.
+        of the study `converged` is drawn if they are given. Those at that study's own strength are
+        more realisations of its faults.
 
     Returns
     -------
     Figure
         Two columns wide.
     """
+    if isinstance(noisy, xr.Dataset):
+        noisy, lengths = _with_more(lengths, noisy)
     lengths = over_realisations(lengths)
     figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
@@ -102,6 +106,15 @@ def draw(
         axes.set_title(letter, loc="left")
         axes.minorticks_on()
     return figure
+
+
+def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
+    """The stronger perturbed runs alone, and the others among the study `converged`'s."""
+    judged = lengths["study"].values.astype(str) == JUDGED
+    more = np.isin(noisy["strength"].values, lengths["strength"].values[judged])
+    own = noisy.isel(run=np.flatnonzero(more))
+    own = own.assign(study=("run", np.full(own.sizes["run"], JUDGED)))
+    return noisy.isel(run=np.flatnonzero(~more)), join([lengths, own])
 
 
 def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
