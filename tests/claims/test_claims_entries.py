@@ -145,7 +145,8 @@ def test_onset_and_length_of_figure_s2(rows):
         assert row["on_papers_mesh"] == papers[column].item()
         assert row["verdict"] == Verdict.REPLICATED
     onset = converged.onset_time.mean()
-    assert f"6 realisations, {abs(13.5 - onset):.2f} s from the bound" in rows["onset-time"]["reason"]
+    said = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
+    assert said in rows["onset-time"]["reason"]
 
 
 def test_verdicts_whose_bound_is_near_have_six_realisations():

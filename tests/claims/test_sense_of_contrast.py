@@ -61,7 +61,7 @@ def stability_ratio(upper, lower, uniform=False):
     tried = np.linspace(0.35, 0.75, 9)
     found = np.array([growth(r * unit, upper, lower, uniform) for r in tried])
     after = int(np.argmax(found > 0.0))
-    assert 0 < after and (found[:after] < 0.0).all()
+    assert after > 0 and (found[:after] < 0.0).all()
     return brentq(
         lambda r: growth(r * unit, upper, lower, uniform), *tried[after - 1 : after + 1], xtol=1e-3
     )

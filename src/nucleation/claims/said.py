@@ -124,9 +124,7 @@ def above(bound: float, text: str = "") -> Said:
 def words(expression: str) -> Said:
     """Words, read by the table :data:`WORDS`."""
     low, high, reading = WORDS[expression]
-    return Said(
-        "words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED
-    )
+    return Said("words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED)
 
 
 def holds(said: Said, ours: Ours) -> bool | None:

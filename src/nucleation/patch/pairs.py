@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..analysis import lengths
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.extraction import extract
-from ..analysis import lengths
 from ..analysis.lengths import description
 from ..analysis.record import parameters_of
 from ..analysis.rows import ratios
@@ -104,11 +104,11 @@ def over_realisations(table: xr.Dataset) -> xr.Dataset:
     """
     given = table.drop_vars("length_ratio")
     ratio = [table["length_ratio"].values[rows] for rows in lengths.realisations(given)]
-    ends = {"": np.mean, "_low": np.min, "_high": np.max}
     return lengths.over_realisations(given).assign(
-        {f"length_ratio{end}": ("run", np.array([f(own) for own in ratio]))
-         for end, f in ends.items()}
-    )  # fmt: skip
+        length_ratio=("run", np.array([own.mean() for own in ratio])),
+        length_ratio_low=("run", np.array([own.min() for own in ratio])),
+        length_ratio_high=("run", np.array([own.max() for own in ratio])),
+    )
 
 
 def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:

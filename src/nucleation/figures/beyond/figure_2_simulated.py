@@ -41,8 +41,9 @@ def draw(table: xr.Dataset) -> Figure:
         panel.set_title(title, loc="left")
         panel.set_xlabel(r"Bimaterial contrast $f\beta$")
         panel.axvline(0.0, color=style.GUIDE, linewidth=0.6, linestyle=":")
-        for place, side, words in ((0.02, "left", "stiffer above"), (0.98, "right", "stiffer below")):
-            panel.text(place, 0.03, words, transform=panel.transAxes, ha=side, fontsize=style.SMALL)
+        for place, side, which in ((0.02, "left", "above"), (0.98, "right", "below")):
+            panel.text(place, 0.03, f"stiffer body {which}", transform=panel.transAxes, ha=side,
+                       fontsize=style.SMALL)  # fmt: skip
     axes[0].set_ylim(bottom=0.0)
     axes[0].set_ylabel(r"Length over $L_c^{\mathcal{M}}$")
     handles, labels = axes[0].get_legend_handles_labels()

@@ -121,7 +121,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     axes.set_xlabel(r"Relative strength $\epsilon$")
     handles, labels = axes.get_legend_handles_labels()
     if own.sizes["run"]:
-        axes.legend(handles, labels, loc="lower left", fontsize=style.SMALL, labelspacing=0.25)
+        axes.legend(handles, labels, loc="upper right", fontsize=style.SMALL, labelspacing=0.25)
 
 
 def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
@@ -139,7 +139,7 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> Non
         markersize=4.0, markeredgewidth=0.8, label="quiet, by elements along $x$",
     )  # fmt: skip
     while found:
-        strength, length, _ = found[0]
+        strength = found[0][0]
         close = [one for one in found if one[0] < CLOSE * strength]  # with one label
         axes.annotate(
             ", ".join(str(n_x) for n_x in sorted({one[2] for one in close})), close[-1][:2],

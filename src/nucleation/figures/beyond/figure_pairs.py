@@ -35,11 +35,10 @@ def draw(table: xr.Dataset) -> Figure:
     figure = style.new_figure(style.DOUBLE_COLUMN, 7.4 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
     table = over_realisations(table)
-    table = chosen(table, (table["n_x"] == _usual(table, "n_x")).values)  # not those of finer meshes
+    coarse, weakening = _usual(table, "n_x"), _usual(table, "zeta_over_a")
+    table = chosen(table, (table["n_x"] == coarse).values)  # the finer mesh is a check
     _draw_heights(left, of_study(table, STUDY).sortby("height"))
-    _draw_ratios(
-        right, chosen(table, np.abs(table["zeta_over_a"].values / _usual(table, "zeta_over_a") - 1) < 0.1)
-    )
+    _draw_ratios(right, chosen(table, np.abs(table["zeta_over_a"].values / weakening - 1) < 0.1))
     return figure
 
 
