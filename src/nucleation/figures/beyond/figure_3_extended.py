@@ -14,7 +14,7 @@ from ...analysis.lengths import join, over_realisations
 from ...figures import style
 
 USUAL_AGE = 1.0  # s
-RATIOS = (0.4, 1.3)
+RATIOS = (0.4, 1.2)
 ABOVE = 1.12  # the axes end at this multiple of the highest block
 LIMIT_HEIGHTS = (0.004, 0.13)  # m, of the logarithmic axis
 
@@ -48,7 +48,7 @@ KINDS: dict[tuple[str, bool], Kind] = {
 
 DROPS = (
     Series("length", "paper", None, True, 3.0, False, "drop, quiet, on the paper's mesh"),
-    Series("length", "converged", None, False, 4.8, False, r"drop, load steady to $10^{-5}$"),
+    Series("length", "converged", None, False, 4.8, True, r"drop, load steady to $10^{-5}$"),
 )
 BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
 JUDGED = "converged"
@@ -85,7 +85,7 @@ def draw(
     """
     if isinstance(noisy, xr.Dataset):
         noisy, lengths = _with_more(lengths, noisy)
-    lengths = over_realisations(lengths)
+    lengths = _means(lengths)
     figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
     studies = table["study"].values.astype(str)
@@ -96,7 +96,7 @@ def draw(
     for axes, relative in ((left, False), (right, True)):
         _draw_theory(axes, theory, relative)
         if isinstance(noisy, xr.Dataset):
-            _draw_band(axes, over_realisations(noisy), lengths, relative)
+            _draw_band(axes, _means(noisy), lengths, relative)
         for series in (*DROPS, stability):
             _draw_series(axes, table if series is stability else lengths, series, relative)
         axes.set_xlabel("Height $H$ (m)")
@@ -106,6 +106,12 @@ def draw(
         axes.set_title(letter, loc="left")
         axes.minorticks_on()
     return figure
+
+
+def _means(table: xr.Dataset) -> xr.Dataset:
+    """The mean of each fault's realisations, and their range by the one definition of a length."""
+    ends = {"length_low": table["length"], "length_high": table["length"]}
+    return over_realisations(table.assign(ends))
 
 
 def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
@@ -135,8 +141,12 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
     for runs in (noisy, quiet):
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
         scale = runs["theory_length"].values[order] if relative else 1.0
-        ends.append(runs["length"].values[order] / scale)
-    axes.fill_between(heights, *ends, color=style.AGING, alpha=0.2, linewidth=0.0)
+        ends.append([runs[f"length{end}"].values[order] / scale for end in ("", "_low", "_high")])
+    (strong, low, high), (usual_length, _, _) = ends
+    axes.fill_between(
+        heights, strong, usual_length, color=style.AGING, alpha=0.2, linewidth=0.0
+    )  # fmt: skip
+    axes.vlines(heights, low, high, color=style.AGING, linewidth=0.8, alpha=0.6)
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
