@@ -64,11 +64,11 @@ if "studies" not in config:
 
 
 try:
+    provenance.moment()
     settings = configure(config)
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
-    provenance.moment()
     others()  # the stores that the environment names can be used
 except (ParameterError, StoreError, DatasetError) as error:
     print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about
