@@ -18,7 +18,8 @@ def table():
             rows.append(("figure_2_simulated", "free", 1.0, contrast, weakening, 0.3))
     study, side, height, f_beta, weakening, theory = map(np.array, zip(*rows, strict=True))
     columns = {
-        "role": study, "far_side": side, "height": height, "second_height": height,
+        "role": study, "study": study, "ensemble": np.arange(height.size).astype(str),
+        "far_side": side, "height": height, "second_height": height,
         "f_beta": f_beta, "zeta_over_a": weakening, "theory_length": theory,
         "length": 0.7 * theory, "stability_length": 0.5 * theory,
         "length_ratio": 0.7 + 0.0 * theory, "stability_ratio": 0.5 + 0.0 * theory,
@@ -46,7 +47,9 @@ def test_identical_blocks_and_ratios(table):
 
 
 def test_finer_meshes_are_not_among_the_pairs_drawn(table):
-    finer = table.isel(run=[0]).assign(n_x=("run", [1600]), seed=("run", [9]))
+    finer = table.isel(run=[0]).assign(
+        n_x=("run", [1600]), seed=("run", [9]), ensemble=("run", ["finer"])
+    )
     drawn = figure_pairs.draw(xr.concat([table, finer], dim="run")).axes[1]
     assert drawn.lines[0].get_xdata().size == 3
 

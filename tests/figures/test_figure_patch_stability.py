@@ -151,12 +151,12 @@ def test_figures_are_legible_and_their_files_reproducible(name, request, tmp_pat
 def test_more_realisations_move_the_mean_and_stronger_noise_the_band(theory, lengths, table):
     """Runs of another study at the strength of `converged` are more realisations of its faults."""
     given = lengths.assign(
-        strength=("run", np.where(lengths["study"].values == "converged", 1e-5, 0.0)),
         seed=("run", np.ones(lengths.sizes["run"])),
         id=("run", np.arange(lengths.sizes["run"]).astype(str)),
     )
     judged = given.isel(run=np.flatnonzero(given["study"].values == "converged"))
-    more = judged.assign(study=("run", ["noisy"] * judged.sizes["run"]), seed=judged["seed"] + 1)
+    others = ("run", ["noisy"] * judged.sizes["run"])
+    more = judged.assign(study=others, role=others, seed=judged["seed"] + 1)
     more = more.assign(length=1.2 * more["length"])
     strong = more.assign(strength=1e3 * more["strength"], length=more["length"] / 2.4)
     noisy = xr.concat([more, strong], dim="run")

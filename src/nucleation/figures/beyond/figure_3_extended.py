@@ -104,7 +104,9 @@ def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.D
     judged = lengths["role"].values.astype(str) == JUDGED
     more = np.isin(noisy["strength"].values, lengths["strength"].values[judged])
     own = noisy.isel(run=np.flatnonzero(more))
-    own = own.assign(role=("run", np.full(own.sizes["run"], JUDGED)))
+    same = {name: ("run", np.resize(lengths[name].values[judged], own.sizes["run"]))
+            for name in ("study", "role")}  # fmt: skip
+    own = own.assign(same)
     return noisy.isel(run=np.flatnonzero(~more)), join([lengths, own])
 
 
