@@ -51,8 +51,9 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
+from nucleation.pipeline.elsewhere import others
 from nucleation.pipeline.steps import Steps
-from nucleation.pipeline.store import StoreError, others
+from nucleation.pipeline.store import StoreError
 from nucleation.pipeline.targets import default_target
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
@@ -69,7 +70,8 @@ try:
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
-    others()  # the stores that the environment names can be used
+    if "NUCLEATION_WARNED" not in os.environ:  # a job on a node that lacks a disk goes on
+        others()  # the stores that the environment names can be used
 except (ParameterError, StoreError, DatasetError) as error:
     print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about
     raise WorkflowError("the workflow can't be used like this, see above") from None

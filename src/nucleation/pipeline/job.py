@@ -26,8 +26,9 @@ from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError
 from ..model.quantities import ParameterError
 from . import code, keys
+from .elsewhere import give_all, others
 from .steps import LINKS, Sources, Task, task_of
-from .store import STEM, Store, StoreError, give_all, others, path_in, read_note
+from .store import STEM, Store, StoreError, path_in, read_note
 
 EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 """Failures that are told in one line: what to do about them is outside of the code."""
@@ -52,7 +53,7 @@ class Job:
         self.log = str(snakemake.log[0]) if snakemake.log else ""
         self.results = Path(link.rpartition(f"/{LINKS}/")[0])
         self.store = Store(self.results / "store")
-        self._others = others()
+        self._others = others(strict=False)
 
     def verify(self) -> None:
         """Make sure that this process has the code, parameters and sources it was planned with."""
@@ -131,7 +132,7 @@ class Job:
 
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
         self.store.put(key, write, about | {"rule": self.rule, "name": Path(task.link).name})
-        give_all(self.store.entry(key))
+        give_all(self.store.entry(key), self._others)
 
     def origin(self, task: Task) -> dict[str, str]:
         """Attributes of a task's dataset that say how it was made."""
