@@ -19,7 +19,8 @@ from ..analysis.definitions import ExtractionSettings
 from ..analysis.lengths import description
 from ..analysis.record import Record
 from ..fem.bodies import body_of
-from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from .frozen import frozen_patch
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

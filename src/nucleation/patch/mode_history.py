@@ -30,7 +30,8 @@ from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record, parameters_of
 from ..fem.bodies import BodyOperator, body_of
 from ..model.parameters import Parameters
-from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from .frozen import frozen_patch
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
