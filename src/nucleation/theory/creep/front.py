@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...model.friction.law import Friction
 from .lengths import NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import MODES, Modes, modes, response
+from .modes import Modes, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ class Advance(NamedTuple):
 
 def advance(
     patches: Patches, lengths: ArrayLike, initial_state: float, initial_stress: float = 0.0,
-    number: int = MODES,
+    number: int | None = None,
 ) -> Advance:  # fmt: skip
     """The patch of one fault at some lengths, with its advancing front.
 
@@ -78,14 +78,15 @@ def advance(
     initial_stress : float
         Shear stress over sigma0 when it does.
     number : int
-        Of modes.
+        Of modes; as many as the fault needs by default.
 
     Raises
     ------
     NoPatch
         If the creep takes all of the compression somewhere.
     """
-    law, velocity, own = patches.law, patches.velocity, modes(number)
+    law, velocity, number = patches.law, patches.velocity, number or patches.number
+    own = modes(number)
     assert law is not None
     distance, length = law.characteristic_slip_distance, np.atleast_1d(np.asarray(lengths, float))
     around = length * np.exp(STEP * np.array([-1.0, 0.0, 1.0]))[:, None]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ from .linearised import (
     creeping_patch,
     local_coefficients,
 )
-from .modes import MODES, response
+from .modes import modes_for, response
 from .profile import LOADINGS, Creep
 
 Array = NDArray[np.float64]
@@ -56,7 +57,7 @@ class StabilityPoint(NamedTuple):
     growth : float
         ``d Re Lambda/d log L`` over V/D.
     error : float
-        Relative error of the length, by what half as many modes again change.
+        Relative error of the length, by what three quarters of the modes would give.
     """
 
     length: float
@@ -86,12 +87,17 @@ class Patches:
     velocity: float = 1.0
     loading: str = "edge"
 
-    def creep(self, length: float, number: int = MODES) -> Creep:
+    @cached_property
+    def number(self) -> int:
+        """Of modes that the fault needs."""
+        return modes_for(self.one)
+
+    def creep(self, length: float, number: int | None = None) -> Creep:
         """How a patch of a length (m) creeps."""
         friction = float(self.one.friction[0])
-        return LOADINGS[self.loading](response(self.one, length, number), friction)
+        return LOADINGS[self.loading](response(self.one, length, number or self.number), friction)
 
-    def at(self, length: float, number: int = MODES) -> FrozenPatch:
+    def at(self, length: float, number: int | None = None) -> FrozenPatch:
         """The linearised patch of a length (m); slip in D, time in D/V.
 
         Raises
@@ -109,7 +115,7 @@ class Patches:
             friction = constant_coefficients(creep.slip_rate, *values)
         return creeping_patch(creep, friction)
 
-    def rate(self, length: float, number: int = MODES) -> complex:
+    def rate(self, length: float, number: int | None = None) -> complex:
         """Lambda over V/D of the fastest growing oscillating mode, NaN without one."""
         return self.at(length, number).oscillating(OSCILLATING)
 
@@ -132,7 +138,7 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     if not math.isfinite(critical):
         raise NoPatch("homogeneous sliding is stable")
 
-    def growth(log_length: float, number: int = MODES) -> float:
+    def growth(log_length: float, number: int | None = None) -> float:
         found = patches.rate(math.exp(log_length), number).real
         return -1.0 if math.isnan(found) else found  # without an oscillating mode all decay
 
@@ -147,7 +153,7 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     at = brentq(growth, low, high, xtol=PRECISION)
     rate = patches.rate(math.exp(at))
     slope = (growth(at + 1e-3) - growth(at - 1e-3)) / 2e-3
-    error = abs(growth(at, MODES + MODES // 2) - growth(at)) / slope + PRECISION
+    error = abs(growth(at, 3 * patches.number // 4) - growth(at)) / slope + PRECISION
     return StabilityPoint(math.exp(at), rate.imag, slope, error)
 
 

@@ -31,13 +31,20 @@ from ..spectrum import Systems
 
 Array = NDArray[np.float64]
 
-MODES = 16
-"""Modes of slip: L_s changes by less than 1e-4 with twice as many where the bodies are alike."""
+MODES, MORE_MODES = 16, 32
+"""Modes of slip: enough for an error of L_s of some 1e-4, and more where the stiffer body is
+above: pushed that way, slip piles up compression behind the front (:func:`modes_for`)."""
+
+STIFFER_ABOVE = -0.05
+"""``f G2/G1`` of the half-spaces below which there are more modes."""
 
 CUT = 14.0
 """``kH`` beyond which layers are half-spaces: ``q^2 exp(-2 q)`` is 1e-10."""
 
-SLIMMEST = 250.0
+REACHES = (5.0, 25.0, 250.0)
+"""Patch lengths over height for which there are tables: thicker layers need shorter ones."""
+
+SLIMMEST = REACHES[-1]
 """Patch length over height up to which layers are taken as they are (:func:`_thickened`)."""
 
 WIDTH, POINTS = 6.0, 10  # panels of kappa and their Gauss points: J_2n(kappa) turns with 2 pi
@@ -50,13 +57,18 @@ class Modes:
 
     theta: Array  # (N,), from the front to the edge
     values: Array  # phi_0 and the sines at theta, (N, N + 1)
-    front_slopes: Array  # their d/dtheta at the front, (N + 1,)
     gradients: Array  # L u', (N, N + 1)
     half_space: Array  # L/(mu G1) times the shear stress lost in half-spaces, (N, N + 1)
     kappa: Array
     shear: Array  # sin(kappa x/L) at theta, (kappa, N)
     normal: Array  # cos(kappa x/L)
     slip: Array  # weight of the quadrature times (-1)^(n+1) w_n J_2n(kappa), (kappa, N + 1)
+
+    @property
+    def smoothing(self) -> Array:
+        """Factors of phi_0 and the sines that leave out the last ones, (N + 1,)."""
+        part = np.arange(self.theta.size + 1) / (self.theta.size + 1)
+        return np.exp(-36.0 * part**6)
 
     @property
     def inverse(self) -> Array:
@@ -70,9 +82,9 @@ class Modes:
         return values
 
 
-@lru_cache(maxsize=8)
-def modes(number: int = MODES) -> Modes:
-    """The modes and their tables."""
+@lru_cache(maxsize=16)
+def modes(number: int, slimmest: float = 0.0) -> Modes:
+    """The modes, and their tables for patches up to `slimmest` times as long as a layer is high."""
     n = np.arange(number + 1)
     weights = np.where(n == 0, 2.0 / np.pi, 2.0 * n)
     theta = 0.5 * np.pi * (np.arange(number) + 0.5) / number
@@ -80,14 +92,14 @@ def modes(number: int = MODES) -> Modes:
     values = np.sin(angles)
     values[:, 0] = 2.0 * theta / np.pi
     edges = np.append(0.0, np.geomspace(FINEST, WIDTH, 14))
-    edges = np.append(edges, np.arange(edges[-1] + WIDTH, CUT * SLIMMEST + WIDTH, WIDTH))
+    edges = np.append(edges, np.arange(edges[-1] + WIDTH, CUT * slimmest + WIDTH, WIDTH))
     points, shares = np.polynomial.legendre.leggauss(POINTS)
     half = 0.5 * np.diff(edges)[:, None]
     kappa = (edges[:-1, None] + half * (1.0 + points)).ravel()
     bessel = jv(2 * n, kappa[:, None]) * (half * shares).reshape(-1, 1)
     x = np.cos(theta)
     return Modes(
-        theta, values, weights, -weights * np.cos(angles) / np.sin(theta)[:, None],
+        theta, values, -weights * np.cos(angles) / np.sin(theta)[:, None],
         2.0 * n * np.sin(angles) / np.sin(theta)[:, None], kappa, np.sin(np.outer(kappa, x)),
         np.cos(np.outer(kappa, x)), -bessel * weights * (-1.0) ** n,
     )  # fmt: skip
@@ -118,6 +130,13 @@ class Response:
         return self.shear + np.reshape(friction, (-1, 1)) * self.normal
 
 
+def modes_for(one: Systems) -> int:
+    """How many modes one fault needs."""
+    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
+    above = float(one.friction[0]) * float(far.xy[0] / far.xx[0]) < STIFFER_ABOVE
+    return MORE_MODES if above else MODES
+
+
 def response(one: Systems, length: float, number: int = MODES) -> Response:
     """The response of one fault's bodies to slip of a patch.
 
@@ -130,11 +149,11 @@ def response(one: Systems, length: float, number: int = MODES) -> Response:
     number : int
         Of modes.
     """
-    own = modes(number)
     one, by_shear, by_normal = _thickened(one, length)
     far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
-    thinnest = min(float(b.height[0]) for b in one.pair if b is not None)
-    used = np.searchsorted(own.kappa, CUT * length / thinnest)
+    slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
+    own = modes(number, min(reach for reach in REACHES if slim <= reach * (1.0 + 1e-9)))
+    used = np.searchsorted(own.kappa, CUT * slim)
     found = one.pair.stiffness(own.kappa[:used] / length, whole=False)
     slip = own.slip[:used]
     shear = far.xx * own.half_space + own.shear[:used].T @ ((found.xx - far.xx)[:, None] * slip)

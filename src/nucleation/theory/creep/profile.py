@@ -19,6 +19,10 @@ SLOWEST = 1e-6
 """Slip rates below this part of V do not count: friction's logarithm has no end."""
 
 
+NEAR = 2
+"""Places next to the front from which the singularity's share is found."""
+
+
 class Creep(NamedTuple):
     """A patch that creeps, at the angles of its modes.
 
@@ -76,13 +80,22 @@ class EdgeSlip(NamedTuple):
 
 
 def edge_slip(response: Response, friction: float, strength: Array | float) -> EdgeSlip:
-    """The modes' coefficients, (N + 1,) of the slip rate over V and of the slip over D."""
-    matrix, slopes = response.coupled(friction), response.modes.front_slopes
+    """The modes' coefficients, (N + 1,) of the slip rate over V and of the slip over D.
+
+    Where slip changes the normal stress, the front's singularity is no square root, and neither is
+    the edge regular: an error of alternating sign at neighbouring places is left, which is taken
+    out of the result (:attr:`~.modes.Modes.smoothing`).
+    """
+    matrix = response.coupled(friction)
     loads = np.stack([matrix[:, 0], np.broadcast_to(strength, matrix.shape[:1])], axis=1)
     rates, held = -np.linalg.solve(matrix[:, 1:], loads).T
     rates, held = np.append(1.0, rates), np.append(0.0, held)
-    loaded = -float(slopes @ held) / float(slopes @ rates)
-    return EdgeSlip(rates, loaded * rates + held, loaded)
+    near = response.modes.values[:NEAR]
+    squares = response.modes.theta[:NEAR] ** 2
+    ratio = (near @ held) / (near @ rates)
+    loaded = -float(np.polyfit(squares, ratio, NEAR - 1)[-1])
+    smoothing = response.modes.smoothing
+    return EdgeSlip(smoothing * rates, smoothing * (loaded * rates + held), loaded)
 
 
 LOADINGS: dict[str, Callable[..., Creep]] = {"edge": edge}
