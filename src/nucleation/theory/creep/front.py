@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
 from .lengths import NoPatch, Patches
-from .linearised import FrozenPatch, creeping_patch, local_coefficients
+from .linearised import OSCILLATING, FrozenPatch, creeping_patch, local_coefficients
 from .modes import Modes, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
 
@@ -36,6 +36,8 @@ FINE = 400  # angles at which the state behind the front is followed,
 AT_REST = 100  # and times of the interface ahead
 STEP = 0.01  # of log L, in derivatives by L
 FLOOR = 1e-3  # slip rate over V with which the front sets in
+SHORTEST, TRIED = 0.3, 14  # patches that are tried for L_s: from which part of L_c on, how many,
+NEAR = np.array([-0.05, 0.0, 0.05])  # and those through which Re Lambda is laid, log(L/L_s)
 
 
 class Advance(NamedTuple):
@@ -52,6 +54,8 @@ class Advance(NamedTuple):
     patches : list of FrozenPatch
         Linearised; slip in D, time in D/V.
     creeps : list of Creep
+    log_states : ndarray
+        log(phi), phi in s, at the angles of the modes, (n, N).
     """
 
     length: Array
@@ -59,6 +63,7 @@ class Advance(NamedTuple):
     speed: Array
     patches: list[FrozenPatch]
     creeps: list[Creep]
+    log_states: Array
 
 
 def advance(
@@ -113,7 +118,7 @@ def advance(
             raise NoPatch(f"the creep opens the fault at a patch length of {length[i]:.4g} m")
         creeps.append(creep)
         frozen.append(creeping_patch(creep, local_coefficients(law, velocity, rate, psi[i])))
-    return Advance(length, time, speed, frozen, creeps)
+    return Advance(length, time, speed, frozen, creeps, psi)
 
 
 def _slips(row: list, friction: Array, initial_stress: float) -> list[EdgeSlip]:
@@ -160,3 +165,43 @@ def _stepped(law: Friction, psi: Array, step: Array, rate: Array) -> Array:
     evolve = law.evolution_law.implicit_log_state
     half = evolve(evolve(psi, 0.5 * step, rate)[0], 0.5 * step, rate)[0]
     return 2.0 * half - evolve(psi, step, rate)[0]
+
+
+def oscillating(found: Advance) -> NDArray[np.complex128]:
+    """Lambda over V/D of each patch's fastest growing oscillating mode, NaN without one."""
+    return np.array([patch.oscillating(OSCILLATING) for patch in found.patches])
+
+
+def first_growing(
+    patches: Patches, critical: float, initial_state: float, initial_stress: float = 0.0
+) -> float:
+    """L_s (m) of a patch with its advancing front.
+
+    Parameters
+    ----------
+    critical : float
+        L_c (m), up to ``LONGEST`` times which patches are tried.
+
+    Raises
+    ------
+    NoPatch
+        If no patch of these lengths has a growing oscillating mode, or its creep opens the fault.
+    """
+    tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
+    for lengths in (tried, tried * (1.0 / SHORTEST) ** (1.0 - 1.0 / TRIED)):
+        rates = oscillating(advance(patches, lengths, initial_state, initial_stress))
+        growth = np.where(np.isnan(rates), -1.0, rates.real)
+        i = int(np.argmax(growth > 0.0))
+        if growth[i] > 0.0:
+            break
+    else:
+        raise NoPatch(f"no patch up to {lengths[-1] / critical:.2g} L_c has a growing mode")
+    if i == 0:
+        raise NoPatch(f"the patch grows its mode from {lengths[0] / critical:.2g} L_c on or before")
+    at = np.exp(np.interp(0.0, growth[i - 1 : i + 1], np.log(lengths[i - 1 : i + 1])))
+    near = at * np.exp(NEAR)
+    found = oscillating(advance(patches, near, initial_state, initial_stress)).real
+    fit = np.polynomial.Polynomial.fit(NEAR, found, 2)
+    roots = fit.roots()
+    real = roots[np.abs(roots.imag) < 1e-9].real
+    return float(at * np.exp(real[np.abs(real).argmin()]))

@@ -17,11 +17,15 @@ from scipy.optimize import brentq
 
 from ...model.friction.constants import full_law
 from ...model.friction.law import Friction
+from ...model.linearised import interface_state
+from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
 from ..arrays import fault_of, named
+from ..critical import systems_of
 from ..crossings import largest_crossings
 from ..fault import Fault, Values
 from ..spectrum import Systems
+from ..transfer import bodies_of
 from .linearised import (
     OSCILLATING,
     FrozenPatch,
@@ -86,6 +90,12 @@ class Patches:
     law: Friction | None = None
     velocity: float = 1.0
     loading: str = "edge"
+
+    @classmethod
+    def of(cls, parameters: Parameters) -> Patches:
+        """Those of a run, with its own friction law."""
+        one = systems_of([(*bodies_of(parameters), interface_state(parameters))])
+        return cls(one, parameters.friction, parameters.loading.velocity)
 
     @cached_property
     def number(self) -> int:
