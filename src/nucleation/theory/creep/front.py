@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
-from .lengths import NoPatch, Patches
-from .linearised import OSCILLATING, FrozenPatch, creeping_patch, local_coefficients
+from .lengths import OSCILLATING, NoPatch, Patches
+from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import Modes, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
 

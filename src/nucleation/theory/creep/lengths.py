@@ -27,7 +27,6 @@ from ..fault import Fault, Values
 from ..spectrum import Systems
 from ..transfer import bodies_of
 from .linearised import (
-    OSCILLATING,
     FrozenPatch,
     constant_coefficients,
     creeping_patch,
@@ -40,6 +39,10 @@ Array = NDArray[np.float64]
 
 LONGEST = 3.0
 """Patches up to this multiple of L_c are tried."""
+
+OSCILLATING = 0.01
+"""Modes of a smaller angular frequency, over V/D, do not count: none that has to do with L_s is as
+slow, and it is less than what is asked of a run's patch, whose spectrum is not as clean."""
 
 SHORTEST, FACTOR = 0.7, 1.12  # where the search starts, over its guess; from length to length
 PRECISION = 1e-5  # relative, of L_s for a given number of modes
