@@ -22,6 +22,7 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 FIRST, LAST, INSTANTS = 0.8, 1.7, 24  # lengths over L_s that are followed, and how many
+SLOWED = 0.45  # frequency over that at L_s below which a patch leaves its oscillation behind
 PLACES = 400  # along x, for what depends on it
 
 
@@ -45,7 +46,11 @@ def theory_history(parameters: Parameters, theory_length: float) -> ModeHistory:
     stable = first_growing(patches, theory_length, *start)
     found = advance(patches, stable * np.linspace(FIRST, LAST, INSTANTS), *start)
     rates = oscillating(found)
-    known = np.flatnonzero(np.isfinite(rates))
+    at_start = np.interp(stable, found.length, rates.imag)
+    above = found.length > stable
+    left = above & ~((rates.imag > SLOWED * at_start) & (rates.real > 0.0))
+    end = int(np.argmax(left)) if left.any() else found.length.size
+    known = np.flatnonzero(np.isfinite(rates[:end]))
     x = np.linspace(0.0, found.length[-1], PLACES)
     rows = [_weights(patches, found, i, complex(rates[i]), x) for i in known]
     load, drive, strength, state = (np.array(column) for column in zip(*rows, strict=True))

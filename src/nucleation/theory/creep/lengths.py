@@ -203,13 +203,15 @@ def stability_length(
     ParameterError
         If a parameter is missing, unknown or outside its range, or no law has a fault's constants.
     """
-    return stability_values(fault_of(fault), friction_law, loading)[0]
+    own = fault_of(fault)
+    length, _, _ = stability_values(own, friction_law, loading)
+    return named(length, "stability_length", "m", "stability length of the creeping patch", own)
 
 
 def stability_values(
     fault: Fault, friction_law: Friction | None = None, loading: str = "edge"
 ) -> tuple[Any, Any, Any]:
-    """L_s (m), the mode's frequency over V/D and the relative error of L_s."""
+    """L_s (m), the mode's frequency over V/D and the relative error of L_s; plain, in SI units."""
     if loading not in LOADINGS:
         raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
     if friction_law is not None and (fault.velocity is None or fault.friction is None):
@@ -228,13 +230,21 @@ def stability_values(
             found[:, i] = point.length, point.frequency, point.error
         return found
 
-    velocity = 1.0 if fault.velocity is None else fault.velocity
-    length, frequency, error = fault.evaluate(points, velocity, rows=3)
-    return (
-        named(length, "stability_length", "m", "stability length of the creeping patch", fault),
-        named(frequency, "stability_frequency", "1", "its mode's frequency over V/D", fault),
-        named(error, "stability_error", "1", "relative error of the stability length", fault),
-    )
+    return tuple(fault.evaluate(points, 1.0 if fault.velocity is None else fault.velocity, rows=3))
+
+
+def effect_of_scales(parameters: Parameters, critical: float) -> tuple[float, float]:
+    """L_s (m) of a run's fault with its own friction law, and with constant a and b; or NaN.
+
+    A law's scales, such as v* and v0 of the paper's, make a(v) and b(v) change along the patch.
+    """
+    own, lengths = Patches.of(parameters), []
+    for patches in (own, dataclasses.replace(own, law=None)):
+        try:
+            lengths.append(stability_point(patches, critical).length)
+        except NoPatch:
+            lengths.append(math.nan)
+    return lengths[0], lengths[1]
 
 
 def _own_law(law: Friction, one: Systems, velocity: float) -> Friction:
