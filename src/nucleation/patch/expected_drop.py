@@ -130,8 +130,8 @@ def _expected(history: ModeHistory, declared: Perturbation) -> ExpectedDrop:
     elif (grown := _growth_in_period(history, drop.length)) < SLOWEST_GROWTH:
         doubt = (
             f"the mode grows by a factor of {grown:.2g} in a period where it is as large as the "
-            f"loading (the law holds from {SLOWEST_GROWTH:g} on): bursts that come to rest may make "
-            "the drop later"
+            f"loading (the law holds from {SLOWEST_GROWTH:g} on): bursts that come to rest may "
+            "make the drop later"
         )
     elif drop.high > NEAR_END * history.parameters.geometry.length:
         doubt = (

@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...model.friction.law import Friction
 from .lengths import OSCILLATING, NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import Modes, modes, response
+from .modes import MORE_MODES, Modes, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
 
 Array = NDArray[np.float64]
@@ -83,14 +83,14 @@ def advance(
     initial_stress : float
         Shear stress over sigma0 when it does.
     number : int
-        Of modes; as many as the fault needs by default.
+        Of modes; more than steady creep needs, by default.
 
     Raises
     ------
     NoPatch
         If the creep takes all of the compression somewhere.
     """
-    law, velocity, number = patches.law, patches.velocity, number or patches.number
+    law, velocity, number = patches.law, patches.velocity, number or MORE_MODES
     own = modes(number)
     assert law is not None
     distance, length = law.characteristic_slip_distance, np.atleast_1d(np.asarray(lengths, float))
