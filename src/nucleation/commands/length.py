@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import textwrap
@@ -209,9 +210,9 @@ def _stability(fault: Fault) -> dict[str, float]:
     if fault.velocity is not None and fault.friction is not None and np.isfinite(length):
         try:
             simulated = float(stability_values(fault, Friction())[0])
-        except ParameterError:  # the usual law can't have these constants
-            return found
-        found["stability_length_as_simulated"] = simulated
+            found["stability_length_as_simulated"] = simulated
+        except ParameterError:
+            pass  # the usual law can't have these constants
     return found
 
 
@@ -219,7 +220,7 @@ def _patch_lines(fault: Fault, critical: float) -> list[str]:
     """L_s, what it means, and what friction's own scales make of it."""
     if not np.isfinite(critical):
         return []
-    found, law = _stability(fault), Friction()
+    found, flat = _stability(fault), dataclasses.asdict(Friction())
     head = ["", "The creeping patch itself, pushed at its edge (docs/patch_theory.md):"]
     length = found["stability_length"]
     if not np.isfinite(length):
@@ -237,8 +238,8 @@ def _patch_lines(fault: Fault, critical: float) -> list[str]:
         said = "none up to 3 L_c" if np.isnan(own) else f"{own:.4g} m, {own / critical:.3g} L_c,"
         lines.append(
             f"         {said} with the usual law of `simulate` and `drop`, whose a and b change\n"
-            f"         along the patch: v* = {law.slip_rate_scale:g} m/s, "
-            f"v0 = {law.regularisation_slip_rate:g} m/s beside V = {float(fault.velocity):g} m/s"
+            f"         along the patch: v* = {flat['slip_rate_scale']:g} m/s, "
+            f"v0 = {flat['regularisation_slip_rate']:g} m/s beside V = {float(fault.velocity):g} m/s"
         )
     return lines
 

@@ -84,9 +84,16 @@ def expected_drop(
         raise NoDrop("nothing is perturbed: without a strength the drop depends on round-off")
     if not quiet_run:
         try:
-            return _expected(theory_history(parameters, theory_length), declared)
+            history = theory_history(parameters, theory_length)
         except NoPatch as error:
             raise NoDrop(str(error)) from None
+        found = _expected(history, declared)
+        if not found.doubt and found.drop.high > history.length[-1]:
+            return found._replace(
+                doubt="the drop lies beyond the patches whose mode could be followed, "
+                f"{history.length[-1] / theory_length:.2g} L_c"
+            )
+        return found
     length = min(parameters.geometry.length, BLOCK * theory_length)
     record = quick_run(
         parameters.replaced({"geometry.length": length}), REACH * theory_length, settings, mesh

@@ -99,7 +99,9 @@ def _profiles(rows: list[dict[str, Any]], runs: dict[str, dict[str, Any]]) -> di
     ordered = sorted((row for row in rows if row["front_length"] > 0.0), key=lambda r: r["f_beta"])
     if not ordered:
         return {}
+    ordered = list({round(row["f_beta"], 6): row for row in ordered}.values())
     shown = [ordered[i] for i in np.linspace(0, len(ordered) - 1, PROFILES).round().astype(int)]
+    shown = list({row["id"]: row for row in shown}.values())
     x, rate, stress = [], [], []
     for row in shown:
         parameters = Parameters.from_dict(runs[row["id"]]["parameters"])

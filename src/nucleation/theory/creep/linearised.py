@@ -51,7 +51,7 @@ class FrozenPatch:
     def eigenvalues(self) -> ComplexArray:
         """All eigenvalues Lambda (1/s), fastest growing first."""
         values = np.linalg.eigvals(self.matrix)
-        return values[np.argsort(-values.real)]  # type: ignore[return-value]
+        return values[np.argsort(-values.real)]
 
     def oscillating(self, frequency: float) -> complex:
         """The fastest growing eigenvalue of at least an angular frequency (1/s), or NaN."""
