@@ -239,7 +239,7 @@ def _patch_lines(fault: Fault, critical: float) -> list[str]:
         lines.append(
             f"         {said} with the usual law of `simulate` and `drop`, whose a and b change\n"
             f"         along the patch: v* = {flat['slip_rate_scale']:g} m/s, "
-            f"v0 = {flat['regularisation_slip_rate']:g} m/s beside V = {float(fault.velocity):g} m/s"
+            f"v0 = {flat['regularisation_slip_rate']:g} m/s, V = {float(fault.velocity):g} m/s"
         )
     return lines
 
