@@ -66,10 +66,6 @@ FIGURES: dict[str, Entry] = {
         "Stability of the creeping patch", BEYOND, ("paper", "twin_runs"),
         (PATCHES, Data("twin_runs")),
     ),
-    "figure_patch_theory": Entry(
-        "The creeping patch by theory, and simulated", BEYOND, ("map", "pairs_identical"),
-        (Data("patch_theory"),),
-    ),
     "figure_sensitivity": Entry(
         "Sensitivity to parameters and definitions", BEYOND, ("sensitivity",),
         (Data("sensitivity"),),
