@@ -53,9 +53,8 @@ def theory_history(parameters: Parameters, theory_length: float) -> ModeHistory:
     known = np.flatnonzero(np.isfinite(rates[:end]))
     x = np.linspace(0.0, found.length[-1], PLACES)
     rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
-    load, drive, strength, state = (
-        np.array(column, dtype=complex) for column in zip(*rows, strict=True)
-    )
+    columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
+    load, drive, strength, state = columns
     memory = parameters.memory_time
     return ModeHistory(
         parameters, x, found.time[known], found.length[known], rates[known] / memory,
