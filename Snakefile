@@ -50,7 +50,7 @@ from nucleation.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.steps import Steps
+from nucleation.pipeline.steps import LINKS, Steps
 from nucleation.pipeline.store import StoreError, others
 from nucleation.pipeline.targets import default_target
 
@@ -159,7 +159,7 @@ for _target in TARGETS:
             _target
         default_target: _target == DEFAULT
         input:
-            lambda wildcards, target=_target: [*wanted(target)],
+            lambda wildcards, target=_target: asked(target),
         localrule: True
         params:
             shown=lambda wildcards, target=_target: shown(target),
@@ -171,3 +171,8 @@ for _target in TARGETS:
             TARGETS[_target][0]
         script:
             "workflow/scripts/show.py"
+
+
+# What the logger plug-in counts (src/snakemake_logger_plugin_nucleation); else it is not shown.
+onstart:
+    logger.info("", extra={"simulations": {"results": RESULTS, "jobs": to_simulate(ASKED)}})
