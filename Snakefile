@@ -49,6 +49,7 @@ from nucleation.figures import catalogue
 from nucleation.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
+from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.steps import LINKS, Steps
 from nucleation.pipeline.store import StoreError, others
@@ -63,11 +64,11 @@ if "studies" not in config:
 
 
 try:
+    provenance.moment()
     settings = configure(config)
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
-    provenance.moment()
     others()  # the stores that the environment names can be used
 except (ParameterError, StoreError, DatasetError) as error:
     print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about

@@ -117,15 +117,10 @@ def modes():
     return steps.several("mode", [run.id for run in runs_for("quiet")])
 
 
-def fault(run):
-    """What sets the faults of quiet runs apart."""
-    return run.parameters.geometry.height, run.parameters.friction.evolution
-
-
 def floor_runs():
     """The runs whose modes say how noisy meshes are: of the faults that have several."""
-    faults = {fault(run) for run in runs_for("convergence_quiet")}
-    return [run for run in runs_for("quiet") if fault(run) in faults]
+    faults = {fault(run.parameters) for run in runs_for("convergence_quiet")}
+    return [run for run in runs_for("quiet") if fault(run.parameters) in faults]
 
 
 def hopping():
@@ -157,10 +152,8 @@ def space_time_id(wildcards):
 
 def element(run):
     """All that a run is given but for the block's length, of which there is that of an element (m)."""
-    given, mesh = run.parameters.to_dict(), run.parameters.mesh
-    given["geometry"]["length"] = round(given["geometry"]["length"] / mesh.n_x, 9)
-    given["mesh"]["n_x"] = None
-    return given
+    size = run.parameters.geometry.length / run.parameters.mesh.n_x
+    return identity(run.parameters, "geometry.length", "mesh.n_x"), round(size, 9)
 
 
 def longer():

@@ -118,10 +118,7 @@ def to_simulate(targets):
 
 def shown(target):
     """Names and keys of what a target shows, the results it is for first."""
-    first = [*dict.fromkeys(TARGETS[target][1]())]
-    everything = wanted(target)
-    made = [everything[path] for path in dict.fromkeys([*first, *everything])]
-    return [(one.shown, one.key) for one in made]
+    return [(made.shown, made.key) for made in wanted(target).values()]
 
 
 def everything(wildcards):
