@@ -8,6 +8,7 @@ of Snakemake decides what is current, and a dry run lists what will be computed.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from types import SimpleNamespace
@@ -142,11 +143,11 @@ class Steps:
         return made
 
     def behind(self, paths: Iterable[str]) -> dict[str, Made]:
-        """All results among some files and what these are made of, all the way down, by path."""
+        """All results among some files, first, and what they are made of, all the way down."""
         found: dict[str, Made] = {}
-        waiting = list(paths)
+        waiting = deque(paths)
         while waiting:
-            path = waiting.pop()
+            path = waiting.popleft()
             if path in self._made and path not in found:
                 found[path] = self._made[path]
                 for sources in found[path].sources.values():
