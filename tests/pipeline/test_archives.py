@@ -143,6 +143,8 @@ def test_restored_entries_are_those_that_were_packed(archive, tmp_path):
     store = Store(clone / "results/deep/store")
     assert store.listed() == [KEY, OTHER] and store.entry(KEY).stat().st_mtime_ns == kept
     for key in (KEY, OTHER):
+        packed = json.loads(read(archive, f"store/{key}/entry.json"))
+        assert json.loads((store.entry(key) / "entry.json").read_text()) == packed
         for name, content in FILES[key].items():
             assert (store.entry(key) / name).read_bytes() == content
             assert stat.S_IMODE((store.entry(key) / name).stat().st_mode) == 0o444
@@ -176,7 +178,7 @@ def test_nothing_is_written_without_results_or_over_a_file(made, archive):
 def test_program_among_results_is_not_packed(made):
     put(Store(made / "results/store"), "3" * 16, {"result.py": b"1"})
     view.show(made / "results", "own", [("own", "3" * 16)])
-    with pytest.raises(BundleError, match=r"result\.py is of no kind"):
+    with pytest.raises(BundleError, match=r"result\.py.: it is neither"):
         bundle.write(made / "out.tar", made / "config.yaml", made)
 
 
@@ -247,7 +249,7 @@ FOREIGN = {
 @pytest.mark.parametrize("foreign", FOREIGN.values(), ids=FOREIGN.keys())
 def test_foreign_file_is_refused_by_name(foreign, tmp_path):
     archive = packed(tmp_path / "evil.tar", *WHOLE, foreign)
-    with pytest.raises(BundleError, match="nothing was put in place") as caught:
+    with pytest.raises(BundleError, match="nothing is written") as caught:
         bundle.restore(archive, "results", tmp_path / "checkout")
     assert repr(foreign[0].name) in str(caught.value)
     assert not (tmp_path / "checkout").exists()
@@ -324,24 +326,23 @@ def test_bombs_are_refused(archive, tmp_path):
     (tmp_path / "small.tar.gz").write_bytes(b"\x1f\x8b" + archive.read_bytes())
     with pytest.raises(BundleError, match="no archive of results"):  # no compression is undone
         bundle.restore(tmp_path / "small.tar.gz", "results", tmp_path / "checkout")
-    with pytest.raises(BundleError, match="larger than itself"):
+    with pytest.raises(BundleError, match="larger than the archive"):
         bundle._refuse_foreign([member(CSV, content=b"x" * 99)[0]], 98)
-    for name in ("config.yaml", f"store/{KEY}/entry.json"):
+    for name in (CHECKSUMS, f"store/{KEY}/entry.json"):
         huge = tarfile.TarInfo(name)
         huge.size = bundle.LARGEST_TEXT + 1
         with pytest.raises(BundleError, match="it is too large"):
             bundle._refuse_foreign([huge], 2**40)
 
 
-def test_full_disk_is_said_and_leaves_no_half_entry(archive, tmp_path, capsys, monkeypatch):
+def test_full_disk_is_said_and_leaves_no_half_entry(archive, tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patched:
         patched.setattr(shutil, "copyfileobj", full)
-        with pytest.raises(BundleError, match="see above"):
+        with pytest.raises(OSError, match="No space left on device"):
             bundle.restore(archive, "results", tmp_path / "clone")
-    assert "No space left on device" in capsys.readouterr().err
     assert not list((tmp_path / "clone/results/store").iterdir())
     assert bundle.restore(archive, "results", tmp_path / "clone") == 2
 
