@@ -10,15 +10,18 @@ entries of the store alone. Nothing in them is followed or executed.
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import io
 import json
+import math
 import os
 import re
 import shutil
 import sys
 import tarfile
 from collections import Counter, defaultdict
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -27,20 +30,19 @@ import click
 from ..configuration.load import load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .crate import CONFIGURATION, CRATE, Packed, crate, manifest
+from .crate import CRATE, Packed, crate, manifest
 from .keys import PATTERN
 from .store import BAD, NOTE, STEM, Store, StoreError, read_note
 from .view import records
 
-CHECKSUMS, MANIFEST = "manifest-sha256.txt", "codecheck.yml"
+CHECKSUMS, MANIFEST, CONFIGURATION = "manifest-sha256.txt", "codecheck.yml", "config.yaml"
 KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
 """Endings of results; none that Python, a shell or git would run."""
-DESCRIPTION = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION, MANIFEST, CRATE)))
+DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION, MANIFEST, CRATE)))
 IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
 COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
-PLACE = re.compile(f"{DESCRIPTION}|{IN_ENTRY.pattern}|{COPY}")
-TEXT = re.compile(rf"{DESCRIPTION}|.*/{re.escape(NOTE)}")
-LARGEST_TEXT = 2**26  # bytes of a description; checksums of a hundred thousand files take 15 MB
+PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
+LARGEST_TEXT = 2**26  # bytes of what is parsed; checksums of a hundred thousand files take 15 MB
 
 
 class BundleError(Exception):
@@ -48,12 +50,7 @@ class BundleError(Exception):
 
 
 def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
-    """Write an archive, a new file, of what the results show; the number of files in it.
-
-    Parameters
-    ----------
-    archive, configuration : files; the results were made with the latter.
-    directory : where the workflow runs.
+    """Write an archive of what the results of a configuration show; the number of files in it.
 
     Raises
     ------
@@ -66,13 +63,11 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     store, entries = Store(results / "store"), []
     targets = [target for record in records(store) for target in record["targets"].values()]
     for key in sorted({key for target in targets for key in target["keys"]}):
-        entry = store.entry(key)
-        entries.append(_text(f"store/{key}/{NOTE}", (entry / NOTE).read_bytes()))
-        for name, file in read_note(entry, whole=True)["files"].items():
-            if not re.fullmatch(f"{STEM}{KINDS}", name):
-                raise BundleError(f"{entry / name} is of no kind that an archive may hold")
+        for name, file in read_note(store.entry(key), whole=True)["files"].items():
             name = f"store/{key}/{name}"
             entries.append(Packed(name, results / name, file["size"], file["sha256"]))
+        name = f"store/{key}/{NOTE}"
+        entries.append(_text(name, (results / name).read_bytes()))
     if not entries:
         raise BundleError(f"there are no results in {results}: make them first")
     digests = {file.digest for file in entries}
@@ -85,73 +80,23 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     files = [_text(CRATE, crate(files)), *files]
     checksums = "".join(f"{file.digest}  {file.name}\n" for file in files)
     files = [_text(CHECKSUMS, checksums.encode()), *files]
+    _refuse_foreign(map(_member, files))
     with replacing(archive) as temporary, tarfile.open(temporary, "w") as tar:
         for file in files:
-            member = tarfile.TarInfo(file.name)
-            member.size, member.mtime = file.size, int(moment().timestamp())
             source = file.source
             with io.BytesIO(source) if isinstance(source, bytes) else source.open("rb") as stream:
-                tar.addfile(member, stream)
+                tar.addfile(_member(file), stream)
     return len(files)
+
+
+def _member(file: Packed) -> tarfile.TarInfo:
+    member = tarfile.TarInfo(file.name)
+    member.size, member.mtime = file.size, int(moment().timestamp())
+    return member
 
 
 def _text(name: str, content: bytes) -> Packed:
     return Packed(name, content, len(content), hashlib.sha256(content).hexdigest())
-
-
-class Archive:
-    """The entries of an archive, as a store elsewhere (:class:`nucleation.pipeline.store.Other`).
-
-    Parameters
-    ----------
-    path, tar : an archive, which may come from others, and the same opened.
-
-    Raises
-    ------
-    BundleError
-        If it holds what has no place in it, with names.
-    StoreError, and others of :data:`nucleation.pipeline.store.BAD`
-        If it is damaged.
-    """
-
-    def __init__(self, path: Path, tar: tarfile.TarFile) -> None:
-        self._path, self._tar = path, tar
-        members = tar.getmembers()
-        _refuse_foreign(members, path.stat().st_size)
-        self.entries: dict[str, dict[str, tarfile.TarInfo]] = defaultdict(dict)
-        for member in members:
-            if found := IN_ENTRY.fullmatch(member.name):
-                self.entries[found[1]][found[2]] = member
-        digests = {
-            m.name: hashlib.file_digest(self._file(m), "sha256").hexdigest() for m in members
-        }
-        lines = self._file(tar.getmember(CHECKSUMS)).read().decode().splitlines()
-        checksums = {name: digest for digest, name in (line.split("  ", 1) for line in lines)}
-        checksums[CHECKSUMS] = digests[CHECKSUMS]
-        for name, _ in sorted(digests.items() ^ checksums.items()):
-            raise StoreError(f"{name} is not what was packed")
-        for key, files in self.entries.items():
-            note = json.load(self._file(files[NOTE]))
-            told = {name: (file["size"], file["sha256"]) for name, file in note["files"].items()}
-            held = {n: (m.size, digests[m.name]) for n, m in files.items() if n != NOTE}
-            if note["key"] != key or told != held:
-                raise StoreError(f"store/{key} is not the result that its note tells of")
-
-    def __str__(self) -> str:
-        return str(self._path)
-
-    def _file(self, member: tarfile.TarInfo) -> Any:
-        return self._tar.extractfile(member)
-
-    def fetch(self, key: str, into: Path) -> bool:
-        """Write the files of an entry, new ones, into a directory."""
-        for name, member in self.entries[key].items():
-            with (into / name).open("xb") as file:
-                shutil.copyfileobj(self._file(member), file)
-        return True
-
-    def give(self, entry: Path) -> None:
-        """Nothing is added to an archive."""
 
 
 def restore(archive: Path, results: str, directory: Path = Path()) -> int:
@@ -160,13 +105,12 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
     Parameters
     ----------
     archive : of :func:`write`; it may come from others.
-    results : directory of the results of the configuration in use.
-    directory : where the workflow runs.
+    results : directory of the results, relative to `directory`, where the workflow runs.
 
     Raises
     ------
     BundleError
-        If the archive is damaged or foreign, in which case nothing is written, or for lack of room.
+        If it is damaged or foreign, and then nothing is written.
     """
     place = Path(os.path.normpath(directory.resolve() / results / "store"))
     if place.resolve() != place:
@@ -174,41 +118,77 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
     with contextlib.ExitStack() as stack:
         try:
             # not compressed: it is no smaller than what it holds
-            source = Archive(archive, stack.enter_context(tarfile.open(archive, "r:")))
+            tar = stack.enter_context(tarfile.open(archive, "r:"))
+            entries = _entries(tar, archive.stat().st_size)
         except (tarfile.TarError, EOFError, *BAD) as error:
             raise BundleError(f"{archive} is damaged or no archive of results: {error}") from None
         store = Store(place)
-        new = [key for key in source.entries if store.note(key) is None]
-        for key in new:
-            if store.take(key, [source]) is None:
-                raise BundleError(f"store/{key} is not in place, see above: start this again")
+        new = {key: files for key, files in entries.items() if store.note(key) is None}
+        for key, files in new.items():
+            about = json.load(_file(tar, files.pop(NOTE)))
+            del about["files"]  # it is looked at again
+            store.put(key, functools.partial(_unpack, tar, files), about)
     return len(new)
 
 
-def _refuse_foreign(members: list[tarfile.TarInfo], size: int) -> None:
-    """Refuse an archive of a size (bytes) by its members, if any of them has no place there."""
-    names = Counter(member.name for member in members)
-    if any(name.startswith(".snakemake/metadata/") for name in names):
-        raise BundleError("the archive is of an earlier version: its results are of another code")
-    problems = []
+def _entries(tar: tarfile.TarFile, size: int) -> dict[str, dict[str, tarfile.TarInfo]]:
+    """The files of each entry of an archive of a size (bytes), if all in it is what was packed."""
+    members = tar.getmembers()
+    _refuse_foreign(members, size)
+    sums = {m.name: hashlib.file_digest(_file(tar, m), "sha256").hexdigest() for m in members}
+    lines = _file(tar, tar.getmember(CHECKSUMS)).read().decode().splitlines()
+    packed = {name: digest for digest, name in (line.split("  ", 1) for line in lines)}
+    for name, _ in sorted(packed.items() ^ (sums.items() - {(CHECKSUMS, sums[CHECKSUMS])})):
+        raise StoreError(f"{name} is not what was packed")
+    entries: dict[str, dict[str, tarfile.TarInfo]] = defaultdict(dict)
     for member in members:
+        if place := IN_ENTRY.fullmatch(member.name):
+            entries[place[1]][place[2]] = member
+    for key, files in entries.items():
+        note = json.load(_file(tar, files[NOTE]))
+        told = {name: (file["size"], file["sha256"]) for name, file in note["files"].items()}
+        held = {name: (m.size, sums[m.name]) for name, m in files.items() if name != NOTE}
+        if note["key"] != key or told != held:
+            raise StoreError(f"store/{key} is not the result that its note tells of")
+    return entries
+
+
+def _file(tar: tarfile.TarFile, member: tarfile.TarInfo) -> Any:
+    return tar.extractfile(member)
+
+
+def _unpack(tar: tarfile.TarFile, files: dict[str, tarfile.TarInfo], place: Path) -> None:
+    for name, member in files.items():
+        with (place / name).open("xb") as file:
+            shutil.copyfileobj(_file(tar, member), file)
+
+
+def _refuse_foreign(members: Iterable[tarfile.TarInfo], size: float = math.inf) -> None:
+    """Refuse an archive of a size (bytes) by its members, if any of them has no place there."""
+    problems, names = [], Counter[str]()
+    for member in members:
+        size, names[member.name] = size - member.size, names[member.name] + 1
         # neither links and devices, nor sparse files, whose size in the archive says nothing
         if member.type not in (tarfile.REGTYPE, tarfile.AREGTYPE) or member.issparse():
             problem = "only plain files are taken, no directories, links and devices"
+        elif member.name.startswith(".snakemake/metadata/"):
+            raise BundleError(
+                "the archive is of an earlier version: its results are of another code"
+            )
         elif not (member.name.isprintable() and PLACE.fullmatch(member.name)):
             problem = "it is neither a result in a store nor a table, figure or text under its name"
-        elif TEXT.fullmatch(member.name) and member.size > LARGEST_TEXT:
+        elif member.name.endswith((CHECKSUMS, NOTE)) and member.size > LARGEST_TEXT:
             problem = "it is too large"
+        elif names[member.name] > 1:
+            problem = "it is in there twice"
+        elif size < 0:
+            problem = "it is larger than the archive"
         else:
             continue
-        problems.append(f"{member.name!r}: {problem}")
-    problems += [f"{name!r}: it is in there {n} times" for name, n in names.items() if n > 1]
-    if sum(member.size for member in members) > size:
-        problems.append("its members are larger than itself")
+        problems.append(f"\n  - {member.name!r}: {problem}")
     if problems:
-        listing = "".join(f"\n  - {problem}" for problem in problems[:5])
         more = f", and {len(problems) - 5} more" if len(problems) > 5 else ""
-        raise BundleError(f"the archive is refused, nothing was put in place:{listing}{more}")
+        raise BundleError(f"nothing is written, as this is foreign:{''.join(problems[:5])}{more}")
 
 
 @click.command()

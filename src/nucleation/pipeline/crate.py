@@ -1,7 +1,7 @@
 """What an archive of results says of itself to machines: RO-Crate 1.1 and CODECHECK.
 
 https://w3id.org/ro/crate/1.1: a flat list of entities that refer to each other. Here: the archive,
-its files, the configuration and code that made them, their authors and licence, and the paper.
+its files, the code that made them, its authors and licence, and the paper.
 https://codecheck.org.uk/spec: the paper, and the files that a codechecker compares.
 """
 
@@ -20,7 +20,7 @@ import yaml
 from ..datasets.provenance import moment, versions
 from .code import ROOT
 
-CONFIGURATION, CRATE = "config.yaml", "ro-crate-metadata.json"
+CRATE = "ro-crate-metadata.json"
 CHECKOUT = ROOT.parent.parent
 SPECIFICATION = "https://w3id.org/ro/crate/1.1"
 # the digest of a file is not among the terms of version 1.1
@@ -55,7 +55,7 @@ def manifest(files: Iterable[Packed]) -> bytes:
 
 
 def crate(files: Iterable[Packed]) -> bytes:
-    """The content of ``ro-crate-metadata.json``, for files of which one is the configuration."""
+    """The content of ``ro-crate-metadata.json``, with files in its list."""
     cited, created = _citation(), moment().isoformat(timespec="seconds")
     article, address = cited["references"][0], f"https://spdx.org/licenses/{cited['license']}"
     licence = _entity(address, "CreativeWork", name=cited["license"])
@@ -69,18 +69,13 @@ def crate(files: Iterable[Packed]) -> bytes:
         identifier=commit(CHECKOUT) or "none", license=_ids(licence), author=_ids(*developers),
     )  # fmt: skip
     described = [_file(file) for file in files]
-    making = _entity(
-        "#making", "CreateAction", name="The workflow run that made the results", endTime=created,
-        instrument=_ids(code), object={"@id": CONFIGURATION},
-        result=[part for part in _ids(*described) if part["@id"] != CONFIGURATION],
-    )  # fmt: skip
     root = _entity(
         "./", "Dataset", name=f"Results of {cited['title']}", description=cited["abstract"],
         datePublished=created, license=_ids(licence), author=_ids(*developers),
-        citation=_ids(paper), hasPart=_ids(*described), mentions=_ids(making),
+        citation=_ids(paper), hasPart=_ids(*described), isBasedOn=_ids(code),
     )  # fmt: skip
     about = _entity(CRATE, "CreativeWork", conformsTo={"@id": SPECIFICATION}, about=_ids(root))
-    graph = [about, root, making, code, licence, paper, *authors, *developers, *described]
+    graph = [about, root, code, licence, paper, *authors, *developers, *described]
     return json.dumps({"@context": TERMS, "@graph": graph}, indent=1).encode()
 
 
@@ -107,9 +102,8 @@ def _file(file: Packed) -> dict[str, Any]:
 
 def _agent(author: dict[str, str]) -> dict[str, Any]:
     """A person or, named by one name, a group of people."""
-    group = author.get("name")
-    name = group or f"{author['given-names']} {author['family-names']}"
-    kind = "Organization" if group else "Person"
+    name = author.get("name") or f"{author['given-names']} {author['family-names']}"
+    kind = "Organization" if "name" in author else "Person"
     return _entity(author.get("orcid", f"#{quote(name)}"), kind, name=name)
 
 
