@@ -28,6 +28,8 @@ def table(ratio=0.8, slope=-1.0):
         "strength": [1e-5] * 7,
         "kind": ["normal_load"] * 7,
         "id": [f"run-{i}" for i in range(7)],
+        "study": ["pairs"] * 7,
+        "ensemble": [f"{i}" for i in range(7)],
         "seed": [0] * 7,
         "length": [0.5 * ratio] * 7,
     }
