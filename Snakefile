@@ -154,6 +154,25 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/targets.smk"
 
 
+# Of seconds: on a cluster they run where Snakemake does, as figures do.
+localrules:
+    draw_animation,
+    draw_figure_crosscheck,
+    draw_study,
+    extract,
+    gather_drop,
+    gather_floors,
+    gather_lengths,
+    gather_map,
+    gather_pairs,
+    gather_patches,
+    gather_twins,
+    join_batches,
+    write_article,
+    write_report,
+    write_table_s1,
+
+
 # Here, since `include` keeps the default target that was there before.
 for _target in TARGETS:
 

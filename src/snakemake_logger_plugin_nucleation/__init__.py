@@ -13,7 +13,7 @@ import sys
 import threading
 import time
 from collections.abc import Mapping
-from logging import LogRecord
+from logging import Handler, LogRecord
 from pathlib import Path
 from typing import Any
 
@@ -95,6 +95,7 @@ class LogHandler(LogHandlerBase):
     has_filter = has_formatter = needs_rulegraph = False
 
     def __post_init__(self) -> None:
+        Handler.__init__(self)  # which interfaces before 2.0 leave out
         self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
         self._terminal, self._over = self._stream.isatty(), threading.Event()
         self._runs: Runs | None = None

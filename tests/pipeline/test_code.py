@@ -2,11 +2,12 @@
 
 import importlib.metadata
 import os
-import time
+import subprocess
+import sys
 
 import pytest
 
-from nucleation.pipeline import code
+from nucleation.pipeline import bytecode, code
 
 
 @pytest.fixture
@@ -95,28 +96,28 @@ def test_digest_of_the_simulation_reaches_its_libraries():
     assert {"numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4"} <= names
     closure = {path.relative_to(code.ROOT).parts[0] for path in
                code.closure("nucleation.simulation.run")}  # fmt: skip
-    assert closure <= {"simulation", "model", "fem", "stepping", "datasets"}
+    assert closure <= {"simulation", "model", "fem", "stepping", "datasets", "types.py"}
 
 
-def test_outdated_bytecode_is_refused(tmp_path, monkeypatch):
-    """An edit in the second of the last import, of the same size: Python would not see it."""
-    import importlib
-    import sys
+def test_bytecode_is_never_outdated(tmp_path):
+    """An edit of the same size, with its time kept: Python by itself would run the old one."""
+    (tmp_path / "part.py").write_text("print(1)\n")
+    command = [sys.executable, "-c", "import part"]
+    for first in (True, False):
+        if not first:
+            moment = (tmp_path / "part.py").stat().st_mtime
+            (tmp_path / "part.py").write_text("print(2)\n")
+            os.utime(tmp_path / "part.py", (moment, moment))
+        subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)  # compiles it
+        bytecode.make_checked(tmp_path)
+    said = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert said.stdout == "2\n"
 
-    root = tmp_path / "nucleation_like"
-    root.mkdir()
-    (root / "__init__.py").write_text("")
-    source = root / "part.py"
-    monkeypatch.setattr(sys, "dont_write_bytecode", False)
-    monkeypatch.setattr(code, "ROOT", root)
-    monkeypatch.setattr(code, "PACKAGE", "nucleation_like")
-    monkeypatch.syspath_prepend(tmp_path)
-    moment = time.time()
-    source.write_text("X = 1\n")
-    os.utime(source, (moment, moment))
-    importlib.import_module("nucleation_like.part")
-    code._refuse_outdated_bytecode(source)
-    source.write_text("X = 2\n")
-    os.utime(source, (moment, moment))
-    with pytest.raises(code.CodeError, match="outdated bytecode"):
-        code._refuse_outdated_bytecode(source)
+
+def test_what_numba_keeps_is_named_by_content(tmp_path):
+    names = set()
+    for text in ("import numba\nX = 1\n", "import numba\nX = 2\n"):
+        (tmp_path / "part.py").write_text(text)
+        names.add(bytecode.cache_of_numba(tmp_path))
+    (tmp_path / "other.py").write_text("X = 1\n")
+    assert len(names | {bytecode.cache_of_numba(tmp_path)}) == 2

@@ -2,14 +2,13 @@
 
 import subprocess
 import sys
-from types import SimpleNamespace
 
 import pytest
 from configurations import CONFIG, changed, study
 
 from nucleation.configuration.load import configure, load
 from nucleation.pipeline import launch
-from nucleation.pipeline.targets import default_target, unknown_target
+from nucleation.pipeline.targets import default_target
 
 GOOD = "studies: {s: {runs: [{height: 0.01}]}}\n"
 
@@ -48,6 +47,16 @@ def test_bad_file_is_one_message_and_snakemake_is_not_started(content, said, tmp
     assert said in stopped.value.code
 
 
+@pytest.mark.parametrize(
+    ("arguments", "refused"),
+    [("--cores 0", True), ("paper -c 0 -n", True), ("-c0", True), ("--cores=-1", True),
+     ("--cores 10", False), ("-c all -n", False), ("--cores 1 --retries 0", False)],
+)  # fmt: skip
+def test_no_cores_are_refused(arguments, refused):
+    """Snakemake would wait forever."""
+    assert (launch.problem(arguments.split()) == "--cores must be 1 or more") == refused
+
+
 @pytest.mark.system
 def test_bad_file_ends_the_program(tmp_path):
     command = [sys.executable, "-m", "nucleation.pipeline.launch", "--configfile", "a.yaml"]
@@ -72,14 +81,3 @@ def test_default_target_is_what_the_configuration_can_make():
         assert default_target(load(CONFIG / name)) == "paper"
     assert default_target(configure(study({"height": 0.01}))) == "studies"
     assert default_target(configure(changed("studies.paper.role", "own"))) == "studies"
-
-
-def test_wrong_target_is_told_the_nearest_ones():
-    def rule(name, *output):
-        return SimpleNamespace(name=name, output=output, has_wildcards=lambda: False)
-
-    rules = [rule("figure_3", "results/figure_3.pdf"), rule("lengths", "results/lengths.csv")]
-    rules.append(SimpleNamespace(name="simulate", output=("{id}.nc",), has_wildcards=lambda: True))
-    assert unknown_target("figure_33", rules) == "no target figure_33: did you mean figure_3?"
-    assert "did you mean results/lengths.csv" in unknown_target("result/lengths.csv", rules)
-    assert "--list-target-rules" in unknown_target("zzz", rules)

@@ -9,7 +9,7 @@ from nucleation.verification.crosscheck import freefem
 
 def test_plan(workflow, freefem_program):
     """Four runs by both solvers, one of them of two blocks."""
-    once = ("compare_crosscheck", "draw_figure_crosscheck", "crosscheck")
+    once = ("compare_crosscheck", "draw_figure_crosscheck")
     expected = {"crosscheck_own": 4, "crosscheck_freefem": 4, **dict.fromkeys(once, 1)}
     assert workflow.planned("crosscheck") == expected
 

@@ -98,6 +98,7 @@ def test_in_the_workflow(workflow):
     assert "What was replicated" not in html and '<figure id="figure_3">' not in html
 
     assert own("check").returncode == 0
+    (results / "figures" / "study_granite.png").unlink()
     (results / "figures" / "study_granite.png").write_bytes(b"another picture")
     checked = own("check")
     assert checked.returncode != 0 and "study_granite.png" in checked.stdout

@@ -60,6 +60,7 @@ for _name, _inputs in DRAWN.items():
             captioned(link(f"figures/{_name}", "png"), _name),
         log:
             log(f"figures/{_name}"),
+        localrule: True
         params:
             **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
             call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",

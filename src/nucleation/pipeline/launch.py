@@ -2,18 +2,21 @@
 
 ``python -m nucleation.pipeline.launch`` takes Snakemake's arguments. Snakemake itself reads a file
 given by ``--configfile`` before anything of the workflow: one that is missing or is no text ends
-in a traceback there, and of one with the key ``__use_yte__`` it runs expressions of Python.
+in a traceback there, and of one with the key ``__use_yte__`` it runs expressions of Python. With no
+core at all it waits forever.
 """
 
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Iterator
 
 from ..configuration.load import load
 from ..model.quantities import ParameterError
 
+NO_CORES = re.compile(r" (--cores|-c)[ =]?(0+|-\d+) ")
 OPTIONS = ("--configfile", "--configfiles")
 
 
@@ -31,10 +34,12 @@ def configuration_files(arguments: list[str]) -> Iterator[str]:
 
 
 def problem(arguments: list[str]) -> str | None:
-    """What is wrong with the configuration files, in words; None if they can be used.
+    """What is wrong with the cores or the configuration files, in words; None if all can be used.
 
     Of several, whose values are merged, only the first must be complete; all must be plain.
     """
+    if NO_CORES.search(f" {' '.join(arguments)} "):
+        return "--cores must be 1 or more"
     try:
         for path in configuration_files(arguments):
             load(path)

@@ -1,0 +1,106 @@
+"""The workflow as a module of another: its host behaves as it does without it."""
+
+import dataclasses
+import os
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+
+OWN = """
+configfile: "mine.yaml"
+
+rule all:
+    default_target: True
+    input: "own.txt", "copy.txt"
+
+rule own:
+    output: "own.txt"
+    params: x=config["x"]
+    shell: "echo {params.x} > {output}"
+
+rule copy:
+    input: "in.txt"
+    output: "copy.txt"
+    shell: "cp {input} {output}; [ ! -e wait ] || {{ echo half > {output}; sleep 60; }}"
+"""
+
+MODULE = f"""
+module nucleation:
+    snakefile: "{ROOT / "Snakefile"}"
+    config: config["fault"]
+
+use rule * from nucleation as fault_*
+"""
+
+STUDY = {"defaults": {"n_x": 40, "n_y": 4}, "runs": [{"height": [0.05, 0.1]}]}
+
+
+@pytest.fixture(params=["alone", "with the module"])
+def host(request, workflow, tmp_path):
+    """A workflow of somebody's own, with what it makes made once."""
+    text = OWN if request.param == "alone" else MODULE.join(OWN.split("\n\n", 1))
+    (tmp_path / "Snakefile").write_text(text)
+    (tmp_path / "workflow").symlink_to(ROOT / "workflow")
+    (tmp_path / "in.txt").write_text("a\n")
+    configure(tmp_path, 1)
+    made = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    done = made()
+    assert done.returncode == 0, done.stdout
+    assert "Nothing to be done" in made("--dry-run").stdout
+    return made
+
+
+def configure(directory, x):
+    values = {"x": x, "fault": {"studies": {"s": STUDY}}}
+    (directory / "mine.yaml").write_text(yaml.safe_dump(values))
+
+
+def jobs(host):
+    """The rules that a dry run lists."""
+    return {line.split()[0] for line in host("--dry-run", "--quiet", "rules").stdout.splitlines()
+            if line.startswith(("own ", "copy ", "fault_"))}  # fmt: skip
+
+
+def test_parameters_and_inputs_of_the_host_count(host):
+    configure(host.directory, 2)
+    assert jobs(host) == {"own"}
+    time.sleep(1.1)  # as much as Snakemake's clock of files may lag
+    (host.directory / "in.txt").write_text("b\n")
+    assert jobs(host) == {"own", "copy"}
+    assert host().returncode == 0
+    assert (host.directory / "own.txt").read_text() == "2\n"
+    assert (host.directory / "copy.txt").read_text() == "b\n"
+
+
+def test_half_a_file_of_a_killed_job_is_made_again(host):
+    (host.directory / "wait").touch()
+    (host.directory / "copy.txt").unlink()
+    process = host.start()
+    while (
+        not (host.directory / "copy.txt").exists()
+        or "half" not in (host.directory / "copy.txt").read_text()
+    ):
+        assert process.poll() is None, process.stdout.read()
+        time.sleep(0.05)
+    children = [int(pid) for pid in os.popen(f"pgrep -P {process.pid}").read().split()]
+    for pid in (process.pid, *children):
+        os.kill(pid, 9)
+    process.communicate()
+    (host.directory / "wait").unlink()
+    host("--unlock")
+    assert jobs(host) == {"copy"}
+    assert host().returncode == 0 and (host.directory / "copy.txt").read_text() == "a\n"
+
+
+def test_rules_of_the_module_are_the_hosts(workflow, tmp_path):
+    every = "\nrule every:\n    default_target: True\n    input: rules.fault_lengths.input\n"
+    (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{MODULE}{every}')
+    (tmp_path / "workflow").symlink_to(ROOT / "workflow")
+    configure(tmp_path, 1)
+    other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    expected = {"fault_simulate": 2, "fault_extract": 1, "fault_gather_lengths": 1}
+    assert other.planned("every") == expected
