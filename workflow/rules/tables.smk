@@ -56,8 +56,8 @@ rule gather_map:
 rule gather_patch_theory:
     input:
         tables=needed(
-            lambda wildcards: [*lengths_of(*in_role("map")), *patch_tables()],
-            "study with role: converged, pairs or map",
+            lambda wildcards: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
+            "study with role: converged, pairs, map or patch_theory",
         ),
     output:
         link("patch_theory"),
@@ -65,8 +65,8 @@ rule gather_patch_theory:
         log("patch_theory"),
     params:
         call="nucleation.patch.theory_table:files",
-        loads=laws_of(runs_for("converged", "map", *PAIR_ROLES)),
-        runs=as_dicts(runs_for("converged", "map", *PAIR_ROLES)),
+        loads=laws_of(runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)),
+        runs=as_dicts(runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)),
     message:
         "Lengths of creeping patches by theory"
     script:

@@ -118,8 +118,9 @@ def _about(run: Run) -> Iterator[Advice]:
     yield from _span(run)
     yield from _block(run)
     yield from _start(run)
-    yield from changing_friction(run)
-    if run.role not in REFINEMENTS:  # what drowns in noise is their point
+    if run.role != "patch_theory":  # whose faults are meant to be such
+        yield from changing_friction(run)
+    if run.role not in (*REFINEMENTS, "patch_theory"):  # what drowns in noise is their point
         yield from _roughness(run)
         yield from _noise(run)
 
