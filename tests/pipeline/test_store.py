@@ -1,6 +1,7 @@
 """Stores: entries are whole or not there, and what is not right is neither taken nor kept."""
 
 import functools
+import hashlib
 import json
 import os
 import shutil
@@ -11,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import fsspec
 import pytest
+from fsspec.implementations.local import LocalFileSystem
 
 from nucleation.pipeline import elsewhere
 from nucleation.pipeline import store as module
@@ -217,6 +219,38 @@ def test_upload_that_was_cut_off_is_no_entry(store, other, tmp_path, capsys):
     assert clone.take(KEY, [there]) is None and capsys.readouterr().err == ""
     there.give(entry)
     assert clone.take(KEY, [there]) == address
+
+
+def test_note_is_uploaded_last_and_once(store, monkeypatch):
+    there, entry, put_names = Bucket("memory://bucket/store"), put(store), []
+    files, _ = there._place
+    put_file = files.put_file
+
+    def counted(path, target):
+        put_names.append(os.path.basename(target))
+        put_file(path, target)
+
+    monkeypatch.setattr(files, "put_file", counted)
+    for _ in range(2):
+        there.give(entry)
+    assert put_names == ["result.nc", NOTE]
+
+
+@pytest.mark.parametrize("kind", ["directory", "bucket"])
+def test_note_of_others_names_no_file_outside(store, kind, tmp_path, capsys):
+    """All that such a note says is true of what lies there."""
+    evil, content = f"../../../{KEY[:4]}evil.nc", b"evil"
+    files = {evil: {"size": 4, "sha256": hashlib.sha256(content).hexdigest()}}
+    shared = tmp_path / "far" / "away" / "shared"
+    damaged(put(Store(shared)), other_note(files=files))
+    (shared / KEY / evil).resolve().write_bytes(content)
+    there = SharedDirectory(shared)
+    if kind == "bucket":
+        there = Bucket("memory://bucket/store")
+        there._place = LocalFileSystem(), str(shared)
+    assert Store(tmp_path / "clone" / "a" / "b").take(KEY, [there]) is None
+    assert "is no name of a result's file" in capsys.readouterr().err
+    assert len(list(tmp_path.rglob("*evil.nc"))) == 1
 
 
 def test_first_store_that_is_right_serves(store, other, tmp_path, capsys):
