@@ -2,6 +2,7 @@
 
 import dataclasses
 import fcntl
+import itertools
 import os
 import re
 import shutil
@@ -14,6 +15,8 @@ import pytest
 import yaml
 from warm_snakemake import warm
 
+from nucleation.configuration.load import load
+from nucleation.pipeline.targets import default_target
 from nucleation.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
@@ -53,19 +56,20 @@ class Workflow:
             return warm()(self.arguments(*arguments), self.checkout, Path(place, "printed"))
 
     def planned(self, *arguments: str) -> dict[str, int]:
-        """The rules that would run and how often, from a dry run."""
+        """The rules that would run and how often, from a dry run, without the targets' own jobs."""
         done = self(*arguments, "--dry-run", "--quiet", "rules")
         assert done.returncode == 0, done.stdout
         table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", done.stdout, re.S)
-        if table is None:
-            assert "Nothing to be done" in done.stdout, done.stdout
-            return {}
-        return {rule: int(count) for rule, count in map(str.split, table[1].splitlines())}
+        assert table, done.stdout
+        counts = {rule: int(count) for rule, count in map(str.split, table[1].splitlines())}
+        asked = [*itertools.takewhile(lambda one: not one.startswith("-"), arguments)]
+        for target in asked or [default_target(load(self.config))]:
+            assert counts.pop(target) == 1, "a target's own job always runs"
+        return counts
 
     def dataset(self, kind: str, id: str, results: str = "results/quick") -> Path:
-        """The one dataset of a kind and a run, whatever key it bears."""
-        (path,) = (self.directory / results / kind).glob(f"{id}.*.nc")
-        return path
+        """The dataset of a kind and a run that is shown: the file in the store, by its own path."""
+        return (self.directory / results / kind / f"{id}.nc").resolve(strict=True)
 
     def configured(self, config: object, name: str = "config.yaml") -> "Workflow":
         """The same with another configuration, given as text or as plain dictionaries."""
