@@ -58,9 +58,8 @@ hooks: $(STAMP) ## Have git check what make lint checks before each commit
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
-bench: $(STAMP) ## Measure on one core: PARTS="solver scale overhead progress", the first by itself
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m nucleation.pipeline.benchmark \
-		config/config.yaml $(PARTS)
+bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $(PARTS)
 
 REFERENCE := patch_stability.csv patch_convergence.csv twin_runs.csv verification.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \

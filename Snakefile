@@ -37,15 +37,19 @@ os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nuc
 from nucleation.configuration.advice import advise
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.configuration.load import configure
+from nucleation.configuration.roles import PAIRS as PAIR_ROLES, REFINEMENTS, ROLES, forgotten
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.configuration.studies import theory_curves
 from nucleation.configuration.study_names import study_parameters
 from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
+from nucleation.datasets import provenance
+from nucleation.datasets.variables import DatasetError
 from nucleation.figures import catalogue
 from nucleation.figures.catalogue import FIGURES
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
+from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.steps import Steps
 from nucleation.pipeline.store import StoreError, others
@@ -64,17 +68,18 @@ try:
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
+    provenance.moment()
     others()  # the stores that the environment names can be used
-except (ParameterError, StoreError) as error:
+except (ParameterError, StoreError, DatasetError) as error:
     print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about
     raise WorkflowError("the workflow can't be used like this, see above") from None
 
 if "NUCLEATION_WARNED" not in os.environ:  # and not again in each job
     os.environ["NUCLEATION_WARNED"] = "yes"
-    for warning in advise(settings.runs):
+    for warning in [*forgotten(config, settings), *advise(settings.runs)]:
         logger.warning(f"Warning: {warning}")
 
-RESULTS = os.path.normpath(settings.results)
+RESULTS = settings.results
 STEP = str(Path(BASE, "workflow", "scripts", "step.py"))
 RUNS = {run.id: run for run in settings.runs}
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
@@ -156,13 +161,13 @@ for _target in TARGETS:
         default_target: _target == DEFAULT
         input:
             lambda wildcards, target=_target: [*wanted(target)],
+        localrule: True
         params:
             shown=lambda wildcards, target=_target: shown(target),
             batched=lambda wildcards, target=_target: batched_simulations(wanted(target)),
             results=RESULTS,
             says=TARGETS[_target][0],
             main=lambda wildcards, target=_target: len(dict.fromkeys(TARGETS[target][1]())),
-        localrule: True
         message:
             TARGETS[_target][0]
         script:

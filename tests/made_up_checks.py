@@ -16,9 +16,7 @@ def convergence():
         name: (("problem", "refinement", "level"), (i + 1) * factor * LEVELS**order)
         for i, name in enumerate(ERRORS)
     }
-    spacings = {
-        "element_size": 0.125, "step_size": 5.7e-6, "quasi_static_step_size": 2.3e-2
-    }  # fmt: skip
+    spacings = {"element_size": 0.125, "step_size": 5.7e-6, "quasi_static_step_size": 2.3e-2}
     dataset = xr.Dataset(
         {**data, **{name: ("level", size * LEVELS) for name, size in spacings.items()}},
         {"problem": list(PROBLEMS), "refinement": list(REFINEMENTS)},

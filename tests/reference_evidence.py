@@ -16,7 +16,7 @@ from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"
-STUDIES = ("paper", "converged")
+ROLES = ("paper", "converged")
 
 
 def table(name):
@@ -25,8 +25,8 @@ def table(name):
     return xr.Dataset({column: ("run", frame[column].to_numpy()) for column in frame})
 
 
-def of_study(tables, study):
-    return tables.isel(run=np.flatnonzero(tables["study"].values == study))
+def of_role(tables, role):
+    return tables.isel(run=np.flatnonzero(tables["role"].values == role))
 
 
 def dispersion():
@@ -74,7 +74,7 @@ def _evidence():
         interface=config.main_text_interface,
         theory=theory,
         dispersion=dispersion(),
-        lengths=tuple(of_study(lengths, study) for study in STUDIES),
+        lengths=tuple(of_role(lengths, role) for role in ROLES),
         measures={},
         patches={str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
     )

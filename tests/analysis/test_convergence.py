@@ -12,7 +12,7 @@ def row(**values):
     usual = {
         "id": "run", "height": 0.02, "law": "aging", "phi0": 1.0, "kind": "normal_load",
         "strength": 1e-5, "correlation_length": 0.0, "seed": 1, "n_x": 400, "n_y": 20,
-        "grading": 20.0, "longest_step": 0.02, "tolerance": 1e-2, "length": 0.3,
+        "grading": 20.0, "longest_step": 0.02, "tolerance": 1e-2, "length": 0.3, "fault": "f0.02",
         "theory_length": 0.5, "block_length": 2.0, "onset_time": 12.0, "steps": 100,
         "wall_seconds": 1.0,
     }  # fmt: skip
@@ -24,11 +24,14 @@ def table(rows):
 
 
 def test_sequences_differ_in_one_parameter_and_go_from_coarse_to_fine():
-    rows = [row(n_x=n, height=h) for n, h in itertools.product((1600, 400, 800), (0.02, 0.1))]
-    rows += [row(longest_step=step) for step in (0.01, 0.04)] + [row(n_y=40, height=0.3)]
+    rows = [
+        row(n_x=n, height=h, fault=f"f{h}")
+        for n, h in itertools.product((1600, 400, 800), (0.02, 0.1))
+    ]
+    rows += [row(longest_step=step) for step in (0.01, 0.04)] + [row(n_y=40, fault="other")]
     rows += [row(n_x=3200, tolerance=1e-3), row(n_x=3200, grading=5.0)]
     rows += [row(n_x=3200, kind="none"), row(n_x=3200, strength=1e-3), row(n_x=3200, seed=2)]
-    rows += [row(n_x=3200, correlation_length=0.01)]
+    rows += [row(n_x=3200, correlation_length=0.01), row(n_x=3200, block_length=4.0)]
     found = sequences(rows, "n_x")
     assert [[r["n_x"] for r in sequence] for sequence in found] == [[400, 800, 1600]] * 2
     assert [{r["height"] for r in sequence} for sequence in found] == [{0.02}, {0.1}]
@@ -43,7 +46,7 @@ def test_table_compares_with_the_finest_run():
         for n in (1600, 400, 800)
     ]
     found = refinement_table(table(rows))
-    assert tuple(found.data_vars) == COLUMNS
+    assert tuple(found.data_vars) == tuple(COLUMNS)
     assert list(found["id"].values) == ["n400", "n800", "n1600"]
     sizes = np.array([400.0, 800.0, 1600.0])
     length, onset = 0.3 + 10.0 / sizes, 12.0 - 100.0 / sizes

@@ -47,7 +47,7 @@ def table():
 
 
 def test_changes_are_against_the_base_of_the_height(table):
-    assert tuple(table.data_vars) == COLUMNS
+    assert tuple(table.data_vars) == tuple(COLUMNS)
     first = {v: table.isel(run=i) for i, v in reversed([*enumerate(table["variation"].values)])}
     other = first["rho x 2"]
     # a front that takes 1.25 times as long for each node: 80 nodes instead of 100

@@ -70,9 +70,6 @@ def test_numbers_in_words():
     assert percent(0.1234) == "12 %" and percent(-0.0266, 1) == "-2.7 %" and percent(None) == "–"
 
 
-def test_runs_are_paired_by_block():
-    def row(height, law="aging"):
-        return {"law": law, "height": height, "phi0": 1.0}
-
-    one, two, other = row(0.1), row(0.2), {**row(0.1), "length": 3.0}
+def test_runs_are_paired_by_fault():
+    one, two, other = {"fault": "a"}, {"fault": "b"}, {"fault": "a", "length": 3.0}
     assert paired([one, two], [other]) == [(one, other), (two, None)]

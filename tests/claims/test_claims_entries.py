@@ -19,6 +19,8 @@ from nucleation.claims.measure import Measures
 from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 from nucleation.claims.statements import bimaterial
 from nucleation.claims.symbols import as_markdown
+from nucleation.model.identity import fault
+from nucleation.model.parameters import Geometry, Parameters
 
 CLAIMS = [claim for claims in table.SUBJECTS.values() for claim in claims]
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
@@ -103,7 +105,7 @@ def test_every_explained_deviation_has_its_number(reference):
 def test_reference_is_what_the_code_gives(rows, reference):
     """Rows that need no simulation, only the tables of the reference set."""
     assert list(reference) == list(rows)
-    simulated = ("is not among the results", f"no such run: study {LONGER}")
+    simulated = ("is not among the results", f"no such run: role {LONGER}")
     evaluated = [
         row for row in rows.values() if not any(words in row["reason"] for words in simulated)
     ]
@@ -208,7 +210,7 @@ def test_configuration_without_the_runs_can_not_be_checked():
     for name in ("onset-time", "theory-agreement", "stability-lost-at-length", "mesh-along"):
         row = by_id[name].evaluate(nothing)
         assert row["verdict"] == Verdict.UNCHECKED
-        assert "no such run: study" in row["reason"]
+        assert "no such run: role" in row["reason"]
     assert by_id["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
 
 
@@ -240,8 +242,8 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     base = on.lengths[0].isel(run=[0, 0, 1]).copy(deep=True)
     ids = ["short", "long", "other"]
     longer = base.assign(
-        id=("run", ids), study=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
-        length=("run", [0.2, 0.203, 0.5]),
+        id=("run", ids), role=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
+        length=("run", [0.2, 0.203, 0.5]), ensemble=("run", ids),
     )  # fmt: skip
     factors = dict(zip(ids, (0.2, 0.203, 0.5), strict=True))
     shown = {str(id): 1.0 for table in on.lengths[:2] for id in table["id"].values}
@@ -253,6 +255,24 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     row = claim.evaluate(evidence(lengths=(*on.lengths[:2], longer), measures=measures))
     assert row["ours"] == pytest.approx(0.015) and row["verdict"] == Verdict.NOT_REPLICATED
     assert claim.evaluate(on)["verdict"] == Verdict.UNCHECKED
+
+
+def test_runs_of_another_material_are_not_taken_for_the_papers():
+    on = evidence()
+    table = on.lengths[1]
+    stiff = on.material.__class__(shear_modulus=9.3e9)
+    changed = [
+        fault(Parameters(stiff, on.friction.changed({"evolution": law}), geometry=Geometry(height)))
+        for law, height in zip(table["law"].values, table["height"].values, strict=True)
+    ]
+    other = table.assign(
+        length=3.0 * table["length"], fault=("run", changed),
+        ensemble=("run", [str(i) for i in range(table.sizes["run"])]),
+    )  # fmt: skip
+    for tables in ((table, other), (other, table)):
+        both = evidence(lengths=(on.lengths[0], *tables))
+        found, expected = both.rows("converged"), on.rows("converged")
+        assert [row["length"] for row in found] == [row["length"] for row in expected]
 
 
 @pytest.mark.slow

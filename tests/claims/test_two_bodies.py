@@ -18,7 +18,7 @@ FOUND = {claim.id: claim for claim in CLAIMS}
 def table(ratio=0.8, slope=-1.0):
     contrast = np.array([0.0, 0.1, 0.3, -0.1, -0.3])
     columns = {
-        "study": ["pairs_identical"] * 2 + ["figure_2_simulated"] * 5,
+        "role": ["pairs_identical"] * 2 + ["figure_2_simulated"] * 5,
         "height": [0.01, 1.0, *[1.0] * 5],
         "theory_length": [0.1, 0.5, *[0.5] * 5],
         "length_ratio": [0.3, ratio, *[ratio] * 5],

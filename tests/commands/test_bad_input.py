@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from declared import VARIABLES
 
 from nucleation.datasets import netcdf
+from nucleation.datasets.variables import annotate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
@@ -64,6 +66,7 @@ SIMULATE = [
     (["run.txt"], ["OUTPUT = 'run.txt'", "must end in .nc"]),
     (["there.nc"], ["there.nc exists already", "--force"]),
     (["file/run.nc"], ["can't be written", "no writable directory"]),
+    (["no/where/run.nc"], ["there is no directory", "no/where; mkdir -p", "no/where"]),
     (["new.nc", "--height", "5 s"], ["--height", "m is needed", "(0, 1e+06) m"]),
     (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
     (["new.nc", "--n-x", "60.5"], ["n_x = 60.5 is not", "an integer in [8, 100000]"]),
@@ -100,6 +103,7 @@ SHOW = [
     (["theory.nc", "--plot", "theory.jpg"], ["theory.jpg", ".png or .pdf"]),
     (["theory.nc", "--plot", "there.png"], ["there.png exists already", "--force"]),
     (["plain.nc", "--plot", "new.png"], ["no plot of this kind"]),
+    (["theory.nc", "--plot", "no/new.png"], ["there is no directory", "mkdir -p"]),
 ]
 
 LINES = [
@@ -123,8 +127,9 @@ def directory(tmp_path_factory):
     curve = ("height", np.ones(2))
     theory = {"critical_length": curve, "thin_limit_length": curve}
     height = {"height": np.arange(2.0)}
-    netcdf.write(xr.Dataset(theory, height), folder / "theory.nc")
-    netcdf.write(xr.Dataset({"x": ("n", np.ones(2))}), folder / "plain.nc")
+    netcdf.write(annotate(xr.Dataset(theory, height), VARIABLES), folder / "theory.nc")
+    plain = annotate(xr.Dataset({"x": ("n", np.ones(2))}), VARIABLES)
+    netcdf.write(plain, folder / "plain.nc")
     xr.Dataset({"x": ("n", np.ones(2))}).to_netcdf(folder / "foreign.nc")
     return folder
 

@@ -70,6 +70,9 @@ def test_mistakes_leave_no_file(nucleation, record):
     ended = nucleation("export", record, folder, "--at", "3 kg")
     assert ended.code == 2 and "m is needed" in ended.err
     assert not folder.exists()
+    ended = nucleation("export", record, folder / "deep", "--at", "10cm")
+    assert ended.code == 2 and f"there is no directory {folder}; mkdir -p" in ended.err
+    assert not folder.exists()
     assert nucleation("export", record, folder, "--at", "10cm").code == 0
     again = nucleation("export", record, folder, "--at", "10cm")
     assert again.code == 2 and "--force replaces it" in again.err

@@ -5,12 +5,14 @@ import dataclasses
 import numpy as np
 import pytest
 import xarray as xr
+from declared import VARIABLES
 from matplotlib.image import imread
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import gather
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
+from nucleation.datasets.variables import annotate
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
@@ -27,6 +29,7 @@ PARAMETERS = Parameters(
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):
     path = folder / f"{name}.nc"
+    dataset = annotate(dataset, VARIABLES)
     netcdf.write(dataset, path, **provenance.attributes(parameters, digest, f"make {name}"))
     return path
 
@@ -39,8 +42,8 @@ def files(tmp_path_factory):
     values = PARAMETERS.to_dict()
     digest = simulation_code(PARAMETERS)
     short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
-    row = {"id": "a-run", "study": "mine", "parameters": values, "theory_length": 0.238,
-           "interface": dataclasses.asdict(InterfaceState())}  # fmt: skip
+    row = {"id": "a-run", "study": "mine", "role": "own", "parameters": values,
+           "theory_length": 0.238, "interface": dataclasses.asdict(InterfaceState())}  # fmt: skip
     curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))
     theory = theory_dataset(Material(), Friction(), InterfaceState(), curves)
     patch = xr.Dataset(

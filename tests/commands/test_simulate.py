@@ -30,7 +30,7 @@ def parameters_of(path):
 
 
 def test_record_is_that_of_the_library(nucleation, tmp_path):
-    output = tmp_path / "new" / "run.nc"
+    output = tmp_path / "run.nc"
     ended = nucleation("simulate", output, *SMALL)
     assert ended.code == 0 and "no event: the force has not dropped" in ended.out
     assert "t = 0 s" in ended.err  # the progress, as a line

@@ -108,7 +108,7 @@ def test_warning_names_study_run_and_numbers(run, text):
 @pytest.mark.parametrize("noisy", ["mesh's noise", "steps' noise", "roughness"])
 def test_refinement_is_not_warned_of_the_noise_that_it_shows(noisy):
     run, _ = WARNED[noisy]
-    named = {"convergence_mine": {"interface": "main_text", "runs": [run]}}
+    named = {"mine": {"role": "convergence", "interface": "main_text", "runs": [run]}}
     assert advise(configure({"studies": named}).runs) == []
 
 

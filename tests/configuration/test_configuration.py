@@ -2,7 +2,8 @@
 
 import pytest
 import yaml
-from configurations import CONFIG, PAPER, changed
+from configurations import CONFIG, PAPER
+from configurations import study as study_of
 
 from nucleation.configuration.grids import expand
 from nucleation.configuration.load import configure, load, schema
@@ -108,7 +109,7 @@ def test_quick_configuration_has_what_the_figures_show():
     quick = load(CONFIG / "quick.yaml")
     assert quick.results != "results"
     for height in (quick.figures.inset_height, quick.figures.space_time_height):
-        assert quick.find(study="paper", law="aging", height=height, phi0=1.0)
+        assert quick.shown(height).labels.items() >= {"law": "aging", "phi0": 1.0}.items()
     laws = {(run.labels["law"], run.labels["phi0"]) for run in quick.runs}
     assert laws == {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
 
@@ -214,8 +215,8 @@ def test_theory_of_each_runs_own_friction():
 
 
 def test_integers_and_reals_give_the_same_run():
-    one = configure(changed("studies.paper.runs", [{"height": 1, "phi0": 1}]))
-    other = configure(changed("studies.paper.runs", [{"height": 1.0, "phi0": 1.0}]))
+    one = configure(study_of({"height": 1, "phi0": 1}))
+    other = configure(study_of({"height": 1.0, "phi0": 1.0}))
     assert repr(one.runs) == repr(other.runs)
 
 
@@ -234,5 +235,5 @@ def test_parameters_survive_the_way_through_a_rule():
 
 
 def test_unknown_run_is_named():
-    with pytest.raises(ParameterError, match="no run of the configuration has height 7"):
-        load(CONFIG / "quick.yaml").find(height=7)
+    with pytest.raises(ParameterError, match="role: paper has a run with height 7 m"):
+        load(CONFIG / "quick.yaml").shown(7)

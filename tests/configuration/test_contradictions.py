@@ -7,6 +7,7 @@ import pytest
 from configurations import assert_one_problem, changed, study, with_run
 
 from nucleation.configuration.contradictions import directory_problem
+from nucleation.configuration.load import configure
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
 
@@ -84,6 +85,11 @@ BAD = {
         [f"{RUN}: s-aging-H0.1", "characters, more than 200"],
     ),
     "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "without braces"]),
+    "pathvars": (changed("results", "out/<x>"), ["results = 'out/<x>'", "without braces, < and >"]),
+    "code by a detour": (changed("results", "results/../src"), ["results = 'src'", "what makes"]),
+    "the directory itself": (changed("results", "a/.."), ["results = '.'", "of its own"]),
+    "above": (changed("results", "../.."), ["results = '../..'", "of its own"]),
+    "root": (changed("results", "/"), ["results = '/'", "of its own"]),
     "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
     "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
     "blank": (changed("results", " "), ["results = ' '", "spaces at its ends"]),
@@ -223,3 +229,11 @@ def test_aliases_can_not_stand_for_millions(tmp_path, text):
     path.write_text(f"a: &a [x]\n{text}\n")
     with pytest.raises(ParameterError, match=r"line 1: with its aliases written out"):
         read_yaml(path)
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [("a/../b", "b"), ("./b//c/", "b/c"), ("/tmp/a/../b", "/tmp/b"), ("../b", "../b"), ("b", "b")],
+)
+def test_results_have_their_shortest_name(given, meant):
+    assert configure(study(TALL) | {"results": given}).results == meant

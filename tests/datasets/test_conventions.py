@@ -2,9 +2,9 @@
 
 import pytest
 from cf_units import Unit
+from declared import VARIABLES
 
 from nucleation.datasets.netcdf import CONVENTIONS
-from nucleation.datasets.variables import VARIABLES
 from nucleation.model import units
 
 NUMBERS = {name: entry for name, entry in VARIABLES.items() if entry.units}

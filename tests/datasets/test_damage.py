@@ -13,9 +13,10 @@ import traceback
 import numpy as np
 import pytest
 import xarray as xr
+from declared import VARIABLES
 
 from nucleation.datasets import netcdf
-from nucleation.datasets.variables import DatasetError
+from nucleation.datasets.variables import DatasetError, annotate
 
 COUNT = int(os.environ.get("NUCLEATION_DAMAGES", "120"))
 HANGS = 20  # s
@@ -94,7 +95,8 @@ def outcome(path, written):
 @pytest.mark.parametrize("make", [numbers, texts])
 def test_damage_is_refused_in_one_way(make, tmp_path):
     path = tmp_path / "record.nc"
-    netcdf.write(make(), path, parameters='{"n": [1]}', sources="{}", code_digest="1")
+    made = annotate(make(), VARIABLES)
+    netcdf.write(made, path, parameters='{"n": [1]}', sources="{}", code_digest="1")
     written, whole = netcdf.read(path), path.read_bytes()
     found, odd = collections.Counter(), []
     for seed in range(COUNT):

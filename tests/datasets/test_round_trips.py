@@ -5,12 +5,13 @@ import string
 import numpy as np
 import pytest
 import xarray as xr
+from declared import VARIABLES
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from nucleation.datasets import netcdf
-from nucleation.datasets.variables import VARIABLES
+from nucleation.datasets.variables import annotate
 
 NUMBERS = [name for name, entry in VARIABLES.items() if entry.units]
 WORDS = [name for name, entry in VARIABLES.items() if not entry.units]
@@ -31,7 +32,7 @@ def datasets(draw):
     for name in draw(st.lists(st.sampled_from(WORDS), unique=True, max_size=2)):
         words = draw(st.lists(texts, min_size=sizes["rows"], max_size=sizes["rows"]))
         dataset[name] = "rows", np.array(words)
-    return dataset
+    return annotate(dataset, VARIABLES)
 
 
 attributes = st.dictionaries(

@@ -28,7 +28,7 @@ def run(arguments, checkout):
 
 LAW = "src/nucleation/model/friction/laws/dieterich_ruina.py"
 ADDED = ["src/nucleation/model/friction/evolutions/halfway.py", LAW]
-ADDED += ["src/nucleation/figures/beyond/figure_laws.py"]
+ADDED += ["src/nucleation/figures/beyond/figure_laws.py", "src/nucleation/analysis/by_law.py"]
 
 
 @pytest.fixture(scope="module")
@@ -64,15 +64,25 @@ def test_additions_are_in_style(checkout):
     run(["ruff", "format", "--check", *ADDED], checkout)
 
 
-def test_study_and_figure(checkout):
-    """The page's last command, which needs everything before it."""
-    *_, (_, command) = commands(samples(PAGE))
-    program, *arguments = command.split()
-    assert program == ".venv/bin/snakemake"
-    run(["snakemake", *arguments], checkout)
+@pytest.fixture(scope="module")
+def drawn(checkout):
+    """The page's last commands carried out, a figure and a table; the options of the latter."""
+    *_, (_, figure), (_, table) = commands(samples(PAGE))
+    for command in (figure, table):
+        program, *arguments = command.split()
+        assert program == ".venv/bin/snakemake"
+        run(["snakemake", *arguments], checkout)
+    return arguments
+
+
+def test_study_and_figure(checkout, drawn):
     results = checkout / "results" / "laws"
     assert (results / "figures" / "figure_laws.png").stat().st_size > 10_000
     table = pd.read_csv(results / "lengths.csv")
+    means = pd.read_csv(results / "by_law.csv").set_index("law")
+    assert means["runs"].to_dict() == {"aging": 2, "halfway": 3, "slip": 1}
+    ratio = (table["length"] / table["theory_length"]).groupby(table["law"]).mean()
+    assert np.allclose(means["mean_ratio"], ratio)
     table["friction"] = np.where(table["id"].str.contains("dieterich_ruina"), "other", "paper")
     by_law = table.set_index(["friction", "height", "law"])["length"]
     assert by_law.notna().all() and by_law.index.is_unique
@@ -81,3 +91,14 @@ def test_study_and_figure(checkout):
     assert (paper["halfway"] != paper["aging"]).all()
     for ratio in (paper["halfway"] / paper["aging"], other["halfway"] / paper["halfway"].loc[0.02]):
         assert ratio.between(0.7, 1.4).all()
+
+
+@pytest.mark.slow
+def test_report_has_the_laws(checkout, drawn):
+    """To the end: nothing between the law's file and the page names the laws that there are."""
+    target, *arguments = drawn
+    assert target == "by_law"
+    run(["snakemake", "report", *arguments], checkout)
+    page = (checkout / "results" / "laws" / "report.html").read_text(encoding="utf-8")
+    for law in ("halfway", "aging", "slip"):
+        assert re.search(rf'"label": ?"laws, {law} law', page), law

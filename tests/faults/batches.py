@@ -25,6 +25,7 @@ RUNS = len(HEIGHTS) * len(WEAKENINGS)
 CONFIG = {
     "studies": {
         "map": {
+            "role": "map",
             "table": "own",
             "runs_per_job": RUNS,
             "measure": "stability",

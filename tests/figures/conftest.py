@@ -65,7 +65,9 @@ def lengths() -> xr.Dataset:
     columns = {
         "id": [f"{s}-{k}" for k, s in enumerate(study)],
         "study": study,
+        "role": study,
         "law": law,
+        "ensemble": [f"{i}" for i in range(14)],
         "height": height,
         "phi0": phi0,
         "onset_time": np.full(14, ONSET),

@@ -57,7 +57,7 @@ def test_runs_without_a_length_and_unknown_studies_are_left_out(
 ):
     assert len(points(axes)) == 4  # the run without a length has added none
     assert sum(len(c[0].get_xdata()) for c in points(axes).values()) == 13
-    other = lengths.assign(study=("run", np.full(lengths.sizes["run"], "sensitivity")))
+    other = lengths.assign(role=("run", np.full(lengths.sizes["run"], "sensitivity")))
     drawn = figure_3.draw(theory, other, thick, thick_row)
     assert not drawn.axes[0].containers
     studies = {"sensitivity": figure_3.Study(filled=False, suffix=", other")}

@@ -18,7 +18,7 @@ def table():
             rows.append(("figure_2_simulated", "free", 1.0, contrast, weakening, 0.3))
     study, side, height, f_beta, weakening, theory = map(np.array, zip(*rows, strict=True))
     columns = {
-        "study": study, "far_side": side, "height": height, "second_height": height,
+        "role": study, "far_side": side, "height": height, "second_height": height,
         "f_beta": f_beta, "zeta_over_a": weakening, "theory_length": theory,
         "length": 0.7 * theory, "stability_length": 0.5 * theory,
         "length_ratio": 0.7 + 0.0 * theory, "stability_ratio": 0.5 + 0.0 * theory,

@@ -18,7 +18,7 @@ X = np.linspace(0.0, 1.0, 101)
 def table():
     ratio = np.array([0.50] * 5 + [0.55] * 5)
     columns = {
-        "study": ["paper"] * 5 + ["converged"] * 5,
+        "role": ["paper"] * 5 + ["converged"] * 5,
         "law": ["aging", "aging", "aging", "slip", "aging"] * 2,
         "height": HEIGHTS,
         "phi0": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,

@@ -21,6 +21,7 @@ def sequence(refined, values, height, **fixed):
     usual = {
         "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
         "strength": 1e-5, "seed": 1, "law": "aging", "phi0": 1.0,
+        "fault": f"{height}{fixed.get('law')}{fixed.get('phi0')}",
     }  # fmt: skip
     for i, value in enumerate(values):
         error = 0.1 * 0.1**i if i + 1 < len(values) else 0.0

@@ -61,7 +61,7 @@ def test_errors_and_slopes(convergence):
         errors = convergence.sel(refinement=refinement)
         by_label = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
         for problem in ("aging", "slip"):
-            for quantity, name in (("slip rate", ERRORS[1]), ("state", ERRORS[2])):
+            for quantity, name in zip(("slip rate", "state"), list(ERRORS)[1:], strict=True):
                 np.testing.assert_array_equal(
                     by_label[f"{problem} law, {quantity}"], errors[name].sel(problem=problem)
                 )

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import nucleation.model.friction.evolutions as evolutions
 import nucleation.model.friction.laws as laws
 from nucleation.configuration import schema
 from nucleation.configuration.load import configure
@@ -153,3 +154,23 @@ def test_records_of_before_there_were_laws():
     values = Parameters().to_dict()
     assert values["friction"].pop("law") == "product"
     assert Parameters.from_dict(values) == Parameters()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a = 1\ndef growth(:\n", "line 2: the law odd can't be loaded: SyntaxError: "),
+        ("a = 1\nb = 2\nc = d\n", "line 3: the law odd can't be loaded: NameError: name 'd'"),
+        ("import nothing_of_it\n", "line 1: the law odd can't be loaded: ModuleNotFoundError"),
+    ],
+)
+@pytest.mark.parametrize("package", [laws, evolutions])
+def test_a_file_that_can_not_be_loaded_is_named_with_its_line(
+    package, text, said, tmp_path, monkeypatch
+):
+    (tmp_path / "odd.py").write_text(text)
+    monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
+    key = "friction.law" if package is laws else "law"
+    with pytest.raises(ParameterError) as caught:
+        configure({"studies": {"s": {"runs": [{"height": 0.1, key: "odd"}]}}})
+    assert f"{tmp_path / 'odd.py'}, {said}" in str(caught.value)

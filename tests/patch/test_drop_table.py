@@ -8,19 +8,23 @@ import xarray as xr
 from test_delay import LOAD, START, history
 
 from nucleation.figures.beyond import figure_drop
+from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.delay import growth, realised
 from nucleation.patch.drop_table import COLUMNS, FLOORS, floors, gather
 from nucleation.patch.mode_history import from_dataset, to_dataset
 
+FAULT = fault(history().parameters)
+
 
 def drops(**changes):
     columns = {
         "study": ["drop"] * 4,
+        "role": ["drop"] * 4,
         "id": list("abcd"),
         "law": ["aging"] * 4,
         "height": [0.02, 0.02, 0.02, 0.3],
-        "phi0": [1.0] * 4,
+        "fault": [FAULT] * 3 + ["of another"],
         "kind": ["normal_load", "none", "state", "state"],
         "strength": [1e-5, 0.0, 1e-6, 1e-6],
         "seed": [3, 0, 1, 1],
@@ -48,9 +52,22 @@ def table():
 
 
 def test_rows_are_those_of_faults_whose_mode_is_known(table):
-    assert tuple(table.data_vars) == COLUMNS
+    assert tuple(table.data_vars) == tuple(COLUMNS)
     assert list(table["id"].values) == ["a", "b", "c"]
     np.testing.assert_allclose(table["stability_length"], START, rtol=2e-3)
+
+
+def test_each_material_has_its_own_law():
+    """With the heights, laws and ages of both alike, the modes of one were taken for the other."""
+    own = history()
+    stiff = own.parameters.replaced({"shear_modulus": 9.3e9})
+    other = dataclasses.replace(own, parameters=stiff, length=1.5 * own.length)
+    modes = [to_dataset(own), to_dataset(other)]
+    faults = [FAULT, FAULT, fault(stiff), fault(stiff)]
+    for order in (modes, modes[::-1]):
+        found = gather([drops(fault=faults, height=[0.02] * 4)], order)
+        expected = START * np.array([1.0, 1.0, 1.5, 1.5])
+        np.testing.assert_allclose(found["stability_length"], expected, rtol=2e-3)
 
 
 def test_predictions_are_those_of_the_law(table):
@@ -76,7 +93,7 @@ def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
 
 def test_floors_are_the_quiet_rows_without_what_they_lack(table):
     found = floors([drops()], [to_dataset(history())])
-    assert tuple(found.data_vars) == FLOORS
+    assert tuple(found.data_vars) == tuple(FLOORS)
     assert list(found["id"].values) == ["b"]
     assert float(found["floor_state"][0]) == float(table["floor_state"][1])
 

@@ -5,9 +5,8 @@ import pytest
 from scipy.linalg import eig
 from scipy.optimize import brentq
 
-from nucleation.fem.block import Block
+from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.patch.frozen import frozen_patch, log_state_derivatives

@@ -14,9 +14,9 @@ from nucleation.patch.growth import (
     evenly,
     fitted_crossing,
     follow_patch,
-    gather,
     rough_crossing,
 )
+from nucleation.patch.tables import STABILITY, gather_stability
 from nucleation.simulation.run import simulate
 
 pytestmark = pytest.mark.slow
@@ -27,6 +27,7 @@ PARAMETERS = Parameters(
     stepping=Stepping(end_time=11.0, tolerance=5e-2),
 )
 THEORY = 0.451  # m
+FIRST = "stability_length"
 
 
 @pytest.fixture(scope="module")
@@ -114,14 +115,32 @@ def test_line_through_the_crossing():
 def test_table_compares_with_the_reference_study():
     def run(study, height):
         values = dataclasses.replace(PARAMETERS, geometry=Geometry(height, 1.8)).to_dict()
-        return {"id": study, "study": study, "parameters": values, "theory_length": 0.4}
+        return {
+            "id": study,
+            "study": "mine",
+            "role": study,
+            "parameters": values,
+            "theory_length": 0.4,
+        }
 
     runs = [run("paper", 0.02), run("converged", 0.02), run("paper", 0.1)]
     patches = [
         xr.Dataset(dict.fromkeys(FITTED, 1.0) | {"stability_length": length})
         for length in (0.22, 0.2, 0.5)
     ]
-    table = gather(runs, patches)
-    assert set(table.data_vars) == set(growth.COLUMNS)
+    table = gather_stability(runs, patches)
+    assert set(table.data_vars) == set(STABILITY)
     np.testing.assert_allclose(table["stability_ratio"], [0.55, 0.5, 1.25])
     np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, np.nan], atol=1e-12)
+
+
+def test_runs_of_another_material_are_not_compared():
+    def run(study, modulus):
+        values = PARAMETERS.replaced({"shear_modulus": modulus}).to_dict()
+        return {"id": study, "study": study, "parameters": values, "theory_length": 0.4}
+
+    runs = [run("paper", 3e9), run("converged", 3e9), run("converged", 9e9), run("paper", 9e9)]
+    lengths = (0.22, 0.2, 0.8, 0.84)
+    patches = [xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for length in lengths]
+    table = gather_stability(runs, patches)
+    np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, 0.0, 0.05], atol=1e-12)

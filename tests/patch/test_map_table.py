@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from made_up_map import lengths
 
+from nucleation.datasets.variables import DatasetError
 from nucleation.figures.beyond import figure_map
 from nucleation.patch.map_table import AXES, gather, mean_over_seeds, on_grid
 from nucleation.report.length_map import in_page
@@ -20,6 +22,13 @@ def test_every_run_is_in_its_place():
     ratio = mean_over_seeds(grid, "length_ratio")
     np.testing.assert_allclose(ratio.sel(strength=1e-5), 0.6151)
     np.testing.assert_allclose(grid["stability_ratio"], 0.5)
+
+
+def test_runs_that_differ_in_something_else_are_refused():
+    """One overwrote the other: a second material is on none of the axes."""
+    twice = xr.concat([gather(lengths()), gather(lengths()).isel(run=[3])], dim="run")
+    with pytest.raises(DatasetError, match="differ in more than height, zeta_over_a"):
+        on_grid(twice)
 
 
 def test_a_missing_run_is_a_gap_and_not_passed_over():

@@ -8,7 +8,8 @@ import pytest
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import twins
-from nucleation.patch.twins import difference, fitted_rate, follow_twins, gather, kicked
+from nucleation.patch.tables import TWINS, gather_twins
+from nucleation.patch.twins import difference, fitted_rate, follow_twins, kicked
 from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run
 
@@ -93,12 +94,12 @@ def test_rate_of_a_known_amplitude():
 
 def test_table_has_a_row_for_each_twin(followed):
     description = {
-        "id": "a", "study": "twin_runs", "parameters": PARAMETERS.to_dict(),
+        "id": "a", "study": "twin_runs", "role": "twin_runs", "parameters": PARAMETERS.to_dict(),
         "theory_length": THEORY,
     }  # fmt: skip
-    table = gather([description, description], [followed, followed])
+    table = gather_twins([description, description], [followed, followed])
     assert table.sizes["twin"] == 4
-    assert set(table.data_vars) == set(twins.COLUMNS)
+    assert set(table.data_vars) == set(TWINS)
     np.testing.assert_array_equal(table["twin_growth"], np.tile(followed["twin_growth"], 2))
-    empty = gather([], [])
+    empty = gather_twins([], [])
     assert empty.sizes["twin"] == 0

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 
 import pytest
 import xarray as xr
+from nucleation.pipeline.all_runs import AllRuns, Work, in_words, last_line, planned
+from nucleation.pipeline.watch import Line, Watch
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from nucleation.datasets import netcdf
 from nucleation.pipeline import watch
-from nucleation.pipeline.all_runs import AllRuns, Work, in_words, last_line, planned
-from nucleation.pipeline.watch import Line, Watch
 from nucleation.simulation.outcome import Outcome
 
 BEGAN = 1000.0
@@ -80,9 +80,7 @@ def test_single_jobs_from_beginning_to_end(tmp_path):
     runs.job_failed(jobs.work[3].log)  # said once more
     runs.look()
     assert "2 failed" in runs.text() and "running" not in runs.text()
-    assert runs.failures() == [
-        "2 of 10 simulations failed:", f"run2: {FAILED}", "run3: Killed"
-    ]  # fmt: skip
+    assert runs.failures() == ["2 of 10 simulations failed:", f"run2: {FAILED}", "run3: Killed"]
     jobs.end(3, BEGAN + 50.0, 10.0, GOOD)  # in another attempt
     jobs.runs[0].unlink()  # Snakemake removes the result of a failed job's partner
     runs.look()

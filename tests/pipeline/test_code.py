@@ -95,7 +95,7 @@ def test_digest_of_the_simulation_reaches_its_libraries():
     assert {"numpy", "scipy", "numba", "llvmlite", "xarray", "netCDF4"} <= names
     closure = {path.relative_to(code.ROOT).parts[0] for path in
                code.closure("nucleation.simulation.run")}  # fmt: skip
-    assert closure <= {"simulation", "model", "fem", "stepping"}
+    assert closure <= {"simulation", "model", "fem", "stepping", "datasets"}
 
 
 def test_outdated_bytecode_is_refused(tmp_path, monkeypatch):

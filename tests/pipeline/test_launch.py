@@ -71,8 +71,7 @@ def test_default_target_is_what_the_configuration_can_make():
     for name in ("config.yaml", "quick.yaml"):
         assert default_target(load(CONFIG / name)) == "paper"
     assert default_target(configure(study({"height": 0.01}))) == "studies"
-    without = configure(changed("figures", {"inset_height": 0.0123}))
-    assert default_target(without) == "studies"
+    assert default_target(configure(changed("studies.paper.role", "own"))) == "studies"
 
 
 def test_wrong_target_is_told_the_nearest_ones():

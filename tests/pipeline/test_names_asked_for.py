@@ -1,7 +1,6 @@
 """Which runs a job of a cluster has, from its command."""
 
 import pytest
-
 from nucleation.pipeline.planning import names_asked_for
 
 ONE = "simulate:name=map-aging-H0.1,key=0123456789abcdef"

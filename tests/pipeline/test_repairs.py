@@ -5,9 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 import snakemake.jobs
-from snakemake.io import IOFile, flag, is_flagged
-
 from nucleation.pipeline.repairs import caption_where_made, show_why_groups_fail
+from snakemake.io import IOFile, flag, is_flagged
 
 REFUSED = "SLURM sbatch failed. The error message was 'sbatch: error: invalid partition: nope'."
 

@@ -17,8 +17,7 @@ from jinja2 import UndefinedError
 from nucleation.analysis import moments
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import parameters_of
-from nucleation.figures import catalogue
-from nucleation.figures.paper import figure_3
+from nucleation.figures import catalogue, laws
 from nucleation.model.quantities import declarations
 from nucleation.report import encode, explorer, page, player, tables
 from nucleation.report.captions import caption_html
@@ -63,8 +62,9 @@ def test_run_of_the_player_can_be_downloaded(html, content, tmp_path):
 
 
 def test_csv_has_only_the_datasets_own_columns():
+    metres = {"units": "m"}
     table = xr.Dataset(
-        {"height": ("run", [0.1, 0.2]), "id": ("run", ["a", "b"]), "steps": ("run", [1, 2])}
+        {"height": ("run", [0.1, 0.2], metres), "id": ("run", ["a", "b"]), "steps": ("run", [1, 2])}
     )
     assert tables.csv_text(table) == "height (m),id,steps\n0.1,a,1\n0.2,b,2\n"
     assert tables.csv_text(table, ("id",)) == "id\na\nb\n"
@@ -132,10 +132,17 @@ def test_runs_without_an_event_have_dashes_and_no_point(table):
 
 def test_points_have_the_marks_of_figure_3(table):
     (series,) = tables.point_series(table)
-    kind = figure_3.KINDS["aging", False]
+    kind = laws.PAPERS["aging", False]
     assert series["colour"] == kind.colour and series["filled"]
     assert series["label"] == "paper, aging law"
     assert series["length"] == table["length"].values.tolist()
+
+
+def test_points_of_a_law_that_the_paper_does_not_have(table):
+    other = table.assign(law=("run", ["halfway"]), role=("run", ["own"]), phi0=("run", [7.0]))
+    (series,) = tables.point_series(other)
+    assert series["label"] == "paper, halfway law, φ(0) = 7 s" and not series["filled"]
+    assert series["symbol"] == tables.SYMBOLS[laws.OTHERS[0][0]]
 
 
 def test_sliders_are_parameters_of_the_library_at_the_configurations_values(settings):

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from nucleation.figures import catalogue
-from nucleation.report import faults, own, page, tables
+from nucleation.report import drop_law, faults, own, page, tables
 from nucleation.theory.critical import critical_length
 
 STUDIES = own.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
@@ -62,6 +62,16 @@ def test_the_pages_theory_is_not_drawn_for_a_second_block(content, two_faults):
     assert [fault["label"] for fault in drawn] == ["fault A"]
 
 
+def test_pairs_are_told_apart_by_their_second_body(two_faults):
+    pair = two_faults.assign(below=("run", ["deformable"] * 2), shear_modulus=("run", [3e9] * 2))
+    assert len(faults.faults(pair)) == 1
+    for name, values in {
+        "far_side": ["free", "clamped"],
+        "second_shear_modulus": [3e9, 9e9],
+    }.items():
+        assert len(faults.faults(pair.assign({name: ("run", values)}))) == 2
+
+
 def test_letters_go_on():
     assert [faults._letter(n) for n in (0, 25, 26, 27)] == ["A", "Z", "AA", "AB"]
 
@@ -100,3 +110,22 @@ def test_every_fault_has_its_own_theory_in_the_browser(html, browser, settings, 
         np.testing.assert_allclose(length, expected, rtol=1e-6)
         assert web.evaluate("document.documentElement.scrollWidth") <= width
         assert complaints == []
+
+
+def test_the_law_of_the_drop_names_each_material(modes, content):
+    """Their lengths in theory are their own, and what differs is said."""
+    first = modes[0]
+    stiff = first.parameters.replaced(
+        {"shear_modulus": 4.0 * first.parameters.material.shear_modulus}
+    )
+    both = [first, dataclasses.replace(first, parameters=stiff), first]
+    one, other = drop_law.in_page(both, content.friction, content.interface)["faults"]
+    assert other["label"] == f"{one['label']}, mu x 4"
+    expected = critical_length(0.02, stiff.material, content.interface)
+    assert other["theory_length"] == pytest.approx(float(expected))
+    assert other["theory_length"] > 1.5 * one["theory_length"]
+    slower = first.parameters.replaced({"slip_distance": 1e-6})
+    (slow,) = drop_law.in_page(
+        [dataclasses.replace(first, parameters=slower)], content.friction, content.interface
+    )["faults"]
+    assert slow["theory_length"] > 1.3 * one["theory_length"]

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from nucleation.analysis.extraction import extract
-from nucleation.datasets.variables import VARIABLES
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation.control import SimulationFailure
 from nucleation.simulation.interface import Interface, Tension
 from nucleation.simulation.outcome import Outcome
+from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.run import run, simulate
 from nucleation.simulation.step import Dynamics
 
@@ -37,7 +37,7 @@ def test_run_ends_after_its_event(coarse_run):
 
 
 def test_records_are_whole(coarse_run):
-    assert set(coarse_run.variables) <= set(VARIABLES)
+    assert set(coarse_run.variables) <= set(RECORDED)
     assert all(np.isfinite(coarse_run[name]).all() for name in coarse_run.variables)
     assert coarse_run.attrs["steps"] == coarse_run.sizes["step"] - 1
     assert (np.diff(coarse_run["time"]) > 0).all()

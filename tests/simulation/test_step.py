@@ -7,8 +7,8 @@ import pytest
 from fem.assembled_problem import AssembledBlock
 from scipy.optimize import brentq, root
 
+from nucleation.fem.block import BlockOperator
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
@@ -211,7 +211,7 @@ def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
         monkeypatch.setattr("nucleation.fem.right_edge.ROUND_OFF", round_off)
         sweeps = []
         monkeypatch.setattr(
-            "nucleation.fem.operator.BlockOperator.swept",
+            "nucleation.fem.block.BlockOperator.swept",
             lambda self, load, edge: sweeps.append(0) or sweep(self, load, edge),
         )
         dynamics = composed(parameters)

@@ -9,9 +9,8 @@ from verification.order_tables import print_orders
 
 from nucleation.claims.independent import printed
 from nucleation.fem.assembled import assemble, unknown
-from nucleation.fem.block import Block
+from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BlockOperator
 from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model import linearised
 from nucleation.model.friction.law import Friction

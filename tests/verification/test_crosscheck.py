@@ -21,7 +21,7 @@ from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Ste
 from nucleation.model.perturbation import IN_TIME, Perturbation
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.run import simulate
-from nucleation.verification.crosscheck import compare, freefem
+from nucleation.verification.crosscheck import compare, freefem, timed
 from nucleation.verification.crosscheck.plan import CrosscheckSettings, runs
 
 pytestmark = pytest.mark.system
@@ -231,7 +231,7 @@ def test_other_laws_are_refused():
 
 def test_rows_of_the_table(pair):
     """A run without an event has costs but no differences."""
-    own = compare.simulate_timed(PARAMETERS.replaced({"end_time": 0.05}))
+    own = timed.simulate_timed(PARAMETERS.replaced({"end_time": 0.05}))
     row = compare.compare(own, pair[1])
     assert set(row) == set(compare.COLUMNS) - {"id"}
     assert np.isnan(row["onset_time"]) and np.isnan(row["patch_length_rms"])
@@ -243,7 +243,7 @@ def test_rows_of_the_table(pair):
 
 def test_comparison_of_a_record_with_itself_and_with_one_that_lags(pair):
     """A drop and fast slip are added to a record, so that it has an event."""
-    record = compare.simulate_timed(PARAMETERS)
+    record = timed.simulate_timed(PARAMETERS)
     late = record["step_time"] > 0.95 * END
     record["driving_force"] = record["driving_force"].where(~late, 0.5 * record["driving_force"])
     record["maximal_slip_rate"] = record["maximal_slip_rate"].where(~late, 1e-3)  # m/s

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from fem.assembled_problem import AssembledBlock
 
-from nucleation.fem.block import Block
+from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
-from nucleation.fem.operator import BlockOperator
 from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters

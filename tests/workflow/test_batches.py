@@ -21,6 +21,7 @@ HEIGHTS = (0.02, 0.03, 0.04, 0.05, 0.06)
 
 def configuration(per_job, heights=HEIGHTS, study_name="many"):
     study = {
+        "role": READ_ONE_BY_ONE if study_name == READ_ONE_BY_ONE else "own",
         "length_over_critical": 4.0,
         "runs_per_job": per_job,
         "defaults": SHORT,
@@ -41,7 +42,7 @@ def with_one_that_fails(study_name):
 
 
 READ_ONE_BY_ONE = "quiet"
-"""A study of whose simulations, one by one, other results are made."""
+"""A role, and a study with it, of whose simulations other results are made one by one."""
 
 
 def begun(workflow):

@@ -49,7 +49,7 @@ def test_convergence_without_its_studies_says_so(workflow):
     other = workflow.configured({"studies": {"mine": {"runs": [{"height": 0.1}]}}})
     done = other("figure_convergence", "--dry-run")
     assert done.returncode != 0
-    assert "there is no study convergence_quiet with a run of height 0.005" in done.stdout
+    assert "there is no study with role: convergence_quiet and a run of height 0.005" in done.stdout
     assert "Traceback (most recent call last)" not in done.stdout
 
 

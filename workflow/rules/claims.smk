@@ -8,21 +8,21 @@ rule evaluate_claims:
         lengths=lambda wildcards: lengths_of(*CLAIMED),
         simulations=lambda wildcards: simulations(*CLAIMED),
         longer=lambda wildcards: simulations_of(BLOCKS),
-        patches=lambda wildcards: patches(*in_role("converged")),
+        patches=lambda wildcards: patches(*in_role(JUDGED)),
     output:
         link("tables/claims", "json"),
     log:
         log("tables/claims"),
     threads: 1
     params:
+        **CONFIGURED("material", "friction", "loading"),
         call="nucleation.claims.evaluation:of_paper",
         loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
-        **CONFIGURED("material", "friction", "loading"),
         interface=asdict(settings.main_text_interface),
         settings=asdict(settings.extraction),
         ids=[run.id for run in runs_in(*CLAIMED)],
-        longer_runs=[{**run, "study": LONGER} for run in as_dicts(BLOCKS)],
-        patch_ids=[run.id for run in patched_runs(*in_role("converged"))],
+        longer_runs=[{**run, "role": LONGER} for run in as_dicts(BLOCKS)],
+        patch_ids=[run.id for run in patched_runs(*in_role(JUDGED))],
     message:
         "Claims of the paper, our numbers and the verdicts"
     script:

@@ -25,7 +25,7 @@ rule crosscheck_own:
         log("crosscheck/own/{name}"),
     threads: 1
     params:
-        call="nucleation.verification.crosscheck.compare:own",
+        call="nucleation.verification.crosscheck.timed:own",
         loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
         parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
     message:
@@ -63,7 +63,7 @@ rule compare_crosscheck:
     log:
         log("crosscheck"),
     params:
-        call="nucleation.verification.crosscheck.compare:table",
+        call="nucleation.verification.crosscheck.compare:files",
         ids=list(CROSSCHECKS),
         settings=asdict(settings.extraction),
     message:

@@ -6,11 +6,6 @@ def drawing(name):
     return ".".join(path.relative_to(SOURCE).with_suffix("").parts)
 
 
-def only(*paths):
-    """An input function that gives the results of rules, by name."""
-    return lambda wildcards: steps(*paths)
-
-
 DRAWN = {
     "figure_1": {},
     "figure_2": {"theory": only("theory")},
@@ -21,7 +16,7 @@ DRAWN = {
     },
     "figure_s1": {"theory": only("theory")},
     "figure_s2": {
-        "lengths": lambda wildcards: lengths_of(*in_role("paper"))[0],
+        "lengths": lambda wildcards: table_of("paper"),
         "simulation": lambda wildcards: steps("simulate", space_time_id(wildcards)),
     },
     "figure_patch_stability": {
@@ -33,7 +28,7 @@ DRAWN = {
         "theory": only("theory"),
         "lengths": only("gather_lengths"),
         "table": only("gather_patches", "patch_stability"),
-        "noisy": lambda wildcards: lengths_of(*in_role("noisy")),
+        "noisy": lambda wildcards: table_of("noisy"),
     },
     "figure_drop": {"table": only("gather_drop")},
     "figure_map": {"grid": only("gather_map")},
@@ -65,12 +60,18 @@ for _name, _inputs in DRAWN.items():
         log:
             log(f"figures/{_name}"),
         params:
-            call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
             **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
+            call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
         message:
             FIGURES[_name].title
         script:
             STEP
+
+
+def declarations(names):
+    """What parameters are, for the axes of a figure."""
+    found = {name: asdict(study_parameters()[name]) for name in names}
+    return {name: entry | {"choices": list(entry["choices"])} for name, entry in found.items()}
 
 
 # Any study against the theory, by what it varies.
@@ -84,10 +85,7 @@ rule draw_study:
     params:
         call="nucleation.figures.beyond.figure_studies:draw_study",
         varied=lambda wildcards: varied(settings.runs_of(wildcards.name)),
-        entries=lambda wildcards: {
-            name: asdict(study_parameters()[name])
-            for name in varied(settings.runs_of(wildcards.name))
-        },
+        entries=lambda wildcards: declarations(varied(settings.runs_of(wildcards.name))),
         theory=lambda wildcards: theory_curves(
             settings.runs_of(wildcards.name),
             settings.studies[wildcards.name],

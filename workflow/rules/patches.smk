@@ -45,7 +45,7 @@ rule gather_patches:
     input:
         patches=needed(
             lambda wildcards: patches(*PATCH_TABLES[wildcards.name]),
-            "study paper, converged or patch_convergence",
+            "study with role: paper, converged or patch_convergence",
         ),
     output:
         link("{name}"),
@@ -54,7 +54,7 @@ rule gather_patches:
     wildcard_constraints:
         name="|".join(PATCH_TABLES),
     params:
-        call="nucleation.patch.growth:table",
+        call="nucleation.patch.tables:stability_files",
         runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.name])),
     message:
         "Patch lengths at which growth begins: {wildcards.name}"
@@ -90,8 +90,8 @@ rule gather_twins:
     log:
         log("twin_runs"),
     params:
-        call="nucleation.patch.twins:table",
-        runs=as_dicts(runs_in("twin_runs")),
+        call="nucleation.patch.tables:twin_files",
+        runs=as_dicts(runs_for("twin_runs")),
     message:
         "Growth of kicks in twin runs"
     script:

@@ -1,11 +1,11 @@
 # The report: one HTML file with every figure that the configuration has the studies for, the theory
 # with sliders, a player of the run of Figure S2, tables and provenance.
 OF_THE_PAPER = DEFAULT == "paper"
-REPORTED = catalogue.drawable(list(settings.studies), papers=OF_THE_PAPER)
+REPORTED = catalogue.drawable({study.role for study in settings.studies.values()}, OF_THE_PAPER)
 OWN_STUDIES = {
     study: settings.studies[study].description for study in SHARED if study not in CLAIMED
 }
-"""What the studies are for that the paper does not have and that share lengths.csv."""
+"""What the studies are for on which no verdict stands and that share lengths.csv."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
 """What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
 the paper's figures nor the verdicts, which are about the paper's runs."""
@@ -54,7 +54,7 @@ rule write_report:
         player=lambda wildcards: (
             [steps("simulate", space_time_id(wildcards))] if "figure_s2" in REPORTED else []
         ),
-        modes=lambda wildcards: modes("quiet"),
+        modes=lambda wildcards: modes(),
         claims=lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
         page_files=sorted(
             str(path)
@@ -67,7 +67,7 @@ rule write_report:
         log("report"),
     params:
         call="nucleation.report.writing:write",
-        loads=plugins(settings.base),
+        loads=[*plugins(settings.base), *laws_of(runs_for("quiet"))],
         names=list(ENTRIES),
         dataset_names=catalogue.datasets_of(ENTRIES.values()),
         studies=OWN_STUDIES,

@@ -1,7 +1,6 @@
 # Which runs play which role, and the results that are made of each.
-def in_role(*roles):
-    """Names of the studies in some roles."""
-    return [name for name in settings.studies if name in roles]
+in_role = settings.studies_for
+runs_for = settings.runs_for
 
 
 def runs_in(*studies):
@@ -18,34 +17,22 @@ def laws_of(runs):
     return sorted({law for run in runs for law in plugins(run.parameters)})
 
 
-def is_pair(study):
-    """Whether all runs of a study have two bodies."""
-    runs = settings.runs_of(study)
-    return bool(runs) and all(run.parameters.below is not None for run in runs)
-
-
-PAIR_STUDIES = [study for study in settings.studies if is_pair(study)]
-CONVERGENCE_STUDIES = [study for study in settings.studies if study.startswith("convergence")]
+PAIR_STUDIES = in_role(*PAIR_ROLES)
+CONVERGENCE_STUDIES = in_role(*REFINEMENTS)
 CLAIMED = in_role(PAPERS, JUDGED)
 """Studies that claims are about."""
 FLOORS = in_role("paper", "convergence_quiet")
 """Studies of quiet runs, whose drops say how noisy their meshes are."""
 PATCH_TABLES = {
-    "patch_stability": ("paper", "converged"),
-    "patch_convergence": ("converged", "patch_convergence"),
+    "patch_stability": in_role("paper", "converged"),
+    "patch_convergence": in_role("converged", "patch_convergence"),
 }
 """Tables of patches by the studies in them."""
 
-ONE_BY_ONE = {
-    *in_role("paper", "converged", "long_blocks", "patch_convergence", "sensitivity", "quiet"),
-    *in_role("convergence_quiet"),
-    *PAIR_STUDIES,
-}
-"""Studies whose simulations other results are made of, one by one."""
 TABLED = [
     name
     for name, study in settings.studies.items()
-    if study.runs_per_job > 1 and name not in ONE_BY_ONE
+    if study.runs_per_job > 1 and not ROLES[study.role].one_by_one
 ]
 """Studies in batches that are measured by the job that makes them."""
 
@@ -55,6 +42,11 @@ for _run in settings.runs:
         BATCHES.setdefault(_run.batch, []).append(_run)
 
 BATCHED_ONE_BY_ONE = [name for name, runs in BATCHES.items() if runs[0].study not in TABLED]
+
+
+def only(rule, name=""):
+    """An input function that gives the result of a rule."""
+    return lambda wildcards: steps(rule, name)
 
 
 def together(rule, runs, job):
@@ -96,6 +88,11 @@ def lengths_of(*studies):
     return [steps("join_batches" if s in TABLED else "extract", s) for s in present]
 
 
+def table_of(role):
+    """The table of lengths of the one study that has a role; nothing without it."""
+    return (lengths_of(*in_role(role)) or [[]])[0]
+
+
 def patched_runs(*studies):
     """The runs whose patches are followed: of each fault the first realisation."""
     return first_realisations(runs_in(*studies))
@@ -107,59 +104,40 @@ def patches(*studies):
 
 PATCHED_TOGETHER = [
     study
-    for study in dict.fromkeys([*in_role(*sum(PATCH_TABLES.values(), ())), *PAIR_STUDIES])
+    for study in dict.fromkeys([*sum(PATCH_TABLES.values(), []), *PAIR_STUDIES])
     if len(patched_runs(study)) > 1
 ]
 
 
 def twins():
-    return steps.several("twin", [run.id for run in runs_in("twin_runs")])
+    return steps.several("twin", [run.id for run in runs_for("twin_runs")])
 
 
-def modes(study):
-    return steps.several("mode", [run.id for run in runs_in(study)])
-
-
-def fault(run):
-    """What sets the faults of quiet runs apart."""
-    return run.parameters.geometry.height, run.parameters.friction.evolution
+def modes():
+    return steps.several("mode", [run.id for run in runs_for("quiet")])
 
 
 def floor_runs():
     """The runs whose modes say how noisy meshes are: of the faults that have several."""
-    faults = {fault(run) for run in runs_in("convergence_quiet")}
-    return [run for run in runs_in("quiet") if fault(run) in faults]
+    faults = {fault(run.parameters) for run in runs_for("convergence_quiet")}
+    return [run for run in runs_for("quiet") if fault(run.parameters) in faults]
 
 
 def hopping():
     """The runs whose hops are shown, from coarse to fine."""
     height = settings.figures.space_time_height
-    runs = [run for run in runs_in("convergence_quiet") if run.parameters.geometry.height == height]
+    runs = [
+        run for run in runs_for("convergence_quiet") if run.parameters.geometry.height == height
+    ]
     if not runs:
-        raise WorkflowError(f"no quiet study of convergence has a run of height {height:g} m")
+        raise WorkflowError(f"no study with role: convergence_quiet has a run of {height:g} m")
     return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
 
 
-def mapped(wildcards):
-    """The table of the map's lengths, with the stability of each patch."""
-    for name in in_role("map"):
-        study = settings.studies[name]
-        if study.measure != "stability" or study.runs_per_job == 1:
-            raise WorkflowError(
-                f"studies.{name}: measure = {study.measure} with runs_per_job = "
-                f"{study.runs_per_job} is not allowed: the map needs measure: stability, with "
-                "more than one run per job"
-            )
-        return lengths_of(name)[0]
-    return []
-
-
 def shown_run(height):
-    """The simulation of the paper's study that a figure shows, by height (m)."""
+    """The simulation that a figure shows, by height (m)."""
     try:
-        return settings.find(
-            study="paper", law="aging", height=height, phi0=settings.base.loading.initial_state
-        ).id
+        return settings.shown(height).id
     except ParameterError as error:
         raise WorkflowError(f"a figure can't be drawn: {error}") from None
 
@@ -174,17 +152,15 @@ def space_time_id(wildcards):
 
 def element(run):
     """All that a run is given but for the block's length, of which there is that of an element (m)."""
-    given, mesh = run.parameters.to_dict(), run.parameters.mesh
-    given["geometry"]["length"] = round(given["geometry"]["length"] / mesh.n_x, 9)
-    given["mesh"]["n_x"] = None
-    return given
+    size = run.parameters.geometry.length / run.parameters.mesh.n_x
+    return identity(run.parameters, "geometry.length", "mesh.n_x"), round(size, 9)
 
 
 def longer():
     """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
-    blocks, judged = ([(element(run), run) for run in runs_in(study)] for study in (LONGER, JUDGED))
+    blocks, judged = ([(element(run), run) for run in runs_for(role)] for role in (LONGER, JUDGED))
     return [run for like, block in blocks for other, base in judged if other == like
             for run in (block, base)]  # fmt: skip
 
 
-BLOCKS = longer() if runs_in(LONGER) else []
+BLOCKS = longer()

@@ -1,16 +1,16 @@
 # Tables beyond the paper: each is made of others, of simulations, or of what was read from these.
 rule gather_drop:
     input:
-        drops=needed(lambda wildcards: lengths_of(*in_role("drop")), "study drop"),
+        drops=needed(lambda wildcards: lengths_of(*in_role("drop")), "study with role: drop"),
         quiet=lambda wildcards: lengths_of(*FLOORS),
-        modes=needed(lambda wildcards: modes("quiet"), "study quiet"),
+        modes=needed(lambda wildcards: modes(), "study with role: quiet"),
     output:
         link("drop"),
     log:
         log("drop"),
     params:
-        call="nucleation.patch.drop_table:table",
-        loads=EVOLUTIONS,
+        call="nucleation.patch.drop_table:drop_files",
+        loads=laws_of(runs_for("quiet")),
     message:
         "Drops, and the law of the drop"
     script:
@@ -22,15 +22,15 @@ rule gather_floors:
         quiet=lambda wildcards: lengths_of(*FLOORS),
         modes=needed(
             lambda wildcards: steps.several("mode", [run.id for run in floor_runs()]),
-            "fault of the study convergence_quiet in a study quiet",
+            "fault with the roles convergence_quiet and quiet",
         ),
     output:
         link("floors"),
     log:
         log("floors"),
     params:
-        call="nucleation.patch.drop_table:floors_table",
-        loads=EVOLUTIONS,
+        call="nucleation.patch.drop_table:floor_files",
+        loads=laws_of(runs_for("quiet")),
     message:
         "Noise of meshes and steps"
     script:
@@ -39,13 +39,13 @@ rule gather_floors:
 
 rule gather_map:
     input:
-        lengths=needed(mapped, "study map"),
+        lengths=needed(lambda wildcards: table_of("map"), "study with role: map"),
     output:
         link("map"),
     log:
         log("map"),
     params:
-        call="nucleation.patch.map_table:table",
+        call="nucleation.patch.map_table:files",
     message:
         "The map of lengths over height and weakening"
     script:
@@ -56,7 +56,8 @@ rule gather_map:
 rule gather_pairs:
     input:
         simulations=needed(
-            lambda wildcards: simulations(*PAIR_STUDIES), "study of two deformable bodies"
+            lambda wildcards: simulations(*PAIR_STUDIES),
+            "study of two deformable bodies, by its role",
         ),
         patches=lambda wildcards: patches(*PAIR_STUDIES),
     output:
@@ -64,7 +65,7 @@ rule gather_pairs:
     log:
         log("pairs"),
     params:
-        call="nucleation.patch.pairs:table",
+        call="nucleation.patch.pairs:files",
         runs=as_dicts(runs_in(*PAIR_STUDIES)),
         settings=asdict(settings.extraction),
     message:
@@ -75,13 +76,15 @@ rule gather_pairs:
 
 rule convergence:
     input:
-        tables=needed(lambda wildcards: lengths_of(*CONVERGENCE_STUDIES), "study of convergence"),
+        tables=needed(
+            lambda wildcards: lengths_of(*CONVERGENCE_STUDIES), "study with role: convergence"
+        ),
     output:
         link("convergence"),
     log:
         log("convergence"),
     params:
-        call="nucleation.analysis.convergence:table",
+        call="nucleation.analysis.convergence:files",
     message:
         "Critical lengths against mesh and steps"
     script:
@@ -91,15 +94,15 @@ rule convergence:
 rule sensitivity:
     input:
         simulations=needed(
-            lambda wildcards: simulations(*in_role("sensitivity")), "study sensitivity"
+            lambda wildcards: simulations(*in_role("sensitivity")), "study with role: sensitivity"
         ),
     output:
         link("sensitivity"),
     log:
         log("sensitivity"),
     params:
-        call="nucleation.analysis.sensitivity:table",
-        runs=as_dicts(runs_in("sensitivity")),
+        call="nucleation.analysis.sensitivity:files",
+        runs=as_dicts(runs_for("sensitivity")),
         settings=asdict(settings.extraction),
     message:
         "Sensitivity of critical lengths"

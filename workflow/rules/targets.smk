@@ -48,7 +48,10 @@ TARGETS = {
         )(None),
     ),
     **{
-        f"figure_study_{study}": (f"Figure of the study {study}.", lambda study=study: of_study(study))
+        f"figure_study_{study}": (
+            f"Figure of the study {study}.",
+            lambda study=study: of_study(study),
+        )
         for study in settings.studies
     },
     "pairs": (
@@ -75,7 +78,7 @@ TARGETS = {
 }
 """What each target is for, and the results it leads to; `steps.behind` adds what these stand on."""
 
-if runs_in("patch_convergence"):
+if in_role("patch_convergence"):
     TARGETS["figure_patch_stability"] = (
         TARGETS["figure_patch_stability"][0],
         lambda: [*drawn("figure_patch_stability"), steps("gather_patches", "patch_convergence")],
@@ -108,32 +111,19 @@ def everything(wildcards):
     return found
 
 
-# What of the results is stale, incomplete, damaged or foreign, without running anything else; and
-# which results nothing refers to any more.
-for _name, _says in (
-    ("check", "List what is stale, incomplete, damaged or foreign."),
-    ("prune", "List results that nothing refers to, and with PRUNE=yes remove them."),
-):
+# Questions about results, which nothing is made for; `targets` says what there is to ask for.
+for _name in ("check", "prune", "targets"):
 
     rule:
         name:
             _name
-        params:
-            results=RESULTS,
-            expected=everything,
-            says=_name,
         localrule: True
+        params:
+            asked=_name,
+            results=RESULTS,
+            expected=everything if _name != "targets" else {},
+            targets=lambda wildcards: {name: text for name, (text, _) in TARGETS.items()},
         message:
-            _says
+            f"{_name} of {RESULTS}"
         script:
             "../scripts/check.py"
-
-
-rule targets:
-    """What there is to ask for."""
-    params:
-        listing={name: text for name, (text, _) in TARGETS.items()},
-    localrule: True
-    run:
-        for name, text in params.listing.items():
-            print(f"{name:{max(map(len, params.listing))}}  {text}")

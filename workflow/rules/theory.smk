@@ -6,9 +6,9 @@ rule theory:
         log("theory"),
     priority: 1
     params:
+        **CONFIGURED("material", "friction", "curves"),
         call="nucleation.theory.curves:theory_dataset",
         loads=plugins(settings.base),
-        **CONFIGURED("material", "friction", "curves"),
         interface=asdict(settings.main_text_interface),
     message:
         "Theory: critical lengths and friction curves"
@@ -25,9 +25,9 @@ rule dispersion:
     priority: 1  # the verdicts wait for it
     threads: 1
     params:
-        call="nucleation.verification.dispersion:table",
-        loads=plugins(settings.base),
         **CONFIGURED("material", "friction", "loading"),
+        call="nucleation.verification.dispersion:files",
+        loads=plugins(settings.base),
     message:
         "Dispersion: growth of single modes, time integration and theory"
     script:
@@ -42,9 +42,9 @@ rule pair_modes:
         log("pair_modes"),
     threads: 1
     params:
-        call="nucleation.verification.pair_modes:table",
-        loads=plugins(settings.base),
         **CONFIGURED("material", "friction", "loading"),
+        call="nucleation.verification.pair_modes:files",
+        loads=plugins(settings.base),
     message:
         "Growth of single modes between two layers, time integration and theory"
     script:
@@ -59,7 +59,7 @@ rule verification:
         log("verification"),
     threads: 1
     params:
-        call="nucleation.verification.orders:table",
+        call="nucleation.verification.orders:files",
         loads=EVOLUTIONS,
     message:
         "Convergence: errors of manufactured solutions against element size and time step"
@@ -73,9 +73,9 @@ rule write_table_s1:
     log:
         log("tables/table_s1"),
     params:
+        **CONFIGURED("friction"),
         call="nucleation.figures.paper.table_s1:files",
         loads=plugins(settings.base),
-        **CONFIGURED("friction"),
     message:
         "Table S1: parameters of the friction law"
     script:

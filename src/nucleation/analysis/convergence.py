@@ -12,6 +12,8 @@ from typing import Any
 
 import xarray as xr
 
+from ..datasets.variables import Variable, some, table
+from .lengths import COLUMNS as LENGTHS
 from .lengths import Files, join, with_csv
 from .rows import Row, rows_of
 
@@ -19,16 +21,26 @@ REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
 
 FIXED = (
-    *REFINED, "grading", "height", "law", "phi0", "kind", "strength", "correlation_length", "seed",
+    *REFINED, "grading", "block_length", "fault", "kind", "strength", "correlation_length", "seed",
 )  # fmt: skip
 """What the runs of a sequence have in common, the refined parameter apart."""
 
-COLUMNS = (
-    "refinement", "id", "law", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
-    "grading", "longest_step", "tolerance", "onset_time", "onset_difference", "length",
-    "length_difference", "elements_difference", "theory_length", "length_over_theory", "steps",
-    "wall_seconds",
-)  # fmt: skip
+LENGTH_OVER_THEORY = Variable("1", "critical length over that of the linear theory")
+
+COLUMNS = {
+    "refinement": Variable("", "what is refined from level to level"),
+    **some(
+        LENGTHS, "id", "law", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
+        "grading", "longest_step", "tolerance", "onset_time",
+    ),
+    "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
+    "length": LENGTHS["length"],
+    "length_difference": Variable("1", "relative difference of L_c from the finest run"),
+    "elements_difference": Variable("1", "the same in elements of the run along x"),
+    "theory_length": LENGTHS["theory_length"],
+    "length_over_theory": LENGTH_OVER_THEORY,
+    **some(LENGTHS, "steps", "wall_seconds", "fault"),
+}  # fmt: skip
 
 
 def sequences(rows: Sequence[Row], refined: str) -> list[list[Row]]:
@@ -66,7 +78,7 @@ def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
         for sequence in sequences(rows, refined)
         for row in _beside_the_finest(sequence)
     ]
-    return xr.Dataset({name: ("run", [row[name] for row in found]) for name in COLUMNS})
+    return table(found, COLUMNS)
 
 
 def _beside_the_finest(sequence: Sequence[Row]) -> list[Row]:
@@ -85,6 +97,6 @@ def _beside_the_finest(sequence: Sequence[Row]) -> list[Row]:
     ]
 
 
-def table(tables: Iterable[xr.Dataset]) -> Files:
-    """The step ``convergence``: :func:`refinement_table` of some tables with its CSV."""
-    return with_csv(refinement_table(join(tables)), COLUMNS)
+def files(tables: Iterable[xr.Dataset]) -> Files:
+    """The step ``convergence``: :func:`refinement_table` of some tables, with its CSV."""
+    return with_csv(refinement_table(join(tables)))

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from ..model.parameters import EVENT_DROP
 from ..model.quantities import Checked, quantity
 from ..simulation.event import DropWatch
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 REBOUND = 0.1  # a rise by this part of the fall that follows belongs to the fall
 SEARCHED = 0.5  # part of the block, from the loaded edge, in which the patch's edge is sought

@@ -12,15 +12,22 @@ import warnings
 import numpy as np
 import xarray as xr
 
+from ..datasets.variables import Variable
 from ..simulation.outcome import Outcome
 from .definitions import ExtractionSettings
 from .record import Record
 
 AFTER_EVENT = Outcome.AFTER_EVENT.value
 
-NAMES = (
-    "onset_time", "onset_time_low", "onset_time_high", "length", "length_low", "length_high",
-)  # fmt: skip
+MEASURED = {
+    "onset_time": Variable("s", "onset of the event", "t"),
+    "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
+    "onset_time_high": Variable("s", "latest onset over the definitions of the drop", "t"),
+    "length": Variable("m", "critical nucleation length from the simulation", "L_c"),
+    "length_low": Variable("m", "smallest length over the definitions", "L_c"),
+    "length_high": Variable("m", "largest length over the definitions", "L_c"),
+}
+"""What :func:`extract` reads from a simulation."""
 
 
 def extract(
@@ -50,8 +57,14 @@ def extract(
                 UserWarning,
                 stacklevel=2,
             )
-        return dict.fromkeys(NAMES, float("nan"))
+        return dict.fromkeys(MEASURED, float("nan"))
     instants = record.drop_times
     edges = np.array([lengths[record.frames_at(instants)] for lengths in record.all_lengths])
-    values = (instants[0], instants.min(), instants.max(), edges[0, 0], edges.min(), edges.max())
-    return dict(zip(NAMES, map(float, values), strict=True))
+    return {
+        "onset_time": float(instants[0]),
+        "onset_time_low": float(instants.min()),
+        "onset_time_high": float(instants.max()),
+        "length": float(edges[0, 0]),
+        "length_low": float(edges.min()),
+        "length_high": float(edges.max()),
+    }

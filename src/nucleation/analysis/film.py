@@ -12,9 +12,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..datasets.variables import Variable, annotate
 from ..fem.condensed import Body
 from ..model.material import Material
 from ..simulation.composition import composed
+from ..simulation.recorded import RECORDED
 from ..simulation.run import run
 from ..simulation.state import State
 from .lengths import row
@@ -25,6 +27,10 @@ Array = NDArray[np.float64]
 
 MOST_FRAMES = (45, 70, 5)  # before, in and after the event
 MOST_COLUMNS, MOST_ROWS = 241, 31
+FILMED = {
+    **RECORDED,
+    "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy"),
+}
 SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 
@@ -106,7 +112,7 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     film = simulation[names].isel(time=frames, x=columns).assign_coords(y=heights[rows])
     film["block_shear_stress"] = ("time", "y", "x"), np.array(stresses)
     film.attrs = {"parameters": parameters.to_json()}
-    return film
+    return annotate(film, FILMED)
 
 
 def of_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> xr.Dataset:

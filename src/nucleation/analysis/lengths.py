@@ -11,10 +11,13 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..datasets.variables import VARIABLES
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, some
+from ..datasets.variables import table as table_of
+from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
 from .definitions import ExtractionSettings
-from .extraction import extract
+from .extraction import MEASURED, extract
 from .record import Record
 
 Array = NDArray[np.float64]
@@ -25,26 +28,53 @@ OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
 }  # fmt: skip
 """What the realisations of one fault have in common: of each number that differs."""
 
-MEASURED = tuple(OVER_REALISATIONS)
-"""What :func:`nucleation.analysis.extraction.extract` reads from a simulation."""
-
-DIAGNOSTICS = ("status", "steps", "wall_seconds", "peak_megabytes")
+DIAGNOSTICS = {
+    "status": Variable("", "how the simulation ended"),
+    "steps": Variable("1", "number of time steps"),
+    "wall_seconds": Variable("s", "wall time of the simulation"),
+    "peak_megabytes": Variable("1", "largest memory of the simulation (megabytes)"),
+}
 """Attributes of a simulation's dataset that go into the table."""
 
-SECOND_BODY = ("second_height", "second_shear_modulus", "second_poisson_ratio")
+SECOND_BODY = some(SHARED, "second_height", "second_shear_modulus", "second_poisson_ratio")
 
-COLUMNS = (
-    "id", "study", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length", *DIAGNOSTICS,
-    "block_length", "grading", "tolerance", "longest_step", "density", "slip_distance", "velocity",
-    "applied_stress", "shear_modulus", "poisson_ratio", "friction_coefficient", "direct_effect",
-    "velocity_weakening", "friction_law", "below", "initial_stress", "initial_shear_stress",
-    "simulated_time", "reached_length", "kind", "strength", "seed",
-    "correlation_length", "far_side", *SECOND_BODY,
-)  # fmt: skip
+COLUMNS = {
+    "id": SHARED["id"],
+    "study": Variable("", "study of the configuration"),
+    "role": Variable("", "what the study is for"),
+    "law": Variable("", "state evolution law"),
+    "height": SHARED["height"],
+    "phi0": Variable("s", "initial state variable", "phi0"),
+    **some(SHARED, "n_x", "n_y"),
+    **MEASURED,
+    "theory_length": Variable("m", "critical nucleation length of the linear theory", "L_c"),
+    **DIAGNOSTICS,
+    "block_length": Variable("m", "length of the block", "L"),
+    "grading": Variable("1", "largest over smallest element along y"),
+    "tolerance": Variable("1", "tolerance of the local error per step"),
+    "longest_step": Variable("1", "longest time step over the memory time D/V"),
+    "density": Variable("kg/m^3", "mass density", "rho"),
+    **some(SHARED, "slip_distance", "velocity", "applied_stress", "shear_modulus", "poisson_ratio"),
+    "friction_coefficient": Variable("1", "friction coefficient of the theory's interface", "f"),
+    **some(SHARED, "direct_effect", "velocity_weakening"),
+    "friction_law": Variable("", "law of the friction coefficient"),
+    "below": Variable("", "what the block slides on"),
+    "initial_stress": Variable("", "static field at the start"),
+    "initial_shear_stress": Variable("Pa", "shear stress at the start, if it is uniform", "tau0"),
+    "simulated_time": Variable("s", "time at the end of the run", "t"),
+    "reached_length": Variable(
+        "m", "patch length at the onset, or at the end of a run without an event", "L(t)"
+    ),
+    "kind": Variable("", "what is perturbed"),
+    "strength": Variable("1", "relative strength of the declared perturbation", "eps"),
+    "seed": Variable("1", "seed of its realisation"),
+    "correlation_length": Variable("m", "its correlation length along x"),
+    "far_side": SHARED["far_side"],
+    **SECOND_BODY,
+    "fault": Variable("", "digest of all that the fault's physics depends on"),
+    "ensemble": Variable("", "digest of all that the run is given but its seed"),
+}
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
-
-EITHER = ("id", "seed", *MEASURED, *DIAGNOSTICS, "simulated_time", "reached_length")
-"""Columns in which realisations of one fault may differ."""
 
 
 def gather(
@@ -57,7 +87,7 @@ def gather(
     Parameters
     ----------
     runs : iterable of dict
-        From :meth:`nucleation.configuration.studies.Run.to_dict`.
+        From :meth:`nucleation.configuration.runs.Run.to_dict`.
     simulations : iterable of Dataset
         Their simulations, in the same order.
     settings : ExtractionSettings
@@ -71,25 +101,22 @@ def gather(
     rows = [
         _row(run, simulation, settings) for run, simulation in zip(runs, simulations, strict=True)
     ]
-    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+    return table_of(rows, COLUMNS)
 
 
 def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
     """One table of the rows of several."""
-    return xr.concat(list(tables), dim="run", combine_attrs="drop")
+    joined = xr.concat(list(tables), dim="run", combine_attrs="override")
+    return joined.drop_attrs(deep=False)
 
 
 def realisations(table: xr.Dataset) -> list[list[int]]:
-    """The rows of each fault in a table of lengths, which differ in the declared seed alone."""
-    same = [
-        [None if value != value else value for value in table[name].values.tolist()]  # NaN
-        for name in table.data_vars
-        if name not in EITHER
-    ]
-    faults: dict[tuple[Any, ...], list[int]] = {}
-    for i, key in enumerate(zip(*same, strict=True)):
-        faults.setdefault(key, []).append(i)
-    return list(faults.values())
+    """The rows of each run of a study in a table of lengths, which differ in the seed alone."""
+    runs: dict[tuple[str, str], list[int]] = {}
+    for i, key in enumerate(zip(*(table[n].values.tolist() for n in ("study", "ensemble")),
+                                strict=True)):  # fmt: skip
+        runs.setdefault(key, []).append(i)
+    return list(runs.values())
 
 
 def over_realisations(table: xr.Dataset) -> xr.Dataset:
@@ -124,10 +151,13 @@ def declared(run: dict[str, Any]) -> dict[str, Any]:
 
 def description(run: dict[str, Any]) -> dict[str, Any]:
     """The columns that say which simulation a row is about, and the theory's length for it."""
-    parameters = run["parameters"]
+    parameters, own = run["parameters"], Parameters.from_dict(run["parameters"])
     return declared(run) | {
+        "fault": fault(own),
+        "ensemble": ensemble(own),
         "id": run["id"],
         "study": run["study"],
+        "role": run["role"],
         "law": parameters["friction"]["evolution"],
         "height": parameters["geometry"]["height"],
         "phi0": parameters["loading"]["initial_state"],
@@ -198,24 +228,24 @@ def row(table: xr.Dataset, identifier: str) -> xr.Dataset:
     return table.isel(run=int(index))
 
 
-def columns_csv(columns: tuple[str, ...] = COLUMNS) -> str:
-    """Unit and meaning of every column of a table, as comma-separated text."""
-    described = [{"column": name, **VARIABLES[name]._asdict()} for name in columns]
+def columns_csv() -> str:
+    """Unit and meaning of every column of the table, as comma-separated text."""
+    described = [{"column": name, **column._asdict()} for name, column in COLUMNS.items()]
     return pd.DataFrame(described).rename(columns={"long_name": "meaning"}).to_csv(index=False)
 
 
-def to_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> str:
-    """A table of runs as comma-separated text, in the order of the columns."""
-    return table.to_dataframe()[list(columns)].to_csv(index=False)
+def to_csv(table: xr.Dataset) -> str:
+    """A table as comma-separated text, in the order of its columns."""
+    return table.to_dataframe()[list(table.data_vars)].to_csv(index=False)
 
 
 Files = dict[str, Any]
 """The files of a result by their suffix: a dataset, texts."""
 
 
-def with_csv(table: xr.Dataset, columns: tuple[str, ...] = COLUMNS) -> Files:
+def with_csv(table: xr.Dataset) -> Files:
     """A table as dataset and as comma-separated text."""
-    return {".nc": table, ".csv": to_csv(table, columns)}
+    return {".nc": table, ".csv": to_csv(table)}
 
 
 def of_study(
@@ -227,4 +257,5 @@ def of_study(
 
 def of_studies(tables: Iterable[xr.Dataset]) -> Files:
     """The step ``gather_lengths``: those of several, and what the columns are."""
-    return with_csv(join(tables)) | {".columns.csv": columns_csv()}
+    joined = join(tables)
+    return with_csv(joined) | {".columns.csv": columns_csv()}

@@ -6,7 +6,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..types import Array
+
 Indices = NDArray[np.intp]
 
 MARGIN = 0.05  # s: the event begins so long before the onset, and ends so long after its peak

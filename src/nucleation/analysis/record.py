@@ -16,9 +16,8 @@ from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.event import FAST, WINDOW
+from ..types import Array
 from .definitions import ExtractionSettings, Onset, find_onset, slipping_edge
-
-Array = NDArray[np.float64]
 
 
 def parameters_of(dataset: xr.Dataset) -> Parameters:

@@ -7,6 +7,9 @@ from typing import Any
 
 import xarray as xr
 
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable
+
 Row = dict[str, Any]
 
 RATIOS = {
@@ -15,6 +18,12 @@ RATIOS = {
     "zeta_over_a": ("velocity_weakening", "direct_effect"),
 }
 """Ratios by name, of which columns."""
+
+RATIO_COLUMNS = {
+    "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
+    "stability_ratio": Variable("1", "patch length where growth begins over theory", "L_s/L_c"),
+    "zeta_over_a": SHARED["zeta_over_a"],
+}
 
 
 def rows_of(

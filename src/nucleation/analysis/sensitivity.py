@@ -14,18 +14,30 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..datasets.variables import Variable, some, table
 from ..model.names import Names
 from ..model.parameters import ALIASES, Parameters, names
 from ..model.quantities import Quantity
+from .convergence import LENGTH_OVER_THEORY
 from .definitions import ExtractionSettings
 from .extraction import extract
+from .lengths import COLUMNS as LENGTHS
 from .lengths import Files, with_csv
 from .record import Record
 
-COLUMNS = (
-    "id", "height", "varied", "variation", "length", "length_change", "theory_length",
-    "length_over_theory", "ratio_change", "onset_time", "onset_change", "status",
-)  # fmt: skip
+COLUMNS = {
+    **some(LENGTHS, "id", "height"),
+    "varied": Variable("", "parameter or definition that is varied"),
+    "variation": Variable("", "how it is varied"),
+    "length": LENGTHS["length"],
+    "length_change": Variable("1", "relative change of L_c against the base"),
+    "theory_length": LENGTHS["theory_length"],
+    "length_over_theory": LENGTH_OVER_THEORY,
+    "ratio_change": Variable("1", "relative change of L_c over the theory's length"),
+    "onset_time": LENGTHS["onset_time"],
+    "onset_change": Variable("1", "relative change of the onset time"),
+    "status": LENGTHS["status"],
+}
 
 EDGE_THRESHOLDS = (0.5, 0.1, 1e-3)  # over V
 DROPS = (0.005, 0.01, 0.05)  # fractions of |f_d|; the whole drop is less than a tenth of it
@@ -51,7 +63,7 @@ class Case(NamedTuple):
     id: str
     parameters: Parameters
     theory_length: float  # m
-    simulation: xr.Dataset
+    simulation: xr.Dataset = xr.Dataset()
 
 
 def variation(case: Case, base: Case) -> tuple[str, str]:
@@ -111,7 +123,7 @@ def sensitivity_table(
     Parameters
     ----------
     runs : iterable of dict
-        From :meth:`nucleation.configuration.studies.Run.to_dict`; the first of each height is the
+        From :meth:`nucleation.configuration.runs.Run.to_dict`; the first of each height is the
         base.
     simulations : iterable of Dataset
         Their simulations, in the same order.
@@ -138,7 +150,7 @@ def sensitivity_table(
         for row in _against(base, [c for c in cases if c.parameters.geometry.height == height],
                             settings)
     ]  # fmt: skip
-    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+    return table(rows, COLUMNS)
 
 
 def _against(base: Case, cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]:
@@ -193,8 +205,8 @@ def _row(
     }
 
 
-def table(
+def files(
     runs: list[Row], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
 ) -> Files:
-    """The step ``sensitivity``: :func:`sensitivity_table` with its CSV."""
-    return with_csv(sensitivity_table(runs, simulations, settings), COLUMNS)
+    """The step ``sensitivity``: :func:`sensitivity_table`, with its CSV."""
+    return with_csv(sensitivity_table(runs, simulations, settings))

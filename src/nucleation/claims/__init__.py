@@ -2,9 +2,7 @@
 
 - :mod:`.said` and :mod:`.claim`: what is said, a claim, and the rule of verdicts;
 - :mod:`.evidence`: the datasets they stand on, with :mod:`.measure` for simulations;
-- :mod:`.sliding`, :mod:`.bimaterial`, :mod:`.finite_height`, :mod:`.friction_law`,
-  :mod:`.simulations` and :mod:`.course`: the claims, by subject;
-- :mod:`.printed`, :mod:`.elastic_layers`, :mod:`.marginal`: the paper's formulas as printed, and
-  evaluations that use none of them;
+- :mod:`.statements`: the claims, by subject;
+- :mod:`.independent`: the paper's formulas as printed, and evaluations that use none of them;
 - :mod:`.table`: the table as JSON, CSV and Markdown.
 """

@@ -21,7 +21,7 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     ----------
     template : str
         Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
-        number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(study)``,
+        number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(role)``,
         its rows of lengths, one for each fault; and the filters ``digits(n)``, ``percent(n)`` and
         ``typeset``, of texts with formulas.
     claims : list of dict
@@ -48,8 +48,8 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
         for row in over_realisations(table).to_dataframe().to_dict("records")
     ]
 
-    def runs(study: str) -> list[dict[str, Any]]:
-        return [row for row in records if row["study"] == study]
+    def runs(role: str) -> list[dict[str, Any]]:
+        return [row for row in records if row["role"] == role]
 
     def ours(id: str) -> str:
         return number_text(by_id[id]) or "not computed"
@@ -63,13 +63,9 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
 def paired(
     paper: list[dict[str, Any]], converged: list[dict[str, Any]]
 ) -> list[tuple[dict[str, Any], dict[str, Any] | None]]:
-    """The rows of one study, each with that of the other study for the same block, or None."""
-
-    def block(row: dict[str, Any]) -> tuple[Any, ...]:
-        return row["law"], row["height"], row["phi0"]
-
-    others = {block(row): row for row in converged}
-    return [(row, others.get(block(row))) for row in paper]
+    """The rows of one study, each with that of the other study for the same fault, or None."""
+    others = {row["fault"]: row for row in converged}
+    return [(row, others.get(row["fault"])) for row in paper]
 
 
 def digits(value: float | None, number: int) -> str:

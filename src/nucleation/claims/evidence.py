@@ -11,19 +11,20 @@ import xarray as xr
 
 from ..analysis.lengths import over_realisations, realisations
 from ..model.friction.law import Friction
+from ..model.identity import fault
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..model.parameters import Loading
+from ..model.parameters import Geometry, Loading, Parameters
 from .claim import Cause, Result
 from .measure import Measures, mean
 from .said import Missing, Ours
 
 JUDGED, PAPERS = "converged", "paper"
-"""Studies: the one that verdicts stand on, and the one on the paper's own mesh."""
+"""Roles of studies: the one that verdicts stand on, and the one on the paper's own mesh."""
 
 LONGER = "long_blocks"
-"""Study with runs in longer blocks than those of the study :data:`JUDGED`; in tables of lengths
-also the runs that they are compared with."""
+"""Role of runs in longer blocks than those with the role :data:`JUDGED`; in tables of lengths also
+of the runs that they are compared with."""
 
 MESH = "A coarse mesh lets the force drop early"
 """Section of docs/findings.md on the difference of the two."""
@@ -39,9 +40,9 @@ class Evidence:
     interface : the main text's rounded friction.
     theory : dataset of the theory's curves.
     dispersion : dataset of single modes integrated in time.
-    lengths : tables of lengths, one for each study judged, and of the study :data:`LONGER`.
+    lengths : tables of lengths, one for each study judged, and of the role :data:`LONGER`.
     measures : what is read from each of their simulations, by id.
-    patches : stability of the patches of the study :data:`JUDGED`, by id of each fault's first
+    patches : stability of the patches with the role :data:`JUDGED`, by id of each fault's first
         realisation.
     """
 
@@ -55,34 +56,45 @@ class Evidence:
     measures: dict[str, Measures]
     patches: dict[str, xr.Dataset]
 
-    def rows(self, study: str, **labels: Any) -> list[dict[str, Any]]:
+    def rows(self, role: str, **labels: Any) -> list[dict[str, Any]]:
         """Rows of the table of lengths, sorted by height (m); raises Missing if there is none.
 
-        One for each fault: the mean of its realisations, of which ``members`` are the names.
+        One for each fault of the configuration's material, friction and loads: the mean of its
+        realisations, of which ``members`` are the names.
         """
-        records = [row for table in self.lengths for row in _faults(table)]
-        wanted = {"study": study, **labels}
+        records = [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
+        wanted = {"role": role, **labels}
         found = [row for row in records if all(_same(row[k], v) for k, v in wanted.items())]
         if not found:
             which = "".join(f", {name} {value}" for name, value in labels.items())
-            raise Missing(f"The configuration has no such run: study {study}{which}")
+            raise Missing(f"The configuration has no such run: role {role}{which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(self, study: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
+    def row(self, role: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
         """The one row with these labels; raises Missing if there is none."""
-        return self.rows(study, law=law, height=height, phi0=phi0)[0]
+        return self.rows(role, law=law, height=height, phi0=phi0)[0]
 
-    def series(self, study: str) -> list[dict[str, Any]]:
-        """The aging law's rows of a study over all heights, age 1 s."""
-        return self.rows(study, law="aging", phi0=1.0)
+    def series(self, role: str) -> list[dict[str, Any]]:
+        """The aging law's rows with a role over all heights, age 1 s."""
+        return self.rows(role, law="aging", phi0=1.0)
+
+    def _is_own(self, row: dict[str, Any]) -> bool:
+        """Whether a row is of the configuration's material, friction and loads, on a rigid base."""
+        own = Parameters(
+            self.material,
+            self.friction.changed({"evolution": row["law"]}),
+            dataclasses.replace(self.loading, initial_state=float(row["phi0"])),
+            Geometry(height=float(row["height"])),
+        )
+        return bool(row["fault"] == fault(own))
 
     def measured(self, row: dict[str, Any]) -> Measures:
         """What was read from the simulations of a row, their mean; raises Missing without one."""
         return mean([self._measures(id) for id in row["members"]])
 
-    def each_measured(self, study: str, **labels: Any) -> list[Measures]:
+    def each_measured(self, role: str, **labels: Any) -> list[Measures]:
         """What was read from every simulation of some rows; raises Missing without one."""
-        return [self._measures(id) for row in self.rows(study, **labels) for id in row["members"]]
+        return [self._measures(id) for row in self.rows(role, **labels) for id in row["members"]]
 
     def _measures(self, id: str) -> Measures:
         try:
@@ -99,7 +111,7 @@ class Evidence:
 
 
 def on_both(evidence: Evidence, ours: Callable[[str], Ours], note: str = "") -> Result:
-    """A number of either study: the verdict stands on the converged, perturbed one.
+    """A number of either role: the verdict stands on the converged, perturbed one.
 
     If the number is the paper's on the paper's own mesh only, the mesh is the cause.
     """

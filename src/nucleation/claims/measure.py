@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record
 from ..model.friction.law import Friction
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 SHAKEN = 0.1  # part of dphi/dt by which it may be off and still be well approximated
 FAST = 1e-3  # m/s: a slip rate that only a rupture reaches

@@ -7,9 +7,10 @@ from pathlib import Path
 import click
 
 from ..model.parameters import Geometry
-from ..model.quantities import ParameterError, declarations
+from ..model.quantities import declarations
 from ..model.units import parse
 from . import DONE, EXIT_CODES
+from .output import require_directory, require_writable
 
 LENGTH = declarations(Geometry)["length"]
 
@@ -40,9 +41,14 @@ def command(file: Path, folder: Path, places: tuple[str, ...], force: bool) -> i
     for place in places:
         position = parse("at", place, LENGTH)
         texts[folder / f"{file.stem}_x{position:g}m.dat"] = time_series(dataset, position)
+    if not folder.exists():  # it alone is made
+        require_directory(folder, folder.absolute().parent)
+        folder.mkdir()
+    if not folder.exists():  # it alone is made
+        require_directory(folder, folder.absolute().parent)
+        folder.mkdir()
     for path in texts:
-        if path.exists() and not force:
-            raise ParameterError(f"{path} exists already; --force replaces it")
+        require_writable(path, force)
     for path, text in texts.items():
         netcdf.write_text(text, path)
         click.echo(f"written to {path}")

@@ -16,6 +16,7 @@ from ..analysis.extraction import extract
 from ..analysis.record import Record, parameters_of
 from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
+from ..commands.output import require_writable
 from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
@@ -100,8 +101,7 @@ def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
         )
     if plot.suffix not in (".png", ".pdf"):
         raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
-    if plot.exists() and not force:
-        raise ParameterError(f"{plot} exists already; --force replaces it")
+    require_writable(plot, force)
 
 
 def _save(figure: Any, plot: Path) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import json
 import math
-import os
 import shlex
 import signal
 import sys
@@ -26,6 +25,7 @@ from ..model.quantities import ParameterError, declarations
 from ..theory.estimates import growth_time
 from .given import of_dataset, of_file, of_run
 from .options import STUDY, flat, given_of, merged, parameter_options, planned
+from .output import require_writable
 from .text import event_lines, outcome, parameter_lines, plain
 
 RATIO = declarations(StudySettings)["length_over_critical"]
@@ -106,11 +106,7 @@ def _check_output(output: Path, force: bool) -> None:
     """Refuse an output that can't be written, before hours are spent on it."""
     if output.suffix != ".nc":
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
-    if output.exists() and not force:
-        raise ParameterError(f"{output} exists already; --force replaces it")
-    folder = next(p for p in output.absolute().parents if p.exists())
-    if not folder.is_dir() or not os.access(folder, os.W_OK):
-        raise ParameterError(f"{output} can't be written: {folder} is no writable directory")
+    require_writable(output, force)
 
 
 def _plan_lines(run: Run) -> list[str]:
@@ -165,7 +161,7 @@ def _planned(run: Run) -> dict[str, Any]:
 
 def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
-    from ..datasets import provenance
+    from ..datasets import netcdf, provenance
     from ..pipeline.progress import Progress
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
@@ -178,8 +174,9 @@ def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
     try:
         with _listening(checkpoint):
             dataset, path = run_to_file(
-                simulate, run.parameters, output, attributes,
-                checkpoint=checkpoint, progress=progress,
+                simulate, run.parameters, output,
+                lambda dataset, path: netcdf.write(dataset, path, **attributes),
+                checkpoint, progress,
             )  # fmt: skip
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)

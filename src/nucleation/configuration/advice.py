@@ -17,6 +17,7 @@ from ..theory.estimates import (
     growth_time,
     process_zone,
 )
+from .roles import REFINEMENTS
 from .runs import Run
 
 ELEMENTS_PER_ZONE = 3.0
@@ -39,9 +40,6 @@ ELEMENT_PART = 0.04
 
 STEP_NOISE = 1e-5
 """... a perturbation of this strength."""
-
-REFINEMENT = "convergence"
-"""How names of studies begin that refine mesh and steps: what drowns in noise is their point."""
 
 UNSTABLE = 0.55
 """Length over the theory's critical length at which the creeping patch turns unstable."""
@@ -116,7 +114,7 @@ def _about(run: Run) -> Iterator[Advice]:
     yield from _span(run)
     yield from _block(run)
     yield from _start(run)
-    if not run.study.startswith(REFINEMENT):
+    if run.role not in REFINEMENTS:  # what drowns in noise is their point
         yield from _roughness(run)
         yield from _noise(run)
 

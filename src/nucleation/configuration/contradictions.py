@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from ..analysis.definitions import ExtractionSettings
 from ..model.linearised import InterfaceState
@@ -21,9 +22,6 @@ from .settings import Limits, estimated_megabytes
 
 LONGEST_ID = 200
 """Characters of an identifier: with its suffixes it is a file's name, of 255 bytes at most."""
-
-SHOWN = "paper"
-"""The study of which figures show more than lengths."""
 
 CODE = ("src", "workflow", "config", "docs", "tests")
 """Directories of the checkout in which results have no place."""
@@ -110,11 +108,6 @@ def _recording_problems(key: str, run: Run, extraction: ExtractionSettings) -> I
             f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must be interface "
             f"or everything, or the threshold in [{STUCK_BELOW:g}, 1]"
         )
-    if run.study == SHOWN:
-        yield (
-            f"{key}: record = {recording.record} is not allowed in the study {SHOWN}, of which "
-            "figures show the interface: it must be interface or everything"
-        )
 
 
 def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
@@ -143,13 +136,20 @@ def memory_problems(key: str, parameters: Parameters, limits: Limits) -> Iterato
         )
 
 
+def results_directory(values: Mapping[str, Any]) -> str:
+    """The directory of all results in a configuration, in its shortest form: b for a/../b."""
+    return os.path.normpath(values.get("results", "results"))
+
+
 def results_problems(results: str) -> Iterator[str]:
-    """Why a text can't name the directory of results."""
-    if results != results.strip() or not results.isprintable() or set(results) & set("{}*?"):
+    """Why a text (of :func:`results_directory`) can't name the directory of results."""
+    if results != results.strip() or not results.isprintable() or set(results) & set("{}<>*?"):
         yield (
             f"results = {results!r} is not allowed: a directory must be named without braces, "
-            "wildcards, control characters, and spaces at its ends"
+            "< and >, wildcards, control characters, and spaces at its ends"
         )
+    if set(PurePosixPath(results).parts) <= {"/", "//", ".."}:
+        yield f"results = {results!r} is not allowed: it must be a directory of its own"
     first = PurePosixPath(results).parts[:1]
     if first and (first[0] in CODE or (first[0].startswith(".") and first[0] != "..")):
         yield (

@@ -25,8 +25,14 @@ from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, refusal
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
-from .contradictions import results_problems, run_problems, setting_problems
+from .contradictions import (
+    results_directory,
+    results_problems,
+    run_problems,
+    setting_problems,
+)
 from .grids import LARGEST_GRID, expand, grid_size, range_problem
+from .roles import role_problems, shown
 from .runs import Run
 from .settings import FigureSettings, Limits
 from .strict_yaml import read_yaml
@@ -53,6 +59,14 @@ class Configuration:
         """The runs of one study, none if there is no such study."""
         return [run for run in self.runs if run.study == study]
 
+    def studies_for(self, *roles: str) -> list[str]:
+        """The names of the studies with some roles, in the configuration's order."""
+        return [name for name, study in self.studies.items() if study.role in roles]
+
+    def runs_for(self, *roles: str) -> list[Run]:
+        """The runs of the studies with some roles."""
+        return [run for run in self.runs if run.role in roles]
+
     def theory_parameters(self) -> dict[str, Any]:
         """What the dataset of the linear theory depends on, as plain dictionaries."""
         parts = {
@@ -73,19 +87,18 @@ class Configuration:
         """The friction law of the section ``friction``."""
         return self.base.friction
 
-    def find(self, **labels: Any) -> Run:
-        """The one run with these labels (study, law, height in m, phi0 in s).
+    def shown(self, height: float) -> Run:
+        """The run with the role ``paper`` of a height (m) that figures show.
 
         Raises
         ------
         ParameterError
             If there is none.
         """
-        for run in self.runs:
-            if labels.items() <= run.labels.items():
-                return run
-        wanted = ", ".join(f"{name} {value}" for name, value in labels.items())
-        raise ParameterError(f"no run of the configuration has {wanted}")
+        run = shown(self.runs_for("paper"), height, self.base)
+        if run is None:
+            raise ParameterError(f"no study with role: paper has a run with height {height:g} m")
+        return run
 
 
 def load(path: str | os.PathLike[str]) -> Configuration:
@@ -111,7 +124,7 @@ def configure(values: Any, only: Collection[str] | None = None) -> Configuration
     """
     values, unread = read_units(values)
     _stop_on([*unread, *_schema_problems(values)])
-    _stop_on([*_range_problems(values), *results_problems(values.get("results", "results"))])
+    _stop_on([*_range_problems(values), *results_problems(results_directory(values))])
     try:
         groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
     except ParameterError as error:  # what the chosen friction law does not have
@@ -131,9 +144,10 @@ def configure(values: Any, only: Collection[str] | None = None) -> Configuration
     )
     runs = tuple(run for _, run in found if isinstance(run, Run))
     studies = {name: study_settings(study) for name, study in values["studies"].items()}
-    return Configuration(
-        values.get("results", "results"), base, interface, studies=studies, runs=runs, **groups
-    )
+    if only is None:
+        _stop_on(role_problems(studies, runs, groups["figures"], base))
+    results = results_directory(values)
+    return Configuration(results, base, interface, studies=studies, runs=runs, **groups)
 
 
 def _stop_on(problems: Iterable[str]) -> None:

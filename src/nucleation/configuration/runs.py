@@ -7,9 +7,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from ..model.friction.constants import CONSTANTS, constants
+from ..model.identity import ensemble
 from ..model.linearised import InterfaceState
 from ..model.parameters import Parameters, names
 from ..model.quantities import plain
+from .roles import OWN
 from .study_names import study_parameters
 
 
@@ -27,12 +29,14 @@ class Run:
     interface: InterfaceState = InterfaceState()  # friction of the theory
     given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
     batch: str = dataclasses.field(default="", compare=False)  # of runs made by one job
+    role: str = OWN  # of its study
 
     def to_dict(self) -> dict[str, Any]:
         """The run as plain nested dictionaries: what it is, not who asks for it."""
         return {
             "id": self.id,
             "study": self.study,
+            "role": self.role,
             "parameters": self.parameters.to_dict(),
             "theory_length": self.theory_length,
             "interface": plain(self.interface),
@@ -71,8 +75,8 @@ def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
 
 
 def first_realisations(runs: Iterable[Run]) -> list[Run]:
-    """The runs without those that differ from an earlier one in the declared seed alone."""
-    faults: dict[Any, Run] = {}
+    """The runs of each study without those that differ from an earlier one in the seed alone."""
+    first: dict[tuple[str, str], Run] = {}
     for run in runs:
-        faults.setdefault((run.study, run.parameters.replaced({"perturbation.seed": 0})), run)
-    return list(faults.values())
+        first.setdefault((run.study, ensemble(run.parameters)), run)
+    return list(first.values())

@@ -82,7 +82,7 @@ def build() -> Node:
         entries = {k: _any_leaf(entry) for k, entry in group_entries(group).items()}
         sections[group] = _mapping(str(cls.__doc__).splitlines()[0], entries)
     sections["studies"] = {
-        "description": "named sets of simulations; the paper's figures stand on the study paper",
+        "description": "named sets of simulations; their roles say what they are for",
         "type": "object",
         "minProperties": 1,
         "propertyNames": {"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_]*$", "maxLength": 60},

@@ -10,7 +10,7 @@ from ..model.quantities import Checked, quantity
 
 @dataclasses.dataclass(frozen=True)
 class FigureSettings(Checked):
-    """Which simulations of the study ``paper`` the figures show."""
+    """Which simulations with the role ``paper`` the figures show."""
 
     inset_height: float = quantity(
         "height of the simulation in the inset of Figure 3", unit="m", low=0.0, high=1e6,

@@ -23,6 +23,7 @@ from ..model.quantities import Checked, ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
 from ..theory.transfer import bodies_of
 from .grids import expand
+from .roles import OWN, ROLES
 from .runs import Run, varied
 from .study_names import by_study_name, identifier, study_parameters
 
@@ -32,6 +33,10 @@ class StudySettings(Checked):
     """What a study says once for all of its runs."""
 
     description: str = quantity("what the study is for", default="a set of simulations")
+    role: str = quantity(
+        "what figures, tables and verdicts use it for (docs/studies.md); own: it has its own",
+        choices=tuple(ROLES), default=OWN,
+    )  # fmt: skip
     length_over_critical: float = quantity(
         "block length over the theory's critical length, unless a run gives its length",
         low=1.0, high=1000.0, default=6.0, symbol="L/L_c",
@@ -222,6 +227,7 @@ def _prepared(
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = replace(parameters, friction=friction)
+    _ = friction.evolution_law  # a file that can't be loaded is told of before any work
     if settings.interface == "main_text":
         interface = loaded(main_text, loading)
     else:
@@ -260,5 +266,5 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
         )
     geometry = replace(parameters.geometry, length=float(length))
     parameters = replace(parameters, geometry=geometry)
-    run = Run("", study, parameters, critical, interface, values)
+    run = Run("", study, parameters, critical, interface, values, role=settings.role)
     return replace(run, id=identifier(study, run.labels, varied))

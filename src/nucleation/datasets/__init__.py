@@ -1,4 +1,4 @@
-"""Files written whole or not at all: netCDF, the table of variables, where a result is from.
+"""Files written whole or not at all: netCDF, what variables are, where a result is from.
 
 It uses nothing of the project.
 """

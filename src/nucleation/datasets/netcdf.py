@@ -1,8 +1,4 @@
-"""The datasets' variables in one table, and netCDF files written whole or not at all.
-
-Numerics and metadata are two layers: computations return bare datasets, :func:`annotate` gives
-every variable its unit, long name and paper symbol from :data:`VARIABLES`.
-"""
+"""Datasets as netCDF files, written whole or not at all, every variable with what it is."""
 
 from __future__ import annotations
 
@@ -19,10 +15,7 @@ import xarray as xr
 
 from . import seal
 from .files import replacing, require_room
-from .variables import (
-    DatasetError,
-    annotate,
-)
+from .variables import DatasetError, require_annotated
 
 MAPPINGS = {"sources", "versions"}
 STRUCTURES = {"parameters", *MAPPINGS}
@@ -36,12 +29,18 @@ HEADERS = 2**20  # bytes of a file beside its values, at most
 
 
 def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) -> None:
-    """Write an annotated dataset to `path`: after a crash there is the whole file or none.
+    """Write a dataset to `path`: after a crash there is the whole file or none.
 
     The attribute ``content`` is the digest by which :func:`read` detects damage.
+
+    Raises
+    ------
+    DatasetError
+        If a variable lacks its unit or long name.
     """
+    require_annotated(dataset)
     # an encoding left from reading may fit less: texts were cut to the length they had in a file
-    complete = annotate(dataset).drop_encoding().assign_attrs(attributes)
+    complete = dataset.drop_encoding().assign_attrs(attributes)
     complete.attrs["Conventions"] = CONVENTIONS
     complete.attrs["content"] = _content(complete)
     stored = {"zlib": True, "complevel": 1, "shuffle": True}

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from .. import __version__
+from .variables import DatasetError
 
 PACKAGE = "nucleation"
 NUMERICAL_LIBRARIES = ("numpy", "scipy", "numba")
@@ -37,11 +38,31 @@ def fingerprint(parameters: Any, code_digest: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+def moment() -> datetime.datetime:
+    """The time that results bear: now, or that of the environment's ``SOURCE_DATE_EPOCH``.
+
+    Raises
+    ------
+    DatasetError
+        If that is no number of seconds since 1970.
+    """
+    seconds = os.environ.get("SOURCE_DATE_EPOCH")
+    if not seconds:
+        return datetime.datetime.now(datetime.UTC)
+    try:
+        return datetime.datetime.fromtimestamp(int(seconds), datetime.UTC)
+    except (ValueError, OverflowError, OSError):
+        raise DatasetError(
+            f"SOURCE_DATE_EPOCH = {seconds!r} is not allowed: the time of results must "
+            "be a number of seconds since 1970, or be left out"
+        ) from None
+
+
 def attributes(
     parameters: Any,
     code_digest: str,
     command: str,
-    sources: Mapping[str, str] | None = None,
+    sources: Mapping[str, Any] | None = None,
     key: str = "",
 ) -> dict[str, str]:
     """The attributes of a dataset that say how it was made (all of them text).
@@ -54,23 +75,17 @@ def attributes(
         From :func:`nucleation.pipeline.code.digest`.
     command : str
         A command that makes the dataset again.
-    sources : mapping of path to key
+    sources : mapping of role to keys
         What it is made from.
     key : str
         Of the dataset in the workflow (:func:`nucleation.pipeline.keys.key`), if it is from there.
     """
-    seconds = os.environ.get("SOURCE_DATE_EPOCH")
-    moment = (
-        datetime.datetime.fromtimestamp(int(seconds), datetime.UTC)
-        if seconds
-        else datetime.datetime.now(datetime.UTC)
-    )
     made = {
         "parameters": json.dumps(parameters, sort_keys=True),
         "code_digest": code_digest,
         "sources": json.dumps(dict(sources or {}), sort_keys=True),
         "versions": json.dumps(versions(), sort_keys=True),
         "command": command,
-        "created": moment.isoformat(timespec="seconds"),
+        "created": moment().isoformat(timespec="seconds"),
     }
     return made | ({"key": key} if key else {})

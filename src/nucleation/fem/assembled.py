@@ -8,13 +8,12 @@ bilinear elements on rectangles.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy import sparse
 
 from ..model.material import Material
+from ..types import Array
 from .grid import Grid
-
-Array = NDArray[np.float64]
 
 
 def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, Array]:

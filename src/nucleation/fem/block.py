@@ -1,104 +1,126 @@
-"""The elastic block, solved by exact separation of the finite-element equations along x.
+"""One elastic block: its dynamic stiffness ``K + s M``, condensed on the interface.
 
-The displacement is ``u_x = V t + w_x`` and ``u_y``, with ``w_x = 0`` on the left edge. On a grid
-that is uniform along x the matrices of bilinear elements are sums of Kronecker products of
-one-dimensional matrices, and with ``theta_m = (m + 1/2) pi / n_x``
-
-    w_x(x_i) = sum_m W_m sin(theta_m i),  i = 1..n_x       (free of sigma_xx at the right edge)
-    u_y(x_i) = sum_m U_m cos(theta_m i),  i = 0..n_x - 1   (zero at the right edge)
-
-the modes decouple; each is a block-tridiagonal system along y. The paper's right edge is free of
-sigma_xy as well, so the n_y values ``e_j = u_y(L, y_j)`` are unknowns of their own that couple to
-all modes. They are eliminated by their Schur complement, so that the result is that of the
-assembled matrix to round-off (tests/fem/test_block.py).
-
-A :class:`Block` knows the mesh and the material;
-:class:`~nucleation.fem.operator.BlockOperator` is its dynamic stiffness ``K + s M`` for one ``s``.
+The modes (:mod:`.block_modes`) are eliminated from the top down, then the edge's values of ``u_y``
+(:mod:`.right_edge`). The interface has ``u_y = 0`` (rigid substrate, no opening); what is left
+between its nodes is in :mod:`.condensed_nodes`.
 """
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Iterator
+
 import numpy as np
-from numpy.typing import NDArray
-from scipy import fft
 
-from ..model.material import Material
+from ..types import Array
+from .block_modes import BlockModes
+from .condensed import Balance, Expectation
+from .condensed_nodes import CondensedOnNodes
 from .field import Field
-from .grid import Grid
-from .operator import BlockOperator
-from .separable import SeparableBody
-
-Array = NDArray[np.float64]
+from .right_edge import RightEdge, predicted, relative_error
+from .separable import LoadedResponse, SeparableOperator
 
 
-class Block(SeparableBody):
+class Block(BlockModes):
     """One deformable rectangular block on the interface y = 0."""
-
-    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
-        theta = (np.arange(grid.n_x) + 0.5) * np.pi / grid.n_x
-        self._alternating = (-1.0) ** np.arange(grid.n_x)
-        # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
-        edge_weights = self._alternating * np.array(
-            [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
-        )
-        x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
-        super().__init__(grid, material, theta, x_integral, edge_weights, far_side)
-
-    @property
-    def no_memory(self) -> Array:
-        """What it remembers before its first step: no error of the right edge's prediction."""
-        return np.array(np.inf)
 
     def operator(self, s: float) -> BlockOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
         return BlockOperator(self, s)
 
-    # -- transforms between interface nodes and modes -------------------------------------------
 
-    def sine_amplitudes(self, nodal: Array) -> Array:
-        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
-        n = self.grid.n_x
-        # the inverse transform weighs the last node by one half, and type 3 counts it once
-        return fft.dst(nodal, type=3) / n
+@dataclasses.dataclass(frozen=True)
+class BlockResponse(LoadedResponse):
+    """A block's response to a load, with the edge values (m) in balance at the levels 0..n_y.
 
-    def sine_values(self, amplitudes: Array) -> Array:
-        """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""
-        return 0.5 * fft.dst(amplitudes, type=2)
+    Where the edge values were given and not found, `swept` holds the sweep down to the interface
+    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.balance` goes on from there.
+    """
 
-    def cosine_values(self, amplitudes: Array) -> Array:
-        """Nodal values at i = 0..n_x - 1 (last axis) of cosine amplitudes."""
-        return 0.5 * fft.dct(amplitudes, type=2)
+    edge: Array
+    swept: Array | None = None
 
-    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
-        """Nodal forces whose generalised forces per mode are ``modal * n_x/2``, (2, ..., n_x).
 
-        Along x at i = 1..n_x and along y at i = 0..n_x - 1. Both transforms are done in one: with
-        alternating signs, the cosines in reversed order are the sines.
+class BlockOperator(SeparableOperator, CondensedOnNodes):
+    """``K + s M`` of a :class:`Block` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
+
+    def __init__(self, body: Block, s: float) -> None:
+        super().__init__(body, s)
+        self.body: Block = body
+        self.edge: RightEdge = RightEdge(body, s, self._inverse, self._lower)
+
+    @property
+    def along_x(self) -> Block:
+        """The block itself."""
+        return self.body
+
+    @property
+    def modal(self) -> Array:
+        """D and N per mode: the first row of the stiffness, ``u_y`` being zero."""
+        return self.pivot
+
+    def _profiles(self, edge: Array) -> Array:
+        """What given edge values do to the modes, as profiles along y."""
+        return self.edge.profiles(edge)
+
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> BlockResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
+
+        Given edge values (m) are taken to be in balance, which saves half of the work.
         """
-        modal = np.array(modal)
-        modal[0] *= self._alternating
-        forces = fft.dct(modal, type=2, overwrite_x=True)
-        forces *= 0.5
-        tangential, normal = forces[0, ..., ::-1], forces[1]
-        tangential[..., -1] *= 0.5  # half of an element belongs to the last node
-        normal[..., 0] *= 0.5  # and to the first one
-        return tangential, normal
+        amplitudes = self.body.sine_amplitudes(w)
+        if edge is not None:
+            swept = self.swept(load, edge)
+            tangential, normal = self.interface_forces(amplitudes, swept[0])
+            lowest = swept[:2].copy()
+            lowest[0, 0], lowest[0, 1] = amplitudes, 0.0
+            self.substitute(lowest)
+            corner = self.edge.corner_reaction(load, lowest, edge)
+            return BlockResponse(w, tangential, np.append(normal, corner), load, edge, swept)
+        held = np.zeros_like(load.edge)
+        modes, reduced = self.solve(load, amplitudes, held)
+        residual = self.edge.residual(load, modes, held)
+        edge = self.edge.correction(residual)
+        tangential, normal = self.interface_forces(amplitudes, reduced)
+        near, edge_tangential, edge_normal = self.edge.felt
+        tangential[near:] += edge @ edge_tangential
+        normal[near:] += edge @ edge_normal
+        corner = self.edge.schur[0] @ edge - residual[0]
+        return BlockResponse(w, tangential, np.append(normal, corner), load, edge)
 
-    def top_load(self, normal_stress: float) -> Field:
-        """Nodal forces of the compressive stress (Pa) on the top, per mode times 2/n_x (N/m)."""
-        load = self.zero_field()
-        n = self.grid.n_x
-        forces = -normal_stress * self.grid.nodal_lengths
-        full = np.array(forces[:-1])
-        # sum_i F_i cos(theta_m i): scipy's type 3 counts the first entry once, others twice
-        full[0] *= 2.0
-        load.modes[-1, 1] = fft.dct(full, type=3) / n
-        load.edge[-1] = forces[-1]
-        return load
+    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[BlockResponse]:
+        """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
-        """Nodal w_x and u_y, each of shape (n_y + 1, n_x + 1)."""
-        left = np.zeros((self.grid.n_y + 1, 1))
-        x = np.hstack((left, self.sine_values(field.modes[:, 0])))
-        y = np.hstack((self.cosine_values(field.modes[:, 1]), field.edge[:, None]))
-        return x, y
+        Far from slip and waves the right edge moves as predicted, to round-off. Where it has done
+        so in the last step, the first response takes it for granted.
+        """
+        edge = predicted(expected)
+        if float(expected.memory) < self.edge.round_off:
+            yield self.respond(load, w, edge)
+        yield self.respond(load, w)
+
+    def balance(
+        self, response: BlockResponse, w: Array, expected: Expectation | None = None
+    ) -> Balance:
+        """The block at nodal `w` (m) under the load of a response, which is used up by it.
+
+        Edge values that had been given to the response are corrected to the balance they are found
+        in. The memory is the relative error of their prediction, which tells whether it served.
+        """
+        edge, modes = response.edge, response.swept
+        if w is not response.w:
+            edge = edge + self.edge.change(w - response.w)
+        amplitudes = self.body.sine_amplitudes(w)
+        if modes is None:
+            displacement = Field(self.solve(response.load, amplitudes, edge)[0], edge)
+        else:
+            modes[0, 0], modes[0, 1] = amplitudes, 0.0
+            self.substitute(modes)
+            residual = self.edge.residual(response.load, modes, response.edge)
+            displacement = Field(modes, response.edge + self.edge.correction(residual))
+        if expected is None:
+            return Balance(displacement, self.body.no_memory, True)
+        foreseen = predicted(expected) if modes is None else response.edge
+        error = relative_error(displacement.edge, foreseen, edge)
+        holds = modes is None or error < self.edge.round_off
+        return Balance(displacement, np.array(error), holds)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TypeAlias
 
 from ..model.parameters import Parameters
-from .block import Block
+from .block import Block, BlockOperator
 from .grid import Grid
-from .operator import BlockOperator
 from .pair import Pair, PairOperator
 from .periodic import PeriodicBlock
 from .periodic_pair import PeriodicPair

@@ -20,10 +20,9 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..types import Array
 from .field import Field, Motion, Terms
 from .grid import Grid
-
-Array = NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -14,30 +14,26 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..types import Array
 from . import kernels
+from .block_modes import BlockModes
 from .right_edge import EdgeValues
-
-if TYPE_CHECKING:
-    from .block import Block
-
-Array = NDArray[np.float64]
 
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
 
 
 class CondensedOnNodes(ABC):
-    """D and N of what has the modes and the nodes of a :class:`~nucleation.fem.block.Block`."""
+    """D and N of what has the nodes and the modes of a block (:mod:`.block_modes`)."""
 
     edge: EdgeValues
 
     @property
     @abstractmethod
-    def along_x(self) -> Block:
+    def along_x(self) -> BlockModes:
         """A block with the modes."""
 
     @property

@@ -6,11 +6,9 @@ import dataclasses
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.parameters import Geometry, Mesh
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 
 @dataclasses.dataclass(frozen=True)

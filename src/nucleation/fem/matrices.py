@@ -6,11 +6,9 @@ import dataclasses
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from . import kernels
-
-Array = NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,10 +1,10 @@
 """Two elastic blocks on one another, condensed on their common interface y = 0.
 
-Both blocks have the modes of :mod:`.block`, on grids with the same elements along x, and are put in
-series (:mod:`.series`). The upper one is driven at its left edge, the lower one held there. On the
-right edge, free in both, the corner ``u_y(L, 0)`` is an unknown that both blocks share. With it all
-of ``u_y`` may shift if no far side holds it: inertia fixes that in motion, and in statics, where no
-force acts on it, the corner stays.
+Both blocks have the modes of :mod:`.block_modes`, on grids with the same elements along x, and are
+put in series (:mod:`.series`). The upper one is driven at its left edge, the lower one held there.
+On the right edge, free in both, the corner ``u_y(L, 0)`` is an unknown that both blocks share. With
+it all of ``u_y`` may shift if no far side holds it: inertia fixes that in motion, and in statics,
+where no force acts on it, the corner stays.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from .block import Block
 from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
@@ -23,8 +23,6 @@ from .field import Field
 from .right_edge import EdgeValues, inverse_within, predicted, relative_error
 from .separable import LoadedResponse
 from .series import Series, TwoBodies
-
-Array = NDArray[np.float64]
 
 
 class Pair(TwoBodies[Block]):
@@ -102,9 +100,7 @@ class PairOperator(CondensedOnNodes):
             self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
             self.upper.substitute(lowest)
             corner = self.upper.edge.corner_reaction(loads.upper, lowest, modes.upper.edge)
-            return PairResponse(
-                w, tangential, np.append(normal, corner), load, given, start, swept
-            )  # fmt: skip
+            return PairResponse(w, tangential, np.append(normal, corner), load, given, start, swept)
         self._substitute(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)

@@ -6,8 +6,8 @@ On n_x nodes (an odd number) per period, ``theta_m = 2 pi m / n_x``, the modes a
     u_y = U0 + sum_m A_m cos(theta_m i) - B_m sin(theta_m i),   i = 0..n_x - 1
 
 with other A_m, B_m for either component. Each of the sets A and B obeys the block-tridiagonal
-system of :mod:`.body` at its theta, B being A shifted by a quarter wave; a travelling wave is the
-pair. There is no driven and no free edge: traction on the top drives the block. The interface,
+system of :mod:`.separable` at its theta, B being A shifted by a quarter wave; a travelling wave is
+the pair. There is no driven and no free edge: traction on the top drives the block. The interface,
 the step and the factorisation are those of the block.
 
 Interface arrays over "nodes 0..n_x" hold the period's nodes in the entries 1..n_x. Entry 0, in the
@@ -26,12 +26,11 @@ from scipy import fft
 from scipy.linalg import circulant
 
 from ..model.material import Material
+from ..types import Array
 from .condensed import Balance, Expectation
 from .field import Field
 from .grid import Grid
 from .separable import LoadedResponse, SeparableBody, SeparableOperator
-
-Array = NDArray[np.float64]
 
 
 class PeriodicBlock(SeparableBody):

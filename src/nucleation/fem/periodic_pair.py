@@ -11,15 +11,13 @@ import dataclasses
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from .condensed import Balance, Expectation
 from .field import Field
 from .periodic import Circulant, PeriodicBlock, with_entry_zero
 from .separable import LoadedResponse
 from .series import Series, TwoBodies
-
-Array = NDArray[np.float64]
 
 
 class PeriodicPair(TwoBodies[PeriodicBlock]):

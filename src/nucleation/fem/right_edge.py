@@ -9,20 +9,15 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-from ..fem import kernels
+from ..types import Array
+from . import kernels
+from .block_modes import BlockModes
 from .condensed import Expectation
 from .field import Field
-
-if TYPE_CHECKING:
-    from .block import Block
-
-Array = NDArray[np.float64]
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 
@@ -90,7 +85,7 @@ class EdgeValues(ABC):
 class RightEdge(EdgeValues):
     """The rows of the edge values in ``K + s M``, given the factors of the bulk's elimination."""
 
-    def __init__(self, body: Block, s: float, inverse: Array, lower: Array) -> None:
+    def __init__(self, body: BlockModes, s: float, inverse: Array, lower: Array) -> None:
         self.body, self._inverse, self._lower = body, inverse, lower
         dx, material = body.grid.dx, body.material
         lame, shear = material.lame_modulus, material.shear_modulus

@@ -14,16 +14,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.material import Material
+from ..types import Array
 from . import kernels
 from .condensed import Response
 from .field import Field, Motion, Terms
 from .grid import Grid
 from .matrices import Tridiagonal, element_matrices
-
-Array = NDArray[np.float64]
 
 
 class Stacked(NamedTuple):

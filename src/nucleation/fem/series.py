@@ -20,14 +20,13 @@ from collections.abc import Sequence
 from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from . import kernels
 from .field import Field, Motion, Terms
 from .grid import Grid
 from .separable import SeparableBody, SeparableOperator, rate_of_change
 
-Array = NDArray[np.float64]
 Layer = TypeVar("Layer", bound=SeparableBody)
 
 
@@ -84,9 +83,7 @@ class TwoBodies(Generic[Layer]):
     def parts(self, field: Field) -> Parts:
         """The two bodies' fields in one of the pair, not copied."""
         n = self.grid.n_y + 1
-        return Parts(
-            Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:])
-        )  # fmt: skip
+        return Parts(Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:]))
 
     def joined(self, upper: Field, lower: Field) -> Field:
         """The pair's field of two bodies' fields."""

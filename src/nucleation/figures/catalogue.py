@@ -1,8 +1,8 @@
-"""The figures of the report: title, category, the studies they stand on, and their data."""
+"""The figures of the report: title, category, roles of the studies they stand on, data."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 PAPER = "The paper's figures"
@@ -24,11 +24,11 @@ class Data(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """One figure; it can be made if the configuration has the studies."""
+    """One figure; it can be made if the configuration has studies with these roles."""
 
     title: str
     category: str
-    studies: tuple[str, ...] = ()
+    roles: tuple[str, ...] = ()
     data: tuple[Data, ...] = ()
 
 
@@ -79,7 +79,7 @@ FIGURES: dict[str, Entry] = {
     ),
     "figure_convergence": Entry(
         "Critical length against mesh and steps", CHECKS,
-        ("convergence_x", "convergence_quiet"), (Data("convergence"),)
+        ("convergence", "convergence_quiet"), (Data("convergence"),)
     ),
     "figure_dispersion": Entry(
         "Growth of single modes: simulation and theory", CHECKS, (),
@@ -98,20 +98,20 @@ FIGURES: dict[str, Entry] = {
 def of_studies(descriptions: dict[str, str]) -> dict[str, Entry]:
     """The generic figures of studies, by name, from what the studies are for."""
     return {
-        f"study_{study}": Entry(f"Study {study}: {text}", OWN, (study,), (LENGTHS,))
+        f"study_{study}": Entry(f"Study {study}: {text}", OWN, (), (LENGTHS,))
         for study, text in descriptions.items()
     }
 
 
-def drawable(studies: list[str], papers: bool = True) -> list[str]:
-    """The figures that a configuration with these studies can make, in the report's order.
+def drawable(roles: Collection[str], papers: bool = True) -> list[str]:
+    """The figures that a configuration can make whose studies have these roles, in their order.
 
     Those of the paper's category are left out unless the configuration is the paper's.
     """
     return [
         name
         for name, entry in FIGURES.items()
-        if set(entry.studies) <= set(studies) and (papers or entry.category != PAPER)
+        if set(entry.roles) <= set(roles) and (papers or entry.category != PAPER)
     ]
 
 

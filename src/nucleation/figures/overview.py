@@ -8,9 +8,7 @@ from matplotlib.figure import Figure
 
 from ..figures import style
 
-COLOURS = (
-    style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY_BLUE,
-)  # fmt: skip
+COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY_BLUE)
 MARKERS = "os^vDP"
 
 

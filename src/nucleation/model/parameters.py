@@ -90,9 +90,8 @@ class Stepping(Checked):
         default=1.0e-2,
     )  # fmt: skip
     longest_step: float = quantity(
-        "longest time step over the memory time D/V", low=0.0, high=1.0, closed="high",
-        default=0.1,
-    )  # fmt: skip
+        "longest time step over the memory time D/V", low=0.0, high=1.0, closed="high", default=0.1
+    )
     shortest_step: float = quantity(
         "shortest time step, below which the run ends as failed", unit="s", low=0.0, high=1.0,
         default=1.0e-12,

@@ -54,7 +54,7 @@ class Perturbation(Checked):
     )  # fmt: skip
     correlation_length: float = quantity(
         "correlation length of the perturbation along x", unit="m", low=0.0, high=1e6, default=0.02
-    )  # fmt: skip
+    )
     seed: int = quantity(
         "seed of the perturbation's realisation", low=0, high=2**63 - 1, closed="both", default=0
     )

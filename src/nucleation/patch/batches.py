@@ -11,9 +11,10 @@ import xarray as xr
 
 from ..analysis import lengths
 from ..analysis.definitions import ExtractionSettings
+from ..datasets.variables import some
 from .growth import FITTED, follow_patch
 
-STABILITY = FITTED[:1] + FITTED[3:4]
+STABILITY = some(FITTED, "stability_length", "stability_length_error")
 """The length at which the patch turns unstable, and its standard error."""
 
 
@@ -32,7 +33,8 @@ def measured(
     row = lengths.gather([run], [record], settings)
     if measure == "stability":
         patch = follow_patch(record, settings)
-        row = row.assign({name: ("run", [float(patch[name])]) for name in STABILITY})
+        row = row.assign({name: ("run", patch[name].values[None], c.attributes)
+                          for name, c in STABILITY.items()})  # fmt: skip
     said = {name: row[name].values[0] for name in ("onset_time", "length", "steps", "wall_seconds")}
     print(
         "{id}: onset {onset_time:.4f} s, length {length:.5g} m, {steps} steps in "
@@ -58,10 +60,10 @@ def table(
         for run, record in zip(runs, records, strict=True)
         if record is not None
     ]
-    return lengths.join(rows) if rows else xr.Dataset()
+    return lengths.join(rows) if rows else xr.Dataset()  # which is not kept
 
 
 def of_study(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> lengths.Files:
     """The step ``join_batches``: a study's table, its runs in their order."""
     joined = in_order(lengths.join(tables), ids)
-    return lengths.with_csv(joined, tuple(map(str, joined.data_vars)))
+    return lengths.with_csv(joined)

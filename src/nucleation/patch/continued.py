@@ -11,12 +11,9 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array, ComplexArray
 from .mode_history import ModeHistory
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 DEGREE = 3  # of the polynomials in the patch's length
 FINE = 2400  # times between which the amplitude is integrated

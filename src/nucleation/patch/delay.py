@@ -27,15 +27,12 @@ import dataclasses
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.perturbation import Perturbation
 from ..simulation.realisation import Series, Sheet, correlation, profile, spectral_density
+from ..types import Array, ComplexArray
 from .continued import Path, complex_trend, continued, exponent_of, roughness_weights, trend
 from .mode_history import ModeHistory
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 NEAR = 1.3  # lengths over L_s through which the closed form lays its straight lines
 SAMPLED = 8.0  # points of a roughness in its correlation length

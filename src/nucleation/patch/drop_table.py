@@ -14,28 +14,39 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.lengths import COLUMNS as LENGTHS
 from ..analysis.lengths import Files, with_csv
 from ..analysis.record import parameters_of
 from ..analysis.rows import Row, rows_of
+from ..datasets.variables import Variable, some, table
+from ..model.identity import fault
 from ..model.perturbation import Perturbation
 from .delay import Growth, growth, realised
+from .growth import FITTED
 from .mode_history import ModeHistory, from_dataset
 
-MEASURED = (
-    "study", "id", "law", "height", "kind", "strength", "seed", "correlation_length", "n_x", "n_y",
-    "longest_step", "onset_time", "length", "theory_length",
+MEASURED = some(
+    LENGTHS, "study", "role", "id", "law", "height", "kind", "strength", "seed",
+    "correlation_length", "n_x", "n_y", "longest_step", "onset_time", "length", "theory_length",
 )  # fmt: skip
 
-PREDICTED = (
-    "stability_length", "predicted_length", "predicted_low", "predicted_high", "realised_length",
-    "closed_form_length", "effective_strength", "floor_normal_load", "floor_state",
-)  # fmt: skip
+PREDICTED = {
+    "stability_length": FITTED["stability_length"],
+    "predicted_length": Variable("m", "length at the drop by the law, median", "L_d"),
+    "predicted_low": Variable("m", "length by which 16 % have dropped by the law", "L_d"),
+    "predicted_high": Variable("m", "length by which 84 % have dropped by the law", "L_d"),
+    "realised_length": Variable("m", "length at the drop by the law for its own seed", "L_d"),
+    "closed_form_length": Variable("m", "length at the drop by the law in one line", "L_d"),
+    "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
+    "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
+    "floor_state": Variable("1", "strength of the state at which the law drops there"),
+}
 
-COLUMNS = (*MEASURED, *PREDICTED)
+COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
 
-FLOORS = (
-    "study", "id", "law", "height", "n_x", "n_y", "longest_step", "onset_time", "length",
-    "theory_length", "stability_length", "floor_normal_load", "floor_state",
+FLOORS = some(
+    COLUMNS, "study", "role", "id", "law", "height", "n_x", "n_y", "longest_step", "onset_time",
+    "length", "theory_length", "stability_length", "floor_normal_load", "floor_state", "fault",
 )  # fmt: skip
 """Columns that say something of a quiet run."""
 
@@ -87,16 +98,12 @@ def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Datas
 
     Parameters
     ----------
-    drops : tables of runs with at least :data:`MEASURED`, and ``phi0`` (s).
+    drops : tables of runs with at least :data:`MEASURED`, and their ``fault``.
     modes : of :func:`nucleation.patch.mode_history.to_dataset`.
     """
-    laws = {_fault(parameters_of(mode)): Law(from_dataset(mode)) for mode in modes}
-    rows = [
-        {name: run[name] for name in MEASURED} | laws[fault].row(run)
-        for run in _runs(drops)
-        if (fault := (run["law"], run["height"], run["phi0"])) in laws
-    ]
-    return xr.Dataset({name: ("run", np.array([row[name] for row in rows])) for name in COLUMNS})
+    laws = {fault(parameters_of(mode)): Law(from_dataset(mode)) for mode in modes}
+    rows = [run | laws[run["fault"]].row(run) for run in _runs(drops) if run["fault"] in laws]
+    return table(rows, COLUMNS)
 
 
 def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
@@ -107,29 +114,22 @@ def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Datas
     quiet : tables of lengths, of which the unperturbed runs count.
     modes : of :func:`nucleation.patch.mode_history.to_dataset`.
     """
-    table = gather(quiet, modes)
-    return table[list(FLOORS)].isel(run=np.flatnonzero(table["kind"].values == "none"))
-
-
-def _fault(parameters: Any) -> tuple[str, float, float]:
-    loading, geometry = parameters.loading, parameters.geometry
-    return parameters.friction.evolution, geometry.height, loading.initial_state
+    found = gather(quiet, modes)
+    return found[list(FLOORS)].isel(run=np.flatnonzero(found["kind"].values == "none"))
 
 
 def _runs(tables: Iterable[xr.Dataset]) -> Iterator[Row]:
-    for table in tables:
-        names = [name for name in (*MEASURED, "phi0") if name in table]
-        for row in rows_of(table, names=names):
-            yield {"correlation_length": float("nan")} | row
+    for own in tables:
+        yield from rows_of(own, names=(*MEASURED, "fault"))
 
 
-def table(
+def drop_files(
     drops: Iterable[xr.Dataset], quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]
 ) -> Files:
-    """The step ``drop``: :func:`gather` with its CSV."""
-    return with_csv(gather([*drops, *quiet], modes), COLUMNS)
+    """The step ``gather_drop``: :func:`gather`, with its CSV."""
+    return with_csv(gather([*drops, *quiet], modes))
 
 
-def floors_table(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> Files:
-    """The step ``noise``: :func:`floors` with its CSV."""
-    return with_csv(floors(quiet, modes), FLOORS)
+def floor_files(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_floors``: :func:`floors`, with its CSV."""
+    return with_csv(floors(quiet, modes))

@@ -9,16 +9,16 @@ instants around it gives its length.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
-from ..analysis.lengths import Files, description, with_csv
 from ..analysis.record import Record
+from ..datasets.variables import Variable, annotate
 from ..fem.bodies import body_of
+from ..simulation.recorded import RECORDED
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 Array = NDArray[np.float64]
@@ -30,6 +30,28 @@ NEAR = 60  # and those around it, at most, through which the line is laid:
 AROUND = 0.08  # within this part of the crossing's length
 REFITS = 2  # the second about the first one's crossing
 FEWEST_NEAR = 4  # instants for a line
+
+FITTED = {
+    "stability_length": Variable("m", "patch length where growth begins", "L_s"),
+    "stability_length_low": Variable("m", "L_s less the scatter as the front hops", "L_s"),
+    "stability_length_high": Variable("m", "L_s with the scatter as the front hops", "L_s"),
+    "stability_length_error": Variable("m", "standard error of L_s", "L_s"),
+    "stability_frequency": Variable("1/s", "angular frequency where growth begins", "omega"),
+}
+"""What is read from a patch where its growth begins."""
+
+FOLLOWED = {
+    "x": RECORDED["x"],
+    "instant_time": Variable("s", "time at which the patch is frozen", "t"),
+    "patch_length": Variable("m", "length of the creep patch", "L(t)"),
+    "growth_rate": Variable("1/s", "fastest growth of the frozen patch", "max Re Lambda"),
+    "growth_frequency": Variable("1/s", "angular frequency of that mode", "|Im Lambda|"),
+    "oscillation_growth": Variable("1/s", "growth of the patch's oscillating mode", "Re Lambda"),
+    "oscillation_frequency": Variable("1/s", "angular frequency of that mode", "Im Lambda"),
+    **FITTED,
+    "mode_real": Variable("1", "slip in that mode where growth begins, real part"),
+    "mode_imaginary": Variable("1", "slip in that mode where growth begins, imaginary part"),
+}
 
 
 def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
@@ -111,7 +133,7 @@ class _Creep:
             "oscillation_growth": pairs.real,
             "oscillation_frequency": pairs.imag,
         }
-        return xr.Dataset(
+        found = xr.Dataset(
             {
                 **{name: ("instant", values) for name, values in columns.items()},
                 **fit,
@@ -121,6 +143,7 @@ class _Creep:
             coords={"x": self.grid.x},
             attrs={"parameters": self.parameters.to_json()},
         )
+        return annotate(found, FOLLOWED)
 
 
 def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.intp]:
@@ -147,12 +170,6 @@ def rough_crossing(length: Array, growth: Array) -> float:
     return float(length[min(at, length.size - 1)]) if at else float("nan")
 
 
-FITTED = (
-    "stability_length", "stability_length_low", "stability_length_high", "stability_length_error",
-    "stability_frequency",
-)  # fmt: skip
-
-
 def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
     """Where a line through eigenvalues (1/s) over patch length (m) crosses zero growth.
 
@@ -176,44 +193,3 @@ def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
         frequency + turn * (crossing - centre),
     )  # fmt: skip
     return dict(zip(FITTED, map(float, values), strict=True))
-
-
-COLUMNS = (
-    "id", "study", "law", "height", "phi0", "n_x", "n_y", "grading", "tolerance", "longest_step",
-    *FITTED, "theory_length", "stability_ratio", "stability_change",
-)  # fmt: skip
-
-SAME = ("law", "height", "phi0")
-
-
-def gather(
-    runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset], reference: str = "converged"
-) -> xr.Dataset:
-    """The table of runs with the lengths at which their frozen patches turn unstable.
-
-    Parameters
-    ----------
-    runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
-    patches : of :func:`follow_patch`, in the same order.
-    reference : the study with whose run of the same law, height and initial state each run is
-        compared: ``stability_change`` is the length over that run's, minus one, NaN without one.
-    """
-    rows = [
-        description(run) | {name: float(patch[name]) for name in FITTED}
-        for run, patch in zip(runs, patches, strict=True)
-    ]
-    compared = {
-        tuple(row[name] for name in SAME): row["stability_length"]
-        for row in rows
-        if row["study"] == reference
-    }
-    for row in rows:
-        value = compared.get(tuple(row[name] for name in SAME), float("nan"))
-        row["stability_ratio"] = row["stability_length"] / row["theory_length"]
-        row["stability_change"] = row["stability_length"] / value - 1.0
-    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
-
-
-def table(runs: list[dict[str, Any]], patches: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_patches``: :func:`gather` with its CSV."""
-    return with_csv(gather(runs, patches), COLUMNS)

@@ -13,7 +13,11 @@ from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
 from ..analysis.definitions import SEARCHED, ExtractionSettings
+from ..analysis.extraction import MEASURED
 from ..analysis.record import Record
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, annotate
+from ..simulation.recorded import RECORDED
 
 Array = NDArray[np.float64]
 
@@ -23,6 +27,19 @@ PASSED = 0.6  # the oscillation is followed from here on, over the patch's last 
 SAMPLES = 5  # of the oscillation, in a time D/V
 SMOOTHED = 20.0  # window of the trend and of the amplitude, in units of D/V: some two periods
 TREND = 3  # degree of the trend within the window
+
+FOLLOWED = {
+    "time": RECORDED["time"],
+    "hop_time": Variable("s", "time at which the front reaches the node", "t"),
+    "hop_length": Variable("m", "position of the node", "x"),
+    "hop_frequency": Variable("1/s", "angular frequency of the hops", "2 pi (dL/dt)/dx"),
+    "inner_slip_rate": Variable("m/s", "slip rate half-way along the patch", "v"),
+    "sample_time": Variable("s", "middle of the window of the amplitude", "t"),
+    "oscillation_amplitude": Variable("m/s", "amplitude of the slip rate about its trend"),
+    "onset_time": MEASURED["onset_time"],
+    "n_x": SHARED["n_x"],
+    "velocity": SHARED["velocity"],
+}
 
 
 def crossing_times(time: Array, length: Array, positions: Array) -> Array:
@@ -74,7 +91,7 @@ def follow_hops(
     sample_time, amplitude = oscillation(
         time[passed], rates[creep[passed], inner], parameters.memory_time
     )
-    return xr.Dataset(
+    found = xr.Dataset(
         {
             "hop_time": ("hop", hops[seen]),
             "hop_length": ("hop", nodes[seen]),
@@ -91,6 +108,7 @@ def follow_hops(
         coords={"time": record.time},
         attrs={"parameters": parameters.to_json()},
     )  # fmt: skip
+    return annotate(found, FOLLOWED)
 
 
 def hop_frequency(hops: Array, spacing: float, span: float) -> Array:

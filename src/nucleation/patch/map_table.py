@@ -11,14 +11,22 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.lengths import COLUMNS as LENGTHS
 from ..analysis.lengths import Files, to_csv
-from ..analysis.rows import ratios
+from ..analysis.rows import RATIO_COLUMNS, ratios
+from ..datasets.variables import DatasetError, annotate, some
+from .batches import STABILITY
 
-COLUMNS = (
-    "id", "height", "zeta_over_a", "kind", "strength", "seed", "onset_time", "length", "length_low",
-    "length_high", "theory_length", "length_ratio", "stability_length", "stability_length_error",
-    "stability_ratio", "n_x", "steps", "wall_seconds", "status",
-)  # fmt: skip
+COLUMNS = {
+    **some(LENGTHS, "id", "height"),
+    "zeta_over_a": RATIO_COLUMNS["zeta_over_a"],
+    **some(LENGTHS, "kind", "strength", "seed", "onset_time", "length", "length_low"),
+    **some(LENGTHS, "length_high", "theory_length"),
+    "length_ratio": RATIO_COLUMNS["length_ratio"],
+    **STABILITY,
+    "stability_ratio": RATIO_COLUMNS["stability_ratio"],
+    **some(LENGTHS, "n_x", "steps", "wall_seconds", "status"),
+}
 
 AXES = ("height", "zeta_over_a", "strength", "seed")
 """What the grid is over."""
@@ -33,17 +41,25 @@ def gather(lengths: xr.Dataset) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, of a table of lengths with the stability of each patch."""
     table = lengths.assign(ratios(lengths))
     rounded = [float(f"{value:.{DIGITS}g}") for value in table["zeta_over_a"].values]
-    return table.assign(zeta_over_a=("run", np.array(rounded)))[list(COLUMNS)].drop_attrs()
+    table = table.assign(zeta_over_a=("run", np.array(rounded)))[list(COLUMNS)]
+    return annotate(table.drop_attrs(), COLUMNS)
 
 
 def on_grid(table: xr.Dataset) -> xr.Dataset:
     """The same over the dimensions :data:`AXES`; NaN where the study has no run.
 
     The theory's length depends on height and weakening alone.
+
+    Raises
+    ------
+    DatasetError
+        If runs differ in anything else: each place of the grid has one.
     """
     axes = {name: np.unique(table[name].values) for name in AXES}
     places = tuple(np.searchsorted(axes[name], table[name].values) for name in AXES)
     shape = tuple(values.size for values in axes.values())
+    if np.unique(np.array(places), axis=1).shape[1] < table.sizes["run"]:
+        raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")
     data: dict[str, Any] = {}
     for name in ON_GRID:
         values = np.full(shape, np.nan)
@@ -52,7 +68,7 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     theory = np.full(shape[:2], np.nan)
     theory[places[:2]] = table["theory_length"].values
     data["theory_length"] = AXES[:2], theory
-    return xr.Dataset(data, coords=axes)
+    return annotate(xr.Dataset(data, coords=axes), COLUMNS)
 
 
 def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
@@ -60,7 +76,7 @@ def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
     return grid[name].mean("seed", skipna=False)
 
 
-def table(lengths: xr.Dataset) -> Files:
-    """The step ``map``: the table as CSV, and on its grid."""
+def files(lengths: xr.Dataset) -> Files:
+    """The step ``gather_map``: the table as CSV, and on its grid."""
     rows = gather(lengths)
-    return {".nc": on_grid(rows), ".csv": to_csv(rows, COLUMNS)}
+    return {".nc": on_grid(rows), ".csv": to_csv(rows)}

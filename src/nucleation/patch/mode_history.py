@@ -28,8 +28,10 @@ from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record, parameters_of
+from ..datasets.variables import Variable, annotate
 from ..fem.bodies import BodyOperator, body_of
 from ..model.parameters import Parameters
+from ..simulation.recorded import RECORDED
 from .frozen import OSCILLATING, FrozenPatch, frozen_patch
 
 Array = NDArray[np.float64]
@@ -60,6 +62,17 @@ class ModeHistory:
 WEIGHTS = {"normal_load": "instant", "drive": "instant", "strength": "x", "state": "x"}
 """The weights of a history, by what they depend on besides the instant."""
 
+FOLLOWED = {
+    "x": RECORDED["x"],
+    "mode_time": Variable("s", "time at which the patch is frozen", "t"),
+    "mode_length": Variable("m", "length of the creep patch", "L(t)"),
+    "mode_rate": Variable("1/s", "growth and angular frequency of the oscillating mode", "Lambda"),
+    "mode_normal_load": Variable("1/s", "weight of a relative change of the load", "g"),
+    "mode_drive": Variable("1/(m s)", "weight of a displacement of the driven edge", "g"),
+    "mode_strength": Variable("1/s", "weight of a relative change of friction at a node", "g"),
+    "mode_state": Variable("1", "weight of a source of log(phi) at a node", "g"),
+}
+
 
 def to_dataset(history: ModeHistory) -> xr.Dataset:
     """A history as a dataset, real and imaginary parts on ``part``."""
@@ -76,7 +89,8 @@ def to_dataset(history: ModeHistory) -> xr.Dataset:
         dims = ("part", "instant", "x") if along == "x" else ("part", "instant")
         data[f"mode_{name}"] = (dims, parts(getattr(history, name)))
     attributes = {"parameters": history.parameters.to_json()}
-    return xr.Dataset(data, coords={"x": history.x}, attrs=attributes)
+    found = xr.Dataset(data, coords={"x": history.x}, attrs=attributes)
+    return annotate(found, FOLLOWED)
 
 
 def from_dataset(dataset: xr.Dataset) -> ModeHistory:

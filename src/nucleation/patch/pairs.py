@@ -10,24 +10,40 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
+from ..analysis.extraction import MEASURED as EXTRACTED
 from ..analysis.extraction import extract
+from ..analysis.lengths import COLUMNS as LENGTHS
 from ..analysis.lengths import Files, description, with_csv
 from ..analysis.record import parameters_of
-from ..analysis.rows import ratios
+from ..analysis.rows import RATIO_COLUMNS, ratios
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, some, table
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
 from .growth import FITTED
 
-MEASURED = ("onset_time", "length", "length_low", "length_high")
+MEASURED = some(EXTRACTED, "onset_time", "length", "length_low", "length_high")
 
-COLUMNS = (
-    "id", "study", "law", "far_side", "height", "second_height", "shear_modulus",
-    "second_shear_modulus", "poisson_ratio", "second_poisson_ratio", "friction", "f_beta",
-    "zeta_over_a", "n_x", "n_y", "second_n_y", "kind", "strength", "seed", *MEASURED,
-    "theory_length", "length_ratio", *FITTED, "stability_ratio", "half_space_ratio", "steps",
-    "wall_seconds",
-)  # fmt: skip
+COLUMNS = {
+    **some(LENGTHS, "id", "study", "role", "law"),
+    **some(
+        SHARED, "far_side", "height", "second_height", "shear_modulus", "second_shear_modulus",
+        "poisson_ratio", "second_poisson_ratio", "friction", "f_beta", "zeta_over_a",
+    ),
+    **some(LENGTHS, "n_x", "n_y"),
+    "second_n_y": Variable("1", "number of elements along y of the second body", "N_y2"),
+    **some(LENGTHS, "kind", "strength", "seed"),
+    **MEASURED,
+    "theory_length": LENGTHS["theory_length"],
+    "length_ratio": RATIO_COLUMNS["length_ratio"],
+    **FITTED,
+    "stability_ratio": RATIO_COLUMNS["stability_ratio"],
+    "half_space_ratio": Variable(
+        "1", "Eq. (9): half-spaces over those without contrast", "L_c/L_c^M"
+    ),
+    **some(LENGTHS, "steps", "wall_seconds", "fault"),
+}  # fmt: skip
 """``f_beta`` is positive where the lower body is the stiffer one."""
 
 
@@ -74,7 +90,7 @@ def gather(
 
     Parameters
     ----------
-    runs : from :meth:`nucleation.configuration.studies.Run.to_dict`.
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
     simulations : of the runs, in their order.
     patches : of :func:`.growth.follow_patch`, in the same order.
     settings : how lengths are read.
@@ -87,7 +103,7 @@ def gather(
         row |= {name: float(patch[name]) for name in FITTED}
         row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
         rows.append(row | ratios(row))
-    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in COLUMNS})
+    return table(rows, COLUMNS)
 
 
 def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
@@ -95,14 +111,14 @@ def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
     return table.isel(run=np.flatnonzero(rows))
 
 
-def of_study(table: xr.Dataset, study: str) -> xr.Dataset:
-    """The rows of one study."""
-    return chosen(table, table["study"].values == study)
+def of_role(table: xr.Dataset, role: str) -> xr.Dataset:
+    """The rows of the studies with one role."""
+    return chosen(table, table["role"].values == role)
 
 
-def table(
+def files(
     runs: list[dict[str, Any]], simulations: Iterable[xr.Dataset],
     patches: Iterable[xr.Dataset], settings: ExtractionSettings,
 ) -> Files:  # fmt: skip
-    """The step ``gather_pairs``: :func:`gather` with its CSV."""
-    return with_csv(gather(runs, simulations, patches, settings), COLUMNS)
+    """The step ``gather_pairs``: :func:`gather`, with its CSV."""
+    return with_csv(gather(runs, simulations, patches, settings))

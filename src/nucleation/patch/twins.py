@@ -23,7 +23,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import Extent, ExtractionSettings
-from ..analysis.lengths import Files, description, with_csv
+from ..datasets.variables import Variable
+from ..datasets.variables import table as table_of
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
@@ -43,10 +44,17 @@ SKIPPED = 0.5  # of them at first: what the kick's other parts leave dies out
 FROZEN = 8  # instants of that time at which the patch is frozen again
 EVENT = 10.0  # slip rate over V beyond which the run has left its creep
 
-MEASURED = (
-    "twin_time", "twin_length", "twin_length_first", "twin_length_last", "twin_growth",
-    "twin_frequency", "frozen_growth", "frozen_frequency",
-)  # fmt: skip
+MEASURED = {
+    "twin_time": Variable("s", "time of the kick", "t"),
+    "twin_length": Variable("m", "mean patch length while the kick is followed", "L(t)"),
+    "twin_length_first": Variable("m", "patch length at the kick", "L(t)"),
+    "twin_length_last": Variable("m", "patch length at the end", "L(t)"),
+    "twin_growth": Variable("1/s", "growth rate of the kick", "Re Lambda"),
+    "twin_frequency": Variable("1/s", "angular frequency of the kick", "Im Lambda"),
+    "frozen_growth": Variable("1/s", "mean growth rate of the frozen patch", "Re Lambda"),
+    "frozen_frequency": Variable("1/s", "mean frequency of the frozen patch", "Im Lambda"),
+}
+"""What is measured of a kick."""
 
 
 class Patches:
@@ -183,30 +191,10 @@ def follow_twins(
             lengths.popleft()
             active.append(Twin(patches, dynamics, instant))
     rows.sort(key=lambda row: row["twin_time"])
-    return xr.Dataset(
-        {name: ("twin", [row[name] for row in rows]) for name in MEASURED},
-        attrs={"parameters": parameters.to_json()},
-    )
-
-
-COLUMNS = ("id", "law", "height", "phi0", "n_x", "n_y", *MEASURED, "theory_length")
-
-
-def gather(runs: Iterable[dict[str, Any]], datasets: Iterable[xr.Dataset]) -> xr.Dataset:
-    """One table of all twins, on ``twin``, with the runs that they belong to."""
-    rows = [
-        description(run) | {name: float(twins[name][i]) for name in MEASURED}
-        for run, twins in zip(runs, datasets, strict=True)
-        for i in range(twins.sizes["twin"])
-    ]
-    return xr.Dataset({name: ("twin", [row[name] for row in rows]) for name in COLUMNS})
+    found = table_of(rows, MEASURED, "twin")
+    return found.assign_attrs(parameters=parameters.to_json())
 
 
 def of_run(run: dict[str, Any], settings: ExtractionSettings) -> xr.Dataset:
     """The step ``twin``: the twins of a run of a study."""
     return follow_twins(Parameters.from_dict(run["parameters"]), run["theory_length"], settings)
-
-
-def table(runs: list[dict[str, Any]], twins: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_twins``: :func:`gather` with its CSV."""
-    return with_csv(gather(runs, twins), COLUMNS)

@@ -65,12 +65,12 @@ def unused(store: Store, expected: Mapping[str, str]) -> list[str]:
     kept = {*expected.values()}
     for record in records(store):
         kept.update(*(target["keys"] for target in record["targets"].values()))
-    return [key for key in store.keys() if key not in kept]
+    return [key for key in store.listed() if key not in kept]
 
 
 def _entries(store: Store) -> Iterator[Finding]:
     """Entries that are not right, and what has been left between them."""
-    for key in store.keys():
+    for key in store.listed():
         try:
             read_note(store.entry(key), whole=True)
         except StoreError as error:
@@ -110,9 +110,7 @@ def _names(name: Path) -> Iterator[str]:
 
 def _is_of_others(path: Path, results: Path) -> bool:
     """Whether a file belongs to the results of another configuration, below these."""
-    return any(
-        (parent / "store").is_dir() for parent in path.parents if results in parent.parents
-    )
+    return any((parent / "store").is_dir() for parent in path.parents if results in parent.parents)
 
 
 def _shows(path: Path, store: Store, key: str) -> bool:
@@ -140,7 +138,10 @@ def prune(results: Path, expected: Mapping[str, str], remove: bool) -> str:
     keys = unused(store, expected)
     lines = []
     for key in keys:
-        note, size = store.note(key) or {}, sum(f.stat().st_size for f in store.entry(key).iterdir())
+        note, size = (
+            store.note(key) or {},
+            sum(f.stat().st_size for f in store.entry(key).iterdir()),
+        )
         lines.append(f"{store.entry(key)}  {note.get('name', '')}  {size / 1e6:.1f} MB")
         if remove:
             store.remove(key)
@@ -149,18 +150,19 @@ def prune(results: Path, expected: Mapping[str, str], remove: bool) -> str:
 
 
 def run(snakemake: Any) -> None:
-    """The targets ``check`` and ``prune``; the latter removes if ``PRUNE`` is ``yes``."""
+    """The targets ``check``, ``prune`` (which removes if ``PRUNE`` is ``yes``) and ``targets``."""
     params = snakemake.params
     results, expected = Path(params.results), dict(params.expected)
+    findings: list[Finding] = []
     try:
-        if params.says == "prune":
+        if params.asked == "targets":
+            print("\n".join(f"{name:24} {text}" for name, text in params.targets.items()))
+        elif params.asked == "prune":
             print(prune(results, expected, os.environ.get("PRUNE") == "yes"))
-            return
-        findings = check_results(results, expected)
+        else:
+            findings = check_results(results, expected)
+            print(report(findings))
     except (StoreError, OSError) as error:
         sys.exit(str(error))
-    print(report(findings))
     if any(found.state != UNUSED for found in findings):
         sys.exit("check: there are findings")
-
-

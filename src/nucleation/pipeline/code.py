@@ -33,7 +33,7 @@ COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotl
 """Libraries that do the work of others without being imported here."""
 
 ALWAYS = (f"{PACKAGE}.datasets.netcdf",)
-"""Code that takes part in every dataset: how it is written, units and names of its variables."""
+"""Code that takes part in every dataset: how it is written."""
 
 PARSED = ROOT / "__pycache__" / "digests.json"
 """What is kept of each source, by its content, so that a start of the workflow parses nothing."""

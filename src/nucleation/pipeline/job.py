@@ -45,11 +45,12 @@ class Job:
         params = dict(snakemake.params.items())
         inputs = {role: _plain(value) for role, value in snakemake.input.items()}
         each = params.get("each")
-        one = task_of(str(snakemake.output[0]), params, inputs) if each is None else None
-        self.tasks = [Task(*task) for task in each] if one is None else [one]
+        link = str(snakemake.output[0])
+        one = [task_of(link, params, inputs)] if each is None else []
+        self.tasks = one or [Task(*task) for task in each or ()]
         self.params, self.rule = params, str(snakemake.rule)
         self.log = str(snakemake.log[0]) if snakemake.log else ""
-        self.results = Path(str(snakemake.output[0]).rpartition(f"/{LINKS}/")[0])
+        self.results = Path(link.rpartition(f"/{LINKS}/")[0])
         self.store = Store(self.results / "store")
         self._others = others()
 
@@ -76,14 +77,14 @@ class Job:
     def make(self, task: Task) -> None:
         """Have the result of a task in the store."""
         if not self.found(task.key):
-            self.make_with(task, **self.read(task))
+            self.put(task, task.key, self.called(task, **self.read(task)))
 
-    def make_with(self, task: Task, **inputs: Any) -> None:
-        """Make the result of a task from its inputs."""
+    def called(self, task: Task, **inputs: Any) -> Any:
+        """What the function of a task returns for its inputs."""
         module, _, name = task.call.partition(":")
         function = getattr(importlib.import_module(module), name)
-        given = arguments(function, {**task.values, "origin": self._origin(task)})
-        self.put(task, task.key, function(**given, **inputs))
+        values = {**task.values, "origin": self.origin(task)}
+        return function(**arguments(function, values), **inputs)
 
     def read(self, task: Task) -> dict[str, Any]:
         """What a function is given for the inputs of its task, by their roles."""
@@ -112,7 +113,9 @@ class Job:
             dataset = netcdf.read(path)
             if dataset.attrs.get("key") != key:
                 found = dataset.attrs.get("key", "missing")
-                raise DatasetError(f"{path} is another result than it should be: its key is {found}")
+                raise DatasetError(
+                    f"{path} is another result than it should be: its key is {found}"
+                )
             return dataset
         except (DatasetError, StoreError) as error:
             self.store.set_aside(key)
@@ -121,8 +124,8 @@ class Job:
             ) from None
 
     def put(self, task: Task, key: str, made: Any) -> None:
-        """Put what a function has returned into the store: all files of the result, and its note."""
-        origin = self._origin(task)
+        """Put what a function has returned into the store: all files of the result."""
+        origin = self.origin(task)
 
         def write(place: Path) -> None:
             for suffix, content in _files(made):
@@ -132,7 +135,8 @@ class Job:
         self.store.put(key, write, about | {"rule": self.rule, "name": Path(task.link).name})
         give_all(self.store.entry(key))
 
-    def _origin(self, task: Task) -> dict[str, str]:
+    def origin(self, task: Task) -> dict[str, str]:
+        """Attributes of a task's dataset that say how it was made."""
         sources = _sources(task.sources)
         return provenance.attributes(
             task.values, task.code, f"snakemake {task.link}", sources, key=task.key
@@ -227,7 +231,7 @@ def running(snakemake: Any) -> Iterator[Job]:
     job, began = Job(snakemake), time.monotonic()
     if job.log:
         Path(job.log).parent.mkdir(parents=True, exist_ok=True)
-        sys.stderr = open(job.log, "a", buffering=1, encoding="utf-8")
+        sys.stderr = Path(job.log).open("a", buffering=1, encoding="utf-8")  # noqa: SIM115
     try:
         job.verify()
         gc.freeze()  # what is loaded stays: at its end Python would look through it, for .3 s

@@ -13,7 +13,6 @@ from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
-from . import code, keys
 from .job import Job, end, running
 from .progress import Progress
 from .steps import LINKS, Task
@@ -56,35 +55,56 @@ def record_of(job: Job, task: Task) -> xr.Dataset:
     place = job.results / UNFINISHED / f"{name}.nc"
     checkpoint = checkpoint_of(parameters, place, task.code)
     checkpoint.listen()
-    dataset = simulated(simulate, parameters, checkpoint, Progress(parameters, sys.stderr))
-    failed = place.with_suffix(".failed.nc")
-    if not dataset.attrs["completed"]:
-        origin = provenance.attributes(task.values["parameters"], task.code, "", key=key)
-        netcdf.write(dataset, failed, **origin)
-        checkpoint.remove()
-        raise Failed(f"{name}: {dataset.attrs['status']}; its record is in {failed}")
-    job.put(task, key, dataset)
-    checkpoint.remove()
-    failed.unlink(missing_ok=True)
+
+    def write(dataset: xr.Dataset, path: Path) -> None:
+        if path == place:
+            job.put(task, key, dataset)
+        else:
+            netcdf.write(dataset, path, **job.origin(task))
+
+    progress = Progress(parameters, sys.stderr)
+    dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
+    if path != place:
+        raise Failed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
     return dataset
 
 
-def simulated(
+def run_to_file(
     simulate: Callable[..., xr.Dataset],
     parameters: Parameters,
+    output: Path,
+    write: Callable[[xr.Dataset, Path], None],
     checkpoint: Checkpoint,
     progress: Callable[[Any], None],
-) -> xr.Dataset:
-    """The record of a run, from its checkpoint on if there is one.
+) -> tuple[xr.Dataset, Path]:
+    """Simulate, from the checkpoint if there is one, and write the record.
 
     Parameters
     ----------
     simulate : :func:`nucleation.simulation.run.simulate`.
     parameters : of the run.
-    checkpoint : of :func:`checkpoint_of`; to be removed once the record is written.
+    output : place of the result; the record of a failed run goes beside it, as ``.failed.nc``.
+    write : writes the record to one of both.
+    checkpoint : of :func:`checkpoint_of`; it is removed once the record is written.
     progress : called with every accepted step.
+
+    Returns
+    -------
+    The record, and where it was written.
+
+    Raises
+    ------
+    Stopped
+        If a signal has stopped the run, which has left a checkpoint.
     """
-    return simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
+    dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
+    failed = output.with_suffix(".failed.nc")
+    path = output if dataset.attrs["completed"] else failed
+    write(dataset, path)
+    checkpoint.remove()
+    if path == output:
+        failed.unlink(missing_ok=True)
+    return dataset, path
 
 
 def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Checkpoint:
@@ -116,8 +136,9 @@ def run_batch(snakemake: Any) -> None:
         if not job.found(task.key):
             runs = task.values["runs"]
             tasks = [task_of_run(one, job.results) for one in runs]
-            job.make_with(task, records=_records(job, tasks, failures))
-            _stop_on(failures, len(runs))
+            table = job.called(task, records=_records(job, tasks, failures))
+            _stop_on(failures, len(runs))  # before a table without them is kept
+            job.put(task, task.key, table)
         job.leave_link(task)
 
 

@@ -8,7 +8,7 @@ of Snakemake decides what is current, and a dry run lists what will be computed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -40,7 +40,7 @@ class Task(NamedTuple):
 
     link: str
     call: str
-    loads: list[str]
+    loads: Sequence[str]
     values: dict[str, Any]
     sources: Sources
 
@@ -65,7 +65,7 @@ class Task(NamedTuple):
 def task_of(link: str, params: Mapping[str, Any], sources: Sources) -> Task:
     """The task that a rule's parameters and inputs describe."""
     values = {name: value for name, value in params.items() if name not in ABOUT}
-    return Task(link, params["call"], list(params.get("loads", ())), values, sources)
+    return Task(link, params["call"], tuple(params.get("loads", ())), values, sources)
 
 
 def _listed(paths: str | list[str]) -> list[str]:
@@ -155,7 +155,7 @@ class Steps:
 
 
 def _given(value: Any, wildcards: Any) -> Any:
-    return value(wildcards) if isinstance(value, Callable) else value  # type: ignore[arg-type]
+    return value(wildcards) if callable(value) else value
 
 
 def _plain(paths: Any) -> str | list[str]:

@@ -118,7 +118,7 @@ class Store:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]
 
-    def keys(self) -> list[str]:
+    def listed(self) -> list[str]:
         """Keys of all entries, right or not."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
 
@@ -300,4 +300,3 @@ def give_all(entry: Path) -> None:
 
 def _in_a_line(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())
-

@@ -2,5 +2,6 @@
 
 :func:`.page.build` puts it together from datasets, figures and captions. What can be moved in the
 page is computed there: the theory's curve by ``theory.js``, the player from the data of
-:mod:`.player`. Plotly draws; ``page.js`` connects it with the controls.
+:mod:`.player`. Plotly draws; ``page.js`` has what the page's parts share, ``explorer.js``,
+``player.js``, ``drop.js`` and ``map.js`` are those parts.
 """

@@ -10,13 +10,9 @@ const DropLaw = (() => {
     const last = places.length - 1;
     if (x >= places[last]) return values[last];
     if (x < places[0]) return values[0];
-    let [low, high] = [0, last];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (places[middle] <= x) low = middle;
-      else high = middle;
-    }
-    return values[low] + ((values[high] - values[low]) / (places[high] - places[low])) * (x - places[low]);
+    const low = placeBelow(x, places);
+    const slope = (values[low + 1] - values[low]) / (places[low + 1] - places[low]);
+    return values[low] + slope * (x - places[low]);
   }
 
   // The part of the realisations that have dropped by each length of a curve; it never falls.
@@ -101,9 +97,7 @@ function makeDrop({ faults, parts, strongest, control }) {
       { name: "half have dropped", x: trusted, y: over[0], ...style, line: { color: shade, width: 2.5 } },
       level("L<sub>c</sub>, theory", 1, "dash"),
       level("L<sub>s</sub>", fault().stability_length / critical, "dot"),
-      { name: "values", x: [eps], y: [DropLaw.drop(curve(), eps, parts)[0] / critical], mode: "markers",
-        showlegend: false, hoverinfo: "skip",
-        marker: { symbol: "cross-thin-open", size: 16, color: shade, line: { width: 2 } } },
+      { name: "values", ...cross(eps, DropLaw.drop(curve(), eps, parts)[0] / critical, shade) },
     ];
     Plotly.react("drop-plot", traces, layout({
       title: heading("Length at the drop over L<sub>c</sub>"),
@@ -111,10 +105,7 @@ function makeDrop({ faults, parts, strongest, control }) {
         type: "log", dtick: 2, range: [control.low, control.high].map(Math.log10),
       }),
       yaxis: axis("", { range: [0.5, 1.05] }),
-      legend: {
-        orientation: "h", x: 0, xref: "container", y: 0, yref: "container", yanchor: "bottom",
-        font: { size: 12 },
-      },
+      legend: legend(),
       uirevision: "fixed",
     }), SETTINGS);
   }
@@ -122,14 +113,13 @@ function makeDrop({ faults, parts, strongest, control }) {
   function show() {
     const critical = fault().theory_length;
     const [median, early, late] = DropLaw.drop(curve(), strength.si(), parts);
-    const rows = [
+    showValues("drop-values", [
       ["L<sub>c</sub>, theory of homogeneous sliding", `${critical.toPrecision(4)} m`],
       ["L<sub>s</sub>, the patch turns unstable", metres(fault().stability_length, critical)],
       ["half of the realisations have dropped", metres(median, critical)],
       ["16 % of them", metres(early, critical)],
       ["84 % of them", metres(late, critical)],
-    ];
-    element("drop-values").innerHTML = rows.map(([term, value]) => `<dt>${term}</dt><dd>${value}</dd>`).join("");
+    ]);
     element("drop-doubt").textContent = doubt(strength.si(), late);
     draw();
   }

@@ -13,12 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from ..model.linearised import InterfaceState
+from ..analysis.sensitivity import Case, variation
+from ..model.friction.law import Friction
+from ..model.identity import fault
+from ..model.linearised import InterfaceState, linearised
 from ..model.perturbation import KINDS, Perturbation
 from ..patch.delay import EARLY, LATE, MEDIAN, Growth, growth
 from ..patch.expected_drop import STRONGEST
 from ..patch.mode_history import ModeHistory
-from ..theory.critical import theory_length
+from ..theory.critical import run_length
 from .encode import float32
 
 POINTS = 400  # of a curve in the page
@@ -32,17 +35,35 @@ WORDS = {
 }
 
 
-def in_page(histories: Iterable[ModeHistory], interface: InterfaceState) -> dict[str, Any] | None:
+def in_page(
+    histories: Iterable[ModeHistory], friction: Friction, interface: InterfaceState
+) -> dict[str, Any] | None:
     """What the page needs of all faults, None without any.
 
     Parameters
     ----------
-    histories : of quiet runs, one for each fault.
-    interface : of the theory whose critical length stands beside.
+    histories : of quiet runs; of each fault the last counts.
+    friction : of the configuration.
+    interface : the theory's friction in its place, for the critical lengths that stand beside.
     """
-    faults = [_fault(history, interface) for history in histories]
-    if not faults:
+    known = {fault(history.parameters): history for history in histories}
+    if not known:
         return None
+    faults, first = [], {}  # type: ignore[var-annotated]
+    for history in known.values():
+        parameters, loading = history.parameters, history.parameters.loading
+        same = parameters.friction.changed({"evolution": friction.evolution}) == friction
+        same &= (loading.velocity, loading.normal_stress) == (
+            interface.velocity, interface.normal_stress,
+        )  # fmt: skip
+        own = interface if same else linearised(parameters.friction, loading)
+        shown = _fault(history, run_length(parameters, own))
+        length = shown["theory_length"]  # also of the block, which is not of the fault
+        case = Case("", parameters.replaced({"geometry.length": length}), length)
+        base = first.setdefault(shown["label"], case)
+        if base is not case:
+            shown["label"] += f", {variation(case, base)[1]}"
+        faults.append(shown)
     return {
         "faults": faults,
         "parts": [MEDIAN, EARLY, LATE],
@@ -54,7 +75,7 @@ def in_page(histories: Iterable[ModeHistory], interface: InterfaceState) -> dict
     }  # fmt: skip
 
 
-def _fault(history: ModeHistory, interface: InterfaceState) -> dict[str, Any]:
+def _fault(history: ModeHistory, theory_length: float) -> dict[str, Any]:
     parameters = history.parameters
     height, evolution = parameters.geometry.height, parameters.friction.evolution
     grown = {kind: growth(history, Perturbation(kind=kind)) for kind in KINDS[1:]}
@@ -62,7 +83,7 @@ def _fault(history: ModeHistory, interface: InterfaceState) -> dict[str, Any]:
     kinds = {kind: thinned(growing) for kind, growing in grown.items()}
     return {
         "label": f"H = {height:g} m, {evolution} law",
-        "theory_length": theory_length(height, parameters.material, interface),
+        "theory_length": theory_length,
         "stability_length": _known(lines["state"].stability_length),
         "kinds": {
             kind: {

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from ..figures import style
+from ..model.identity import DIGITS
 
 
 class Column(NamedTuple):
@@ -31,7 +32,11 @@ FAULT = (
     Column("applied_stress", "σ₀", "MPa", 1e6, "sigma0"),
     Column("velocity", "V", "µm/s", 1e-6, "V"),
 )
-"""What makes a fault of its own for the theory, with the density, which the theory doesn't need."""
+"""What makes a fault of its own for the theory, with the density, which the theory doesn't need.
+Runs of other heights, laws and ages are of the same one here: they lie about one curve."""
+
+BELOW = ("below", "far_side", "second_shear_modulus", "second_poisson_ratio")
+"""And what lies below."""
 
 LOOKS = (
     ("circle", "●", style.VERMILLION), ("square", "■", style.BLACK), ("diamond", "◆", style.PURPLE),
@@ -65,18 +70,23 @@ def faults(lengths: xr.Dataset) -> list[Fault]:
     """The faults of a table of lengths, in the order of their first runs."""
     found: dict[tuple[Any, ...], list[int]] = {}
     columns = [lengths[c.variable].values.tolist() for c in FAULT]
-    below = lengths["below"].values.astype(str).tolist()
-    for i, (*numbers, base) in enumerate(zip(*columns, below, strict=True)):
-        mark = (*(float(f"{float(number):.10g}") for number in numbers), base)
-        found.setdefault(mark, []).append(i)
+    columns += [lengths[name].values.tolist() for name in BELOW]
+    for i, values in enumerate(zip(*columns, strict=True)):
+        found.setdefault(tuple(_mark(value) for value in values), []).append(i)
     names = [column.variable for column in FAULT]
     return [
         Fault(
             _letter(n), *LOOKS[n % len(LOOKS)], dict(zip(names, mark, strict=False)), runs,
-            mark[-1] == "rigid",
+            mark[len(FAULT)] == "rigid",
         )
         for n, (mark, runs) in enumerate(found.items())
     ]  # fmt: skip
+
+
+def _mark(value: Any) -> Any:
+    """A value by which faults are told apart: numbers that differ by rounding are the same."""
+    number = isinstance(value, float | int) and value == value
+    return float(f"{value:.{DIGITS}g}") if number else str(value)
 
 
 def _letter(number: int) -> str:

@@ -68,10 +68,7 @@ function makeMap({ height, weakening, theory, fields, ratios }) {
       title: heading(`Length (m) at ζ/a = ${weakening[j].toPrecision(3)}`),
       xaxis: axis("Block height H (m)", { type: "log", dtick: "D2", range: ends(height) }),
       yaxis: axis("", { type: "log", dtick: "D2", range: seen }),
-      legend: {
-        orientation: "h", x: 0, xref: "container", y: 0, yref: "container", yanchor: "bottom",
-        font: { size: 12 },
-      },
+      legend: legend(),
     }), SETTINGS);
   }
 

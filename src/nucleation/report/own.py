@@ -57,13 +57,11 @@ def sections(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
             {
                 "name": study,
                 "description": description,
-                "rows": [
-                    _row(row, letters[i]) for i, row in zip(chosen, rows, strict=True)
-                ],
+                "rows": [_row(row, letters[i]) for i, row in zip(chosen, rows, strict=True)],
                 "quiet": without_event(rows),
                 "warnings": own.warnings.get(study, []),
             }
-        )  # fmt: skip
+        )
     return result
 
 

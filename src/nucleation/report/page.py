@@ -35,7 +35,10 @@ HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 SEEN = (2e-3, 1.0)
 """Heights (m) that the page shows first; so close that the curve looks smooth on either axes."""
 
-SCRIPTS = ("theory.js", "page.js", "drop.js", "map.js")
+SCRIPTS = (
+    "page.js", "tables.js", "theory.js", "explorer.js", "player.js", "drop.js", "map.js",
+)  # fmt: skip
+"""What runs in the page, in this order; the first has what the others share."""
 
 CURVES = ("slip_rate", "stress_ratio", "state")
 
@@ -136,7 +139,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": _player(content),
-        "drop": drop_law.in_page(content.modes, content.interface),
+        "drop": drop_law.in_page(content.modes, content.friction, content.interface),
         "map": length_map.in_page(content.results.get("map")),
         "colours": {
             "theory": style.THEORY,

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.moments import chosen_frames, event_interval, thinned
 from ..analysis.record import Record
-
-Array = NDArray[np.float64]
+from ..datasets.variables import annotate, some
+from ..patch.growth import FOLLOWED
+from ..simulation.recorded import RECORDED
+from ..types import Array
 
 MOST_FRAMES = (150, 140, 40)  # before, in and after the event
 MOST_NODES = 401
@@ -62,8 +64,10 @@ def player_dataset(
         ]
     )
     kept = np.unique(steps)
-    return fields.assign(
+    shown = fields.assign(
         patch_length=("time", record.lengths[frames]),
         step_time=("step", step_time[kept]),
         driving_force=("step", force[kept]),
-    ).assign_attrs(event_start=event[0], event_end=event[1])
+    )
+    shown = annotate(shown, RECORDED | some(FOLLOWED, "patch_length"))
+    return shown.assign_attrs(event_start=event[0], event_end=event[1])

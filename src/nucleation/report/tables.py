@@ -13,8 +13,7 @@ from markupsafe import Markup
 
 from ..analysis.rows import rows_of
 from ..claims.symbols import as_html
-from ..datasets.variables import VARIABLES
-from ..figures.paper import figure_3
+from ..figures.laws import USUAL_AGE, looks, usual_law
 from .faults import faults
 
 VERDICTS = {
@@ -121,7 +120,11 @@ def length_rows(lengths: xr.Dataset) -> list[list[Cell]]:
     return rows
 
 
-SYMBOLS = {"o": "circle", "^": "triangle-up", "s": "square", "v": "triangle-down"}
+SYMBOLS = {
+    "o": "circle", "^": "triangle-up", "s": "square", "v": "triangle-down", "D": "diamond",
+    "P": "cross", "X": "x", "<": "triangle-left",
+}  # fmt: skip
+"""Markers of the figures (:mod:`nucleation.figures.laws`) as plotly calls them."""
 
 
 def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
@@ -132,6 +135,7 @@ def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
     known = faults(lengths)
     of_run = {i: fault for fault in known for i in fault.runs}
     names, laws = (lengths[n].values.astype(str) for n in ("study", "law"))
+    seen = looks(laws)
     ages, usable = lengths["phi0"].values, np.flatnonzero(np.isfinite(lengths["length"].values))
     kinds: dict[tuple[str, str, float, str], list[int]] = {}
     for i in usable.tolist():
@@ -139,11 +143,11 @@ def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
     result = []
     for (study, law, age, letter), chosen in kinds.items():
         runs, fault = lengths.isel(run=chosen), of_run[chosen[0]]
-        aged = not np.isclose(age, figure_3.USUAL_AGE)
-        kind = figure_3.KINDS[law, aged]
-        look = (SYMBOLS[kind.marker], kind.colour, study == "paper")
+        aged = not np.isclose(age, USUAL_AGE)
+        kind = seen[law, aged]
+        look = (SYMBOLS[kind.marker], kind.colour, runs["role"].values[0] == "paper")
         if len(known) > 1:
-            look = (fault.symbol, fault.colour, law == "aging")
+            look = (fault.symbol, fault.colour, law == usual_law(lengths))
         columns = ("height", "length", "length_low", "length_high", "onset_time", "theory_length")
         result.append(
             {
@@ -164,9 +168,6 @@ def csv_text(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> str:
     chosen = dataset[list(variables)] if variables else dataset
     frame = chosen.to_dataframe().reset_index()
     frame = frame.drop(columns=[c for c in frame if c not in dataset.variables])
-    return frame.rename(columns=_with_unit).to_csv(index=False)
-
-
-def _with_unit(name: str) -> str:
-    units = VARIABLES[name].units
-    return name if units in ("", "1") else f"{name} ({units})"
+    units = {name: dataset[name].attrs.get("units", "1") for name in frame}
+    titles = {n: n if unit == "1" else f"{n} ({unit})" for n, unit in units.items()}
+    return frame.rename(columns=titles).to_csv(index=False)

@@ -12,12 +12,8 @@ from __future__ import annotations
 import dataclasses
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..fem.field import Field
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 
 @dataclasses.dataclass(frozen=True)

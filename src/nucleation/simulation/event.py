@@ -12,11 +12,9 @@ from __future__ import annotations
 from collections import deque
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.parameters import EVENT_DROP
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach

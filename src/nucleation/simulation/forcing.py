@@ -10,15 +10,14 @@ import dataclasses
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..fem.field import Field
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
+from ..types import Array
 from .drive import Imposed, Steady
 from .realisation import Series, Sheet, profile
 
-Array = NDArray[np.float64]
 Recorded = tuple[tuple[str, ...], Array]
 
 

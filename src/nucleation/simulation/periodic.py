@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..fem.bodies import period_of
 from ..model.parameters import Parameters
 from ..stepping.scheme import BDF
+from ..types import Array
 from .drive import Steady
 from .interface import Interface
 from .state import State
 from .step import Dynamics
-
-Array = NDArray[np.float64]
 
 
 def sliding_period(parameters: Parameters, interface: Interface | None = None) -> Dynamics:
@@ -32,7 +30,7 @@ def sliding_period(parameters: Parameters, interface: Interface | None = None) -
     load = body.top_load(loading.normal_stress, shear)
     return Dynamics(
         body, interface or Interface(law), Steady(loading.velocity, load), BDF(body.crossing_time)
-    )  # fmt: skip
+    )
 
 
 def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:

@@ -23,10 +23,10 @@ from __future__ import annotations
 from collections import OrderedDict
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import ndtri
 
-Array = NDArray[np.float64]
+from ..types import Array
 
 MEAN_SQUARE = 151.0 / 315.0  # int B(u)^2 du of the cubic B-spline
 BLOCK = 256  # coefficients drawn at a time

@@ -9,10 +9,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..datasets.variables import annotate
 from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
 from .event import FAST, WINDOW, DropWatch
 from .forcing import Perturbed
+from .recorded import RECORDED
 from .state import State
 from .step import Dynamics, StepReport
 
@@ -144,7 +146,10 @@ class Recorder:
         self._time = self._rows[-1][0]
 
     def dataset(self) -> xr.Dataset:
-        """What was recorded, without metadata of the variables."""
+        """What was recorded, of :data:`RECORDED`."""
+        return annotate(self._dataset(), RECORDED)
+
+    def _dataset(self) -> xr.Dataset:
         times = np.array([t for t, _ in self._frames])
         frames = np.array([fields for _, fields in self._frames])
         time, size, force, fastest, iterations = map(np.array, zip(*self._rows, strict=True))

@@ -85,8 +85,8 @@ def simulate(
     -------
     Dataset with the interface's fields on (time, x), the driving force and the step sizes on
     (step), some fields of the bulk on (snapshot, y, x), and the outcome as attributes; names and
-    units are listed in :mod:`nucleation.datasets.variables`. A run that fails numerically returns
-    what it recorded, with ``status`` telling so.
+    units are those of :data:`nucleation.simulation.recorded.RECORDED`. A run that fails
+    numerically returns what it recorded, with ``status`` telling so.
     """
     began = time.perf_counter()
     dynamics = composed(parameters)

@@ -33,8 +33,6 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
     # at rest no friction acts on the driven edge's own node
     tangential = np.append(0.0, response.tangential)
-    interface = InterfaceSolution(
-        slip_rate, log_state, tangential, response.normal, response.w, 0
-    )  # fmt: skip
+    interface = InterfaceSolution(slip_rate, log_state, tangential, response.normal, response.w, 0)
     force = float(tangential.sum()) - dynamics.frame_inertia(imposed)
     return state, StepReport(interface, force, 0.0)

@@ -10,11 +10,9 @@ import dataclasses
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..fem.field import Field, Motion
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,9 +35,7 @@ class State:
         cls, motion: Motion, slip_rate: Array, log_state: Array, w: Array, body_memory: Array
     ) -> State:
         """The state at time zero, without a past."""
-        return cls(
-            (motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory
-        )  # fmt: skip
+        return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory)
 
     def to_arrays(self) -> dict[str, Array]:
         """The state as plain arrays by name, to be stored; exact."""

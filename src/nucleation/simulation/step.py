@@ -14,16 +14,14 @@ from collections import OrderedDict
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..fem.condensed import Body, Expectation, Operator
 from ..fem.field import Field, Motion
 from ..stepping.scheme import Scheme, Step
+from ..types import Array
 from .drive import Drive, Imposed
 from .interface import Friction, InterfaceSolution, Past, Solver
 from .state import State, pushed
-
-Array = NDArray[np.float64]
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess
@@ -79,9 +77,7 @@ class Dynamics:
         w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
         expected = Expectation(state.motions, step.length, state.last_step, state.body_memory)
         for response in operator.responses(load, w, expected):
-            solution = self.interface.solve(
-                operator, response, past, imposed, guess.slip_rate[1:]
-            )  # fmt: skip
+            solution = self.interface.solve(operator, response, past, imposed, guess.slip_rate[1:])
             balance = operator.balance(response, solution.w, expected)
             if balance.holds:
                 break

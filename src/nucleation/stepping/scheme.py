@@ -11,8 +11,8 @@ import dataclasses
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..types import Array
 from .bdf import (
     LARGEST_GROWTH,
     LARGEST_GROWTH_OF_BDF3,
@@ -22,8 +22,6 @@ from .bdf import (
     extrapolation_weights,
 )
 from .ladder import rung_below, rung_nearest, rung_value
-
-Array = NDArray[np.float64]
 
 QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step
 

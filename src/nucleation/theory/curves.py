@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, annotate, some
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
@@ -12,6 +14,23 @@ from .closed_forms import bimaterial_length_ratio, thin_limit_length
 from .critical import critical_wavenumber
 from .settings import Curves
 from .transfer import RIGID, Body
+
+CURVES = {
+    "height": SHARED["height"],
+    "critical_length": Variable("m", "critical nucleation length", "L_c"),
+    "critical_wavenumber": Variable("1/m", "critical wavenumber", "k_c"),
+    "critical_frequency": Variable("1/s", "angular frequency at the critical wavenumber", "omega"),
+    "thin_limit_length": Variable("m", "critical nucleation length for Hk -> 0", "L_c"),
+    **some(SHARED, "zeta_over_a", "f_beta"),
+    "bimaterial_length_ratio": Variable(
+        "1", "critical length of a bimaterial interface over L_c^M", "L_c/L_c^M"
+    ),
+    "slip_rate": Variable("m/s", "slip rate", "v"),
+    "steady_friction": Variable("1", "steady-state friction, full law", "f"),
+    "steady_friction_logarithmic": Variable("1", "steady-state friction, logarithmic law", "f"),
+    "friction_reference": Variable("1", "friction coefficient at V", "f0"),
+    **some(SHARED, "direct_effect", "velocity_weakening", "velocity"),
+}
 
 
 def theory_dataset(
@@ -34,13 +53,14 @@ def theory_dataset(
     curves : Curves
         Where to compute.
     """
-    return xr.merge(
+    merged = xr.merge(
         [
             length_curve(material, interface, np.array(curves.heights)),
             bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
             friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
         ]
     )
+    return annotate(merged, CURVES)
 
 
 def length_curve(material: Material, interface: InterfaceState, height: np.ndarray) -> xr.Dataset:

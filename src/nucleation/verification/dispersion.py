@@ -17,15 +17,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, annotate
 from ..model.friction.law import Friction
-from ..model.linearised import (
-    interface_state,
-)
+from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
 from ..simulation.interface import Interface
 from ..simulation.periodic import sliding_period, sliding_state
 from ..theory.critical import critical_wavenumber
+from ..theory.curves import CURVES
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import RIGID, Body
 
@@ -45,6 +46,22 @@ STEP = 0.008  # in units of D/V
 DURATION = 3.0  # in units of D/V
 SKIPPED = 30  # steps, until they are equal and the start's elastic waves are gone
 INTERVAL = 10  # steps between samples
+
+MODES_OF_SLIDING = {
+    "height": SHARED["height"],
+    "mode_wavenumber": Variable("1/m", "wavenumber of the seeded mode", "k"),
+    "measured_growth": Variable("1/s", "growth rate in the time integration", "Re Lambda"),
+    "measured_frequency": Variable("1/s", "angular frequency in the time integration", "Im Lambda"),
+    "theory_growth": Variable("1/s", "growth rate of the seeded mode, Eq. (5)", "Re Lambda"),
+    "theory_frequency": Variable(
+        "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"
+    ),
+    "curve_wavenumber": Variable("1/m", "wavenumber of the theory's curve", "k"),
+    "curve_growth": Variable("1/s", "growth rate, Eq. (5)", "Re Lambda"),
+    "curve_frequency": Variable("1/s", "angular frequency, Eq. (5)", "Im Lambda"),
+    "critical_wavenumber": CURVES["critical_wavenumber"],
+    "memory_time": Variable("s", "time over which friction forgets at V", "D/V"),
+}
 
 
 def one_wavelength(
@@ -156,7 +173,7 @@ def dispersion_dataset(
     theory = by_direction([growth_rates(k, b, RIGID, interface).T for b, k, _ in pairs])
     curves = by_direction([growth_rates(k, b, RIGID, interface).T for b, _, k in pairs])
     at_modes, along = ("height", "mode", "branch"), ("height", "curve", "branch")
-    return xr.Dataset(
+    found = xr.Dataset(
         {
             "mode_wavenumber": (("height", "mode"), mode_k),
             "measured_growth": (at_modes, measured.real),
@@ -171,6 +188,7 @@ def dispersion_dataset(
         },
         {"height": heights},
     )
+    return annotate(found, MODES_OF_SLIDING)
 
 
 def disagreement(dataset: xr.Dataset) -> xr.DataArray:
@@ -194,7 +212,7 @@ def to_csv(dataset: xr.Dataset) -> str:
     return table[[*order, "disagreement"]].to_csv(index=False, float_format="%.8g")
 
 
-def table(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
-    """The step ``dispersion``: :func:`dispersion_dataset` with its CSV."""
+def files(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
+    """The step ``dispersion``: :func:`dispersion_dataset`, with its CSV."""
     found = dispersion_dataset(Parameters(material=material, friction=friction, loading=loading))
     return {".nc": found, ".csv": to_csv(found)}

@@ -16,9 +16,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from ..datasets.variables import Variable, annotate
 from ..model.friction.law import Friction
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
+from ..simulation.recorded import RECORDED
 from ..stepping.scheme import BDF
 from .manufactured.dynamics import Manufactured, ManufacturedFriction
 from .manufactured.fields import Displacement, Factor, Power, Sine, Term
@@ -27,8 +29,20 @@ Array = NDArray[np.float64]
 
 PROBLEMS = ("elastodynamics", "aging", "slip")
 REFINEMENTS = ("mesh", "step", "quasi_static_step")
-SPACINGS = ("element_size", "step_size", "quasi_static_step_size")
-ERRORS = ("displacement_error", "slip_rate_error", "log_state_error")
+SPACINGS = {
+    "element_size": Variable("m", "length of the elements along x", "h"),
+    "step_size": RECORDED["step_size"],
+    "quasi_static_step_size": Variable("s", "time step of quasi-static fields", "dt"),
+}
+ERRORS = {
+    "displacement_error": Variable("1", "error of the displacement over its scale"),
+    "slip_rate_error": Variable("1", "error of the slip rate over V"),
+    "log_state_error": Variable("1", "error of the log of the state variable"),
+}
+COORDINATES = {
+    "problem": Variable("", "elastodynamics alone, or with friction by an evolution law"),
+    "refinement": Variable("", "what is refined from level to level"),
+}
 
 MATERIAL = Material()
 GEOMETRY = Geometry(height=0.3, length=1.0)
@@ -183,13 +197,14 @@ def convergence_dataset() -> xr.Dataset:
     on = ("problem", "refinement", "level")
     sizes = [GEOMETRY.length / (2.0 * np.array(ROWS))]
     sizes += [step_sizes(name) for name in REFINEMENTS[1:]]
-    return xr.Dataset(
+    dataset = xr.Dataset(
         {
             **{name: (on, found[..., i]) for i, name in enumerate(ERRORS)},
             **{name: ("level", size) for name, size in zip(SPACINGS, sizes, strict=True)},
         },
         {"problem": list(PROBLEMS), "refinement": list(REFINEMENTS)},
     )
+    return annotate(dataset, COORDINATES | SPACINGS | ERRORS)
 
 
 def step_sizes(name: str) -> Array:
@@ -213,7 +228,7 @@ def to_csv(dataset: xr.Dataset) -> str:
     return "\n".join(lines) + "\n"
 
 
-def table() -> dict[str, Any]:
+def files() -> dict[str, Any]:
     """The step ``verification``: :func:`convergence_dataset` with its CSV."""
     found = convergence_dataset()
     return {".nc": found, ".csv": to_csv(found)}

@@ -16,6 +16,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..datasets.shared import SHARED
+from ..datasets.variables import annotate
 from ..model.friction.law import Friction
 from ..model.linearised import interface_state
 from ..model.material import Material
@@ -24,7 +26,7 @@ from ..theory.closed_forms import bimaterial_contrast
 from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import bodies_of
-from .dispersion import by_direction, disagreement, measured_rates
+from .dispersion import MODES_OF_SLIDING, by_direction, disagreement, measured_rates
 
 Array = NDArray[np.float64]
 
@@ -167,7 +169,7 @@ def pair_modes(
         found[f"{kind}_growth"] = ("run", "branch"), rates.real
         found[f"{kind}_frequency"] = ("run", "branch"), rates.imag
     columns = {name: ("run", [row[name] for row in rows]) for name in rows[0]}
-    return xr.Dataset(columns | found)
+    return annotate(xr.Dataset(columns | found), SHARED | MODES_OF_SLIDING)
 
 
 def to_csv(dataset: xr.Dataset) -> str:
@@ -178,7 +180,7 @@ def to_csv(dataset: xr.Dataset) -> str:
     return frame.to_csv(index=False, float_format="%.8g")
 
 
-def table(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
-    """The step ``pair_modes``: :func:`pair_modes` with its CSV."""
+def files(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
+    """The step ``pair_modes``: :func:`pair_modes`, with its CSV."""
     found = pair_modes(Parameters(material=material, friction=friction, loading=loading))
     return {".nc": found, ".csv": to_csv(found)}

@@ -223,7 +223,7 @@ def test_refusal_by_slurm_is_shown(slurm, workflow_type, tmp_path):
 def test_batches_that_make_their_datasets_share_a_job(slurm, workflow_type, tmp_path):
     """As those do of which a table is made: one on each of its cores."""
     short = {"n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0}
-    study = {"length_over_critical": 4.0, "runs_per_job": 2, "defaults": short,
+    study = {"role": "quiet", "length_over_critical": 4.0, "runs_per_job": 2, "defaults": short,
              "runs": [{"height": [0.02, 0.03, 0.04]}]}  # fmt: skip
     made = workflow_type(tmp_path, profile="slurm").configured({"studies": {"quiet": study}})
     process = made.start("lengths", *OFTEN)

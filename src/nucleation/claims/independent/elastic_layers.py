@@ -14,7 +14,7 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ...types import Array
 
 HALF_SPACE = 40.0
 """Layer number k H of a body that counts as a half-space, ``exp(-40) = 4e-18``."""

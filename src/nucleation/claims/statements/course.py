@@ -171,7 +171,7 @@ def length_plays_no_role(evidence: Evidence) -> Result:
         if row["height"] == base["height"] and row["block_length"] > base["block_length"]
     ]
     if not changes:
-        raise Missing(f"The study {LONGER} has no run with a longer block")
+        raise Missing(f"The role {LONGER} has no run with a longer block")
     ours = max(changes, key=lambda change: abs(change.value))
     strength = evidence.interface.friction * evidence.loading.normal_stress
     shown = [run for study in (JUDGED, PAPERS) for run in evidence.each_measured(study)]

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...patch.pairs import chosen, of_study
+from ...patch.pairs import chosen, of_role
 from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Claim, Result, claim
 from ..independent import printed
@@ -42,11 +42,11 @@ class PairEvidence(NamedTuple):
     modes: xr.Dataset  # of nucleation.verification.pair_modes.pair_modes
 
 
-def rows_of(table: xr.Dataset, study: str) -> xr.Dataset:
-    """The rows of a study; raises Missing without any."""
-    rows = of_study(table, study)
+def rows_of(table: xr.Dataset, role: str) -> xr.Dataset:
+    """The rows with a role; raises Missing without any."""
+    rows = of_role(table, role)
     if not rows.sizes["run"]:
-        raise Missing(f"The table of pairs has no runs of the study {study}")
+        raise Missing(f"The table of pairs has no runs with the role {role}")
     return rows
 
 

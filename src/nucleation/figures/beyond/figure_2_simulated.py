@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
-from ...patch.pairs import chosen, of_study
+from ...patch.pairs import chosen, of_role
 from ...theory.closed_forms import bimaterial_length_ratio
 
-STUDY = "figure_2_simulated"
+ROLE = "figure_2_simulated"
 CONTRAST = np.linspace(0.0, 0.42, 85)
 SENSES = ((1.0, "v", "stiff below"), (-1.0, "^", "stiff above"))
 
@@ -31,7 +31,7 @@ def draw(table: xr.Dataset) -> Figure:
     Figure
         Two columns wide, two panels.
     """
-    rows = of_study(table, STUDY)
+    rows = of_role(table, ROLE)
     figure = style.new_figure(style.DOUBLE_COLUMN, 7.6 * style.CENTIMETRE)
     axes = figure.subplots(1, 2, sharey=True)
     panels = (("length", "(a) at the drop"), ("stability_length", "(b) patch turns unstable"))

@@ -11,27 +11,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...analysis.lengths import over_realisations
-from ...figures import style
+from ...figures import laws, style
 
-USUAL_AGE = 1.0  # s
+OLDER = ", older interface"
 RATIOS = (0.4, 1.3)
 ABOVE = 1.12  # the axes end at this multiple of the highest block
 LIMIT_HEIGHTS = (0.004, 0.13)  # m, of the logarithmic axis
 
 
-class Kind(NamedTuple):
-    """How runs of one evolution law and initial state are drawn."""
-
-    marker: str
-    colour: str
-    label: str
-
-
 class Series(NamedTuple):
-    """One set of lengths: column, study, and how it is drawn and called."""
+    """One set of lengths: column, role, and how it is drawn and called."""
 
     column: str
-    study: str
+    role: str
     colour: str | None  # None: the kind's own
     filled: bool
     size: float  # points
@@ -39,19 +31,12 @@ class Series(NamedTuple):
     label: str
 
 
-KINDS: dict[tuple[str, bool], Kind] = {
-    ("aging", False): Kind("o", style.AGING, "aging law"),
-    ("slip", False): Kind("^", style.SLIP, "slip law"),
-    ("aging", True): Kind("s", style.OLD_AGE, "aging law, older interface"),
-    ("slip", True): Kind("v", style.SLIP, "slip law, older interface"),
-}
-
 DROPS = (
     Series("length", "paper", None, True, 3.0, False, "drop, quiet, on the paper's mesh"),
     Series("length", "converged", None, False, 4.8, False, r"drop, load steady to $10^{-5}$"),
 )
 BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
-STABILITY = ("converged", "paper")  # growth begins: in the first of these studies that is there
+STABILITY = ("converged", "paper")  # growth begins: of the first of these roles that is there
 
 
 @style.styled
@@ -68,13 +53,13 @@ def draw(
     theory : Dataset
         With ``critical_length(height)`` (m).
     lengths : Dataset
-        On ``run``: ``study``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        On ``run``: ``role``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
         ``length`` with ``_low`` and ``_high`` (m).
     table : Dataset
         The same with ``stability_length`` in place of ``length``.
     noisy : Dataset
         Lengths of the aging law's faults under a stronger perturbation: a band from these to those
-        of the study `converged` is drawn if they are given.
+        with the role `converged` is drawn if they are given.
 
     Returns
     -------
@@ -84,10 +69,10 @@ def draw(
     lengths = over_realisations(lengths)
     figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
-    studies = table["study"].values.astype(str)
-    study = next((name for name in STABILITY if name in studies), STABILITY[0])
+    roles = table["role"].values.astype(str)
+    role = next((name for name in STABILITY if name in roles), STABILITY[0])
     stability = Series(
-        "stability_length", study, style.GREEN, True, 4.8, True, "patch turns unstable, $L_s$"
+        "stability_length", role, style.GREEN, True, 4.8, True, "patch turns unstable, $L_s$"
     )
     for axes, relative in ((left, False), (right, True)):
         _draw_theory(axes, theory, relative)
@@ -113,10 +98,9 @@ def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
 
 
 def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: bool) -> None:
-    """From the drop under the stronger perturbation to that under the study `converged`'s."""
-    usual = (lengths["study"].values == "converged") & (lengths["law"].values == "aging")
-    usual &= np.isclose(lengths["phi0"].values, USUAL_AGE)
-    quiet = lengths.isel(run=np.flatnonzero(usual))
+    """From the drop under the stronger perturbation to that under the role `converged`'s."""
+    quiet = lengths.isel(run=np.flatnonzero(lengths["role"].values == "converged"))
+    quiet = quiet.isel(run=np.flatnonzero(laws.usual(quiet)))
     heights = np.intersect1d(noisy["height"].values, quiet["height"].values)
     ends = []
     for runs in (noisy, quiet):
@@ -128,13 +112,12 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
     """One set of lengths, a marker for each law and initial state."""
-    laws = table["law"].values.astype(str)
-    aged = ~np.isclose(table["phi0"].values, USUAL_AGE)
-    chosen = table["study"].values.astype(str) == series.study
+    law, aged = table["law"].values.astype(str), laws.aged(table)
+    chosen = table["role"].values.astype(str) == series.role
     chosen &= np.isfinite(table[series.column].values)
-    scale = table["theory_length"].values if relative else np.ones(laws.size)
-    for (law, old), kind in KINDS.items():
-        runs = np.flatnonzero(chosen & (laws == law) & (aged == old))
+    scale = table["theory_length"].values if relative else np.ones(law.size)
+    for (name, old), kind in laws.looks(law).items():
+        runs = np.flatnonzero(chosen & (law == name) & (aged == old))
         if not runs.size:
             continue
         middle, low, high = (
@@ -146,7 +129,7 @@ def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) 
             table["height"].values[runs], middle, yerr=(below, above) if series.bars else None,
             linestyle="none", marker=kind.marker, markersize=series.size, color=colour,
             markerfacecolor=colour if series.filled else "white", elinewidth=0.8,
-            label=f"{series.label}, {kind.label}",
+            label=f"{series.label}, {kind.label}{OLDER * old}",
         )  # fmt: skip
 
 
@@ -162,7 +145,8 @@ def _finish_lengths(
         axes.plot([], [], dashes, color=style.THEORY, linewidth=1.2, label=label)[0]
         for dashes, label in (("-", "theory $L_c$"), ("--", "theory $L_c/2$"))
     ]
-    usual = KINDS["aging", False]
+    shown = laws.usual_law(lengths)
+    usual = laws.looks([shown])[shown, False]
     for series in drawn:
         colour = series.colour or usual.colour
         handles += axes.plot(
@@ -179,11 +163,11 @@ def _finish_ratios(axes: Axes, lengths: xr.Dataset) -> None:
     axes.set_xlim(*LIMIT_HEIGHTS)
     axes.set_ylim(*RATIOS)
     axes.set_ylabel("Length over theory $L/L_c$")
-    laws = lengths["law"].values.astype(str)
-    aged = ~np.isclose(lengths["phi0"].values, USUAL_AGE)
+    law, aged = lengths["law"].values.astype(str), laws.aged(lengths)
     handles = [
-        axes.plot([], [], kind.marker, color=style.GUIDE, markersize=4.8, label=kind.label)[0]
-        for (law, old), kind in KINDS.items()
-        if ((laws == law) & (aged == old)).any()
-    ]
+        axes.plot([], [], kind.marker, color=style.GUIDE, markersize=4.8,
+                  label=kind.label + OLDER * old)[0]
+        for (name, old), kind in laws.looks(law).items()
+        if ((law == name) & (aged == old)).any()
+    ]  # fmt: skip
     axes.legend(handles=handles, loc="upper left", labelspacing=0.3)

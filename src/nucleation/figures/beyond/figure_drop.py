@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
+from ...model.friction.registry import USUAL_EVOLUTION
 
-SHOWN = ("aging", 0.02)  # law and height (m) of the panels over the strength
+SHOWN = (USUAL_EVOLUTION, 0.02)  # law and height (m) of the panels over the strength
 KINDS = {
     "normal_load": ("o", style.VERMILLION, "load"),
     "state": ("s", style.BLUE, "state"),
@@ -62,7 +63,7 @@ def _where(table: xr.Dataset, **labels: object) -> xr.Dataset:
 
 def groups(table: xr.Dataset) -> Iterator[xr.Dataset]:
     """The realisations of each fault, kind and strength that have dropped."""
-    names = ("law", "height", "kind", "correlation_length", "strength", "n_x", "longest_step")
+    names = ("fault", "kind", "correlation_length", "strength", "n_x", "longest_step")
     table = table.isel(
         run=np.flatnonzero((table["kind"].values != "none") & np.isfinite(table["length"].values))
     )
@@ -77,6 +78,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     fault = _where(table, law=law, height=height)
     if not fault.sizes["run"]:  # a configuration without it: the fault it has
         fault = _where(table, law=table["law"].values[0], height=table["height"].values[0])
+    fault = _where(fault, fault=fault["fault"].values[0])  # of one material, if there are several
     own = _where(fault, kind=kind)
     marker, colour, label = KINDS[kind]
     theory = float(fault["theory_length"].values[0])
@@ -145,7 +147,7 @@ def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
     for runs in groups(table):
         kind = str(runs["kind"].values[0])
         marker, colour, label = KINDS[kind]
-        filled = runs["law"].values[0] == "aging"
+        filled = runs["law"].values[0] == USUAL_EVOLUTION
         axes.plot(
             runs["strength"].values[0],
             runs["length"].values.mean() / runs["predicted_length"].values[0],

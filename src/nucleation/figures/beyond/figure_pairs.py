@@ -8,10 +8,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
-from ...patch.pairs import chosen, of_study
+from ...patch.pairs import chosen, of_role
 from ...theory.literature import FINITE_PATCH
 
-STUDY = "pairs_identical"
+ROLE = "pairs_identical"
 SIDES = (
     ("free", "o", style.VERMILLION), ("clamped", "s", style.BLUE), ("roller", "^", style.GREEN),
 )  # fmt: skip
@@ -34,7 +34,7 @@ def draw(table: xr.Dataset) -> Figure:
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 7.4 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
-    _draw_heights(left, of_study(table, STUDY).sortby("height"))
+    _draw_heights(left, of_role(table, ROLE).sortby("height"))
     _draw_ratios(
         right, chosen(table, np.abs(table["zeta_over_a"].values / _usual(table) - 1) < 0.1)
     )

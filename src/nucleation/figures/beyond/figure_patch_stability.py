@@ -11,10 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from ...figures import style
+from ...figures import laws, style
 
-USUAL_AGE = 1.0  # s
-SHOWN = ("converged", "paper")  # the study whose patches are shown: the first that is there
+SHOWN = ("converged", "paper")  # the role whose patches are shown: the first that is there
 LENGTHS = (0.3, 0.8)  # patch lengths shown, over the theory's
 GROWTH_RANGE = (-6.0, 4.5)  # 1/s
 FREQUENCY_RANGE = (4.0, 20.0)  # 1/s
@@ -29,14 +28,14 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
     Parameters
     ----------
     table : Dataset
-        On ``run``: ``study``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        On ``run``: ``role``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
         ``stability_length`` (m).
     patches : sequence of Dataset
         In the same order, with ``patch_length`` (m), ``oscillation_growth`` and
         ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.
     twins : Dataset
         On ``twin``: ``law``, ``height``, ``twin_length``, ``theory_length`` (m), ``twin_growth``
-        and ``twin_frequency`` (1/s); those of the aging law are drawn.
+        and ``twin_frequency`` (1/s); those of the usual law are drawn.
 
     Returns
     -------
@@ -75,10 +74,10 @@ class _Colours:
 
 
 def _shown(table: xr.Dataset) -> np.ndarray:
-    """The runs with the aging law and the usual initial state, of the study that is shown."""
-    usual = (table["law"].values.astype(str) == "aging") & (table["phi0"].values == USUAL_AGE)
-    studies = table["study"].values.astype(str)
-    chosen = (np.flatnonzero(usual & (studies == name)) for name in SHOWN)
+    """The runs with the usual law and the usual initial state, of the role that is shown."""
+    usual = laws.usual(table)
+    roles = table["role"].values.astype(str)
+    chosen = (np.flatnonzero(usual & (roles == name)) for name in SHOWN)
     return next((runs for runs in chosen if runs.size), np.flatnonzero(usual))
 
 
@@ -93,8 +92,8 @@ def _draw_patch(
 
 
 def _draw_twins(axes: Axes, twins: xr.Dataset, name: str, colours: _Colours) -> None:
-    """What the twin runs of the aging law measure of the same property."""
-    for i in np.flatnonzero(twins["law"].values.astype(str) == "aging"):
+    """What the twin runs of the usual law measure of the same property."""
+    for i in np.flatnonzero(twins["law"].values.astype(str) == laws.usual_law(twins)):
         axes.plot(
             float(twins["twin_length"][i] / twins["theory_length"][i]), float(twins[name][i]), "o",
             markersize=4.6, markerfacecolor="none", markeredgewidth=1.0,

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from ...figures import style
+from ...model.friction.registry import USUAL_EVOLUTION
 
 PERCENT = 100.0
 GOALS = {"onset_difference": 0.3, "length_difference": 0.5}  # per cent
@@ -35,7 +36,7 @@ REFINED = {
     "tolerance": "tolerance",
 }
 ALONG = {"n_x": "Elements along $x$", "longest_step": r"Longest step $\times V/D$"}
-FAULT = ("kind", "law", "phi0", "height", "strength", "seed")
+FAULT = ("kind", "law", "phi0", "height", "strength", "seed", "fault")
 EVERY_FAULT = "normal_load"  # the kind whose faults are told apart
 
 
@@ -95,11 +96,11 @@ def places(table: xr.Dataset) -> dict[tuple[object, ...], xr.Dataset]:
 
 
 def _name(key: tuple[object, ...], usual_age: object) -> str:
-    """A place in a few words: what sets a fault apart from a height with the aging law."""
+    """A place in a few words: what sets a fault apart from a height with the usual law."""
     if key[0] != EVERY_FAULT:
         return f"all, {KINDS[str(key[0])]}"
     law, age, height = key[1:4]
-    words = [f"{height:g}", *[str(law)] * (law != "aging"), *["older"] * (age != usual_age)]
+    words = [f"{height:g}", *[str(law)] * (law != USUAL_EVOLUTION), *["older"] * (age != usual_age)]
     return " ".join(words)
 
 
@@ -148,7 +149,7 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     sizes: set[float] = set()
     for sequence in _sequences(table, refined):
         first = {name: sequence[name].values[0].item() for name in (*FAULT, "n_x")}
-        alike = first["law"] == "aging" and first["kind"] in ("none", "normal_load")
+        alike = first["law"] == USUAL_EVOLUTION and first["kind"] in ("none", "normal_load")
         if first["height"] not in heights or not alike:
             continue
         marker, colour = LOOKS[heights.index(first["height"])]

@@ -12,21 +12,11 @@ from matplotlib.figure import Figure
 
 from ...analysis.lengths import over_realisations, row
 from ...figures import slip_rate_snapshots, style
-
-USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
-
-
-class Kind(NamedTuple):
-    """How one kind of simulation is drawn, and how the legend calls it."""
-
-    marker: str
-    size: float  # points; other kinds are wider than the usual one, which is drawn upon them
-    colour: str
-    label: str
+from ...figures.laws import Look, aged, looks
 
 
 class Study(NamedTuple):
-    """How the points of one study are filled, and what the legend adds for it."""
+    """How the points of one role are filled, and what the legend adds for them."""
 
     filled: bool
     suffix: str
@@ -35,21 +25,13 @@ class Study(NamedTuple):
 BESIDE = 1.8
 """Points (1/72 inch) by which the bars of filled and open markers stand apart, of one height."""
 
-Series = tuple[Study, str, Kind, xr.Dataset]  # style, legend, marker, entries of the table
+Series = tuple[Study, str, Look, xr.Dataset]  # style, legend, marker, entries of the table
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
 INSET_LEFT, INSET_BOTTOM, INSET_WIDTH = 0.515, 0.1, 0.315
 INSET_HEIGHTS = (0.2, 0.4)
 
-# By evolution law, and by whether the initial state differs from USUAL_AGE.
-KINDS: dict[tuple[str, bool], Kind] = {
-    ("aging", False): Kind("o", 4.6, style.AGING, "aging law"),
-    ("slip", False): Kind("^", 7.2, style.SLIP, "slip law"),
-    ("aging", True): Kind("s", 6.6, style.OLD_AGE, "aging law"),
-    ("slip", True): Kind("v", 7.2, style.SLIP, "slip law"),
-}
-
-# Only the studies named here are drawn; a table of lengths may hold others.
+# By role: only studies with these are drawn; a table of lengths may hold others.
 STUDIES: dict[str, Study] = {
     "paper": Study(filled=True, suffix=""),
     "converged": Study(filled=False, suffix=r", load $\pm 10^{-5}$"),
@@ -71,7 +53,7 @@ def draw(
     theory : Dataset
         With ``critical_length(height)`` and ``thin_limit_length(height)`` (m).
     lengths : Dataset
-        One entry on dimension ``run`` per simulation, with ``study``, ``law``, ``height`` (m),
+        One entry on dimension ``run`` per simulation, with ``role``, ``law``, ``height`` (m),
         ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m); entries without a
         finite length are left out, and realisations of one fault drawn by their mean.
     inset_simulation : Dataset
@@ -79,7 +61,7 @@ def draw(
     inset_row : Dataset
         Its entry of `lengths`, of which ``onset_time`` (s) and ``length`` (m) are marked.
     studies : mapping
-        The studies to draw, by name.
+        The studies to draw, by role.
 
     Returns
     -------
@@ -135,22 +117,21 @@ def _inset_height(axes: Axes, drawn: list[Series]) -> float:
 
 
 def _series(lengths: xr.Dataset, studies: Mapping[str, Study]) -> Iterator[Series]:
-    """The sets of points that share study, law and initial state: style, label and entries."""
+    """The sets of points that share role, law and initial state: style, label and entries."""
     law, phi0 = lengths["law"].values.astype(str), lengths["phi0"].values
-    names = lengths["study"].values.astype(str)
+    roles, old = lengths["role"].values.astype(str), aged(lengths)
     usable = np.isfinite(lengths["length"].values)
-    for name, study in studies.items():
-        for evolution, aged in KINDS:
-            ages = phi0[usable & (names == name) & (law == evolution)]
-            for age in np.unique(ages[~np.isclose(ages, USUAL_AGE) == aged]):
-                chosen = usable & (names == name) & (law == evolution) & (phi0 == age)
-                kind = KINDS[evolution, aged]
-                state = f", $\\phi(t\\!=\\!0)={_number(age)}$ s" if aged else ""
+    for role, study in studies.items():
+        for (evolution, is_old), kind in looks(law).items():
+            own = usable & (roles == role) & (law == evolution) & (old == is_old)
+            for age in np.unique(phi0[own]):
+                chosen = own & (phi0 == age)
+                state = f", $\\phi(t\\!=\\!0)={_number(age)}$ s" if is_old else ""
                 label = f"FEM, {kind.label}{state}{study.suffix}"
                 yield study, label, kind, lengths.isel(run=np.flatnonzero(chosen))
 
 
-def _draw_points(axes: Axes, study: Study, label: str, kind: Kind, runs: xr.Dataset) -> None:
+def _draw_points(axes: Axes, study: Study, label: str, kind: Look, runs: xr.Dataset) -> None:
     """One set of points with error bars from the lowest to the highest length."""
     length = runs["length"].values
     below = np.nan_to_num(length - runs["length_low"].values)
@@ -179,8 +160,6 @@ def _number(value: float) -> str:
     return f"{value:g}"
 
 
-def draw_run(
-    theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str
-) -> Figure:
+def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
     """The step ``draw_figure_3``: with one of the runs in the inset."""
     return draw(theory, lengths, simulation, row(lengths, id))

@@ -18,13 +18,12 @@ import dataclasses
 from typing import Any, ClassVar, NamedTuple, Self, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...types import Array
 from ..quantities import Checked, ParameterError, check, declarations, quantity
 from .evolution import StateEvolution
 from .registry import EVOLUTIONS, LAWS, USUAL_EVOLUTION, USUAL_LAW, law_class, module
-
-Array = NDArray[np.float64]
 
 
 class Expansion(NamedTuple):

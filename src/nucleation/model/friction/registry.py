@@ -15,17 +15,14 @@ import dataclasses
 import importlib
 import os
 import pkgutil
+import traceback
 from collections.abc import Collection, Iterator
 from functools import cache, lru_cache
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..quantities import Quantity, declarations
-
-if TYPE_CHECKING:
-    from ..parameters import Parameters
-    from .law import Friction
+from ..quantities import Checked, ParameterError, Quantity, declarations
 
 USUAL_LAW = "product"
 USUAL_EVOLUTION = "aging"
@@ -74,16 +71,38 @@ EVOLUTIONS = Files("evolutions")
 
 @cache
 def module(package: str, name: str) -> ModuleType:
-    """The module of one law."""
-    return importlib.import_module(f"{package}.{name}")
+    """The module of one law.
+
+    Raises
+    ------
+    ParameterError
+        If its file can't be loaded, naming file and line.
+    """
+    try:
+        return importlib.import_module(f"{package}.{name}")
+    except Exception as error:
+        place, line = _origin(error)
+        raise ParameterError(
+            f"{place}, line {line}: the law {name} can't be loaded: {type(error).__name__}: "
+            f"{getattr(error, 'msg', None) or error}"
+        ) from error
 
 
-def law_class(name: str) -> type[Friction]:
-    """The class of the friction law with a name."""
+def _origin(error: Exception) -> tuple[str, int | None]:
+    """File and line at which a module's loading ended."""
+    if isinstance(error, SyntaxError):
+        return str(error.filename), error.lineno
+    frames = traceback.extract_tb(error.__traceback__)
+    last = [frame for frame in frames if not frame.filename.startswith("<frozen")][-1]
+    return last.filename, last.lineno
+
+
+def law_class(name: str) -> type[Checked]:
+    """The class, of :class:`~nucleation.model.friction.law.Friction`, of the law with a name."""
     return module(LAWS.package, name).Law
 
 
-def plugins(parameters: Parameters | Friction) -> tuple[str, ...]:
+def plugins(parameters: Any) -> tuple[str, ...]:
     """The dotted names of the modules that a run finds by name, and so imports by no statement.
 
     A digest that follows import statements misses them: whoever digests the code of something that
@@ -100,7 +119,7 @@ def plugins(parameters: Parameters | Friction) -> tuple[str, ...]:
     tuple of str
         Module of the friction law, module of its state evolution.
     """
-    friction: Any = getattr(parameters, "friction", parameters)
+    friction = getattr(parameters, "friction", parameters)
     return f"{LAWS.package}.{friction.law}", f"{EVOLUTIONS.package}.{friction.evolution}"
 
 

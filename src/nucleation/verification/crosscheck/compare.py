@@ -8,7 +8,6 @@ front from node to node shakes, begins to tell the two apart.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
@@ -17,21 +16,30 @@ from numpy.typing import NDArray
 
 from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
+from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.lengths import Files, with_csv
 from ...analysis.record import Record
-from ...datasets.variables import DatasetError
-from ...model.parameters import Parameters
-from ...simulation.run import simulate
+from ...datasets.variables import Variable, some, table
 
 Array = NDArray[np.float64]
 SETTLED = 20.0  # start of the comparison, in units of D/V
 BEFORE_ONSET = 0.9  # end of the comparison, as a part of the earlier onset
 INSTANTS = 2000  # at which two records are compared
-COLUMNS = (
-    "id", "height", "n_x", "n_y", "onset_time", "onset_time_freefem", "length", "length_freefem",
-    "patch_length_rms", "patch_length_largest", "patch_length_elements", "driving_force_rms",
-    "driving_force_largest", "step_seconds", "step_seconds_freefem", "steps", "steps_freefem",
-)  # fmt: skip
+COLUMNS = {
+    **some(LENGTHS, "id", "height", "n_x", "n_y", "onset_time"),
+    "onset_time_freefem": Variable("s", "onset of the event, by FreeFem++", "t"),
+    "length": LENGTHS["length"],
+    "length_freefem": Variable("m", "critical nucleation length, by FreeFem++", "L_c"),
+    "patch_length_rms": Variable("1", "relative difference of L(t), root mean square"),
+    "patch_length_largest": Variable("1", "relative difference of L(t), largest"),
+    "patch_length_elements": Variable("1", "largest difference of L(t) over the element's length"),
+    "driving_force_rms": Variable("1", "relative difference of f_d(t), root mean square"),
+    "driving_force_largest": Variable("1", "relative difference of f_d(t), largest"),
+    "step_seconds": Variable("s", "processor time of a step, median"),
+    "step_seconds_freefem": Variable("s", "processor time of a step of FreeFem++, median"),
+    "steps": LENGTHS["steps"],
+    "steps_freefem": Variable("1", "number of time steps of FreeFem++"),
+}
 
 
 def compare(
@@ -41,7 +49,7 @@ def compare(
 
     Parameters
     ----------
-    own, theirs : records of the same run by :func:`simulate_timed` and
+    own, theirs : records of the same run by :func:`.timed.simulate_timed` and
         :func:`nucleation.verification.crosscheck.freefem.run`.
     settings : edge of the patch and drop of the force.
 
@@ -84,14 +92,6 @@ def compare(
     }
 
 
-def simulate_timed(parameters: Parameters) -> xr.Dataset:
-    """The record of the project's own solver, with the processor's ``elapsed_time`` (s)."""
-    elapsed: list[float] = []
-    began = time.process_time()
-    record = simulate(parameters, progress=lambda _: elapsed.append(time.process_time() - began))
-    return record.assign(elapsed_time=("step", elapsed))
-
-
 def _seconds_per_step(record: xr.Dataset) -> float:
     return float(np.median(np.diff(record["elapsed_time"].values)))
 
@@ -103,28 +103,13 @@ def _rms(values: Array) -> float:
 def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:
     """The table of all rows, by the runs' names, on the dimension ``run``."""
     listed: Sequence[dict[str, object]] = [{"id": name, **row} for name, row in rows.items()]
-    return xr.Dataset({name: ("run", [row[name] for row in listed]) for name in COLUMNS})
+    return table(listed, COLUMNS)
 
 
-def own(parameters: Parameters) -> xr.Dataset:
-    """The step ``crosscheck_own``: :func:`simulate_timed`, refused if it is not complete.
-
-    Raises
-    ------
-    DatasetError
-        With the reason.
-    """
-    record = simulate_timed(parameters)
-    if not record.attrs["completed"]:
-        raise DatasetError(f"the run has no result: {record.attrs['status']}")
-    return record
-
-
-def table(
+def files(
     ids: Sequence[str], own: Iterable[xr.Dataset], freefem: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> Files:  # fmt: skip
     """The step ``compare_crosscheck``: each run by both solvers."""
     records = zip(ids, own, freefem, strict=True)
-    rows = {name: compare(first, second, settings) for name, first, second in records}
-    return with_csv(gather(rows), COLUMNS)
+    return with_csv(gather({id: compare(one, other, settings) for id, one, other in records}))

@@ -19,10 +19,12 @@ import numpy as np
 import xarray as xr
 
 from ...analysis.definitions import ExtractionSettings
+from ...datasets.variables import Variable, annotate, some
 from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
 from ...simulation.realisation import Series, Sheet
-from .plan import FIXED, KINDS, CrosscheckSettings
+from ...simulation.recorded import RECORDED
+from .plan import FIXED, KINDS, TIMES, CrosscheckSettings
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # where Debian has them; the program looks elsewhere
@@ -42,10 +44,12 @@ BLOCK, PAIR = "block.edp", "pair.edp"
 """The scripts for a block on a rigid base, and for two blocks."""
 REALISATION = "realisation.txt"  # in the directory of a run
 FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
-COLUMNS = (
-    "step_time", "step_size", "driving_force", "maximal_slip_rate", "newton_iterations",
-    "factorisations", "elapsed_time",
-)  # fmt: skip
+STEPS = {
+    **some(RECORDED, "step_time", "step_size", "driving_force", "maximal_slip_rate"),
+    "newton_iterations": RECORDED["newton_iterations"],
+    "factorisations": Variable("1", "factorised matrices of the step"),
+    **TIMES,
+}
 
 
 class FreeFemError(RuntimeError):
@@ -157,7 +161,7 @@ def run(
 def read(directory: Path, parameters: Parameters) -> xr.Dataset:
     """The records of the FreeFem++ script in a directory as a dataset.
 
-    ``steps.txt`` has one line of :data:`COLUMNS` per step. ``frames.txt`` has for each frame a
+    ``steps.txt`` has one line of :data:`STEPS` per step. ``frames.txt`` has for each frame a
     line with its time (s) and then one line for each of :data:`FIELDS` at the nodes 0..n_x.
 
     Raises
@@ -170,7 +174,7 @@ def read(directory: Path, parameters: Parameters) -> xr.Dataset:
         steps = np.loadtxt(directory / "steps.txt", ndmin=2)
         words = (directory / "frames.txt").read_text(encoding="ascii").split()
         frames = np.array(words, dtype=float).reshape(-1, 1 + len(FIELDS) * nodes)
-        rows = dict(zip(COLUMNS, steps.T, strict=True))
+        rows = dict(zip(STEPS, steps.T, strict=True))
     except (OSError, ValueError) as error:
         raise FreeFemError(f"the records in {directory} can't be read: {error}") from error
     fields = frames[:, 1:].reshape(-1, len(FIELDS), nodes)
@@ -182,7 +186,7 @@ def read(directory: Path, parameters: Parameters) -> xr.Dataset:
         "steps": steps.shape[0],
         "processor_seconds": float(rows["elapsed_time"][-1]),
     }
-    return xr.Dataset(data, coords=coords, attrs=attributes)
+    return annotate(xr.Dataset(data, coords=coords, attrs=attributes), RECORDED | STEPS)
 
 
 def of_run(

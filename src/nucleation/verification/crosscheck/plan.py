@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 
+from ...datasets.variables import Variable
 from ...model.linearised import InterfaceState
 from ...model.material import Material
 from ...model.parameters import Parameters
@@ -23,6 +24,9 @@ KINDS = ("none", *IN_TIME)
 
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
 PAIR = "pair"  # name of the run of two blocks
+
+TIMES = {"elapsed_time": Variable("s", "processor time since the start of the run")}
+"""What either solver's record has of its cost."""
 
 
 @dataclasses.dataclass(frozen=True)

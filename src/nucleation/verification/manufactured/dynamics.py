@@ -18,7 +18,6 @@ import dataclasses
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
 from ...fem.block import Block
@@ -32,10 +31,9 @@ from ...simulation.interface import Interface, InterfaceSolution, Past, Solver
 from ...simulation.state import State
 from ...simulation.step import Dynamics, StepReport
 from ...stepping.scheme import BDF
+from ...types import Array
 from .fields import Displacement, Term
 from .loads import Loads
-
-Array = NDArray[np.float64]
 
 NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
 

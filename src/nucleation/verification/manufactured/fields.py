@@ -6,11 +6,10 @@ import dataclasses
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ...model.material import Material
-
-Array = NDArray[np.float64]
+from ...types import Array
 
 
 class Factor(Protocol):

@@ -7,13 +7,11 @@ elements themselves.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...fem.field import Field
 from ...fem.grid import Grid
+from ...types import Array
 from .fields import Displacement
-
-Array = NDArray[np.float64]
 
 POINTS = 4  # Gauss points per element and direction
 

@@ -9,7 +9,6 @@ it: y goes up from the interface and u_y with it.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...fem.bodies import body_of
 from ...fem.field import Field, Motion
@@ -18,11 +17,10 @@ from ...model.parameters import Parameters
 from ...simulation.state import State
 from ...simulation.step import Dynamics
 from ...stepping.scheme import BDF
+from ...types import Array
 from .dynamics import ManufacturedFriction, block_field
 from .fields import Displacement, Term
 from .loads import Loads
-
-Array = NDArray[np.float64]
 
 
 class ManufacturedPair(ManufacturedFriction):

@@ -1,0 +1,176 @@
+"""What studies are for: the roles that figures, tables and verdicts ask for, and what each needs.
+
+A study says its role in its section of the configuration; names are the user's, and say nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from ..model.parameters import Parameters
+from .settings import FigureSettings
+
+Run = Any
+"""Of :mod:`.runs`, which knows this module."""
+
+OWN = "own"
+
+
+class Need(NamedTuple):
+    """What a role asks of a key of the study, or of a parameter of each of its runs."""
+
+    name: str
+    allowed: Callable[[Any], bool]
+    words: str  # what it must be
+
+
+LENGTHS = Need("table", "lengths".__eq__, "lengths")
+STABILITY = Need("measure", "stability".__eq__, "stability")
+BATCHES = Need("runs_per_job", (1).__lt__, "more than 1")
+INTERFACE = Need("record", lambda level: level != "lengths", "interface or everything")
+QUIET = Need("perturbation", "none".__eq__, "none")
+PAIR = Need("second_body", "deformable".__eq__, "deformable")
+
+
+class Role(NamedTuple):
+    """What studies with a role are for, and what they need for it."""
+
+    purpose: str
+    several: bool = False  # whether studies may share it
+    one_by_one: bool = True  # whether other results are made of its simulations one by one
+    study: tuple[Need, ...] = ()
+    runs: tuple[Need, ...] = ()
+    heights: tuple[str, ...] = ()  # keys of the section figures: of each height a run is shown
+    usual: bool = False  # whether that run has the configuration's own evolution law and state
+
+
+ROLES = {
+    OWN: Role("a study of your own: lengths, a figure, its part of the report", True, False),
+    "paper": Role(
+        "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts", study=(LENGTHS,),
+        runs=(INTERFACE,), heights=("inset_height", "space_time_height"), usual=True,
+    ),
+    "converged": Role(
+        "the runs on which verdicts about lengths stand", study=(LENGTHS,), runs=(INTERFACE,),
+    ),
+    "long_blocks": Role(
+        "those in longer blocks, for the claim that the length plays no role", several=True,
+        runs=(INTERFACE,),
+    ),
+    "noisy": Role("a stronger perturbation, for the band of `figure_3_extended`", False, False),
+    "patch_convergence": Role("refined runs whose patches are followed", several=True),
+    "quiet": Role(
+        "unperturbed runs whose modes give the law of the drop", several=True, runs=(QUIET,)
+    ),
+    "drop": Role("declared perturbations, for `figure_drop`", True, False),
+    "map": Role("heights and weakenings, for `figure_map`", False, False, (STABILITY, BATCHES)),
+    "twin_runs": Role("runs that are kicked, for `figure_patch_stability`", True, False),
+    "convergence": Role("mesh and steps refined, for `figure_convergence`", True, False),
+    "convergence_quiet": Role(
+        "the same without a perturbation, for hops and the noise of meshes", several=True,
+        runs=(QUIET,), heights=("space_time_height",),
+    ),
+    "sensitivity": Role("one parameter changed at a time; the first run of a height is the base"),
+    "pairs": Role("two deformable bodies, for the table of pairs", several=True, runs=(PAIR,)),
+    "pairs_identical": Role(
+        "the same, identical blocks, for `figure_pairs`", several=True, runs=(PAIR,)
+    ),
+    "figure_2_simulated": Role(
+        "the same, half-spaces in contrast, for `figure_2_simulated`", several=True, runs=(PAIR,)
+    ),
+}  # fmt: skip
+"""All roles, by name."""
+
+PAIRS = ("pairs", "pairs_identical", "figure_2_simulated")
+"""Roles of studies in the table of pairs."""
+
+REFINEMENTS = ("convergence", "convergence_quiet")
+"""Roles of studies in the table of refinement."""
+
+
+def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
+    """The run of a height (m) with the configuration's own evolution law and initial state."""
+    usual = {
+        "height": height,
+        "law": base.friction.evolution,
+        "phi0": base.loading.initial_state,
+    }
+    return next((run for run in runs if usual.items() <= run.labels.items()), None)
+
+
+def role_problems(
+    studies: Mapping[str, Any],
+    runs: Sequence[Run],
+    figures: FigureSettings,
+    base: Parameters,
+) -> Iterator[str]:
+    """What studies lack for their roles, a line for each, with key, value and what it must be."""
+    having: dict[str, str] = {}
+    for name, settings in studies.items():
+        first = having.setdefault(settings.role, name)
+        if first != name and not ROLES[settings.role].several:
+            yield (
+                f"studies.{name}.role = {settings.role} is not allowed: studies.{first} has it, "
+                "and it must be one study's alone"
+            )
+        own = [run for run in runs if run.study == name]
+        yield from _problems(name, settings.role, settings, own)
+        yield from _not_shown(name, settings.role, own, figures, base)
+
+
+def _problems(name: str, role: str, settings: Any, runs: Sequence[Run]) -> Iterator[str]:
+    """What a study and its runs have that does not go with a role."""
+    given = [(f"studies.{name}.{n.name}", n, getattr(settings, n.name)) for n in ROLES[role].study]
+    for need in ROLES[role].runs:
+        bad = next((run for run in runs if not need.allowed(run.value(need.name))), None)
+        if bad is not None:
+            given.append((f"studies.{name}: {bad.id}: {need.name}", need, bad.value(need.name)))
+    for key, need, value in given:
+        if not need.allowed(value):
+            yield (f"{key} = {value} is not allowed with role = {role}: it must be {need.words}")
+
+
+def _not_shown(
+    name: str, role: str, runs: Sequence[Run], figures: FigureSettings, base: Parameters
+) -> Iterator[str]:
+    """The heights of which figures show a run that a study does not have."""
+    for key in ROLES[role].heights:
+        height = getattr(figures, key)
+        if ROLES[role].usual:
+            found = shown(runs, height, base) is not None
+            which = f", law = {base.friction.evolution}, phi0 = {base.loading.initial_state:g} s"
+        else:
+            found, which = any(run.value("height") == height for run in runs), ""
+        if not found:
+            yield (
+                f"studies.{name}.role = {role} needs a run with height = {height:g} m{which}: "
+                f"figures.{key} names it"
+            )
+
+
+def forgotten(values: Mapping[str, Any], settings: Any) -> list[str]:
+    """A warning about studies that went by their names, if no study says a role.
+
+    Parameters
+    ----------
+    values : as it stands in the file.
+    settings : the same, checked.
+    """
+    if any("role" in study for study in values["studies"].values()):
+        return []
+    found = []
+    for name, study in settings.studies.items():
+        role = "convergence" if name.startswith("convergence_") and name not in ROLES else name
+        runs = settings.runs_of(name)
+        if role in ROLES and not [
+            *_problems(name, role, study, runs),
+            *_not_shown(name, role, runs, settings.figures, settings.base),
+        ]:
+            found.append(f"role: {role} in studies.{name}")
+    if not found:
+        return []
+    return [
+        "names of studies say no longer what they are for (docs/studies.md): it takes "
+        f"{', '.join(found)}; or role: {OWN}, if they are studies of your own"
+    ]

@@ -1,0 +1,92 @@
+"""The modes of the elastic block: its finite-element equations separate exactly along x.
+
+The displacement is ``u_x = V t + w_x`` and ``u_y``, with ``w_x = 0`` on the left edge. On a grid
+that is uniform along x the matrices of bilinear elements are sums of Kronecker products of
+one-dimensional matrices, and with ``theta_m = (m + 1/2) pi / n_x``
+
+    w_x(x_i) = sum_m W_m sin(theta_m i),  i = 1..n_x       (free of sigma_xx at the right edge)
+    u_y(x_i) = sum_m U_m cos(theta_m i),  i = 0..n_x - 1   (zero at the right edge)
+
+the modes decouple; each is a block-tridiagonal system along y. The paper's right edge is free of
+sigma_xy as well, so the n_y values ``e_j = u_y(L, y_j)`` are unknowns of their own that couple to
+all modes. They are eliminated by their Schur complement, so that the result is that of the
+assembled matrix to round-off (tests/fem/test_block.py).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import fft
+
+from ..model.material import Material
+from ..types import Array
+from .field import Field
+from .grid import Grid
+from .separable import SeparableBody
+
+
+class BlockModes(SeparableBody):
+    """One deformable rectangular block on the interface y = 0: its mesh, material and modes."""
+
+    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
+        theta = (np.arange(grid.n_x) + 0.5) * np.pi / grid.n_x
+        self._alternating = (-1.0) ** np.arange(grid.n_x)
+        # int chi w', int chi' w and the nodal value next to the edge, chi the edge's hat function
+        edge_weights = self._alternating * np.array(
+            [np.sin(theta / 2.0) ** 2, np.cos(theta / 2.0) ** 2, np.sin(theta)]
+        )
+        x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
+        super().__init__(grid, material, theta, x_integral, edge_weights, far_side)
+
+    @property
+    def no_memory(self) -> Array:
+        """What it remembers before its first step: no error of the right edge's prediction."""
+        return np.array(np.inf)
+
+    def sine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
+        n = self.grid.n_x
+        # the inverse transform weighs the last node by one half, and type 3 counts it once
+        return fft.dst(nodal, type=3) / n
+
+    def sine_values(self, amplitudes: Array) -> Array:
+        """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""
+        return 0.5 * fft.dst(amplitudes, type=2)
+
+    def cosine_values(self, amplitudes: Array) -> Array:
+        """Nodal values at i = 0..n_x - 1 (last axis) of cosine amplitudes."""
+        return 0.5 * fft.dct(amplitudes, type=2)
+
+    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+        """Nodal forces whose generalised forces per mode are ``modal * n_x/2``, (2, ..., n_x).
+
+        Along x at i = 1..n_x and along y at i = 0..n_x - 1. Both transforms are done in one: with
+        alternating signs, the cosines in reversed order are the sines.
+        """
+        modal = np.array(modal)
+        modal[0] *= self._alternating
+        forces = fft.dct(modal, type=2, overwrite_x=True)
+        forces *= 0.5
+        tangential, normal = forces[0, ..., ::-1], forces[1]
+        tangential[..., -1] *= 0.5  # half of an element belongs to the last node
+        normal[..., 0] *= 0.5  # and to the first one
+        return tangential, normal
+
+    def top_load(self, normal_stress: float) -> Field:
+        """Nodal forces of the compressive stress (Pa) on the top, per mode times 2/n_x (N/m)."""
+        load = self.zero_field()
+        n = self.grid.n_x
+        forces = -normal_stress * self.grid.nodal_lengths
+        full = np.array(forces[:-1])
+        # sum_i F_i cos(theta_m i): scipy's type 3 counts the first entry once, others twice
+        full[0] *= 2.0
+        load.modes[-1, 1] = fft.dct(full, type=3) / n
+        load.edge[-1] = forces[-1]
+        return load
+
+    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+        """Nodal w_x and u_y, each of shape (n_y + 1, n_x + 1)."""
+        left = np.zeros((self.grid.n_y + 1, 1))
+        x = np.hstack((left, self.sine_values(field.modes[:, 0])))
+        y = np.hstack((self.cosine_values(field.modes[:, 1]), field.edge[:, None]))
+        return x, y

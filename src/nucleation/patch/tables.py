@@ -1,0 +1,76 @@
+"""Tables of what is read from the patches of many runs: their stability, and the kicks of twins."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import xarray as xr
+
+from ..analysis.lengths import COLUMNS, Files, description, with_csv
+from ..analysis.rows import RATIO_COLUMNS
+from ..datasets.variables import Variable, some, table
+from . import twins
+from .growth import FITTED
+
+STABILITY = {
+    **some(
+        COLUMNS, "id", "study", "role", "law", "height", "phi0", "n_x", "n_y", "grading",
+        "tolerance", "longest_step",
+    ),
+    **FITTED,
+    "theory_length": COLUMNS["theory_length"],
+    "stability_ratio": RATIO_COLUMNS["stability_ratio"],
+    "stability_change": Variable("1", "L_s over that of the converged run, minus one"),
+    "fault": COLUMNS["fault"],
+}  # fmt: skip
+
+TWINS = {
+    **some(COLUMNS, "id", "law", "height", "phi0", "n_x", "n_y"),
+    **twins.MEASURED,
+    **some(COLUMNS, "theory_length", "fault"),
+}
+
+
+def gather_stability(
+    runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset], reference: str = "converged"
+) -> xr.Dataset:
+    """:data:`STABILITY` on ``run``: the lengths at which the frozen patches turn unstable.
+
+    Parameters
+    ----------
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
+    patches : of :func:`.growth.follow_patch`, in the same order.
+    reference : the role with whose run of the same fault each run is compared:
+        ``stability_change`` is the length over that run's, minus one, NaN without one.
+    """
+    rows = [
+        description(run) | {name: float(patch[name]) for name in FITTED}
+        for run, patch in zip(runs, patches, strict=True)
+    ]
+    compared = {row["fault"]: row["stability_length"] for row in rows if row["role"] == reference}
+    for row in rows:
+        value = compared.get(row["fault"], float("nan"))
+        row["stability_ratio"] = row["stability_length"] / row["theory_length"]
+        row["stability_change"] = row["stability_length"] / value - 1.0
+    return table(rows, STABILITY)
+
+
+def gather_twins(runs: Iterable[dict[str, Any]], datasets: Iterable[xr.Dataset]) -> xr.Dataset:
+    """:data:`TWINS` on ``twin``: all kicks, with the runs that they belong to."""
+    rows = [
+        description(run) | {name: float(found[name][i]) for name in twins.MEASURED}
+        for run, found in zip(runs, datasets, strict=True)
+        for i in range(found.sizes["twin"])
+    ]
+    return table(rows, TWINS, "twin")
+
+
+def stability_files(runs: list[dict[str, Any]], patches: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_patches``: :func:`gather_stability`, with its CSV."""
+    return with_csv(gather_stability(runs, patches))
+
+
+def twin_files(runs: list[dict[str, Any]], twins: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_twins``: :func:`gather_twins`, with its CSV."""
+    return with_csv(gather_twins(runs, twins))

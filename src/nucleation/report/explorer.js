@@ -1,0 +1,144 @@
+"use strict";
+// The theory's curve, by the values of the controls, and the measured lengths.
+const heights = data.heights;
+const [lowest, highest] = [heights[0], heights[heights.length - 1]];
+const HEIGHT = { key: "H", factor: 1, low: lowest, high: highest, log: true, value: data.start };
+const controls = [...data.controls, HEIGHT].map((control) => makeControl(control, showTheory));
+const plot = element("theory-plot");
+
+// A second block is as high as the first, and has its Poisson's ratio.
+function secondBody(p) {
+  const [farSide, contrast] = [element("below").value, Number(element("contrast").value)];
+  return farSide && contrast > 0 ? { mu: p.mu * contrast, nu: p.nu, heightRatio: 1, farSide } : undefined;
+}
+
+function parameters() {
+  const p = Object.fromEntries(controls.map((control) => [control.key, control.si()]));
+  return { ...p, second: secondBody(p) };
+}
+
+function curves(p) {
+  const solve = Theory.solver(p);
+  return {
+    length: heights.map((height) => solve(height).length),
+    thin: heights.map((height) => Theory.thinLength(height, p)),
+  };
+}
+
+// Figure 3's colours that would vanish on a dark screen.
+const BRIGHTER = { "#000000": "#ececec", "#6B3E12": "#c98d4b", "#D55E00": "#ff9248" };
+
+function pointTraces() {
+  return data.points.map((series) => ({
+    name: series.label,
+    x: series.height,
+    y: series.length,
+    error_y: {
+      type: "data",
+      symmetric: false,
+      array: series.length.map((v, i) => Math.max(series.length_high[i] - v, 0)),
+      arrayminus: series.length.map((v, i) => Math.max(v - series.length_low[i], 0)),
+      thickness: 1,
+      width: 3,
+    },
+    customdata: series.id.map((id, i) => [
+      id, series.length_low[i], series.length_high[i], series.onset_time[i],
+      series.length[i] / series.theory_length[i],
+    ]),
+    hovertemplate: "<b>%{customdata[0]}</b><br>H = %{x:.4g} m<br>L<sub>c</sub> = %{y:.4g} m "
+      + "(%{customdata[1]:.3g} to %{customdata[2]:.3g})<br>%{customdata[4]:.3g} of the theory"
+      + "<br>onset at %{customdata[3]:.4g} s<extra></extra>",
+    mode: "markers",
+    marker: {
+      symbol: series.symbol + (series.filled ? "" : "-open"),
+      size: 9,
+      color: (dark.matches && BRIGHTER[series.colour]) || series.colour,
+    },
+  }));
+}
+
+function line(name, y, style, more = {}) {
+  const hovertemplate = "H = %{x:.4g} m<br>L<sub>c</sub> = %{y:.4g} m<extra>%{fullData.name}</extra>";
+  return { name, x: heights, y, mode: "lines", line: style, hovertemplate, ...more };
+}
+
+function theoryLayout() {
+  const linear = element("linear").checked;
+  const type = linear ? "linear" : "log";
+  const end = data.linear; // of the linear axes
+  const seen = heights.map((height, i) => (height <= end ? plotted.length[i] : 0));
+  const shown = data.points.flatMap((series) => series.length_high);
+  const top = 1.15 * Math.max(...seen, ...shown);
+  const ticks = linear ? {} : { dtick: "D2" };
+  const ranges = linear ? [[0, end], [0, top]] : [data.seen.map(Math.log10)];
+  return layout({
+    title: heading("Critical nucleation length L<sub>c</sub> (m)"),
+    xaxis: axis("Height of the block H (m)", { type, range: ranges[0], ...ticks }),
+    yaxis: axis("", { type, ...ticks, ...(linear ? { range: ranges[1] } : { autorange: true }) }),
+    legend: legend(),
+    uirevision: type,
+  });
+}
+
+let plotted = { length: [], thin: [] };
+const configured = curves(data.base);
+
+// The theory of each fault, where there are several.
+const own = data.faults.filter((fault) => fault.values.zeta > 0).slice(0, 12)
+  .map((fault) => ({ ...fault, length: curves(fault.values).length }));
+
+function ownTraces() {
+  return own.map(({ label, length, colour }) =>
+    line(`theory, ${label}`, length, { color: (dark.matches && BRIGHTER[colour]) || colour, width: 1.2 }));
+}
+
+function drawTheory() {
+  const p = parameters();
+  const refused = controls.map((control) => control.refused).filter(Boolean);
+  plotted = curves(p);
+  if (refused.length) plotted = { length: heights.map(() => null), thin: heights.map(() => null) };
+  const blue = colour("theory");
+  const at = Theory.solver(p)(p.H);
+  const traces = [
+    line("theory, as configured", configured.length, { color: colour("soft"), width: 1, dash: "dot" }),
+    line("theory, H k → 0", plotted.thin, { color: blue, width: 1.3, dash: "dash" }),
+    line("theory", plotted.length, { color: blue, width: 2.5 }),
+    { name: "values below", ...cross(p.H, refused.length ? null : at.length, blue) },
+    ...ownTraces(),
+    ...pointTraces(),
+  ];
+  Plotly.react(plot, traces, theoryLayout(), SETTINGS);
+  showValues("values", refused.length ? [[`No values: ${refused.join("; ")}`, ""]] : values(p, at));
+}
+
+function values(p, at) {
+  return [
+    ["Critical length L<sub>c</sub>", `${at.length.toPrecision(5)} m`],
+    ["Critical wavenumber k<sub>c</sub>", `${at.wavenumber.toPrecision(5)} rad/m`],
+    ["Angular frequency ω", `${at.frequency.toPrecision(5)} rad/s`],
+    ["L<sub>c</sub> for H k → 0, Eq. (11)", `${Theory.thinLength(p.H, p).toPrecision(5)} m`],
+  ];
+}
+
+let waiting = false; // several inputs between two frames of the screen are drawn once
+function showTheory() {
+  if (waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    waiting = false;
+    drawTheory();
+  });
+}
+
+element("controls").addEventListener("submit", (event) => event.preventDefault());
+element("linear").addEventListener("change", showTheory);
+element("below").addEventListener("change", showTheory);
+element("contrast").addEventListener("input", showTheory);
+element("reset").addEventListener("click", () => {
+  controls.forEach((control) => control.reset());
+  [element("below").value, element("contrast").value] = ["", "1"];
+  showTheory();
+});
+drawTheory();
+redrawn.push(drawTheory);
+element("js-plotly-tester").setAttribute("aria-hidden", "true"); // Plotly measures texts in it

@@ -1,0 +1,130 @@
+"""What studies are for: roles with their requirements, and names that say nothing."""
+
+import copy
+import re
+
+import pytest
+from configurations import CONFIG, PAPER, assert_one_problem, study
+
+from nucleation.configuration.load import configure, load
+from nucleation.configuration.roles import OWN, PAIRS, REFINEMENTS, ROLES, forgotten
+from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.figures import catalogue
+
+TALL = {"height": 0.1}
+DOCS = CONFIG.parent / "docs" / "studies.md"
+
+
+def two(role):
+    own = {"role": role, "runs": [TALL]}
+    return {"studies": {"one": own, "other": {**own, "runs": [TALL | {"phi0": 2.0}]}}}
+
+
+BAD = {
+    "unknown": (study(TALL, role="maps"), ["studies.s.role = 'maps'", "one of own, paper"]),
+    "lengths, one by one": (
+        study(TALL, role="map", runs_per_job=2),
+        ["studies.s.measure = lengths is not allowed with role = map: it must be stability"],
+    ),
+    "one run per job": (
+        study(TALL, role="map", measure="stability"),
+        ["studies.s.runs_per_job = 1 is not allowed with role = map: it must be more than 1"],
+    ),
+    "a table of its own": (
+        study(TALL, role="converged", table="own"),
+        ["studies.s.table = own is not allowed with role = converged: it must be lengths"],
+    ),
+    "less than the interface": (
+        study(TALL | {"record": "lengths"}, role="converged"),
+        ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "interface or every"],
+    ),
+    "perturbed": (
+        study(TALL, TALL | {"perturbation": "state", "strength": 1e-3}, role="quiet"),
+        ["perturbation = state is not allowed with role = quiet: it must be none"],
+    ),
+    "one body": (
+        study(TALL, role="pairs"),
+        ["second_body = rigid is not allowed with role = pairs: it must be deformable"],
+    ),
+    "not the height of a figure": (
+        study(TALL, role="paper"),
+        ["studies.s.role = paper needs a run with height = 0.005 m, law = aging, phi0 = 1 s",
+         "figures.space_time_height"],
+    ),
+    "not its state": (
+        study({"height": 0.005, "phi0": 3.0}, TALL, role="paper"), ["height = 0.005 m, law"],
+    ),
+    "not the height of the hops": (
+        study(TALL, role="convergence_quiet"), ["role = convergence_quiet needs a run with height"],
+    ),
+    "two maps": (
+        {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",
+                            "runs": [TALL]} for name in ("one", "other")}},
+        ["studies.other.role = map is not allowed: studies.one has it"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("config", "fragments"), BAD.values(), ids=BAD.keys())
+def test_what_a_role_needs_is_asked_for(config, fragments):
+    assert_one_problem(config, fragments)
+
+
+@pytest.mark.parametrize("role", [name for name, role in ROLES.items() if role.several])
+def test_roles_that_several_studies_may_share(role):
+    entry = {"height": 0.005} | ({"second_body": "deformable"} if role in PAIRS else {})
+    own = {"role": role, "runs": [entry]}
+    settings = configure({"studies": {"one": own, "other": copy.deepcopy(own)}})
+    assert settings.studies_for(role) == ["one", "other"]
+    assert [run.study for run in settings.runs_for(role)] == ["one", "other"]
+    assert {run.to_dict()["role"] for run in settings.runs} == {role}
+
+
+@pytest.mark.parametrize("name", [*ROLES, "convergence_mine"])
+def test_a_name_says_nothing(name):
+    settings = configure({"studies": {name: {"runs": [TALL]}}})
+    assert settings.studies_for(OWN) == [name]
+    assert settings.studies_for(*(role for role in ROLES if role != OWN)) == []
+
+
+def test_names_can_be_any():
+    """The paper's configuration with its studies called by letters: the same roles and runs."""
+    renamed = copy.deepcopy(PAPER)
+    names = dict(zip(renamed["studies"], map("s{:02d}".format, range(99)), strict=False))
+    renamed["studies"] = {names[name]: own for name, own in renamed["studies"].items()}
+    before, after = configure(PAPER), configure(renamed)
+    for role in ROLES:
+        assert after.studies_for(role) == [names[name] for name in before.studies_for(role)]
+    assert [run.parameters for run in after.runs] == [run.parameters for run in before.runs]
+    assert after.shown(0.1).study == names["paper"]
+
+
+def test_figures_stand_on_roles_that_there_are():
+    asked = {role for entry in catalogue.FIGURES.values() for role in entry.roles}
+    assert asked | {*PAIRS, *REFINEMENTS} <= set(ROLES)
+    found = {own.role for own in load(CONFIG / "quick.yaml").studies.values()}
+    assert catalogue.drawable(found) == list(catalogue.FIGURES)
+
+
+def test_configuration_of_earlier_versions_is_told_of_roles():
+    values = read_yaml(CONFIG / "quick.yaml")
+    settings = configure(values)
+    assert forgotten(values, settings) == []
+    old = copy.deepcopy(values)
+    roles = {name: own.pop("role") for name, own in old["studies"].items()}
+    (line,) = forgotten(old, configure(old))
+    told = re.findall(r"role: (\w+) in studies\.(\w+)", line)
+    assert {name: role for role, name in told} == roles
+    old["studies"]["map"]["role"] = OWN
+    assert forgotten(old, configure(old)) == []
+
+
+def test_a_name_whose_study_could_not_have_the_role_is_not_told_of():
+    values = {"studies": {"map": {"runs": [TALL]}, "granite": {"runs": [TALL | {"phi0": 2.0}]}}}
+    assert forgotten(values, configure(values)) == []
+
+
+def test_page_has_every_role():
+    page = DOCS.read_text("utf-8")
+    for name, role in ROLES.items():
+        assert f"| `{name}` | {role.purpose} |" in page, name

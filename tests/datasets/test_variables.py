@@ -1,0 +1,79 @@
+"""Variables are declared once, where they are made, and no dataset depends on another's."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from declared import VARIABLES, declarations
+
+from nucleation.analysis import lengths
+from nucleation.datasets.variables import DatasetError, Variable, annotate, require_annotated, table
+from nucleation.pipeline import code
+
+RECORDED = "nucleation.simulation.recorded"
+CROSSCHECK = "nucleation.verification.crosscheck"
+COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
+TEXTS = {
+    "id", "study", "law", "friction_law", "below", "far_side", "kind", "initial_stress", "status",
+    "problem", "refinement", "varied", "variation", "fault", "ensemble",
+}  # fmt: skip
+
+
+def test_every_variable_is_described():
+    assert len(VARIABLES) > 100
+    for name, entry in VARIABLES.items():
+        assert entry.long_name, name
+        assert entry.units or name in TEXTS, name
+
+
+def test_a_name_means_the_same_wherever_it_is_declared():
+    for place, own in declarations().items():
+        for name, entry in own.items():
+            assert entry == VARIABLES[name], (place, name)
+
+
+@pytest.mark.parametrize(
+    ("root", "known"),
+    [
+        ("nucleation.simulation.run", {RECORDED}),
+        ("nucleation.patch.growth", {RECORDED, "nucleation.patch.growth"}),
+        ("nucleation.patch.mode_history", {RECORDED, "nucleation.patch.mode_history"}),
+        ("nucleation.patch.twins", {RECORDED, "nucleation.patch.twins"}),
+        (f"{CROSSCHECK}.timed", {RECORDED, f"{CROSSCHECK}.plan"}),
+        (f"{CROSSCHECK}.freefem", {RECORDED, f"{CROSSCHECK}.plan", f"{CROSSCHECK}.freefem"}),
+    ],
+)
+def test_no_column_of_a_table_is_in_the_key_of_a_costly_dataset(root, known):
+    files = code.closure(root, *code.ALWAYS)
+    declaring = {module for module, _ in declarations()}
+    assert {module for module in declaring if code._file(module) in files} == known
+
+
+def test_a_table_has_its_columns_in_their_order():
+    found = table([{"length": 1.0, "id": "a", "other": 3}, {"length": 2.0, "id": "b"}], COLUMNS)
+    assert list(found.data_vars) == ["id", "length"] and found.sizes == {"run": 2}
+    assert found["length"].attrs == {"units": "m", "long_name": "its length", "symbol": "L"}
+    assert found["id"].attrs == {"long_name": "name"}
+    require_annotated(found)
+    assert lengths.to_csv(found) == "id,length\na,1.0\nb,2.0\n"
+    require_annotated(table([], COLUMNS, "twin"))
+
+
+def test_a_column_that_is_not_computed_is_named():
+    with pytest.raises(DatasetError, match=r"not computed: \['length'\]"):
+        table([{"id": "a", "length": 1.0}, {"id": "b"}], COLUMNS)
+
+
+def test_annotating_leaves_the_original_and_the_others_alone():
+    bare = xr.Dataset({"length": ("run", [1.0]), "other": ("run", np.ones(1))})
+    found = annotate(bare, COLUMNS)
+    assert found["length"].attrs["units"] == "m" and found["other"].attrs == {}
+    assert bare["length"].attrs == {}
+    with pytest.raises(DatasetError, match=r"\['other'\]"):
+        require_annotated(found)
+    require_annotated(found.drop_vars("other"))
+
+
+def test_joined_tables_say_what_their_columns_are():
+    first, second = (table([{"id": name, "length": 1.0}], COLUMNS) for name in "ab")
+    joined = lengths.join([first.assign_attrs(key="1"), second])
+    assert joined["length"].attrs == first["length"].attrs and joined.attrs == {}

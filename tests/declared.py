@@ -1,0 +1,27 @@
+"""What all modules declare of their datasets' variables."""
+
+import importlib
+import inspect
+import pkgutil
+
+from nucleation.datasets.variables import Variable
+
+WINGS = ("datasets", "simulation", "analysis", "patch", "theory", "verification")
+
+
+def declarations():
+    """Mappings of names to variables by module and name of the mapping."""
+    found = {}
+    for wing in WINGS:
+        package = importlib.import_module(f"nucleation.{wing}")
+        for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+            imported = importlib.import_module(module.name)
+            if "Variable(" not in inspect.getsource(imported):
+                continue  # it has what others declare
+            for name, value in vars(imported).items():
+                if isinstance(value, dict) and any(isinstance(v, Variable) for v in value.values()):
+                    found[module.name, name] = value
+    return found
+
+
+VARIABLES = {name: entry for own in declarations().values() for name, entry in own.items()}
