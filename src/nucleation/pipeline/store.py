@@ -118,6 +118,13 @@ class Store:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]
 
+    def is_wrong(self, key: str) -> bool:
+        """Whether there is an entry that is not right, at this moment."""
+        try:
+            return self.entry(key).exists() and not read_note(self.entry(key))
+        except StoreError:
+            return True
+
     def listed(self) -> list[str]:
         """Keys of all entries, right or not."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
@@ -181,8 +188,11 @@ class Store:
             read_note(self.entry(key))
             return
         self.set_aside(key)
-        with contextlib.suppress(OSError):  # if one has appeared this very moment
+        try:
             place.rename(self.entry(key))
+        except OSError:
+            if not self.entry(key).exists():  # else one has appeared this very moment
+                raise
         flush(self.directory)
         self._known.pop(key, None)
 
@@ -199,6 +209,7 @@ class Store:
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that half of one is never found."""
         gone = self.directory / f".{key}.removed.tmp"
+        shutil.rmtree(gone, ignore_errors=True)  # left by a process that was killed here
         self.entry(key).rename(gone)
         shutil.rmtree(gone)
 
