@@ -51,8 +51,9 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.steps import Steps
-from nucleation.pipeline.store import StoreError, others
+from nucleation.pipeline.elsewhere import others
+from nucleation.pipeline.steps import LINKS, Steps
+from nucleation.pipeline.store import StoreError
 from nucleation.pipeline.targets import default_target
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
@@ -64,12 +65,13 @@ if "studies" not in config:
 
 
 try:
+    provenance.moment()
     settings = configure(config)
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
-    provenance.moment()
-    others()  # the stores that the environment names can be used
+    if "NUCLEATION_WARNED" not in os.environ:  # a job on a node that lacks a disk goes on
+        others()  # the stores that the environment names can be used
 except (ParameterError, StoreError, DatasetError) as error:
     print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about
     raise WorkflowError("the workflow can't be used like this, see above") from None
@@ -161,7 +163,7 @@ for _target in TARGETS:
             _target
         default_target: _target == DEFAULT
         input:
-            lambda wildcards, target=_target: [*wanted(target)],
+            lambda wildcards, target=_target: asked(target),
         localrule: True
         params:
             shown=lambda wildcards, target=_target: shown(target),
@@ -173,3 +175,8 @@ for _target in TARGETS:
             TARGETS[_target][0]
         script:
             "workflow/scripts/show.py"
+
+
+# What the logger plug-in counts (src/snakemake_logger_plugin_nucleation); else it is not shown.
+onstart:
+    logger.info("", extra={"simulations": {"results": RESULTS, "jobs": to_simulate(ASKED)}})

@@ -7,6 +7,7 @@ import pytest
 from nucleation.claims.claim import Cause, Claim, Result, Verdict, judge
 from nucleation.claims.said import (
     FORMULA_TOLERANCE,
+    REASONED,
     WIDEST_ALLOWANCE,
     WORDS,
     Missing,
@@ -122,9 +123,21 @@ def test_uncertain_formula_and_far_reaching_bound_say_so():
     verdict, reason = judge(formula(1.0), Result(Ours.within(1.0, 0.01)))
     assert (verdict, reason) == (Verdict.UNCHECKED, "Our number is known to 0.01 only.")
     verdict, reason = judge(below(1.0), Result(Ours.between(0.9, 0.8, 1.1)))
-    assert verdict == Verdict.REPLICATED and "Its range reaches further." in reason
+    assert verdict == Verdict.REPLICATED
+    assert "Its range reaches across the bound, 1." in reason
+    verdict, reason = judge(below(1.0), Result(Ours.between(1.05, 0.9, 1.1)))
+    assert verdict == Verdict.NOT_REPLICATED and "across the bound, 1." in reason
     verdict, reason = judge(below(1.0), Result(Ours.between(0.9, 0.8, 0.95)))
     assert "reaches" not in reason
+
+
+def test_words_whose_reading_is_ours_are_not_supported_where_others_are_not_replicated():
+    def failing(expression):
+        return judge(words(expression), Result(Ours.exactly(-99.0)))[0]
+
+    assert failing("reasonably good") == failing("almost everywhere") == Verdict.NOT_SUPPORTED
+    assert failing("small variation") == failing("computed") == Verdict.NOT_REPLICATED
+    assert set(REASONED) < set(WORDS)
 
 
 def made_up(compute, said=SAID):

@@ -1,5 +1,7 @@
 """The configuration: its schema, and what is made of a good one."""
 
+from collections import Counter
+
 import pytest
 import yaml
 from configurations import CONFIG, PAPER
@@ -86,9 +88,34 @@ def test_converged_study_has_the_papers_runs():
     first = first_realisations(runs)
     labels = [[r.labels | {"study": ""} for r in some] for some in (config.runs_of("paper"), first)]
     assert labels[0] == labels[1]
-    assert len(runs) == 3 * len(first)
+    assert set(realisations(runs)) == {3, 6}
     for run in runs:
         assert run.parameters.perturbation.acts
+
+
+def realisations(runs):
+    """How many realisations each fault has."""
+    faults = Counter(
+        run.parameters.replaced({"perturbation.seed": 0, "recording.record": "lengths"})
+        for run in runs
+    )
+    return list(faults.values())
+
+
+def test_what_is_beyond_the_paper_has_six_realisations():
+    """But for checks of meshes, and the map, whose points have three at either strength."""
+    config = load(CONFIG / "config.yaml")
+    studies = ("pairs_identical", "pairs_far_sides", "pairs_layers", "pairs_weak", "drop",
+               "figure_2_simulated")  # fmt: skip
+    for study in studies:
+        runs = [
+            run for run in config.runs_of(study)
+            if run.parameters.perturbation.acts
+            and not (study == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
+        ]  # fmt: skip
+        assert min(realisations(runs)) >= 6, study
+    shown = config.runs_of("converged") + config.runs_of("noisy")  # figure_3_extended
+    assert realisations(shown) == [6] * 21
 
 
 def test_entries_have_defaults_of_their_own_that_are_in_no_name():

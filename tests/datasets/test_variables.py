@@ -13,8 +13,8 @@ RECORDED = "nucleation.simulation.recorded"
 CROSSCHECK = "nucleation.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
-    "id", "study", "law", "friction_law", "below", "far_side", "kind", "initial_stress", "status",
-    "problem", "refinement", "varied", "variation", "fault", "ensemble",
+    "id", "study", "role", "law", "friction_law", "below", "far_side", "kind", "initial_stress",
+    "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
 }  # fmt: skip
 
 

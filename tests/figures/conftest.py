@@ -68,6 +68,7 @@ def lengths() -> xr.Dataset:
         "role": study,
         "law": law,
         "ensemble": [f"{i}" for i in range(14)],
+        "strength": [0.0] * 12 + [1e-5] * 2,
         "height": height,
         "phi0": phi0,
         "onset_time": np.full(14, ONSET),

@@ -18,30 +18,51 @@ def table():
             rows.append(("figure_2_simulated", "free", 1.0, contrast, weakening, 0.3))
     study, side, height, f_beta, weakening, theory = map(np.array, zip(*rows, strict=True))
     columns = {
-        "role": study, "far_side": side, "height": height, "second_height": height,
+        "role": study, "study": study, "ensemble": np.arange(height.size).astype(str),
+        "far_side": side, "height": height, "second_height": height,
         "f_beta": f_beta, "zeta_over_a": weakening, "theory_length": theory,
         "length": 0.7 * theory, "stability_length": 0.5 * theory,
         "length_ratio": 0.7 + 0.0 * theory, "stability_ratio": 0.5 + 0.0 * theory,
         "half_space_ratio": bimaterial_length_ratio(f_beta, weakening),
         "strength": np.full(height.size, 1e-5), "kind": np.full(height.size, "normal_load"),
+        "n_x": np.full(height.size, 400), "seed": np.zeros(height.size),
+        "id": np.arange(height.size).astype(str),
     }  # fmt: skip
-    return xr.Dataset({name: ("run", values) for name, values in columns.items()})
+    one = xr.Dataset({name: ("run", values) for name, values in columns.items()})
+    other = one.assign(seed=one["seed"] + 1)  # a realisation that is a tenth longer
+    other = other.assign({n: 8.0 / 7.0 * one[n] for n in ("length", "length_ratio")})
+    return xr.concat([one, other], dim="run")
 
 
 def test_identical_blocks_and_ratios(table):
+    """The mean of the realisations, 0.75, with their range as bars."""
     left, right = figure_pairs.draw(table).axes
-    np.testing.assert_allclose(left.lines[1].get_ydata(), 0.28)
+    np.testing.assert_allclose(left.lines[1].get_ydata(), 0.3)
     np.testing.assert_allclose(left.lines[2].get_ydata(), 0.2)
-    np.testing.assert_allclose(right.lines[0].get_ydata(), 0.7)
+    np.testing.assert_allclose(right.lines[0].get_ydata(), 0.75)
     assert right.lines[0].get_xdata().size == 3  # those of other friction are elsewhere
+    for axes, unit in ((left, 0.4), (right, 1.0)):
+        for bar in axes.collections[0].get_segments():
+            np.testing.assert_allclose(bar[:, 1], (0.7 * unit, 0.8 * unit))
+
+
+def test_finer_meshes_are_not_among_the_pairs_drawn(table):
+    finer = table.isel(run=[0]).assign(
+        n_x=("run", [1600]), seed=("run", [9]), ensemble=("run", ["finer"])
+    )
+    drawn = figure_pairs.draw(xr.concat([table, finer], dim="run")).axes[1]
+    assert drawn.lines[0].get_xdata().size == 3
 
 
 def test_figure_2_has_both_senses_in_units_without_contrast(table):
     left, right = figure_2_simulated.draw(table).axes[:2]
-    points = [line for line in left.lines if line.get_linestyle() == "None"][:4]
-    assert [line.get_marker() for line in points] == ["v", "^", "v", "^"]
-    for line, weakening in zip(points, (10.0, 10.0, 1.0, 1.0), strict=True):
-        expected = 0.7 * bimaterial_length_ratio(line.get_xdata(), weakening)
-        np.testing.assert_allclose(line.get_ydata(), expected)
-        assert sorted(line.get_xdata()) == pytest.approx([0.0, 0.1, 0.3])
-    assert right.lines[1].get_ydata().max() < left.lines[1].get_ydata().max()
+    assert len(left.containers) == 2
+    for panel, ratio in ((left, 0.75), (right, 0.5)):
+        for (points, _, bars), weakening in zip(panel.containers, (10.0, 1.0), strict=True):
+            x, y = points.get_data()
+            np.testing.assert_allclose(x, (-0.3, -0.1, 0.0, 0.1, 0.3))
+            unit = bimaterial_length_ratio(np.abs(x), weakening)
+            np.testing.assert_allclose(y, ratio * unit)
+            ends = np.array([bar[:, 1] for bar in bars[0].get_segments()])
+            expected = (0.7, 0.8) if panel is left else (0.5, 0.5)
+            np.testing.assert_allclose(ends, np.outer(unit, expected))

@@ -6,6 +6,7 @@ import pytest
 import xarray as xr
 from made_up_theory import critical_length
 
+from nucleation.analysis.lengths import over_realisations
 from nucleation.figures import style
 from nucleation.figures.beyond import figure_3_extended, figure_patch_stability
 
@@ -145,3 +146,28 @@ def test_figures_are_legible_and_their_files_reproducible(name, request, tmp_pat
     pdf, png = style.save(figure, tmp_path / "a")
     assert pdf.read_bytes().startswith(b"%PDF") and len(pdf.read_bytes()) < 1_000_000
     assert png.read_bytes().startswith(b"\x89PNG")
+
+
+def test_more_realisations_move_the_mean_and_stronger_noise_the_band(theory, lengths, table):
+    """Runs of another study at the strength of `converged` are more realisations of its faults."""
+    given = lengths.assign(
+        seed=("run", np.ones(lengths.sizes["run"])),
+        id=("run", np.arange(lengths.sizes["run"]).astype(str)),
+    )
+    judged = given.isel(run=np.flatnonzero(given["study"].values == "converged"))
+    others = ("run", ["noisy"] * judged.sizes["run"])
+    more = judged.assign(study=others, role=others, seed=judged["seed"] + 1)
+    more = more.assign(length=1.2 * more["length"])
+    strong = more.assign(strength=1e3 * more["strength"], length=more["length"] / 2.4)
+    noisy = xr.concat([more, strong], dim="run")
+    found, joined = figure_3_extended._with_more(given, noisy)
+    np.testing.assert_allclose(found["length"], strong["length"])
+    means = over_realisations(joined)
+    own = means["length"].values[means["study"].values == "converged"]
+    np.testing.assert_allclose(own, 1.1 * judged["length"].values)
+    drawn = figure_3_extended.draw(theory, given, table, noisy).axes[0]
+    band = drawn.collections[0].get_paths()[0].vertices[:, 1]
+    aging = judged["law"].values == "aging"
+    usual = aging & np.isclose(judged["phi0"].values, 1.0)
+    assert band.max() == pytest.approx(1.1 * judged["length"].values[usual].max())
+    assert band.min() == pytest.approx(0.5 * judged["length"].values[usual].min())

@@ -20,6 +20,7 @@ class Verdict(enum.StrEnum):
     REPLICATED = "replicated"
     GIVEN = "taken as given"
     EXPLAINED = "replicated with a deviation that is explained"
+    NOT_SUPPORTED = "not supported"
     NOT_REPLICATED = "not replicated"
     UNCHECKED = "cannot be checked"
 
@@ -114,14 +115,15 @@ def judge(said: Said, result: Result) -> tuple[Verdict, str]:
         if math.isfinite(ours.value):
             return Verdict.UNCHECKED, f"Our number is known to {_width(ours):.1g} only.{note}"
         return Verdict.UNCHECKED, f"A run has no such event.{note}"
-    text = f"{_compared(said, ours, held)}{_reach(said, ours, held)}"
+    text = f"{_compared(said, ours, held)}{_reach(said, ours)}"
     if held:
         return Verdict.REPLICATED, f"{text}{_other_mesh(said, result)}{note}"
     cause = result.cause
     if cause is not None and holds(said, cause.ours):
         why = f"{cause.text} {cause.ours.value:.4g} (findings: {cause.finding})."
         return Verdict.EXPLAINED, f"{text} {why}{note}"
-    return Verdict.NOT_REPLICATED, f"{text}{_other_mesh(said, result)}{note}"
+    verdict = Verdict.NOT_SUPPORTED if said.chosen else Verdict.NOT_REPLICATED
+    return verdict, f"{text}{_other_mesh(said, result)}{note}"
 
 
 def _compared(said: Said, ours: Ours, held: bool) -> str:
@@ -138,12 +140,15 @@ def _compared(said: Said, ours: Ours, held: bool) -> str:
     return f"{ours.value:.4g} is {'' if held else 'not '}{said.text.partition(': ')[2]}."
 
 
-def _reach(said: Said, ours: Ours, held: bool) -> str:
-    """Whether the range of ours reaches across a bound that our number itself keeps."""
-    inside = all(said.low < end < said.high for end in (ours.low, ours.high))
-    if held and not inside and said.kind in ("bound", "words"):
-        return " Its range reaches further."
-    return ""
+def _reach(said: Said, ours: Ours) -> str:
+    """The bound that decides, where the range of ours reaches across it."""
+    if said.kind not in ("bound", "words"):
+        return ""
+    ends = [end for end in (said.low, said.high) if math.isfinite(end)]
+    bound = min(ends, key=lambda end: abs(end - ours.value))
+    if not ours.low <= bound <= ours.high:
+        return ""
+    return f" Its range reaches across the bound, {bound:g}."
 
 
 def _other_mesh(said: Said, result: Result) -> str:

@@ -35,6 +35,10 @@ WORDS: dict[str, tuple[float, float, str]] = {
 }
 """How words are read: lower and upper end of what they allow, and the reading in words."""
 
+REASONED = ("perfect", "extremely well", "computed", "small variation", "significant")
+"""Words whose reading follows from the paper or from how a number is had; the others are a choice
+of ours (docs/claims.md)."""
+
 
 class Missing(LookupError):
     """What a claim needs is not among the results; the message says what."""
@@ -89,6 +93,7 @@ class Said:
     high: float
     text: str
     value: float | None = None
+    chosen: bool = False  # words whose reading is a choice of ours
 
 
 def number(printed: str) -> Said:
@@ -119,7 +124,7 @@ def above(bound: float, text: str = "") -> Said:
 def words(expression: str) -> Said:
     """Words, read by the table :data:`WORDS`."""
     low, high, reading = WORDS[expression]
-    return Said("words", low, high, f"{expression}: {reading}")
+    return Said("words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED)
 
 
 def holds(said: Said, ours: Ours) -> bool | None:

@@ -32,8 +32,9 @@ def fault(parameters: Parameters) -> str:
 
 
 def ensemble(parameters: Parameters) -> str:
-    """The runs that one run is a realisation of: those that differ in the seed alone."""
-    return identity(parameters, "perturbation.seed")
+    """The runs that one run is a realisation of: those that differ in the seed, or are recorded
+    otherwise."""
+    return identity(parameters, "perturbation.seed", "recording")
 
 
 @lru_cache(2**14)

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..analysis import lengths
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.extraction import MEASURED as EXTRACTED
 from ..analysis.extraction import extract
@@ -18,6 +19,7 @@ from ..analysis.record import parameters_of
 from ..analysis.rows import RATIO_COLUMNS, ratios
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
+from ..model.identity import ensemble
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
@@ -42,7 +44,7 @@ COLUMNS = {
     "half_space_ratio": Variable(
         "1", "Eq. (9): half-spaces over those without contrast", "L_c/L_c^M"
     ),
-    **some(LENGTHS, "steps", "wall_seconds", "fault"),
+    **some(LENGTHS, "steps", "wall_seconds", "fault", "ensemble"),
 }  # fmt: skip
 """``f_beta`` is positive where the lower body is the stiffer one."""
 
@@ -92,18 +94,37 @@ def gather(
     ----------
     runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
     simulations : of the runs, in their order.
-    patches : of :func:`.growth.follow_patch`, in the same order.
+    patches : of :func:`.growth.follow_patch`, of each fault's first realisation in the same order;
+        the others have its L_s, which the perturbation hardly moves.
     settings : how lengths are read.
     """
-    rows = []
-    for run, simulation, patch in zip(runs, simulations, patches, strict=True):
-        measured = extract(simulation, settings)
-        row = description(run) | pair_description(parameters_of(simulation))
+    rows, waiting, fitted = [], iter(patches), {}
+    for run, simulation in zip(runs, simulations, strict=True):
+        parameters, measured = parameters_of(simulation), extract(simulation, settings)
+        own = run["study"], ensemble(parameters)
+        if own not in fitted:
+            patch = next(waiting)
+            fitted[own] = {name: float(patch[name]) for name in FITTED}
+        row = description(run) | pair_description(parameters) | fitted[own]
         row |= {name: float(measured[name]) for name in MEASURED}
-        row |= {name: float(patch[name]) for name in FITTED}
         row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
         rows.append(row | ratios(row))
     return table(rows, COLUMNS)
+
+
+def over_realisations(table: xr.Dataset) -> xr.Dataset:
+    """A table of pairs with one row for each fault, the mean of its realisations.
+
+    ``length_ratio_low`` and ``length_ratio_high`` are the least and the largest of them, without
+    the range over definitions that ``length_low`` and ``length_high`` have; ``realisations`` counts
+    them.
+    """
+    ratio = [table["length_ratio"].values[rows] for rows in lengths.realisations(table)]
+    return lengths.over_realisations(table).assign(
+        length_ratio=("run", np.array([own.mean() for own in ratio])),
+        length_ratio_low=("run", np.array([own.min() for own in ratio])),
+        length_ratio_high=("run", np.array([own.max() for own in ratio])),
+    )
 
 
 def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:

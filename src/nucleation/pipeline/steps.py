@@ -9,6 +9,7 @@ of Snakemake decides what is current, and a dry run lists what will be computed.
 from __future__ import annotations
 
 import contextlib
+from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -154,11 +155,11 @@ class Steps:
                 link.unlink()
 
     def behind(self, paths: Iterable[str]) -> dict[str, Made]:
-        """All results among some files and what these are made of, all the way down, by path."""
+        """All results among some files, first, and what they are made of, all the way down."""
         found: dict[str, Made] = {}
-        waiting = list(paths)
+        waiting = deque(paths)
         while waiting:
-            path = waiting.pop()
+            path = waiting.popleft()
             if path in self._made and path not in found:
                 found[path] = self._made[path]
                 for sources in found[path].sources.values():

@@ -20,6 +20,7 @@ VERDICTS = {
     "replicated": ("✓", "yes"),
     "taken as given": ("=", "given"),
     "replicated with a deviation that is explained": ("≈", "nearly"),
+    "not supported": ("✗", "no"),
     "not replicated": ("✗", "no"),
     "cannot be checked": ("?", "open"),
 }

@@ -88,7 +88,10 @@ def literature_eta(evidence: Evidence) -> Ours:
     method="none", said=None,
 )  # fmt: skip
 def literature_underestimate(evidence: Evidence) -> Ours:
-    raise Missing("It is about other simulations, of two half-spaces, of which none is run here")
+    raise Missing(
+        "It is about simulations of others, which were not made again; ours of two half-spaces are "
+        "judged beside Eq. (6) in the table of two bodies"
+    )
 
 
 def half_spaces(evidence: Evidence, points: int = 64) -> tuple[float, float]:

@@ -4,7 +4,8 @@ The paper has these as theory alone. Lengths are those of the table of pairs
 (:func:`nucleation.patch.pairs.gather`), at the declared strength that it states; Eqs. (7) and (8)
 are also held against the elastic response that simulated modes between two sliding layers meet
 (:mod:`nucleation.verification.pair_modes`). The verdicts are a table of their own: the paper's own
-claims do not wait for these simulations.
+claims do not wait for these simulations. A length is the mean of a fault's realisations, and its
+range theirs.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ...patch.pairs import chosen, of_role
+from ...patch.pairs import chosen, of_role, over_realisations
 from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Claim, Result, claim
 from ..independent import printed
@@ -33,6 +34,11 @@ BY_MODES = (
     "worst"
 )
 STRONG = 0.05  # f beta from which on two materials differ
+CAUSE = (
+    "Whether it is below or above decides by the normal stress that the push builds under the "
+    "patch, which the theory of homogeneous sliding does not have (findings: Which side is stiff "
+    "decides whether contrast shortens the patch)."
+)
 
 
 class PairEvidence(NamedTuple):
@@ -43,11 +49,11 @@ class PairEvidence(NamedTuple):
 
 
 def rows_of(table: xr.Dataset, role: str) -> xr.Dataset:
-    """The rows with a role; raises Missing without any."""
+    """The faults with a role, each the mean of its realisations; raises Missing without any."""
     rows = of_role(table, role)
     if not rows.sizes["run"]:
         raise Missing(f"The table of pairs has no runs with the role {role}")
-    return rows
+    return over_realisations(rows)
 
 
 def half_spaces(table: xr.Dataset) -> xr.Dataset:
@@ -82,17 +88,40 @@ def senses(rows: xr.Dataset) -> list[tuple[float, Array, Array, float]]:
     return found
 
 
-def _note(table: xr.Dataset) -> str:
-    strength, kind = float(table["strength"].max()), str(table["kind"].values[0])
-    return f"At a declared perturbation {kind} of {strength:g}."
+def _note(rows: xr.Dataset) -> str:
+    strength, kind = float(rows["strength"].max()), str(rows["kind"].values[0])
+    number = int(rows["realisations"].min())
+    return f"At a declared perturbation {kind} of {strength:g}, {number} realisations each."
 
 
-def _over_weakenings(values: dict[float, Array], table: xr.Dataset) -> Result:
+def worst_length(rows: xr.Dataset, target: float, unit: Array | float = 1.0) -> Ours:
+    """The mean length in some unit that is furthest from a target, with its realisations' range."""
+    mean, low, high = (
+        rows[f"length_ratio{end}"].values * unit for end in ("", "_low", "_high")
+    )  # fmt: skip
+    if not np.isfinite(mean).all():
+        return Ours.exactly(np.nan)
+    worst = int(np.argmax(np.abs(mean - target)))
+    return Ours.between(mean[worst], low[worst], high[worst])
+
+
+def _each_sense(rows: xr.Dataset, values: Array) -> str:
+    """The largest of some values with the stiffer body above, and below."""
+    above, below = (values[sign * rows["f_beta"].values > STRONG] for sign in (-1.0, 1.0))
+    if not above.size or not below.size:
+        return ""
+    return (
+        f" With the stiffer body above it is at most {above.max():.3g}, below {below.max():.3g}. "
+        f"{CAUSE}"
+    )
+
+
+def _over_weakenings(values: dict[float, Array], rows: xr.Dataset) -> Result:
     """The value furthest from one of all zeta/a, each zeta/a's own in the note."""
     own = {z: Ours.worst(found, 1.0).value for z, found in values.items()}
     each = ", ".join(f"{worst:.3g} for zeta/a = {z:g}" for z, worst in own.items())
     ours = Ours.worst(np.concatenate(list(values.values())), 1.0)
-    return Result(ours, note=f"{_note(table)} The furthest: {each}.")
+    return Result(ours, note=f"{_note(rows)} The furthest: {each}.")
 
 
 @claim(
@@ -104,7 +133,7 @@ def _over_weakenings(values: dict[float, Array], table: xr.Dataset) -> Result:
 )  # fmt: skip
 def pairs_half_spaces(evidence: PairEvidence) -> Result:
     high = half_spaces(evidence.table)
-    return Result(Ours.worst(high["length_ratio"].values, 1.0), note=_note(evidence.table))
+    return Result(worst_length(high, 1.0), note=_note(high))
 
 
 def response_over(modes: xr.Dataset, part: int) -> Ours:
@@ -153,7 +182,7 @@ def pairs_g2(evidence: PairEvidence) -> Result:
 def pairs_modulus(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
     scaled = {z: both.mean(axis=1) / identical for z, _, both, identical in senses(rows)}
-    return _over_weakenings(scaled, evidence.table)
+    return _over_weakenings(scaled, rows)
 
 
 @claim(
@@ -172,7 +201,7 @@ def pairs_contrast(evidence: PairEvidence) -> Result:
         if effect.size < 2:
             raise Missing(f"zeta/a = {z:g} has no two contrasts")
         scaled[z] = effect[1:] / effect[0]
-    return _over_weakenings(scaled, evidence.table)
+    return _over_weakenings(scaled, rows)
 
 
 @claim(
@@ -183,7 +212,13 @@ def pairs_contrast(evidence: PairEvidence) -> Result:
 )  # fmt: skip
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
-    return Result(Ours.worst(rows["length_ratio"].values, 1.0), note=_note(evidence.table))
+    over = rows["length"].values / rows["height"].values
+    note = (
+        f" {int((rows['height'] < rows['theory_length']).sum())} of {over.size} blocks are lower "
+        f"than L_c; {int((over > 1.0).sum())} patches are at the drop longer than their block is "
+        f"high, at most by a factor of {over.max():.2g}."
+    )
+    return Result(worst_length(rows, 1.0), note=_note(rows) + note)
 
 
 @claim(
@@ -195,8 +230,9 @@ def pairs_bimaterial(evidence: PairEvidence) -> Result:
 )  # fmt: skip
 def pairs_smaller(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
-    strong = np.abs(rows["f_beta"].values) > STRONG
-    return Result(Ours.worst(over_effective_modulus(rows)[strong]), note=_note(evidence.table))
+    strong = chosen(rows, np.abs(rows["f_beta"].values) > STRONG)
+    ours = worst_length(strong, 0.0, unit=strong["half_space_ratio"].values)
+    return Result(ours, note=_note(rows) + _each_sense(strong, over_effective_modulus(strong)))
 
 
 @claim(
@@ -207,7 +243,7 @@ def pairs_smaller(evidence: PairEvidence) -> Result:
     "sense", said=below(0.0),
 )  # fmt: skip
 def pairs_decreasing(evidence: PairEvidence) -> Result:
-    rows, slopes = rows_of(evidence.table, "figure_2_simulated"), []
+    rows, slopes, at = rows_of(evidence.table, "figure_2_simulated"), [], []
     ratio = over_effective_modulus(rows)
     contrast, weakening = rows["f_beta"].values, np.round(rows["zeta_over_a"].values, 3)
     for value in np.unique(weakening):
@@ -215,9 +251,11 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
             own = np.flatnonzero((weakening == value) & (sign * contrast >= -1e-9))
             own = own[np.argsort(np.abs(contrast[own]))]
             slopes += (np.diff(ratio[own]) / np.diff(np.abs(contrast[own]))).tolist()
+            at += own[1:].tolist()
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
-    return Result(Ours.between(max(slopes), min(slopes), max(slopes)), note=_note(evidence.table))
+    ours = Ours.between(max(slopes), min(slopes), max(slopes))
+    return Result(ours, note=_note(rows) + _each_sense(rows.isel(run=at), np.array(slopes)))
 
 
 def evaluate(table: xr.Dataset, modes: xr.Dataset) -> list[dict[str, Any]]:

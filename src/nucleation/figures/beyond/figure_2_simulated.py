@@ -1,4 +1,4 @@
-"""Figure 2 with simulations of high blocks upon its curves, for either sense of the contrast."""
+"""Figure 2 with simulations of high blocks beside its curves, for either sense of the contrast."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
-from ...patch.pairs import chosen, of_role
+from ...patch.pairs import chosen, of_role, over_realisations
 from ...theory.closed_forms import bimaterial_length_ratio
 
 ROLE = "figure_2_simulated"
-CONTRAST = np.linspace(0.0, 0.42, 85)
-SENSES = ((1.0, "v", "stiff below"), (-1.0, "^", "stiff above"))
+CONTRAST = np.linspace(-0.42, 0.42, 169)
+MARKERS = ("o", "s", "D", "^", "v")
 
 
 @style.styled
@@ -29,46 +29,47 @@ def draw(table: xr.Dataset) -> Figure:
     Returns
     -------
     Figure
-        Two columns wide, two panels.
+        Two columns wide, two panels over the signed contrast: the stiffer body above on the left
+        of each, below on the right. Bars are the range of the realisations.
     """
-    rows = of_role(table, ROLE)
-    figure = style.new_figure(style.DOUBLE_COLUMN, 7.6 * style.CENTIMETRE)
+    rows = over_realisations(of_role(table, ROLE))
+    figure = style.new_figure(style.DOUBLE_COLUMN, 8.4 * style.CENTIMETRE)
     axes = figure.subplots(1, 2, sharey=True)
-    panels = (("length", "(a) at the drop"), ("stability_length", "(b) patch turns unstable"))
+    panels = (("length_ratio", "(a) at the drop"), ("stability_ratio", "(b) patch turns unstable"))
     for panel, (name, title) in zip(axes, panels, strict=True):
         _draw_lengths(panel, rows, name)
         panel.set_title(title, loc="left")
-        panel.set_xlabel(r"Bimaterial contrast $f|\beta|$")
-    longest = max(np.nanmax(line.get_ydata(), initial=1.0) for line in axes[0].lines)
-    axes[0].set_ylim(0.0, 1.06 * longest)
+        panel.set_xlabel(r"Bimaterial contrast $f\beta$")
+        panel.axvline(0.0, color=style.GUIDE, linewidth=0.6, linestyle=":")
+        for place, side, which in ((0.02, "left", "above"), (0.98, "right", "below")):
+            panel.text(place, 0.03, f"stiffer body {which}", transform=panel.transAxes, ha=side,
+                       fontsize=style.SMALL)  # fmt: skip
+    axes[0].set_ylim(bottom=0.0)
     axes[0].set_ylabel(r"Length over $L_c^{\mathcal{M}}$")
     handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles))
+    figure.legend(handles, labels, loc="outside lower center", ncols=max(len(handles) // 2, 1))
     return figure
 
 
 def _draw_lengths(axes: Axes, rows: xr.Dataset, name: str) -> None:
     ratios = np.unique(np.round(rows["zeta_over_a"].values, 3))[::-1]
     shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.75, max(ratios.size, 1)))
-    for ratio, shade in zip(ratios, shades, strict=False):
+    for ratio, shade, marker in zip(ratios, shades, MARKERS, strict=False):
         axes.plot(
-            CONTRAST, bimaterial_length_ratio(CONTRAST, ratio), color=shade, linewidth=1.1,
+            CONTRAST, bimaterial_length_ratio(np.abs(CONTRAST), ratio), color=shade, linewidth=1.1,
             label=rf"Eq. (9), $\zeta/a={ratio:.3g}$",
         )  # fmt: skip
         own = chosen(rows, np.abs(rows["zeta_over_a"].values - ratio) < 1e-2 * ratio)
+        own = own.sortby("f_beta")
         # what the theory has for blocks of this height, in units of that without contrast
-        unit = own["theory_length"].values / own["half_space_ratio"].values
-        contrast = own["f_beta"].values
-        for sign, marker, _ in SENSES:
-            of_sense = sign * contrast >= 0.0
-            axes.plot(
-                np.abs(contrast[of_sense]), (own[name].values / unit)[of_sense], marker,
-                color=shade, markersize=5.0,
-                markerfacecolor="none" if sign < 0.0 else shade,
-            )  # fmt: skip
-    for sign, marker, words in SENSES:
-        axes.plot(
-            [], [], marker, color=style.BLACK, label=words,
-            markerfacecolor="none" if sign < 0.0 else style.BLACK,
+        unit = own["half_space_ratio"].values
+        middle, low, high = (
+            own[name + end].values * unit if name + end in own else own[name].values * unit
+            for end in ("", "_low", "_high")
+        )
+        axes.errorbar(
+            own["f_beta"].values, middle, yerr=(middle - low, high - middle), color=shade,
+            marker=marker, markersize=3.8, linewidth=0.7, linestyle="--", elinewidth=0.9,
+            capsize=1.8, label=rf"simulated, $\zeta/a={ratio:.3g}$",
         )  # fmt: skip
-    axes.set_xlim(-0.01, CONTRAST[-1])
+    axes.set_xlim(CONTRAST[0], CONTRAST[-1])

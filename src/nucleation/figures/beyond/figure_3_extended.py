@@ -10,11 +10,11 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...analysis.lengths import over_realisations
+from ...analysis.lengths import join, over_realisations
 from ...figures import laws, style
 
 OLDER = ", older interface"
-RATIOS = (0.4, 1.3)
+RATIOS = (0.4, 1.2)
 ABOVE = 1.12  # the axes end at this multiple of the highest block
 LIMIT_HEIGHTS = (0.004, 0.13)  # m, of the logarithmic axis
 
@@ -33,10 +33,11 @@ class Series(NamedTuple):
 
 DROPS = (
     Series("length", "paper", None, True, 3.0, False, "drop, quiet, on the paper's mesh"),
-    Series("length", "converged", None, False, 4.8, False, r"drop, load steady to $10^{-5}$"),
+    Series("length", "converged", None, False, 4.8, True, r"drop, load steady to $10^{-5}$"),
 )
 BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
-STABILITY = ("converged", "paper")  # growth begins: of the first of these roles that is there
+JUDGED = "converged"
+STABILITY = (JUDGED, "paper")  # growth begins: of the first of these roles that is there
 
 
 @style.styled
@@ -59,14 +60,17 @@ def draw(
         The same with ``stability_length`` in place of ``length``.
     noisy : Dataset
         Lengths of the aging law's faults under a stronger perturbation: a band from these to those
-        with the role `converged` is drawn if they are given.
+        with the role `converged` is drawn if they are given. Those at that role's own strength are
+        more realisations of its faults.
 
     Returns
     -------
     Figure
         Two columns wide.
     """
-    lengths = over_realisations(lengths)
+    if isinstance(noisy, xr.Dataset):
+        noisy, lengths = _with_more(lengths, noisy)
+    lengths = _means(lengths)
     figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
     roles = table["role"].values.astype(str)
@@ -77,7 +81,7 @@ def draw(
     for axes, relative in ((left, False), (right, True)):
         _draw_theory(axes, theory, relative)
         if isinstance(noisy, xr.Dataset):
-            _draw_band(axes, over_realisations(noisy), lengths, relative)
+            _draw_band(axes, _means(noisy), lengths, relative)
         for series in (*DROPS, stability):
             _draw_series(axes, table if series is stability else lengths, series, relative)
         axes.set_xlabel("Height $H$ (m)")
@@ -87,6 +91,23 @@ def draw(
         axes.set_title(letter, loc="left")
         axes.minorticks_on()
     return figure
+
+
+def _means(table: xr.Dataset) -> xr.Dataset:
+    """The mean of each fault's realisations, and their range by the one definition of a length."""
+    ends = {"length_low": table["length"], "length_high": table["length"]}
+    return over_realisations(table.assign(ends))
+
+
+def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
+    """The stronger perturbed runs alone, and the others among those judged."""
+    judged = lengths["role"].values.astype(str) == JUDGED
+    more = np.isin(noisy["strength"].values, lengths["strength"].values[judged])
+    own = noisy.isel(run=np.flatnonzero(more))
+    same = {name: ("run", np.resize(lengths[name].values[judged], own.sizes["run"]))
+            for name in ("study", "role")}  # fmt: skip
+    own = own.assign(same)
+    return noisy.isel(run=np.flatnonzero(~more)), join([lengths, own])
 
 
 def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
@@ -106,8 +127,12 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
     for runs in (noisy, quiet):
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
         scale = runs["theory_length"].values[order] if relative else 1.0
-        ends.append(runs["length"].values[order] / scale)
-    axes.fill_between(heights, *ends, color=style.AGING, alpha=0.2, linewidth=0.0)
+        ends.append([runs[f"length{end}"].values[order] / scale for end in ("", "_low", "_high")])
+    (strong, low, high), (usual_length, _, _) = ends
+    axes.fill_between(
+        heights, strong, usual_length, color=style.AGING, alpha=0.2, linewidth=0.0
+    )  # fmt: skip
+    axes.vlines(heights, low, high, color=style.AGING, linewidth=0.8, alpha=0.6)
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:

@@ -20,11 +20,14 @@ KINDS = {
     "strength": ("D", style.BLACK, "roughness"),
 }
 STRENGTHS = (3e-13, 3e-1)
-RATIOS = (0.5, 0.9)
+RATIOS = (0.45, 1.0)
+MEAN = "simulated: mean, range"
 FEWEST = 8  # realisations of which a distribution is shown
 GOAL = 0.03  # of the law's mean
 CLOSE = 30.0  # strengths whose ratio is less have one label
-ROOM = 0.35  # of the panel of distributions
+ROOM = 0.6  # of the panel of distributions, for its legend
+ASIDE = {"normal_load": 0.75, "state": 1.33, "drive_velocity": 1.0, "strength": 1.0}
+"""Factors by which kinds of the same strength are drawn apart."""
 
 
 @style.styled
@@ -45,8 +48,7 @@ def draw(table: xr.Dataset) -> Figure:
     (load, state), (ratio, spread) = figure.subplots(2, 2)
     for axes, kind in ((load, "normal_load"), (state, "state")):
         _draw_strengths(axes, table, kind)
-        axes.set_ylabel("Length over theory $L/L_c$")
-    state.set_ylabel("")
+    load.set_ylabel("Length over theory $L/L_c$")
     _draw_ratios(ratio, table)
     _draw_distributions(spread, table)
     for axes, letter in zip((load, state, ratio, spread), "abcd", strict=True):
@@ -103,20 +105,25 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         )  # fmt: skip
     for runs in groups(own):
         lengths = runs["length"].values / theory
-        deviation = np.std(lengths, ddof=1) if lengths.size > 1 else 0.0
+        mean = lengths.mean()
+        bars = [[mean - lengths.min()], [lengths.max() - mean]]
+        named = axes.get_legend_handles_labels()[1]
         axes.errorbar(
-            runs["strength"].values[0], lengths.mean(), yerr=deviation, linestyle="none",
-            marker=marker, markersize=4.0, color=colour, markerfacecolor="white", elinewidth=0.9,
+            runs["strength"].values[0], mean, yerr=bars, linestyle="none", marker=marker,
+            markersize=4.0, color=colour, markerfacecolor="white", elinewidth=0.9,
+            label=None if MEAN in named else MEAN,
         )  # fmt: skip
     _draw_floors(axes, fault, kind, theory)
     axes.axhline(float(fault["stability_length"].values[0]) / theory, color=style.GUIDE,
-                 linestyle=":", linewidth=1.0)  # fmt: skip
-    axes.text(0.02, 0.03, f"fluctuating {label}", transform=axes.transAxes, fontsize=style.SMALL)
+                 linestyle=":", linewidth=1.0, label="patch turns unstable, $L_s$")  # fmt: skip
+    axes.set_title(f"fluctuating {label}")
     axes.set_xscale("log")
     axes.set_xlim(*STRENGTHS)
     axes.set_ylim(*RATIOS)
     axes.set_xlabel(r"Relative strength $\epsilon$")
-    axes.legend(loc="upper right", fontsize=style.SMALL)
+    handles, labels = axes.get_legend_handles_labels()
+    if own.sizes["run"]:
+        axes.legend(handles, labels, loc="upper right", fontsize=style.SMALL, labelspacing=0.25)
 
 
 def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
@@ -129,10 +136,12 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> Non
         )
         if 2.0 * STRENGTHS[0] < strength < STRENGTHS[1]
     )
-    for strength, length, _ in found:
-        axes.plot(strength, length, "x", color=style.BLACK, markersize=4.0, markeredgewidth=0.8)
+    axes.plot(
+        [one[0] for one in found], [one[1] for one in found], "x", color=style.BLACK,
+        markersize=4.0, markeredgewidth=0.8, label="quiet, by elements along $x$",
+    )  # fmt: skip
     while found:
-        strength, length, _ = found[0]
+        strength = found[0][0]
         close = [one for one in found if one[0] < CLOSE * strength]  # with one label
         axes.annotate(
             ", ".join(str(n_x) for n_x in sorted({one[2] for one in close})), close[-1][:2],
@@ -149,19 +158,22 @@ def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
         marker, colour, label = KINDS[kind]
         filled = runs["law"].values[0] == USUAL_EVOLUTION
         axes.plot(
-            runs["strength"].values[0],
+            ASIDE[kind] * runs["strength"].values[0],
             runs["length"].values.mean() / runs["predicted_length"].values[0],
             marker, color=colour, markersize=4.0, alpha=0.8,
             markerfacecolor=colour if filled else "white",
             label=label if kind not in seen else None,
         )  # fmt: skip
         seen.add(kind)
+    if (table["law"].values == "slip").any():
+        axes.plot([], [], "o", color=style.GUIDE, markersize=4.0, markerfacecolor="white",
+                  label="open: slip law")  # fmt: skip
     axes.axhspan(1.0 - GOAL, 1.0 + GOAL, color=style.GUIDE, alpha=0.25, linewidth=0.0)
     axes.set_xscale("log")
     axes.set_xlim(*STRENGTHS)
     axes.set_xlabel(r"Relative strength $\epsilon$")
     axes.set_ylabel("Simulated mean over the law")
-    axes.legend(loc="lower left", fontsize=style.SMALL)
+    axes.legend(loc="upper left", fontsize=style.SMALL)
 
 
 def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
@@ -187,6 +199,8 @@ def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
     axes.set_xlabel("Length over theory $L/L_c$")
     axes.set_ylabel("Part that has dropped")
     if axes.get_legend_handles_labels()[0]:
+        axes.plot([], [], "o", color=style.GUIDE, markersize=3.5, markerfacecolor="white",
+                  label="law: 16, 50, 84 %")  # fmt: skip
         low, high = axes.get_xlim()
         axes.set_xlim(low - ROOM * (high - low), high)  # for the legend
         axes.legend(loc="upper left", fontsize=style.SMALL)

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
-from ...patch.pairs import chosen, of_role
+from ...patch.pairs import chosen, of_role, over_realisations
 from ...theory.literature import FINITE_PATCH
 
 ROLE = "pairs_identical"
@@ -34,22 +34,25 @@ def draw(table: xr.Dataset) -> Figure:
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 7.4 * style.CENTIMETRE)
     left, right = figure.subplots(1, 2)
+    table = over_realisations(table)
+    coarse, weakening = _usual(table, "n_x"), _usual(table, "zeta_over_a")
+    table = chosen(table, (table["n_x"] == coarse).values)  # the finer mesh is a check
     _draw_heights(left, of_role(table, ROLE).sortby("height"))
-    _draw_ratios(
-        right, chosen(table, np.abs(table["zeta_over_a"].values / _usual(table) - 1) < 0.1)
-    )
+    _draw_ratios(right, chosen(table, np.abs(table["zeta_over_a"].values / weakening - 1) < 0.1))
     return figure
 
 
-def _usual(table: xr.Dataset) -> float:
-    """zeta/a of most runs."""
-    return float(np.median(table["zeta_over_a"]))
+def _usual(table: xr.Dataset, name: str) -> float:
+    """What most runs have."""
+    return float(np.median(table[name]))
 
 
 def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
     height, theory = rows["height"].values, rows["theory_length"].values
     axes.plot(height, theory, color=style.THEORY, label="theory $L_c$, free far sides")
     axes.plot(height, rows["length"].values, "o", color=style.VERMILLION, label="at the drop")
+    axes.vlines(height, theory * rows["length_ratio_low"].values,
+                theory * rows["length_ratio_high"].values, color=style.VERMILLION)  # fmt: skip
     axes.plot(
         height, rows["stability_length"].values, "D", color=style.BLACK, markersize=4.0,
         markerfacecolor="none", label="patch turns unstable, $L_s$",
@@ -80,11 +83,13 @@ def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
                 markersize=4.2, markerfacecolor=colour if filled else "none",
                 label=f"{side}" if filled else None,
             )  # fmt: skip
+        low, high = (rows[f"length_ratio_{end}"].values[of_side] for end in ("low", "high"))
+        axes.vlines(thickness[of_side], low, high, color=colour, linewidth=0.9)
     axes.axhline(0.5, color=style.GUIDE, linewidth=0.8, linestyle=":")
     axes.axhline(1.0, color=style.GUIDE, linewidth=0.8, linestyle="--")
     axes.set(
         xscale="log", ylim=(0.0, 1.25), xlabel="Second height over theory $H_2/L_c$",
-        ylabel="Length over the own theory's",
+        ylabel="Length / theory for the same pair",
     )  # fmt: skip
     axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)", loc="left")
     axes.legend(title="bottom", fontsize=style.SMALL, title_fontsize=style.SMALL)
