@@ -76,7 +76,8 @@ except (ParameterError, StoreError, DatasetError) as error:
     print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about
     raise WorkflowError("the workflow can't be used like this, see above") from None
 
-if "NUCLEATION_WARNED" not in os.environ:  # and not again in each job
+FIRST = "NUCLEATION_WARNED" not in os.environ  # and not the same again in each job
+if FIRST:
     os.environ["NUCLEATION_WARNED"] = "yes"
     for warning in [*forgotten(config, settings), *advise(settings.runs)]:
         logger.warning(f"Warning: {warning}")
@@ -90,7 +91,7 @@ EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Frictio
 """Code of the paper's law with either evolution, for what computes with both."""
 
 
-steps = Steps(rules, RESULTS)
+steps = Steps(rules, RESULTS, tidies=FIRST)
 link = steps.link
 
 

@@ -135,6 +135,13 @@ class Store:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]
 
+    def is_wrong(self, key: str) -> bool:
+        """Whether there is an entry that is not right, at this moment."""
+        try:
+            return self.entry(key).exists() and not read_note(self.entry(key))
+        except StoreError:
+            return True
+
     def listed(self) -> list[str]:
         """Keys of all entries, right or not."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
@@ -223,6 +230,7 @@ class Store:
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that half of one is never found."""
         gone = self.directory / f".{key}.removed.tmp"
+        shutil.rmtree(gone, ignore_errors=True)  # left by a process that was killed here
         self.entry(key).rename(gone)
         shutil.rmtree(gone)
 
