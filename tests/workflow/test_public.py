@@ -25,7 +25,8 @@ OF_A_SCRIPT = {"input", "output", "params", "log", "rule"}
 def imports(text: str) -> set[str]:
     """Names of Snakemake, or of its plug-ins, that a text imports or names as modules."""
     found = set()
-    for module, names in re.findall(r"^[ \t]*from\s+(snakemake[\w.]*)\s+import\s+(.+)$", text, re.M):
+    imported = r"^[ \t]*from\s+(snakemake[\w.]*)\s+import\s+(.+)$"
+    for module, names in re.findall(imported, text, re.M):
         found |= {f"{module}.{name.strip()}" for name in names.strip("()").split(",")}
     found |= set(re.findall(r"^[ \t]*import\s+.*?(snakemake\w*[\w.]*)", text, re.M))
     return found | set(re.findall(r"""import_module\(\s*["'](snakemake[\w.]*)""", text))

@@ -82,8 +82,8 @@ class Steps:
     ----------
     rules : Snakemake's; one is asked for once it is used, so it may stand further down.
     results : directory of the results.
-    tidies : whether to remove links that lead to nothing. A cluster's jobs, which plan as well, must
-        not: what others have just made may not be seen on their node yet.
+    tidies : whether to remove links that lead to nothing. A cluster's jobs, which plan as well,
+        must not: what others have just made may not be seen on their node yet.
     """
 
     def __init__(self, rules: Any, results: str, tidies: bool = False) -> None:
