@@ -87,6 +87,7 @@ class Steps:
         self.store = Store(f"{results}/store")
         self._made: dict[str, Made] = {}
         self._together: dict[tuple[str, str], str] = {}
+        self._links: dict[str, str] = {}  # by key: what has two names is made once
         self.made = cache(self._find)
 
     def link(self, name: str, suffix: str = "nc") -> str:
@@ -113,6 +114,7 @@ class Steps:
         for name in names:
             self._together[rule, name] = job
             tasks.append(self._task(rule, name)[0])
+            self._links.setdefault(str(keys.key_in(tasks[-1].link)), tasks[-1].link)
         return tasks
 
     def _task(self, rule: str, name: str) -> tuple[Task, str]:
@@ -137,7 +139,11 @@ class Steps:
         task, shown = self._task(rule, name)
         key, suffix = str(keys.key_in(task.link)), task.link.rpartition(".")[2]
         done = self.store.note(key) is not None
-        path = str(path_in(self.store.entry(key), f".{suffix}")) if done else task.link
+        path = (
+            str(path_in(self.store.entry(key), f".{suffix}"))
+            if done
+            else self._links.setdefault(key, task.link)
+        )
         made = Made(path, key, shown, task.sources)
         self._made[path] = made
         return made
