@@ -71,7 +71,7 @@ def test_every_import_is_declared():
 def test_everything_declared_is_pinned():
     pinned = re.findall(r"^([\w.-]+)==", (ROOT / "environment.txt").read_text(), re.M)
     assert named(PROJECT["dependencies"]) | named(EXTRAS["test"]) <= set(map(normal, pinned))
-    assert {"report", "workflow", "docs", "test"} == set(EXTRAS)
+    assert {"report", "workflow", "remote", "docs", "test"} == set(EXTRAS)
 
 
 def run(*command, **options):

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from .datasets.netcdf import read, write
     from .patch.expected_drop import expected_drop
     from .simulation.run import run, simulate
+    from .theory.creep.lengths import stability_length
 
 __all__ = [
     "CriticalMode",
@@ -65,6 +66,7 @@ __all__ = [
     "run",
     "simulate",
     "spectrum",
+    "stability_length",
     "transfer_functions",
     "write",
 ]
@@ -73,7 +75,7 @@ __all__ = [
 _LATER = {
     "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
     "run": ".simulation.run", "simulate": ".simulation.run",
-    "expected_drop": ".patch.expected_drop",
+    "expected_drop": ".patch.expected_drop", "stability_length": ".theory.creep.lengths",
 }  # fmt: skip
 
 

@@ -28,6 +28,8 @@ def table(ratio=0.8, slope=-1.0):
         "strength": [1e-5] * 7,
         "kind": ["normal_load"] * 7,
         "id": [f"run-{i}" for i in range(7)],
+        "study": ["pairs"] * 7,
+        "ensemble": [f"{i}" for i in range(7)],
         "seed": [0] * 7,
         "length": [0.5 * ratio] * 7,
     }
@@ -95,7 +97,8 @@ def test_the_mean_of_the_realisations_decides_and_their_range_stands_beside(
 def test_the_two_senses_are_told_apart():
     row = judged("pairs-smaller", senses((0.7, 1.2), (0.5, 0.6)))
     assert "stiffer body above it is at most 0.6, below 1.2" in row["reason"]
-    assert judged("pairs-bimaterial", senses((0.7, 1.2), (0.5, 0.6)))["ours"] == 0.5
+    row = judged("pairs-bimaterial", senses((0.7, 1.2), (0.5, 0.6)))
+    assert (row["ours"], row["uncertainty"]) == (0.5, [0.5, 0.5])  # of that pair alone
 
 
 @pytest.mark.parametrize(("slope", "verdict"), [(-1.0, "replicated"), (0.2, "not replicated")])

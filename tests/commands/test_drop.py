@@ -19,9 +19,11 @@ class Law:
     answer = ExpectedDrop(DROP, CLOSED, "")
     parameters = None
     theory_length = None
+    quiet_run = None
 
-    def __call__(self, parameters, theory_length):
+    def __call__(self, parameters, theory_length, quiet_run=False):
         self.parameters, self.theory_length = parameters, theory_length
+        self.quiet_run = quiet_run
         if isinstance(self.answer, Exception):
             raise self.answer
         return self.answer
@@ -45,6 +47,21 @@ def test_it_asks_for_the_fault_that_is_given(nucleation, law):
     assert (law.parameters.perturbation.kind, law.parameters.perturbation.strength) == (
         "normal_load", 1e-3
     )  # fmt: skip
+
+
+def test_a_simulation_is_made_where_it_is_asked_for(nucleation, law):
+    nucleation(*WORDS)
+    assert law.quiet_run is False
+    nucleation(*WORDS, "--quiet-run")
+    assert law.quiet_run is True
+
+
+def test_scales_near_the_velocity_are_warned_of(nucleation, law):
+    assert "friction changes" not in nucleation(*WORDS).err
+    slow = nucleation(*WORDS, "--velocity", "1um/s")
+    assert "slip_rate_scale = 1e-07 m/s" in slow.err and "with constant a and b 0.5" in slow.err
+    others = ("--slip-rate-scale", "1e-10m/s", "--regularisation-slip-rate", "1e-12m/s")
+    assert nucleation(*WORDS, "--velocity", "1um/s", *others).err == ""
 
 
 def test_text(nucleation, law):

@@ -74,6 +74,8 @@ def test_what_a_role_needs_is_asked_for(config, fragments):
 def test_roles_that_several_studies_may_share(role):
     entry = {"height": 0.005} | ({"second_body": "deformable"} if role in PAIRS else {})
     own = {"role": role, "runs": [entry]}
+    if ROLES[role].study:  # of those that share, patch_theory alone asks for something
+        own |= {"measure": "stability", "runs_per_job": 2}
     settings = configure({"studies": {"one": own, "other": copy.deepcopy(own)}})
     assert settings.studies_for(role) == ["one", "other"]
     assert [run.study for run in settings.runs_for(role)] == ["one", "other"]

@@ -10,33 +10,21 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from harness import SCRIPT, Place, made
+from harness import SCRIPT, Place
 
-from nucleation.configuration.load import load
-from nucleation.model.friction.registry import plugins
-from nucleation.pipeline import code, progress
+from nucleation.pipeline import running
 
-(run,) = (run for run in load("config.yaml").runs if run.id == sys.argv[1])
-output = Place(Path()).simulation(run.id)
-log = Path("results/logs/simulate", output.with_suffix(".log").name)
-log.parent.mkdir(parents=True, exist_ok=True)
+task = Place(Path()).task(sys.argv[1])
 job = SimpleNamespace(
-    params=SimpleNamespace(
-        parameters=run.parameters.to_dict(),
-        code=code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters)),
-        modules=list(plugins(run.parameters)),
-        made=made(run),
-        expected={},
-    ),
-    input=[],
-    output=[str(output)],
-    log=[str(log)],
-    config={},
+    params={"call": task.call, "loads": task.loads, **task.values},
+    input={},
+    output=[task.link],
+    log=[f"results/logs/simulations/{Path(task.link).stem}.log"],
     rule="simulate",
 )
 
 
-class Stopping(progress.Progress):
+class Stopping(running.Progress):
     """Progress that asks the run to stop."""
 
     def __call__(self, instant):
@@ -46,5 +34,5 @@ class Stopping(progress.Progress):
 
 
 if len(sys.argv) > 2:
-    progress.Progress = Stopping
+    running.Progress = Stopping
 runpy.run_path(str(SCRIPT), init_globals={"snakemake": job})

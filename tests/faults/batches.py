@@ -18,7 +18,7 @@ from harness import COSTS, Place, Reference
 from processes import Running, processor_time, require
 from registry import RECOVERED, fault
 
-from nucleation.pipeline.keys import key_in
+from nucleation.configuration.load import load
 
 HEIGHTS, WEAKENINGS = [0.02, 0.1], [3.0, 5.0]
 RUNS = len(HEIGHTS) * len(WEAKENINGS)
@@ -39,13 +39,13 @@ CONFIG = {
         }
     }
 }  # fmt: skip
-MAP = "results/map.nc"
+MAP = "figure_map"
 
 
 class Map(NamedTuple):
     """A finished map: its datasets, its table without what tells of the machine, and its cost."""
 
-    contents: dict[Path, xr.Dataset]
+    contents: dict[str, xr.Dataset]
     table: pd.DataFrame
     cpu: float  # s of processor time
 
@@ -71,14 +71,10 @@ def _undisturbed(directory: Path) -> Map:
     return Map(place.contents(), _table(place), done.cpu)
 
 
-def _finished(place: Place) -> list[Path]:
-    """The datasets of the runs that are done."""
-    return [path for path in place.results.glob("simulations/[!.]*.nc") if key_in(path)]
-
-
-def _simulated(place: Place) -> dict[Path, tuple[int, bytes]]:
-    """Of each of them, when it was written and what it holds."""
-    return {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in _finished(place)}
+def _finished(place: Place) -> dict[str, bytes]:
+    """The datasets of the runs that are done, with when they were made, by their ids."""
+    paths = {run.id: place.simulation(run.id) for run in load(place.directory / "config.yaml").runs}
+    return {id: path.read_bytes() for id, path in paths.items() if path.exists()}
 
 
 def _kill_in_a_batch(
@@ -96,15 +92,15 @@ def _kill_in_a_batch(
         running.spend(processor_time(running.tree()) + random.uniform(0.0, 0.1) * whole.cpu)
         kill(running)
     stopped = running.end().status != 0
-    kept = _simulated(own)
-    checkpoints = own.results.glob("simulations/*.checkpoint.npz")
-    halves = [path for path in checkpoints if path.with_suffix("").with_suffix(".nc") not in kept]
+    kept = _finished(own)
+    checkpoints = own.results.glob("unfinished/[!.]*.checkpoint.npz")
+    halves = [path for path in checkpoints if path.name.rsplit(".", 3)[0] not in kept]
     require(not dies or stopped or len(kept) == RUNS, "it ended well without all runs")
     own.finish(MAP)
-    after = _simulated(own)
+    after = _finished(own)
     require(len(after) == RUNS, f"there are {len(after)} runs")
     if dies:
-        again = {path for path in after if after[path] != kept.get(path)}
+        again = {id for id in after if after[id] != kept.get(id)}
         require(len(again) == RUNS - len(kept), f"{len(again)} runs made, {len(kept)} were there")
         said = "".join(path.read_text() for path in own.results.glob("logs/batches/*.log"))
         require(said.count("the run goes on from") == len(halves), f"no checkpoint used: {said}")

@@ -1,4 +1,4 @@
-"""Files that are damaged or foreign: datasets, checkpoints, a cache's entries, notes."""
+"""Files that are damaged or foreign: entries of stores, checkpoints, notes."""
 
 from __future__ import annotations
 
@@ -14,18 +14,25 @@ from harness import IDS, Place, Reference
 from processes import require
 from registry import CLEAR_ERROR, RECOVERED, fault
 
+from nucleation.pipeline.store import NOTE, read_note
+
+
+def _write(path: Path, content: bytes) -> None:
+    path.chmod(0o644)  # entries of stores are read-only
+    path.write_bytes(content)
+
 
 def truncate(path: Path, random: random.Random) -> None:
     """Cut off a random part of the end."""
     content = path.read_bytes()
-    path.write_bytes(content[: random.randrange(len(content))])
+    _write(path, content[: random.randrange(len(content))])
 
 
 def flip(path: Path, random: random.Random) -> None:
     """Change one bit."""
     content = bytearray(path.read_bytes())
     content[random.randrange(len(content))] ^= 1 << random.randrange(8)
-    path.write_bytes(content)
+    _write(path, content)
 
 
 def zero(path: Path, random: random.Random) -> None:
@@ -33,7 +40,7 @@ def zero(path: Path, random: random.Random) -> None:
     content = bytearray(path.read_bytes())
     begin = random.randrange(len(content))
     content[begin : begin + 4096] = bytes(len(content[begin : begin + 4096]))
-    path.write_bytes(content)
+    _write(path, content)
 
 
 def _without_a_trace(path: Path, damage: Callable, random: random.Random) -> None:
@@ -43,34 +50,28 @@ def _without_a_trace(path: Path, damage: Callable, random: random.Random) -> Non
     os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
 
 
-def _damaged_dataset(place: Place, reference: Reference, random: random.Random, damage) -> str:
-    """Check lists it; and what is made from it is not made."""
-    paths = [place.simulation(id) for id in IDS]
-    paths += [place.results / "lengths.nc", place.results / "lengths" / "faults.nc"]
-    path = random.choice(paths)
-    traceless = random.choice((True, False))
-    if traceless:
+def _damaged_entry(place: Place, reference: Reference, random: random.Random, damage) -> str:
+    """Check lists it; nothing is made from it, and it is made again."""
+    entry = place.store.entry(random.choice(place.store.listed()))
+    path = entry / random.choice([*read_note(entry)["files"], NOTE])
+    if random.choice((True, False)):
         _without_a_trace(path, damage, random)
     else:
         damage(path, random)
-    listed = any(f.path == path and f.state == "damaged" for f in place.findings())
-    if not listed:  # a bit without meaning
+    listed = any(f.path == entry and f.state in ("damaged", "foreign") for f in place.findings())
+    if not listed:  # a bit without meaning, in what a note says of the rest
+        require(path.name == NOTE, f"check does not list the damaged {path}")
         place.require_same(reference)
         return RECOVERED
-    done = place.run("lengths", "--forcerun", "extract")
-    if path not in paths[:2]:
-        require(done.status == 0, done.output)
-        return RECOVERED  # made again
-    require(done.status != 0, "a table was made from a damaged dataset")
-    name = path.relative_to(place.directory)
-    require(f"{name} is damaged" in done.output, f"no clear error: {done.output[-2000:]}")
-    place.finish()
-    return CLEAR_ERROR
+    if random.choice((True, False)):
+        place.forget_tables()
+    stopped = place.finish()
+    return CLEAR_ERROR if stopped else RECOVERED
 
 
 def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> str:
     """Run on from a checkpoint that must be refused, or used, or (None) may be either."""
-    place.simulation(id).unlink()
+    place.forget(id)
     with place.unharmed():
         place.run_alone(id)
     said = place.log(id)
@@ -121,21 +122,21 @@ def checkpoint_after_the_end(place, reference, random):
     return _bad_checkpoint(place, id, refused=False)
 
 
-def _damaged_cache(place: Place, reference: Reference, random: random.Random, damage) -> str:
-    """Fill a cache, damage entries, and take results from it."""
-    cache = place.directory.parent / f"{place.directory.name}.cache"
-    cache.mkdir()
-    variables = {"SNAKEMAKE_OUTPUT_CACHE": str(cache)}
+def _damaged_elsewhere(place: Place, reference: Reference, random: random.Random, damage) -> str:
+    """Fill another store, damage its entry, and ask for the result again."""
+    other = place.directory.parent / f"{place.directory.name}.store"
+    other.mkdir()
+    variables = {"NUCLEATION_STORES": str(other)}
     try:
-        place.simulation(IDS[0]).unlink()
+        place.forget(IDS[0])
         require((done := place.run("simulations", **variables)).status == 0, done.output)
-        (entry,) = cache.glob("*.nc")
-        damage(entry, random)
-        place.simulation(IDS[0]).unlink()
-        place.finish(**variables)
+        (entry,) = other.iterdir()
+        damage(random.choice([*entry.iterdir()]), random)
+        place.forget(IDS[0])
+        require(not place.finish(**variables), "a damaged entry elsewhere stopped it")
         place.require_same(reference)
     finally:
-        shutil.rmtree(cache)
+        shutil.rmtree(other)
     return RECOVERED
 
 
@@ -143,14 +144,14 @@ _cut_checkpoint = functools.partial(_damaged_checkpoint, refused=True)
 _changed_checkpoint = functools.partial(_damaged_checkpoint, refused=None)  # not all bits matter
 
 for _name, _kind, _harm, _damage in (
-    ("truncated_dataset", "damaged dataset", _damaged_dataset, truncate),
-    ("flipped_dataset", "damaged dataset", _damaged_dataset, flip),
-    ("zeroed_dataset", "damaged dataset", _damaged_dataset, zero),
+    ("truncated_entry", "damaged entry", _damaged_entry, truncate),
+    ("flipped_entry", "damaged entry", _damaged_entry, flip),
+    ("zeroed_entry", "damaged entry", _damaged_entry, zero),
     ("truncated_checkpoint", "damaged checkpoint", _cut_checkpoint, truncate),
     ("flipped_checkpoint", "damaged checkpoint", _changed_checkpoint, flip),
     ("zeroed_checkpoint", "damaged checkpoint", _changed_checkpoint, zero),
-    ("truncated_cache_entry", "damaged cache entry", _damaged_cache, truncate),
-    ("flipped_cache_entry", "damaged cache entry", _damaged_cache, flip),
+    ("truncated_entry_elsewhere", "damaged entry elsewhere", _damaged_elsewhere, truncate),
+    ("flipped_entry_elsewhere", "damaged entry elsewhere", _damaged_elsewhere, flip),
 ):
     fault(_kind, _name)(functools.partial(_harm, damage=_damage))
 
@@ -158,7 +159,7 @@ for _name, _kind, _harm, _damage in (
 @fault("damaged notes of snakemake")
 def lost_notes(place, reference, random):
     """The directory .snakemake is removed, or a random note in it is cut or emptied."""
-    place.simulation(IDS[0]).unlink()
+    place.forget(IDS[0])
     if random.random() < 0.5:
         shutil.rmtree(place.directory / ".snakemake")
     else:

@@ -14,6 +14,8 @@ from harness import IDS, Place, Reference
 from processes import Done, require
 from registry import CLEAR_ERROR, fault, says
 
+PAGE = os.sysconf("SC_PAGE_SIZE")
+
 
 @contextlib.contextmanager
 def _mounted(directory: Path, *options: str) -> Iterator[bool]:
@@ -35,7 +37,8 @@ def _failed_for_want_of_space(done: Done, place: Place, id: str) -> None:
     require(done.status != 0, "it ended well without space")
     clear = any(text in said for text in ("No space left on device", "File too large"))
     require(clear, f"it does not say that space is lacking: {said[-1500:]}")
-    left = [path.name for path in place.simulation(id).parent.glob(".*.tmp")]
+    places = (place.store.directory, place.checkpoint(id).parent)
+    left = [path.name for directory in places for path in directory.glob(".*.tmp")]
     require(not left, f"halves of files were left: {left}")
     require(not place.simulation(id).exists(), "there is a result")
 
@@ -44,10 +47,10 @@ def _failed_for_want_of_space(done: Done, place: Place, id: str) -> None:
 def full_disk(place, reference, random):
     """A simulation on a small disk; a limit on files' sizes where no disk can be mounted."""
     id = random.choice(IDS)
-    place.simulation(id).unlink()
-    directory, aside = place.results / "simulations", place.directory / "aside"
+    place.forget(id)
+    directory, aside = place.store.directory, place.directory / "aside"
     shutil.copytree(directory, aside)
-    used = sum(path.stat().st_size for path in aside.iterdir())
+    used = sum(-(-path.stat().st_size // PAGE) * PAGE for path in aside.rglob("*.*"))
     space = used + random.randrange(10_000, _size_of_result(reference, id))
     with _mounted(directory, "-t", "tmpfs", "-o", f"size={space}", "tmpfs") as mounted:
         if not mounted:
@@ -69,7 +72,7 @@ def full_disk(place, reference, random):
 def file_size_limit(place, reference, random):
     """Writes fail in the middle of a file: of a checkpoint, or only of the larger dataset."""
     id = random.choice(IDS)
-    place.simulation(id).unlink(missing_ok=True)
+    place.forget(id)
     limit = random.randrange(30_000, _size_of_result(reference, id))
 
     def prepare():
@@ -86,7 +89,7 @@ def full_disk_of_the_workflow(place, reference, random):
     """The disk of the results fills up under snakemake, which names the job that failed."""
     id = random.choice(IDS)
     limit = random.randrange(30_000, _size_of_result(reference, id))
-    place.simulation(id).unlink()
+    place.forget(id)
 
     def prepare():
         resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
@@ -123,7 +126,7 @@ def read_only(directory: Path) -> Iterator[None]:
 @fault("read-only results")
 def read_only_results(place, reference, random):
     id = random.choice(IDS)
-    place.simulation(id).unlink()
+    place.forget(id)
     with place.unharmed():
         with read_only(place.results):
             says(place.run(), "is not writable", "Read-only file system", "Permission denied")
@@ -132,12 +135,12 @@ def read_only_results(place, reference, random):
 
 
 @fault("read-only results")
-def read_only_simulations(place, reference, random):
-    """A directory below the results."""
+def read_only_store(place, reference, random):
+    """A directory below the results, which a job finds once it has made its own."""
     id = random.choice(IDS)
-    place.simulation(id).unlink()
+    place.forget(id)
     with place.unharmed():
-        with read_only(place.results / "simulations"):
+        with read_only(place.store.directory):
             done = place.start_alone(id).end()
             said = done.output + place.log(id)
             clear = ("Read-only file system", "Permission denied", "Operation not permitted")

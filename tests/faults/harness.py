@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import functools
 import math
 import os
 import re
@@ -21,12 +22,12 @@ from processes import ENVIRONMENT, ROOT, Done, Lost, Running, require
 from warm_snakemake import warm
 
 from nucleation.configuration.load import load
-from nucleation.configuration.runs import Run
 from nucleation.datasets import netcdf, variables
-from nucleation.model.friction.registry import plugins
-from nucleation.pipeline import code, keys
-from nucleation.pipeline.check import Finding
-from nucleation.pipeline.keys import Store
+from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
+from nucleation.pipeline.keys import key_in
+from nucleation.pipeline.running import UNFINISHED, task_of_run
+from nucleation.pipeline.steps import Task
+from nucleation.pipeline.store import NOTE, Store, StoreError, path_in, read_note
 
 SCRIPT = ROOT / "workflow" / "scripts" / "simulate.py"
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
@@ -40,6 +41,9 @@ CONFIG = {
         }
     }
 }  # fmt: skip
+OTHER = {**CONFIG, "friction": {"aging_coefficient": 0.08}}
+"""The same runs with other parameters."""
+
 COSTS = {"wall_seconds", "peak_megabytes"}
 """Variables and attributes that tell of the machine: they differ between any two runs."""
 
@@ -58,14 +62,17 @@ class Reference:
     checkpoints : Path
         A directory with the checkpoint of each simulation, stopped by a signal in its middle.
     contents : dict
-        Its datasets, by path below `directory`.
+        Its datasets, by key.
+    shown : dict
+        Keys of what is shown, by path below the results.
     alone, workflow : float
         Processor time (s) of one simulation's script, and of the whole workflow.
     """
 
     directory: Path
     checkpoints: Path
-    contents: dict[Path, xr.Dataset]
+    contents: dict[str, xr.Dataset]
+    shown: dict[Path, str | None]
     alone: float
     workflow: float
 
@@ -85,19 +92,39 @@ class Place:
         """Where the results are."""
         return self.directory / "results"
 
+    @property
+    def store(self) -> Store:
+        """The store of the results, as it is now."""
+        return Store(self.results / "store")
+
+    def task(self, id: str) -> Task:
+        """What the job of a simulation has to do, with paths below the directory."""
+        runs = load(self.directory / "config.yaml").runs
+        return task_of_run(next(run for run in runs if run.id == id).to_dict(), Path("results"))
+
     def simulation(self, id: str) -> Path:
         """The dataset of one simulation."""
-        run = next(run for run in load(self.directory / "config.yaml").runs if run.id == id)
-        return Path(Store(self.results).dataset("simulations", id, keys.joined(made(run))))
+        return path_in(self.store.entry(self.task(id).key), ".nc")
+
+    def forget(self, *ids: str) -> None:
+        """Remove simulations from the store; the links to them lead nowhere then."""
+        for id in ids:
+            shutil.rmtree(self.simulation(id).parent, ignore_errors=True)
+
+    def forget_tables(self) -> None:
+        """Remove all from the store that is made of simulations."""
+        for key in self.store.listed():
+            if (self.store.note(key) or {}).get("rule", "simulate") != "simulate":
+                self.store.remove(key)
 
     def checkpoint(self, id: str) -> Path:
         """The checkpoint of one simulation."""
-        return self.simulation(id).with_suffix(".checkpoint.npz")
+        return self.results / UNFINISHED / f"{Path(self.task(id).link).stem}.checkpoint.npz"
 
     def log(self, id: str) -> str:
         """What a simulation has written to its log."""
-        name = self.simulation(id).with_suffix(".log").name
-        return (self.results / "logs" / "simulate" / name).read_text(errors="replace")
+        name = Path(self.task(id).link).with_suffix(".log").name
+        return (self.results / "logs" / "simulations" / name).read_text(errors="replace")
 
     def start(
         self,
@@ -148,16 +175,27 @@ class Place:
                 for path in self.results.rglob("*"):
                     os.utime(path, (now, now))
                 continue
-            damaged = re.findall(r"(results/\S+) is (?:damaged|another result)", done.output)
-            require(damaged, f"it can't be finished: {done.output[-3000:]}")
-            for path in set(damaged):
-                (self.directory / path).unlink(missing_ok=True)
+            aside = "It was moved aside: run this again" in done.output
+            require(aside, f"it can't be finished: {done.output[-3000:]}")
         raise Lost(f"it can't be finished: {done.output[-3000:]}")
 
-    def contents(self) -> dict[Path, xr.Dataset]:
-        """All datasets below the results, by path."""
-        paths = [*self.results.glob("[!.]*.nc"), *self.results.glob("[!.]*/[!.]*.nc")]
-        return {path.relative_to(self.directory): netcdf.read(path) for path in paths}
+    def contents(self) -> dict[str, xr.Dataset]:
+        """All datasets of the store, by key."""
+        return datasets(self.store)
+
+    def shown(self) -> dict[Path, str | None]:
+        """Keys of all that the directory of results shows, by path below it."""
+        names = (path.relative_to(self.results) for path in self.results.rglob("*"))
+        return {
+            name: key_in(os.path.realpath(self.results / name))
+            for name in names
+            if name.parts[0] not in {*OWN, UNFINISHED} and not (self.results / name).is_dir()
+        }
+
+    def prune(self) -> None:
+        """Remove what nothing refers to."""
+        done = self.run("prune", PRUNE="yes")
+        require(done.status == 0, done.output)
 
     def findings(self) -> list[Finding]:
         """What target `check` lists."""
@@ -165,28 +203,76 @@ class Place:
         return [Finding(self.directory / path, state, why) for state, path, why in listed]
 
     def require_same(self, reference: Reference) -> None:
-        """Every dataset has the undisturbed one's values, bit for bit."""
+        """Every dataset has the undisturbed one's values, bit for bit, and its name leads to it."""
         self.require_contents(reference.contents)
+        shown = self.shown()
+        require(shown == reference.shown, f"shown are {shown}")
 
-    def require_contents(self, expected: dict[Path, xr.Dataset]) -> None:
-        """The datasets are those, by path below the directory."""
+    def require_contents(self, expected: dict[str, xr.Dataset]) -> None:
+        """The datasets are those, by key."""
         try:
             contents = self.contents()
-        except variables.DatasetError as error:
+        except (variables.DatasetError, StoreError) as error:
             raise Lost(str(error)) from error
         require(contents.keys() == expected.keys(), f"datasets are {sorted(contents)}")
-        for path, dataset in contents.items():
-            difference = first_difference(dataset, expected[path])
-            require(difference is None, f"{path} differs from the undisturbed one: {difference}")
+        require_same(contents, expected)
 
     @contextlib.contextmanager
     def unharmed(self) -> Iterator[None]:
-        """Whatever happens within: each simulation that exists before is the same after."""
-        before = {path: path.read_bytes() for path in self.results.glob("simulations/*.nc")}
+        """Whatever happens within: each entry that exists before is the same after."""
+        before = {path: path.read_bytes() for path in entries(self.store)}
         yield
         for path, content in before.items():
-            require(path.exists(), f"{path.name} was lost")
-            require(path.read_bytes() == content, f"{path.name} was changed")
+            require(path.exists(), f"{path} was lost")
+            require(path.read_bytes() == content, f"{path} was changed")
+
+
+def configure(place: Place, config: dict) -> None:
+    """Give a place another configuration."""
+    (place.directory / "config.yaml").write_text(yaml.safe_dump(config))
+
+
+@functools.cache
+def others(directory: Path) -> dict[str, xr.Dataset]:
+    """What :data:`OTHER` makes by itself, beside the workflows of a reference."""
+    place = Place(directory / "others")
+    place.directory.mkdir()
+    configure(place, OTHER)
+    require((done := place.run()).status == 0, done.output)
+    return place.contents()
+
+
+def datasets(store: Store) -> dict[str, xr.Dataset]:
+    """All datasets of a store, by key, once every entry is found to be whole."""
+    for key in store.listed():
+        read_note(store.entry(key), whole=True)
+    paths = [path_in(store.entry(key), ".nc") for key in store.listed()]
+    return {str(key_in(path)): netcdf.read(path) for path in paths if path.exists()}
+
+
+def entries(store: Store) -> list[Path]:
+    """All files of finished results; their notes and datasets say when each was made."""
+    found = [path for key in store.listed() for path in sorted(store.entry(key).iterdir())]
+    return [path for path in found if (path.parent / NOTE).exists()]
+
+
+def require_same(datasets: dict[str, xr.Dataset], expected: dict[str, xr.Dataset]) -> None:
+    """Datasets have the values that are expected of their keys, bit for bit."""
+    for key, dataset in datasets.items():
+        difference = first_difference(dataset, expected[key])
+        require(difference is None, f"{key} differs from the undisturbed one: {difference}")
+
+
+def rules(done: Done) -> set[str]:
+    """The rules that were run, without the target of the lengths, which always is."""
+    table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", done.output, re.S)
+    require(table, f"it ran nothing: {done.output[-1500:]}")
+    return {line.split()[0] for line in table[1].splitlines()} - {"lengths"}
+
+
+def require_nothing_made(done: Done) -> None:
+    """It ended well and has made nothing."""
+    require(done.status == 0 and not rules(done), f"it ran again: {done.output[-1500:]}")
 
 
 def _asked(arguments: Sequence[str], checkout: Path) -> list[str]:
@@ -194,12 +280,6 @@ def _asked(arguments: Sequence[str], checkout: Path) -> list[str]:
     asked = [*(arguments or ("lengths",)), "--snakefile", str(checkout / "Snakefile")]
     asked += ["--workflow-profile", str(checkout / "workflow/profiles/default")]
     return [*asked, "--configfile", "config.yaml"]
-
-
-def made(run: Run) -> dict[str, str]:
-    """What makes a simulation, as the workflow says it."""
-    digest = code.digest(str(SCRIPT), *code.ALWAYS, *plugins(run.parameters))
-    return keys.parts(digest, {"parameters": run.parameters.to_dict()}, {})
 
 
 def first_difference(one: xr.Dataset, other: xr.Dataset) -> str | None:
@@ -226,12 +306,12 @@ def make_reference(directory: Path) -> Reference:
     (whole.directory / "config.yaml").write_text(yaml.safe_dump(CONFIG))
     workflow = whole.start().end()
     require(workflow.status == 0, workflow.output)
-    require(not list(whole.results.glob(".kept/*")), "second names were left")
+    require(not list(whole.store.directory.glob(".*")), f"{LEFTOVERS['.*.tmp']}")
 
     place, checkpoints = whole.copy(directory / "halfway"), directory / "stopped"
     checkpoints.mkdir()
     for id in IDS:
-        place.simulation(id).unlink()
+        place.forget(id)
         steps = int(netcdf.read(whole.simulation(id)).attrs["steps"])
         stopped = place.start_alone(id, stop_after=steps // 2).end()
         require(stopped.status != 0, "it did not stop")
@@ -239,4 +319,6 @@ def make_reference(directory: Path) -> Reference:
         shutil.copy2(place.checkpoint(id), checkpoints)
     place.checkpoint(id).unlink()
     alone = place.run_alone(id)
-    return Reference(whole.directory, checkpoints, whole.contents(), alone.cpu, workflow.cpu)
+    return Reference(
+        whole.directory, checkpoints, whole.contents(), whole.shown(), alone.cpu, workflow.cpu
+    )

@@ -18,7 +18,7 @@ def _stop_simulation(
 ) -> str:
     """Signals, up to three times, to a simulation's script, which is then run to its end."""
     id = random.choice(IDS)
-    place.simulation(id).unlink()
+    place.forget(id)
     with place.unharmed():
         for _ in range(random.choice((1, 1, 1, 3))):
             moment = random.uniform(0.3, 1.0) * reference.alone
@@ -39,8 +39,7 @@ def _stop_snakemake(
     group: bool = False,
 ) -> str:
     """A signal to snakemake, or to all its processes as from a terminal; then the next steps."""
-    for id in random.sample(IDS, random.choice((1, 2))):
-        place.simulation(id).unlink()
+    place.forget(*random.sample(IDS, random.choice((1, 2))))
     with place.unharmed():
         moment = random.uniform(0.1, 1.0) * reference.workflow
         place.start().interrupt(number, moment, group=group)
@@ -70,7 +69,7 @@ for _name, _kind, _stop, _number in (
 def sigkill_simulation_in_workflow(place, reference, random):
     """Snakemake is told of the failure, and says which job it was."""
     id = random.choice(IDS)
-    place.simulation(id).unlink()
+    place.forget(id)
     with place.unharmed():
         running = place.start()
         moment = random.uniform(0.1, 1.0) * reference.alone
@@ -86,16 +85,44 @@ def sigkill_simulation_in_workflow(place, reference, random):
     return CLEAR_ERROR
 
 
+@fault("job taken for failed")
+def job_taken_for_failed(place, reference, random):
+    """Killed with its result in the store, before Snakemake has heard of it; others start then."""
+    ids = random.sample(IDS, random.choice((1, 2)))
+    place.forget(*ids)
+    running = place.start("--cores", "1")
+    made = [place.simulation(id) for id in ids]
+    running.wait_for(lambda: any(path.exists() for path in made))
+    with place.unharmed():
+        if random.choice((True, False)):
+            for process in running.scripts():
+                with contextlib.suppress(psutil.NoSuchProcess):
+                    process.kill()
+        second = place.run()  # refused by the lock, if the first goes on
+        running.signal(signal.SIGTERM)
+        running.end()
+        place.finish()
+    require(second.status == 0 or "locked" in second.output, second.output)
+    return RECOVERED
+
+
 @fault("SIGKILL between writing and renaming")
 def killed_before_renaming(place, reference, random):
     """Halves of a checkpoint and of a dataset lie there under temporary names."""
     id = random.choice(IDS)
-    dataset, checkpoint = place.simulation(id), reference.checkpoints / place.checkpoint(id).name
-    for path in (dataset, checkpoint):
+    dataset, checkpoint = place.simulation(id), place.checkpoint(id)
+    place.store.directory.joinpath(".killed.tmp").mkdir()
+    checkpoint.parent.mkdir(exist_ok=True)
+    for path, half in (
+        (dataset, place.store.directory / ".killed.tmp" / dataset.name),
+        (
+            reference.checkpoints / checkpoint.name,
+            checkpoint.with_name(f".{checkpoint.name}.1.tmp"),
+        ),
+    ):
         content = path.read_bytes()
-        half = dataset.with_name(f".{path.name}.{random.randrange(1, 99999)}.tmp")
         half.write_bytes(content[: random.randrange(len(content))])
-    dataset.unlink()
+    place.forget(id)
     found = [finding for finding in place.findings() if "half a file" in finding.reason]
     require(len(found) == 2, "check does not list the halves")
     place.run_alone(id)

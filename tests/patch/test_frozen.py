@@ -9,7 +9,8 @@ from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
-from nucleation.patch.frozen import frozen_patch, log_state_derivatives
+from nucleation.patch.frozen import frozen_patch
+from nucleation.theory.creep.linearised import log_state_derivatives
 
 
 @pytest.mark.parametrize("law", ["aging", "slip"])

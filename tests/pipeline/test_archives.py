@@ -1,36 +1,212 @@
-"""An archive from others brings results and notes on them, and nothing else, whatever is in it."""
+"""An archive of results says what it is, and brings entries of a store and nothing else."""
 
-import base64
+import gzip
 import hashlib
 import io
-import os
+import json
+import shutil
 import stat
+import subprocess
 import tarfile
 
 import pytest
+import yaml
 
-from nucleation.pipeline import archives, bundle
-from nucleation.pipeline.archives import CHECKSUMS, NOTES, BundleError
+from nucleation.configuration.load import load
+from nucleation.pipeline import bundle, crate, view
+from nucleation.pipeline.bundle import CHECKSUMS, BundleError
+from nucleation.pipeline.store import Store, StoreError
 
-CSV = "results/mine/lengths.csv"
+KEY, OTHER, UNSHOWN = "0" * 16, "1" * 16, "2" * 16
+FILES = {KEY: {"result.nc": b"a run"}, OTHER: {"result.csv": b"1,2\n", "result.columns.csv": b"x"},
+         UNSHOWN: {"result.nc": b"of other parameters"}}  # fmt: skip
+
+CONFIG = "studies: {one: {runs: [{height: 0.02, n_x: 40, n_y: 4}]}}"
 
 
-def note_on(path):
-    return f"{NOTES}/{base64.urlsafe_b64encode(path.encode()).decode()}"
+def put(store, key, files):
+    def make(place):
+        for name, content in files.items():
+            (place / name).write_bytes(content)
+
+    store.put(key, make, {"name": key})
+
+
+@pytest.fixture
+def made(tmp_path):
+    """A directory with results of which some are shown, and a file of the user's among them."""
+    results = tmp_path / "made" / "results"
+    for key, files in FILES.items():
+        put(Store(results / "store"), key, files)
+    view.show(results, "paper", [("simulations/a b", KEY), ("lengths", OTHER)])
+    (results / "lengths.csv").rename(results / "mine.csv")
+    (results / "lengths.csv").write_text("mine")
+    (tmp_path / "made" / "config.yaml").write_text(CONFIG)
+    return tmp_path / "made"
+
+
+@pytest.fixture
+def archive(made):
+    bundle.write(made / "out.tar", made / "config.yaml", made)
+    return made / "out.tar"
+
+
+def read(archive, name):
+    with tarfile.open(archive) as tar:
+        return tar.extractfile(name).read()
+
+
+def test_archive_holds_what_is_shown(archive):
+    with tarfile.open(archive) as tar:
+        assert all(member.isreg() and member.mode == 0o644 for member in tar)
+        names = tar.getnames()
+    entries = {f"store/{k}/{n}" for k in (KEY, OTHER) for n in ("entry.json", *FILES[k])}
+    described = {CHECKSUMS, "config.yaml", "codecheck.yml", "ro-crate-metadata.json"}
+    assert {*names} == {*entries, *described, "lengths.columns.csv"}, (
+        "simulations only in the store"
+    )
+    checksums = read(archive, CHECKSUMS).decode().splitlines()
+    assert {line[66:]: line[:64] for line in checksums} == {
+        name: hashlib.sha256(read(archive, name)).hexdigest() for name in {*names} - {CHECKSUMS}
+    }
+
+
+def test_descriptions_name_the_same_files(archive):
+    manifest = yaml.safe_load(read(archive, "codecheck.yml"))
+    listed = {"file": "lengths.columns.csv", "sha256": hashlib.sha256(b"x").hexdigest()}
+    assert manifest["manifest"] == [listed]
+    assert manifest["paper"]["reference"].endswith("10.1002/2017GL074939")
+    graph = json.loads(read(archive, "ro-crate-metadata.json"))["@graph"]
+    entities = {entity["@id"]: entity for entity in graph}
+    assert len(entities) == len(graph), "a name stands for one entity"
+    files = {name for name, entity in entities.items() if entity["@type"] == "File"}
+    with tarfile.open(archive) as tar:
+        sizes = {member.name: member.size for member in tar}
+    assert files == sizes.keys() - {CHECKSUMS, "ro-crate-metadata.json"}
+    assert {part["@id"] for part in entities["./"]["hasPart"]} == files
+    for name in files:
+        assert int(entities[name]["contentSize"]) == sizes[name]
+        assert entities[name]["sha256"] == hashlib.sha256(read(archive, name)).hexdigest()
+    assert entities[f"store/{KEY}/result.nc"]["encodingFormat"] == "application/x-netcdf"
+
+
+def references(value):
+    """All references in an entity, wherever they stand."""
+    if isinstance(value, dict):
+        return [value["@id"]] if value.keys() == {"@id"} else references(list(value.values()))
+    return [name for part in value for name in references(part)] if isinstance(value, list) else []
+
+
+def test_research_object_meets_the_specification(archive):
+    """What RO-Crate 1.1 says that must be: its sections on the root, on files, and on contexts."""
+    described = json.loads(read(archive, "ro-crate-metadata.json"))
+    assert described["@context"][0] == "https://w3id.org/ro/crate/1.1/context"
+    entities = {entity["@id"]: entity for entity in described["@graph"]}
+    descriptor, root = entities["ro-crate-metadata.json"], entities["./"]
+    assert descriptor["@type"] == "CreativeWork" and descriptor["about"] == {"@id": "./"}
+    assert descriptor["conformsTo"] == {"@id": "https://w3id.org/ro/crate/1.1"}
+    assert root["@type"] == "Dataset"
+    assert all(root[key] for key in ("name", "description", "datePublished", "license", "hasPart"))
+    named = {name for entity in entities.values() for name in references(entity)}
+    assert named - {"https://w3id.org/ro/crate/1.1"} <= entities.keys(), (
+        "all that is named is there"
+    )
+    assert entities.keys() - named == {"ro-crate-metadata.json"}, "all that is there is named"
+    assert (
+        entities[entities[root["citation"]["@id"]]["author"][0]["@id"]]["name"] == "Michael Aldam"
+    )
+
+
+def test_commit_is_that_of_the_checkout_itself(tmp_path):
+    def git(*arguments):
+        names = ["-c", "user.name=a", "-c", "user.email=a@b.example"]
+        subprocess.run(["git", "-C", tmp_path, *names, *arguments], check=True, capture_output=True)
+
+    assert crate.commit(tmp_path) == ""
+    git("init")
+    assert crate.commit(tmp_path) == "", "there is none yet"
+    (tmp_path / "a").write_text("1")
+    git("add", "a")
+    git("commit", "-m", "a")
+    git("tag", "v1")
+    assert len(crate.commit(tmp_path)) == 40
+    (tmp_path / "a").write_text("2")
+    assert crate.commit(tmp_path).endswith("-dirty")
+    (tmp_path / "below").mkdir()
+    assert crate.commit(tmp_path / "below") == "", "a release unpacked within another project"
+
+
+def test_restored_entries_are_those_that_were_packed(archive, tmp_path):
+    clone = tmp_path / "clone"
+    put(Store(clone / "results/deep/store"), KEY, FILES[KEY])
+    kept = (clone / "results/deep/store" / KEY).stat().st_mtime_ns
+    assert bundle.restore(archive, "results/deep", clone) == 1
+    assert bundle.restore(archive, "results/deep", clone) == 0
+    store = Store(clone / "results/deep/store")
+    assert store.listed() == [KEY, OTHER] and store.entry(KEY).stat().st_mtime_ns == kept
+    for key in (KEY, OTHER):
+        packed = json.loads(read(archive, f"store/{key}/entry.json"))
+        assert json.loads((store.entry(key) / "entry.json").read_text()) == packed
+        for name, content in FILES[key].items():
+            assert (store.entry(key) / name).read_bytes() == content
+            assert stat.S_IMODE((store.entry(key) / name).stat().st_mode) == 0o444
+    assert sorted(path.name for path in store.directory.iterdir()) == [KEY, OTHER]
+
+
+def test_damaged_entry_in_the_way_is_moved_aside(archive, tmp_path, capsys):
+    store = Store(tmp_path / "clone/results/store")
+    put(store, KEY, {"result.nc": b"mine"})
+    (store.entry(KEY) / "result.nc").chmod(0o644)
+    (store.entry(KEY) / "result.nc").write_bytes(b"longer than it was")
+    assert bundle.restore(archive, "results", tmp_path / "clone") == 2
+    assert "Not used" in capsys.readouterr().err
+    (aside,) = (store.directory / "aside").glob(f"*/{KEY}/result.nc")
+    assert aside.read_bytes() == b"longer than it was"
+
+
+def test_nothing_is_written_without_results_or_over_a_file(made, archive):
+    with pytest.raises(BundleError, match="exists already"):
+        bundle.write(archive, made / "config.yaml", made)
+    with pytest.raises(BundleError, match="no results in"):
+        bundle.write(made / "b.tar", made / "config.yaml", made / "empty")
+    path = made / "results" / "store" / KEY / "result.nc"
+    path.chmod(0o644)
+    path.write_bytes(b"A RUN")
+    with pytest.raises(StoreError, match="is damaged"):
+        bundle.write(made / "b.tar", made / "config.yaml", made)
+    assert not (made / "b.tar").exists()
+
+
+def test_program_among_results_is_not_packed(made):
+    put(Store(made / "results/store"), "3" * 16, {"result.py": b"1"})
+    view.show(made / "results", "own", [("own", "3" * 16)])
+    with pytest.raises(BundleError, match=r"result\.py.: it is neither"):
+        bundle.write(made / "out.tar", made / "config.yaml", made)
 
 
 def member(name, kind=tarfile.REGTYPE, content=b"x", **fields):
     entry = tarfile.TarInfo(name)
     entry.type, entry.mode = kind, 0o777
-    for key, value in fields.items():
-        setattr(entry, key, value)
+    for field, value in fields.items():
+        setattr(entry, field, value)
     entry.size = len(content) if kind == tarfile.REGTYPE else 0
     return entry, content
 
 
+def note(key, **files):
+    told = {
+        f"result.{suffix}": {"size": len(text), "sha256": hashlib.sha256(text).hexdigest()}
+        for suffix, text in files.items()
+    }
+    return json.dumps({"key": key, "files": told}).encode()
+
+
+CSV = f"store/{KEY}/result.csv"
+WHOLE = [member(CSV), member(f"store/{KEY}/entry.json", content=note(KEY, csv=b"x"))]
+
+
 def packed(path, *members):
-    """An archive with a result, its note, some members more, and right checksums of all."""
-    members = [member(CSV), member(note_on(CSV), content=b"{}"), *members]
+    """An archive of some members, with right checksums of all."""
     plain = [(entry.name, content) for entry, content in members if entry.isreg()]
     lines = [f"{hashlib.sha256(content).hexdigest()}  {name}\n" for name, content in plain]
     with tarfile.open(path, "w") as tar:
@@ -44,119 +220,136 @@ FOREIGN = {
     "module": member("src/nucleation/evil.py"),
     "startup": member("sitecustomize.py"),
     "profile": member("workflow/profiles/default/config.yaml"),
-    "program among results": member("results/mine/sitecustomize.py"),
-    "hidden": member("results/mine/.envrc"),
-    "hidden directory": member("results/mine/.git/config.csv"),
-    "other results": member("results/theirs.csv"),
-    "beside": member("results/mine.csv"),
-    "reference set": member("results/mine/reference/lengths.csv"),
-    "absolute": member("/etc/cron.d/evil.csv"),
-    "upwards": member("results/mine/../../outside.csv"),
-    "not shortest": member("results/mine//a.csv"),
-    "backslash": member("results/mine/..\\..\\a.csv"),
-    "control": member("results/mine/a\x1b[2J.csv"),
-    "newline": member("results/mine/a\nb.csv"),
-    "symbolic link": member("results/mine/a.csv", tarfile.SYMTYPE, linkname="/etc/passwd"),
-    "hard link": member("results/mine/a.csv", tarfile.LNKTYPE, linkname=CSV),
-    "linked directory": member("results/mine/figures", tarfile.SYMTYPE, linkname="../../src"),
-    "directory": member("results/mine/figures", tarfile.DIRTYPE),
-    "pipe": member("results/mine/a.csv", tarfile.FIFOTYPE),
-    "device": member("results/mine/a.csv", tarfile.CHRTYPE, devmajor=1, devminor=3),
-    "twice": member(CSV, content=b"y"),
-    "note on another file": member(note_on("src/nucleation/api.py")),
-    "record of no result": member("results/mine/.made/evil.py.json"),
-    "program among records": member("results/mine/.made/lengths.csv.py"),
-    "record of a record": member("results/mine/.made/.made/lengths.csv.json.json"),
-    "record of the reference set": member("results/mine/.made/reference/lengths.csv.json"),
-    "note outside": member(note_on("results/mine/../../a.csv")),
-    "no note": member(f"{NOTES}/a.json"),
-    "beside the notes": member(".snakemake/scripts/a.py"),
     "lock": member(".snakemake/locks/0.input.lock"),
+    "hidden": member(".envrc.csv"),
+    "hidden directory": member("figures/.git/config.csv"),
+    "program in an entry": member(f"store/{KEY}/result.py"),
+    "program with two endings": member(f"store/{KEY}/result.csv.py"),
+    "other name in an entry": member(f"store/{KEY}/other.csv"),
+    "hidden in an entry": member(f"store/{KEY}/.result.csv"),
+    "no key": member("store/views/0.json"),
+    "key in capitals": member(f"store/{'A' * 16}/result.csv"),
+    "deeper": member(f"store/{KEY}/a/result.csv"),
+    "absolute": member("/etc/cron.d/evil.csv"),
+    "upwards": member("../outside.csv"),
+    "upwards in between": member(f"store/{KEY}/../../../evil.csv"),
+    "not shortest": member("figures//a.csv"),
+    "backslash": member("..\\..\\a.csv"),
+    "control": member("a\x1b[2J.csv"),
+    "newline": member("a\nb.csv"),
+    "newline in an entry": member(f"store/{KEY}/result.csv\n"),
+    "symbolic link": member(CSV.replace(".csv", ".nc"), tarfile.SYMTYPE, linkname="/etc/passwd"),
+    "hard link": member("a.csv", tarfile.LNKTYPE, linkname=CSV),
+    "linked directory": member("store", tarfile.SYMTYPE, linkname="../../src"),
+    "directory": member("figures", tarfile.DIRTYPE),
+    "pipe": member("a.csv", tarfile.FIFOTYPE),
+    "device": member("a.csv", tarfile.CHRTYPE, devmajor=1, devminor=3),
+    "twice": member(CSV, content=b"y"),
 }
 
 
 @pytest.mark.parametrize("foreign", FOREIGN.values(), ids=FOREIGN.keys())
 def test_foreign_file_is_refused_by_name(foreign, tmp_path):
-    archive = packed(tmp_path / "evil.tar", foreign)
-    with pytest.raises(BundleError, match="nothing was put in place") as caught:
-        bundle.restore(archive, "results/mine", tmp_path / "checkout")
+    archive = packed(tmp_path / "evil.tar", *WHOLE, foreign)
+    with pytest.raises(BundleError, match="nothing is written") as caught:
+        bundle.restore(archive, "results", tmp_path / "checkout")
     assert repr(foreign[0].name) in str(caught.value)
-    assert not list((tmp_path / "checkout").rglob("*"))
+    assert not (tmp_path / "checkout").exists()
 
 
-def test_plain_results_are_put_in_place_and_can_not_be_run(tmp_path):
-    future = member("results/mine/logs/a.log", mtime=2**40)
-    records = [member("results/mine/.made/lengths.csv.json", content=b"{}"),
-               member("results/mine/quick/.made/figures/a.png.json", content=b"{}")]  # fmt: skip
-    archive = packed(tmp_path / "good.tar", future, *records)
-    old = os.umask(0o027)
-    try:
-        assert bundle.restore(archive, "./results/mine/", tmp_path / "checkout") == 5
-    finally:
-        os.umask(old)
-    put = tmp_path / "checkout" / CSV
-    assert stat.S_IMODE(put.stat().st_mode) == 0o640
-    log = tmp_path / "checkout" / "results/mine/logs/a.log"
-    assert log.stat().st_mtime <= (tmp_path / "good.tar").stat().st_mtime + 60.0
+BROKEN = {
+    "of another key": [
+        member(CSV),
+        member(f"store/{KEY}/entry.json", content=note(OTHER, csv=b"x")),
+    ],
+    "other content": [member(CSV, content=b"y"), WHOLE[1]],
+    "more files": [*WHOLE, member(f"store/{KEY}/result.md")],
+    "fewer files": [WHOLE[1]],
+    "no note": [WHOLE[0]],
+    "no text": [WHOLE[0], member(f"store/{KEY}/entry.json", content=b"\xff")],
+    "no note at all": [WHOLE[0], member(f"store/{KEY}/entry.json", content=b"[1]")],
+    "deep": [WHOLE[0], member(f"store/{KEY}/entry.json", content=b"[" * 10**5)],
+}
 
 
-def test_links_that_are_there_are_not_followed_out(tmp_path):
-    (tmp_path / "checkout" / "results").mkdir(parents=True)
-    (tmp_path / "elsewhere").mkdir()
-    (tmp_path / "checkout" / "results" / "mine").symlink_to(tmp_path / "elsewhere")
-    with pytest.raises(BundleError, match="leads out of"):
-        bundle.restore(packed(tmp_path / "a.tar"), "results/mine", tmp_path / "checkout")
-    assert not list((tmp_path / "elsewhere").iterdir())
-
-
-@pytest.mark.parametrize(
-    "results",
-    ["", ".", "..", "/tmp/a", "../a", "a/../../b", ".git", "src", "src/nucleation", "workflow",
-     "./tests", "a/.git", ".snakemake", "a\nb"],
-)  # fmt: skip
-def test_place_of_code_is_no_place_for_results(results, tmp_path):
-    with pytest.raises(BundleError, match="results ="):
-        bundle.restore(packed(tmp_path / "a.tar"), results, tmp_path / "checkout")
+@pytest.mark.parametrize("members", BROKEN.values(), ids=BROKEN.keys())
+def test_entry_is_what_its_note_tells_of(members, tmp_path):
+    archive = packed(tmp_path / "a.tar", *members)
+    with pytest.raises(BundleError, match="damaged or no archive of results"):
+        bundle.restore(archive, "results", tmp_path / "checkout")
     assert not (tmp_path / "checkout").exists()
 
 
 def test_files_and_their_checksums_are_the_same_set(tmp_path):
-    for name, listed in (("more", CSV), ("fewer", f"{CSV} results/mine/b.csv results/mine/c.csv")):
-        lines = "".join(f"{hashlib.sha256(b'x').hexdigest()}  {n}\n" for n in listed.split())
+    whole = packed(tmp_path / "whole", *WHOLE, member("a.csv"))
+    *lines, _ = read(whole, CHECKSUMS).splitlines(keepends=True)
+    for name, text in (("fewer", b"".join(lines)), ("more", lines[0] + b"0" * 64 + b"  b.csv")):
         with tarfile.open(tmp_path / name, "w") as tar:
-            for entry, content in (
-                member(CSV), member("results/mine/b.csv"),
-                member(CHECKSUMS, content=lines.encode()),
-            ):  # fmt: skip
+            for entry, content in [*WHOLE, member("a.csv"), member(CHECKSUMS, content=text)]:
                 tar.addfile(entry, io.BytesIO(content))
-        with pytest.raises(BundleError, match=r"damaged: results/mine/[bc]\.csv"):
-            bundle.restore(tmp_path / name, "results/mine", tmp_path / "checkout")
-    assert not list((tmp_path / "checkout").rglob("*"))
+        with pytest.raises(BundleError, match=r"[ab]\.csv is not what was packed"):
+            bundle.restore(tmp_path / name, "results", tmp_path / "checkout")
 
 
-def test_bombs_are_refused(tmp_path):
-    whole = packed(tmp_path / "a.tar").read_bytes()
-    (tmp_path / "small.tar.gz").write_bytes(b"\x1f\x8b" + whole)  # no compression is undone
-    with pytest.raises(BundleError, match="no archive of results"):
-        bundle.restore(tmp_path / "small.tar.gz", "results/mine", tmp_path / "checkout")
-    with pytest.raises(BundleError, match="larger than itself"):
-        archives.refuse_foreign([member(CSV, content=b"x" * 99)[0]], "results/mine", 98)
-    huge = tarfile.TarInfo("config.yaml")
-    huge.size = archives.LARGEST_DESCRIPTION + 1
-    with pytest.raises(BundleError, match="it is too large"):
-        archives.refuse_foreign([huge], "results/mine", 2**40)
+@pytest.mark.parametrize("name", ["config.yaml", CHECKSUMS, f"store/{KEY}/result.nc"])
+def test_damaged_archive_puts_nothing_in_place(archive, tmp_path, name):
+    with tarfile.open(archive) as tar:
+        place = tar.getmember(name).offset_data
+    whole = archive.read_bytes()
+    for content in (whole[:place] + b"\0" + whole[place + 1 :], whole[: place + 2], b"", b"no tar"):
+        (tmp_path / "damaged.tar").write_bytes(content)
+        with pytest.raises(BundleError, match="damaged"):
+            bundle.restore(tmp_path / "damaged.tar", "results", tmp_path / "clone")
+    with pytest.raises(BundleError, match="no archive"):
+        bundle.restore(tmp_path / "missing.tar", "results", tmp_path / "clone")
+    assert not (tmp_path / "clone").exists()
 
 
-def test_too_little_space_is_said_before(tmp_path, monkeypatch):
-    usage = type("Usage", (), {"free": 2})
-    monkeypatch.setattr("shutil.disk_usage", lambda path: usage)
-    with pytest.raises(BundleError, match="No space left on device"):
-        bundle.restore(packed(tmp_path / "a.tar"), "results/mine", tmp_path / "checkout")
+def test_archive_of_an_earlier_version_is_refused_in_a_line(tmp_path):
+    archive = packed(
+        tmp_path / "a.tar", member("results/a.csv"), member(".snakemake/metadata/eA==")
+    )
+    with pytest.raises(BundleError, match="of an earlier version") as caught:
+        bundle.restore(archive, "results", tmp_path / "checkout")
+    assert "\n" not in str(caught.value)
 
 
-def test_name_of_a_note_is_the_path_in_pieces():
-    path = "results/" + "long" * 100 + ".csv"
-    text = base64.urlsafe_b64encode(path.encode()).decode()
-    assert archives.subject_of(f"{NOTES}/@{text[:254]}/@{text[254:508]}/{text[508:]}") == path
-    assert archives.subject_of(f"{NOTES}/@{text[:254]}/../{text[254:]}") is None
-    assert archives.subject_of(f"{NOTES}/a.json") is None
+def test_links_that_are_there_are_not_followed_out(archive, tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    for name in ("results", "own/store"):
+        (tmp_path / "checkout" / name).parent.mkdir(exist_ok=True)
+        (tmp_path / "checkout" / name).symlink_to(tmp_path / "elsewhere")
+        with pytest.raises(BundleError, match="over a link"):
+            bundle.restore(archive, name.removesuffix("/store"), tmp_path / "checkout")
+    assert not list((tmp_path / "elsewhere").iterdir())
+
+
+def test_bombs_are_refused(archive, tmp_path):
+    (tmp_path / "small.tar.gz").write_bytes(gzip.compress(archive.read_bytes()))
+    with pytest.raises(BundleError, match="no archive of results"):  # no compression is undone
+        bundle.restore(tmp_path / "small.tar.gz", "results", tmp_path / "checkout")
+    with pytest.raises(BundleError, match="larger than the archive"):
+        bundle._refuse_foreign([member(CSV, content=b"x" * 99)[0]], 98)
+    for name in (CHECKSUMS, f"store/{KEY}/entry.json"):
+        huge = tarfile.TarInfo(name)
+        huge.size = bundle.LARGEST_TEXT + 1
+        with pytest.raises(BundleError, match="it is too large"):
+            bundle._refuse_foreign([huge], 2**40)
+
+
+def test_full_disk_is_said_and_leaves_no_half_entry(archive, tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(shutil, "copyfileobj", full)
+        with pytest.raises(OSError, match="No space left on device"):
+            bundle.restore(archive, "results", tmp_path / "clone")
+    assert not list((tmp_path / "clone/results/store").iterdir())
+    assert bundle.restore(archive, "results", tmp_path / "clone") == 2
+
+
+def test_configuration_names_a_place_for_results(tmp_path):
+    (tmp_path / "config.yaml").write_text(f"results: src/nucleation\n{CONFIG}")
+    with pytest.raises(ValueError, match="results ="):
+        load(tmp_path / "config.yaml")

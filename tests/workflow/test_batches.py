@@ -148,6 +148,9 @@ def test_a_run_of_two_studies_is_made_once(workflow):
     done = both("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
     assert begun(both) == len(datasets(both)) == 4
+    assert both("figure_study_alone").returncode == 0
+    checked = both("check")
+    assert checked.returncode == 0, "both names of the run are the configuration's"
 
 
 def test_runs_that_fail_do_not_take_the_others_with_them(workflow):

@@ -32,6 +32,7 @@ DRAWN = {
     },
     "figure_drop": {"table": only("gather_drop")},
     "figure_map": {"grid": only("gather_map")},
+    "figure_patch_theory": {"table": only("gather_patch_theory")},
     "figure_dispersion": {"dispersion": only("dispersion")},
     "figure_verification": {"convergence": only("verification")},
     "figure_convergence": {

@@ -102,6 +102,12 @@ def patches(*studies):
     return steps.several("patch", [run.id for run in patched_runs(*studies)])
 
 
+def patch_tables():
+    """The tables with lengths at which patches turn unstable."""
+    stability = [steps("gather_patches", "patch_stability")] if in_role(JUDGED) else []
+    return stability + ([steps("gather_pairs")] if PAIR_STUDIES else [])
+
+
 PATCHED_TOGETHER = [
     study
     for study in dict.fromkeys([*sum(PATCH_TABLES.values(), []), *PAIR_STUDIES])

@@ -52,6 +52,27 @@ rule gather_map:
         STEP
 
 
+# Where patches turn unstable by theory, beside where the simulations' own do.
+rule gather_patch_theory:
+    input:
+        tables=needed(
+            lambda wildcards: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
+            "study with role: converged, pairs, map or patch_theory",
+        ),
+    output:
+        link("patch_theory"),
+    log:
+        log("patch_theory"),
+    params:
+        call="nucleation.patch.theory_table:files",
+        loads=laws_of(runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)),
+        runs=as_dicts(runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)),
+    message:
+        "Lengths of creeping patches by theory"
+    script:
+        STEP
+
+
 # All studies whose base is deformable in every run.
 rule gather_pairs:
     input:

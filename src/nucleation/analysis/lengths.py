@@ -16,6 +16,7 @@ from ..datasets.variables import Variable, some
 from ..datasets.variables import table as table_of
 from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
+from ..theory.creep.lengths import NoPatch, Patches, stability_point
 from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
 from .record import Record
@@ -48,6 +49,7 @@ COLUMNS = {
     **some(SHARED, "n_x", "n_y"),
     **MEASURED,
     "theory_length": Variable("m", "critical nucleation length of the linear theory", "L_c"),
+    "creep_length": Variable("m", "patch length at which growth begins, by theory", "L_s"),
     **DIAGNOSTICS,
     "block_length": Variable("m", "length of the block", "L"),
     "grading": Variable("1", "largest over smallest element along y"),
@@ -98,10 +100,23 @@ def gather(
     Dataset
         The variables :data:`COLUMNS` on the dimension ``run``.
     """
-    rows = [
-        _row(run, simulation, settings) for run, simulation in zip(runs, simulations, strict=True)
-    ]
+    by_theory: dict[str, float] = {}
+    rows = []
+    for run, simulation in zip(runs, simulations, strict=True):
+        row = _row(run, simulation, settings)
+        if row["fault"] not in by_theory:
+            by_theory[row["fault"]] = _creep_length(run)
+        rows.append(row | {"creep_length": by_theory[row["fault"]]})
     return table_of(rows, COLUMNS)
+
+
+def _creep_length(run: dict[str, Any]) -> float:
+    """L_s of steady creep with constant a and b (docs/patch_theory.md); NaN if there is none."""
+    try:
+        fault = Patches.of(Parameters.from_dict(run["parameters"])).one
+        return stability_point(Patches(fault), run["theory_length"]).length
+    except NoPatch:
+        return float("nan")
 
 
 def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import math
 import textwrap
@@ -12,11 +13,13 @@ import click
 import numpy as np
 
 from ..commands import DONE, EXIT_CODES, STABLE, units
+from ..model.friction.law import Friction
 from ..model.material import Material
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError, declarations
 from ..model.units import bounds, parse
 from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
+from ..theory.creep.lengths import stability_values
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.literature_table import (
     LENGTHS,
@@ -27,6 +30,9 @@ from ..theory.literature_table import (
     values_of,
 )
 from .text import plain
+
+NOTEWORTHY = 0.03
+"""Relative change of L_s by the scales of the usual friction law that is told."""
 
 DENSITY = declarations(Material)["density"]
 
@@ -137,6 +143,7 @@ def _as_json(
                 "critical_frequency": fault.velocity and plain(mode.angular_frequency),
                 "critical_frequency_over_rate": plain(_over_rate(fault, mode)),
                 "speed_over_shear_wave": plain(_speed_ratio(fault, mode, density)),
+                **{name: plain(value) for name, value in _stability(fault).items()},
             },
             "lengths": [
                 {"key": length.key, "length": plain(lengths[length.key]), **length.words()}
@@ -150,7 +157,7 @@ def _as_json(
 def _as_text(
     fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
 ) -> str:
-    lines = [*_theory_lines(fault, mode, density)]
+    lines = [*_theory_lines(fault, mode, density), *_patch_lines(fault, float(mode.length))]
     one_material = (fault.shear_modulus, fault.poisson_ratio) == (
         fault.second_shear_modulus, fault.second_poisson_ratio,
     )  # fmt: skip
@@ -189,6 +196,51 @@ def _theory_lines(fault: Fault, mode: CriticalMode, density: float | None) -> li
     if ratio is not None:
         verdict = "inertia does not matter" if ratio < 0.1 else "INERTIA MATTERS: beyond the theory"
         lines.append(f"  c/c_s  {ratio:<16.4g} its speed over the shear waves': {verdict}")
+    return lines
+
+
+def _stability(fault: Fault) -> dict[str, float]:
+    """L_s with constant a and b, its frequency and error, and L_s as simulations have friction."""
+    length, frequency, error = (float(value) for value in stability_values(fault))
+    found = {
+        "stability_length": length,
+        "stability_frequency_over_rate": frequency,
+        "stability_length_error": error,
+    }
+    if fault.velocity is not None and fault.friction is not None and np.isfinite(length):
+        try:
+            simulated = float(stability_values(fault, Friction())[0])
+            found["stability_length_as_simulated"] = simulated
+        except ParameterError:
+            pass  # the usual law can't have these constants
+    return found
+
+
+def _patch_lines(fault: Fault, critical: float) -> list[str]:
+    """L_s, what it means, and what friction's own scales make of it."""
+    if not np.isfinite(critical):
+        return []
+    found, flat = _stability(fault), dataclasses.asdict(Friction())
+    head = ["", "The creeping patch itself, pushed at its edge (docs/patch_theory.md):"]
+    length = found["stability_length"]
+    if not np.isfinite(length):
+        return [
+            *head,
+            "  no L_s: no patch up to 3 L_c turns unstable, or its creep opens it",
+        ]
+    lines = [
+        *head,
+        f"  L_s    {_metres(length):<11} {f'{length / critical:.3g} L_c':<10} "
+        "it turns unstable; an event follows later, docs/drop.md",
+    ]
+    own = found.get("stability_length_as_simulated", length)
+    if not abs(own / length - 1.0) < NOTEWORTHY:
+        said = "none up to 3 L_c" if np.isnan(own) else f"{own:.4g} m, {own / critical:.3g} L_c,"
+        lines.append(
+            f"         {said} with the usual law of `simulate` and `drop`, whose a and b change\n"
+            f"         along the patch: v* = {flat['slip_rate_scale']:g} m/s, "
+            f"v0 = {flat['regularisation_slip_rate']:g} m/s, V = {float(fault.velocity):g} m/s"
+        )
     return lines
 
 

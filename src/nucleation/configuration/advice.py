@@ -47,6 +47,10 @@ UNSTABLE = 0.55
 SHORT_BLOCK = 2.0
 """Block length over the critical length below which the far end is felt by the patch."""
 
+CHANGE_OF_A = 0.2
+"""Relative change of the direct effect from V to V/10, where the front slips, that is told: 0.08
+with the paper's v* and V, 0.45 with V = 10 v*."""
+
 NAMED = 100
 """Most runs that a warning names besides the worst: maps have thousands."""
 
@@ -114,9 +118,35 @@ def _about(run: Run) -> Iterator[Advice]:
     yield from _span(run)
     yield from _block(run)
     yield from _start(run)
-    if run.role not in REFINEMENTS:  # what drowns in noise is their point
+    if run.role != "patch_theory":  # whose faults are meant to be such
+        yield from changing_friction(run)
+    if run.role not in (*REFINEMENTS, "patch_theory"):  # what drowns in noise is their point
         yield from _roughness(run)
         yield from _noise(run)
+
+
+def changing_friction(run: Run) -> Iterator[Advice]:
+    """Where the friction law's own scales, v* and v0, make a and b change along the patch."""
+    friction, loading = run.parameters.friction, run.parameters.loading
+    here, near_front = (friction.expansion(loading.velocity * part).a for part in (1.0, 0.1))
+    if abs(near_front / here - 1.0) < CHANGE_OF_A:
+        return
+    from ..theory.creep.lengths import effect_of_scales  # with SciPy, which takes a while
+
+    own, constant = effect_of_scales(run.parameters, run.theory_length)
+    lengths = [f"{length / run.theory_length:.2g} L_c" for length in (own, constant)]
+    lengths = [text if "nan" not in text else "none up to 3 L_c" for text in lengths]
+    scales = ", ".join(
+        f"{name} = {getattr(friction, name):g} m/s"
+        for name in ("slip_rate_scale", "regularisation_slip_rate")
+        if hasattr(friction, name)
+    )
+    yield Advice(
+        "friction changes along the patch", abs(near_front / here - 1.0),
+        f"{scales} beside V = {loading.velocity:g} m/s: a = {here:.3g} at V, {near_front:.3g} at "
+        f"V/10. L_s is {lengths[0]}, with constant a and b {lengths[1]}; give smaller scales "
+        "unless they are meant (docs/patch_theory.md)",
+    )  # fmt: skip
 
 
 def _mesh(run: Run) -> Iterator[Advice]:

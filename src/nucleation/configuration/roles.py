@@ -65,6 +65,10 @@ ROLES = {
     ),
     "drop": Role("declared perturbations, for `figure_drop`", True, False),
     "map": Role("heights and weakenings, for `figure_map`", False, False, (STABILITY, BATCHES)),
+    "patch_theory": Role(
+        "faults to hold the theory of the patch against, for `figure_patch_theory`", True, False,
+        (STABILITY, BATCHES),
+    ),
     "twin_runs": Role("runs that are kicked, for `figure_patch_stability`", True, False),
     "convergence": Role("mesh and steps refined, for `figure_convergence`", True, False),
     "convergence_quiet": Role(

@@ -66,6 +66,10 @@ FIGURES: dict[str, Entry] = {
         "Stability of the creeping patch", BEYOND, ("paper", "twin_runs"),
         (PATCHES, Data("twin_runs")),
     ),
+    "figure_patch_theory": Entry(
+        "Stability of the creeping patch by theory", BEYOND, ("converged",),
+        (Data("patch_theory"),),
+    ),
     "figure_sensitivity": Entry(
         "Sensitivity to parameters and definitions", BEYOND, ("sensitivity",),
         (Data("sensitivity"),),

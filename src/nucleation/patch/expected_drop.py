@@ -1,7 +1,9 @@
-"""The drop that a user's fault is to be expected to have, from one quick quiet run.
+"""The drop that a user's fault is to be expected to have: by theory alone, or from a quiet run.
 
-The quiet run is made on a mesh just fine enough, without its event: the creep alone is asked for,
-up to a patch length at which its mode has long been unstable. Its trends carry the law beyond.
+The theory of the creeping patch (:mod:`.theory_history`) has all that the law of the drop asks for.
+A quiet run has it too, of a block with its ends: it is made on a mesh just fine enough, without its
+event, up to a patch length at which its mode has long been unstable, and its trends go on from
+there.
 """
 
 from __future__ import annotations
@@ -19,10 +21,12 @@ from ..simulation.composition import composed
 from ..simulation.event import FAST
 from ..simulation.recording import Recorder
 from ..simulation.run import run
+from ..theory.creep.lengths import NoPatch
 from ..theory.estimates import growth_time
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, follow_mode
+from .theory_history import theory_history
 
 QUICK = Mesh(n_x=300, n_y=8, grading=20.0)
 BLOCK = 3.0  # longest block of the quiet run, over the theory's length: its end is not felt
@@ -34,6 +38,8 @@ OVERDUE = 3.0  # times the time that it is expected to take
 FEWEST = 8  # instants with an oscillating mode
 LATEST_GROWTH = 0.85  # of the quiet run's last length, up to which L_s leaves something to trend
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
+SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
+NEAR_END = 0.6  # part of the block's length up to which its far end is not felt
 
 
 class NoDrop(ValueError):
@@ -54,7 +60,7 @@ class ExpectedDrop(NamedTuple):
 
 
 def expected_drop(
-    parameters: Parameters, theory_length: float,
+    parameters: Parameters, theory_length: float, quiet_run: bool = False,
     settings: ExtractionSettings = ExtractionSettings(), mesh: Mesh = QUICK,
 ) -> ExpectedDrop:  # fmt: skip
     """L_s and the length at the drop of a fault under its declared perturbation.
@@ -62,19 +68,32 @@ def expected_drop(
     Parameters
     ----------
     parameters : the fault, its loads, the block and the perturbation; its own mesh is not used.
-    theory_length : the theory's critical length (m), which bounds the quiet run.
-    settings : definition of the patch's edge.
+    theory_length : the theory's critical length (m).
+    quiet_run : whether the mode is followed in a quick quiet run, not by the theory of the patch.
+    settings : definition of the patch's edge, in a quiet run.
     mesh : of the quiet run.
 
     Raises
     ------
     NoDrop
-        Nothing is perturbed, or the patch has no oscillating mode that begins to grow within the
-        quiet run.
+        Nothing is perturbed, or the patch has no oscillating mode that begins to grow, within the
+        quiet run or at all.
     """
     declared = parameters.perturbation
     if not declared.acts:
         raise NoDrop("nothing is perturbed: without a strength the drop depends on round-off")
+    if not quiet_run:
+        try:
+            history = theory_history(parameters, theory_length)
+        except NoPatch as error:
+            raise NoDrop(str(error)) from None
+        found = _expected(history, declared)
+        if not found.doubt and found.drop.high > history.length[-1]:
+            return found._replace(
+                doubt="the drop lies beyond the patches whose mode could be followed, "
+                f"{history.length[-1] / theory_length:.2g} L_c"
+            )
+        return found
     length = min(parameters.geometry.length, BLOCK * theory_length)
     record = quick_run(
         parameters.replaced({"geometry.length": length}), REACH * theory_length, settings, mesh
@@ -115,9 +134,29 @@ def _expected(history: ModeHistory, declared: Perturbation) -> ExpectedDrop:
             f"{closed.stability_length / history.length[-1]:.2g} of its length: how it goes on is "
             "not known"
         )
+    elif (grown := _growth_in_period(history, drop.length)) < SLOWEST_GROWTH:
+        doubt = (
+            f"the mode grows by a factor of {grown:.2g} in a period where it is as large as the "
+            f"loading (the law holds from {SLOWEST_GROWTH:g} on): bursts that come to rest may "
+            "make the drop later"
+        )
+    elif drop.high > NEAR_END * history.parameters.geometry.length:
+        doubt = (
+            f"the patch would be {drop.high / history.parameters.geometry.length:.2g} of the block "
+            "long, whose far end it feels"
+        )
     elif not np.isfinite([drop.length, drop.low, drop.high]).all():
         doubt = "the drop lies beyond the lengths that the quiet run's trends are carried on to"
     return ExpectedDrop(drop, closed, doubt)
+
+
+def _growth_in_period(history: ModeHistory, length: float) -> float:
+    """The mode's growth in one of its periods at a patch length (m), by the trends."""
+    rate, turn = (
+        float(trend(history, part)(np.array([length]))[0])
+        for part in (history.rate.real, history.rate.imag)
+    )
+    return float(np.exp(2.0 * np.pi * rate / turn)) if turn > 0.0 else float("inf")
 
 
 def quick_run(

@@ -19,7 +19,8 @@ from ..analysis.record import Record
 from ..datasets.variables import Variable, annotate
 from ..fem.bodies import body_of
 from ..simulation.recorded import RECORDED
-from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from .frozen import frozen_patch
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

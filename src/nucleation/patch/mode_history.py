@@ -32,7 +32,8 @@ from ..datasets.variables import Variable, annotate
 from ..fem.bodies import BodyOperator, body_of
 from ..model.parameters import Parameters
 from ..simulation.recorded import RECORDED
-from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from .frozen import frozen_patch
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

@@ -33,7 +33,8 @@ from ..simulation.control import Instant
 from ..simulation.run import run
 from ..simulation.state import State
 from ..simulation.step import Dynamics, StepReport
-from .frozen import OSCILLATING, FrozenPatch, frozen_patch
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from .frozen import frozen_patch
 
 ComplexArray = NDArray[np.complex128]
 

@@ -1,279 +1,207 @@
-"""All results in one archive with a manifest, and a checkout that starts from such an archive.
+"""Results in one archive: entries of a store, and a checkout that starts from them.
 
-The archive is a plain tar file: results with their times (links to a cache are followed), their
-records, Snakemake's notes on them, the configuration, ``codecheck.yml``
-(https://codecheck.org.uk/spec/) and ``ro-crate-metadata.json`` that say what they are, and a
-checksum of each file. After :func:`restore` the workflow finds nothing to be done.
+A plain tar file: ``store/KEY/...`` for all that the results show, copies of the tables, figures and
+texts under their plain names, the configuration, descriptions (:mod:`.crate`), and a checksum of
+each file. An archive comes from others, and a checkout runs what lies in it. So names, kinds, sizes
+and checksums of all members are looked at before anything is written, and :func:`restore` writes
+entries of the store alone. Nothing in them is followed or executed.
 """
 
 from __future__ import annotations
 
 import contextlib
-import datetime
+import functools
 import hashlib
 import io
+import json
+import math
 import os
+import re
 import shutil
 import sys
 import tarfile
-import tempfile
-import time
-from collections.abc import Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import click
-import yaml
 
-from ..configuration.load import Configuration, load
+from ..configuration.load import load
 from ..datasets.files import replacing
-from ..datasets.provenance import versions
-from . import crate
-from .archives import (
-    CHECKSUMS,
-    CONFIGURATION,
-    CRATE,
-    DESCRIPTIONS,
-    MANIFEST,
-    NOTES,
-    BundleError,
-    is_note,
-    is_taken,
-    place,
-    refuse_foreign,
-    refuse_links,
-    unpack,
-)
-from .crate import Packed
+from ..datasets.provenance import moment
+from .crate import CRATE, Packed, crate, manifest
+from .keys import PATTERN
+from .store import BAD, NOTE, STEM, Store, StoreError, read_note
+from .view import records
 
-DEFAULT = Path("config", "config.yaml")
-NOT_RESULTS = (".tmp", ".checkpoint.npz", ".failed.nc")
+CHECKSUMS, MANIFEST, CONFIGURATION = "manifest-sha256.txt", "codecheck.yml", "config.yaml"
+KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
+"""Endings of results; none that Python, a shell or git would run."""
+DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION, MANIFEST, CRATE)))
+IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
+COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
+PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
+LARGEST_TEXT = 2**26  # bytes of what is parsed; checksums of a hundred thousand files take 15 MB
+
+
+class BundleError(Exception):
+    """An archive that can't be written, or that is damaged or foreign."""
 
 
 def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
-    """Write an archive of all results.
-
-    Parameters
-    ----------
-    archive : Path
-        A new file.
-    configuration : Path
-        The configuration file the results were made with.
-    directory : Path
-        Where the workflow runs; the results lie below it.
-
-    Returns
-    -------
-    int
-        The number of files in it.
+    """Write an archive of what the results of a configuration show; the number of files in it.
 
     Raises
     ------
-    BundleError
-        If the archive exists already or there are no results.
+    BundleError, StoreError
+        If the archive exists already, there are no results, or one of them is damaged.
     """
-    settings = load(configuration)
-    results = place(settings.results)
+    results = directory / load(configuration).results
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
-    files = list(_result_files(directory, results))
-    if not any(path.is_relative_to(directory / results) for path in files):
-        raise BundleError(f"there are no results in {directory / results}")
-    checksums = {path.relative_to(directory).as_posix(): _checksum(path) for path in files}
-    texts = _descriptions(settings, configuration, checksums, directory)
-    checksums |= {name: _digest(text) for name, text in texts.items()}
-    texts[CHECKSUMS] = "".join(f"{value}  {name}\n" for name, value in checksums.items())
-    with replacing(archive) as temporary, tarfile.open(temporary, "w", dereference=True) as tar:
-        for name, text in texts.items():
-            entry = tarfile.TarInfo(name)
-            entry.size, entry.mtime = len(text.encode()), int(time.time())
-            tar.addfile(entry, io.BytesIO(text.encode()))
-        for path in files:
-            entry = tar.gettarinfo(path, path.relative_to(directory).as_posix())
-            entry.type, entry.mode = tarfile.REGTYPE, 0o644  # also of a second link to a file
-            # what Snakemake takes for the time of a linked file
-            entry.mtime = max(path.stat().st_mtime, path.lstat().st_mtime)
-            entry.size = path.stat().st_size
-            with path.open("rb") as file:
-                tar.addfile(entry, file)
+    store, entries = Store(results / "store"), []
+    targets = [target for record in records(store) for target in record["targets"].values()]
+    for key in sorted({key for target in targets for key in target["keys"]}):
+        for name, file in read_note(store.entry(key), whole=True)["files"].items():
+            name = f"store/{key}/{name}"
+            entries.append(Packed(name, results / name, file["size"], file["sha256"]))
+        name = f"store/{key}/{NOTE}"
+        entries.append(_text(name, (results / name).read_bytes()))
+    if not entries:
+        raise BundleError(f"there are no results in {results}: make them first")
+    digests = {file.digest for file in entries}
+    shown = {results / name for target in targets for name in target["files"]}
+    paths = [path for path in sorted(shown) if path.suffix != ".nc" and path.is_file()]
+    copies = [_text(path.relative_to(results).as_posix(), path.read_bytes()) for path in paths]
+    copies = [copy for copy in copies if copy.digest in digests]  # and no file of the user's own
+    files = [_text(CONFIGURATION, configuration.read_bytes()), *copies, *entries]
+    files = [_text(MANIFEST, manifest(copies)), *files]
+    files = [_text(CRATE, crate(files)), *files]
+    checksums = "".join(f"{file.digest}  {file.name}\n" for file in files)
+    files = [_text(CHECKSUMS, checksums.encode()), *files]
+    _refuse_foreign(map(_member, files))
+    with replacing(archive) as temporary, tarfile.open(temporary, "w") as tar:
+        for file in files:
+            source = file.source
+            with io.BytesIO(source) if isinstance(source, bytes) else source.open("rb") as stream:
+                tar.addfile(_member(file), stream)
     return len(files)
 
 
-def _descriptions(
-    settings: Configuration, configuration: Path, checksums: dict[str, str], directory: Path
-) -> dict[str, str]:
-    """The texts at the top of an archive, by name: configuration, manifest, research object."""
-    created = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
-    texts = {
-        CONFIGURATION: configuration.read_text(encoding="utf-8"),
-        MANIFEST: _manifest(checksums, created),
-    }
-    packed = {name: Packed(_digest(text), len(text.encode())) for name, text in texts.items()}
-    packed |= {
-        name: Packed(checksum, (directory / name).stat().st_size)
-        for name, checksum in checksums.items()
-        if not is_note(name)
-    }
-    return texts | {CRATE: crate.text(settings, packed, created)}
+def _member(file: Packed) -> tarfile.TarInfo:
+    member = tarfile.TarInfo(file.name)
+    member.size, member.mtime = file.size, int(moment().timestamp())
+    return member
+
+
+def _text(name: str, content: bytes) -> Packed:
+    return Packed(name, content, len(content), hashlib.sha256(content).hexdigest())
 
 
 def restore(archive: Path, results: str, directory: Path = Path()) -> int:
-    """Unpack an archive into a checkout, once every file in it has been found whole.
-
-    Files that are there already, and the same, are left alone.
+    """Put the entries of an archive into the store of a checkout; how many are new there.
 
     Parameters
     ----------
-    archive : Path
-        Of :func:`write`; it may come from others, and :mod:`.archives` says what it may bring.
-    results : str
-        The directory of results of the configuration in use; nothing goes elsewhere.
-    directory : Path
-        Where the workflow runs.
-
-    Returns
-    -------
-    int
-        The number of files that were put in place.
+    archive : of :func:`write`; it may come from others.
+    results : directory of the results, relative to `directory`, where the workflow runs.
 
     Raises
     ------
     BundleError
-        If the archive is damaged or foreign, or a file in its way is another one.
+        If it is damaged or foreign, and then nothing is written.
     """
-    if not archive.is_file():
-        raise BundleError(f"{archive} does not exist")
-    allowed = place(results)
-    directory.mkdir(parents=True, exist_ok=True)
+    place = Path(os.path.normpath(directory.resolve() / results / "store"))
+    if place.resolve() != place:
+        raise BundleError(f"{place} leads to {place.resolve()}, over a link: nothing is put there")
     with contextlib.ExitStack() as stack:
         try:
-            # not compressed: what is in it can't be larger than it is
+            # not compressed: it is no smaller than what it holds
             tar = stack.enter_context(tarfile.open(archive, "r:"))
-            members = tar.getmembers()
-        except (tarfile.TarError, OSError, ValueError, EOFError) as error:
-            raise BundleError(f"{archive} is damaged or no archive of results: {error}") from error
-        refuse_foreign(members, allowed, archive.stat().st_size)
-        _require_space(sum(member.size for member in members), directory)
-        unpacked = Path(
-            stack.enter_context(tempfile.TemporaryDirectory(dir=directory, prefix=".restore-"))
-        )
-        checksums = _verified(archive, tar, unpacked)
-        names = [name for name in checksums if name not in DESCRIPTIONS]
-        refuse_links(names, directory)
-        there = [name for name in names if os.path.lexists(directory / name)]
-        _refuse_others([name for name in there if not is_note(name)], checksums, directory)
-        new = [name for name in names if name not in there]
-        for name in new:
-            (directory / name).parent.mkdir(parents=True, exist_ok=True)
-            (unpacked / name).rename(directory / name)
+            entries = _entries(tar, archive.stat().st_size)
+        except (tarfile.TarError, EOFError, *BAD) as error:
+            raise BundleError(f"{archive} is damaged or no archive of results: {error}") from None
+        store = Store(place)
+        new = {key: files for key, files in entries.items() if store.note(key) is None}
+        for key, files in new.items():
+            about = json.load(_file(tar, files.pop(NOTE)))
+            del about["files"]  # it is looked at again
+            store.put(key, functools.partial(_unpack, tar, files), about)
     return len(new)
 
 
-def _verified(archive: Path, tar: tarfile.TarFile, unpacked: Path) -> dict[str, str]:
-    """The digest of each file of an archive, unpacked and found to be what was packed."""
-    try:
-        found = dict(unpack(tar, unpacked))
-        checksums = _read_checksums(unpacked / CHECKSUMS)
-    except (tarfile.TarError, OSError, ValueError, EOFError) as error:
-        raise BundleError(f"{archive} is damaged or no archive of results: {error}") from error
-    found.pop(CHECKSUMS)
-    for name in sorted(found.keys() | checksums.keys()):
-        if found.get(name) != checksums.get(name):
-            raise BundleError(f"{archive} is damaged: {name} is not what was packed")
-    return checksums
+def _entries(tar: tarfile.TarFile, size: int) -> dict[str, dict[str, tarfile.TarInfo]]:
+    """The files of each entry of an archive of a size (bytes), if all in it is what was packed."""
+    members = tar.getmembers()
+    _refuse_foreign(members, size)
+    sums = {m.name: hashlib.file_digest(_file(tar, m), "sha256").hexdigest() for m in members}
+    lines = _file(tar, tar.getmember(CHECKSUMS)).read().decode().splitlines()
+    packed = {name: digest for digest, name in (line.split("  ", 1) for line in lines)}
+    for name, _ in sorted(packed.items() ^ (sums.items() - {(CHECKSUMS, sums[CHECKSUMS])})):
+        raise StoreError(f"{name} is not what was packed")
+    entries: dict[str, dict[str, tarfile.TarInfo]] = defaultdict(dict)
+    for member in members:
+        if place := IN_ENTRY.fullmatch(member.name):
+            entries[place[1]][place[2]] = member
+    for key, files in entries.items():
+        note = json.load(_file(tar, files[NOTE]))
+        told = {name: (file["size"], file["sha256"]) for name, file in note["files"].items()}
+        held = {name: (m.size, sums[m.name]) for name, m in files.items() if name != NOTE}
+        if note["key"] != key or told != held:
+            raise StoreError(f"store/{key} is not the result that its note tells of")
+    return entries
 
 
-def _require_space(size: int, directory: Path) -> None:
-    free = shutil.disk_usage(directory).free
-    if size > free:
-        raise BundleError(
-            f"No space left on device: the archive holds {size / 1e6:.0f} MB, and there are "
-            f"{free / 1e6:.0f} MB in {directory.resolve()}"
-        )
+def _file(tar: tarfile.TarFile, member: tarfile.TarInfo) -> Any:
+    return tar.extractfile(member)
 
 
-def _refuse_others(names: list[str], checksums: dict[str, str], directory: Path) -> None:
-    """Refuse an archive if one of the files that are there already is another than its own."""
-    differing = [name for name in names if _differs(directory / name, checksums[name])]
-    if differing:
-        raise BundleError(
-            f"{differing[0]} and {len(differing) - 1} other files are here already, and not "
-            "those of the archive: move them away"
-        )
+def _unpack(tar: tarfile.TarFile, files: dict[str, tarfile.TarInfo], place: Path) -> None:
+    for name, member in files.items():
+        with (place / name).open("xb") as file:
+            shutil.copyfileobj(_file(tar, member), file)
 
 
-def _result_files(directory: Path, results: str) -> Iterator[Path]:
-    """All finished results and Snakemake's notes on them, without the committed reference set."""
-    for root in (directory / results, directory / NOTES):
-        for path in sorted(root.rglob("*")):
-            taken = is_taken(path.relative_to(directory).as_posix(), results)
-            # datasets may be linked to a shared cache; other links may lead to anything
-            own = path.is_file() and (path.suffix == ".nc" or not path.is_symlink())
-            if taken and own and not path.name.endswith(NOT_RESULTS):
-                yield path
+def _refuse_foreign(members: Iterable[tarfile.TarInfo], size: float = math.inf) -> None:
+    """Refuse an archive of a size (bytes) by its members, if any of them has no place there."""
+    problems, names = [], Counter[str]()
+    for member in members:
+        size, names[member.name] = size - member.size, names[member.name] + 1
+        # neither links and devices, nor sparse files, whose size in the archive says nothing
+        if member.type not in (tarfile.REGTYPE, tarfile.AREGTYPE) or member.issparse():
+            problem = "only plain files are taken, no directories, links and devices"
+        elif member.name.startswith(".snakemake/metadata/"):
+            raise BundleError(
+                "the archive is of an earlier version: its results are of another code"
+            )
+        elif not (member.name.isprintable() and PLACE.fullmatch(member.name)):
+            problem = "it is neither a result in a store nor a table, figure or text under its name"
+        elif member.name.endswith((CHECKSUMS, NOTE)) and member.size > LARGEST_TEXT:
+            problem = "it is too large"
+        elif names[member.name] > 1:
+            problem = "it is in there twice"
+        elif size < 0:
+            problem = "it is larger than the archive"
+        else:
+            continue
+        problems.append(f"\n  - {member.name!r}: {problem}")
+    if problems:
+        more = f", and {len(problems) - 5} more" if len(problems) > 5 else ""
+        raise BundleError(f"nothing is written, as this is foreign:{''.join(problems[:5])}{more}")
 
 
-def _manifest(checksums: dict[str, str], created: str) -> str:
-    """The text of ``codecheck.yml``."""
-    named = [name for name in checksums if not is_note(name)]
-    about = {
-        "version": "https://codecheck.org.uk/spec/config/1.0/",
-        "paper": {
-            "title": "Critical nucleation length for accelerating frictional slip",
-            "authors": [
-                {"name": name}
-                for name in (
-                    "Michael Aldam", "Marc Weikamp", "Robert Spatschek", "Efim A. Brener",
-                    "Eran Bouchbinder",
-                )
-            ],
-            "reference": "https://doi.org/10.1002/2017GL074939",
-        },
-        "manifest": [{"file": name, "sha256": checksums[name]} for name in named],
-        "summary": "Results of the replication; `make restore FILE=...` puts them in place",
-        "created": created,
-        "versions": versions(),
-    }  # fmt: skip
-    return yaml.safe_dump(about, sort_keys=False, allow_unicode=True)
-
-
-def _read_checksums(path: Path) -> dict[str, str]:
-    lines = path.read_text(encoding="utf-8").splitlines()
-    return {name: value for value, name in (line.split("  ", 1) for line in lines)}
-
-
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
-def _checksum(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _differs(path: Path, checksum: str) -> bool:
-    return not path.is_file() or _checksum(path) != checksum
-
-
-@click.group()
-def main() -> None:
-    """Archives of all results."""
-
-
-@main.command("write")
+@click.command()
+@click.argument("what", type=click.Choice(["write", "restore"]))
 @click.argument("archive", type=click.Path(path_type=Path))
-@click.argument("configuration", type=click.Path(path_type=Path), default=DEFAULT)
-def write_command(archive: Path, configuration: Path) -> None:
-    """Write all results of CONFIGURATION to ARCHIVE."""
-    click.echo(f"{write(archive, configuration)} files are in {archive}")
-
-
-@main.command("restore")
-@click.argument("archive", type=click.Path(path_type=Path))
-@click.argument("configuration", type=click.Path(path_type=Path), default=DEFAULT)
-def restore_command(archive: Path, configuration: Path) -> None:
-    """Put the results in ARCHIVE in place, where CONFIGURATION (config/config.yaml) has them."""
-    count = restore(archive, load(configuration).results)
-    click.echo(f"{count} files were put in place from {archive}")
+@click.argument("configuration", type=click.Path(path_type=Path), default="config/config.yaml")
+def main(what: str, archive: Path, configuration: Path) -> None:
+    """Write the results of CONFIGURATION to ARCHIVE, or put those in ARCHIVE into its store."""
+    if what == "write":
+        click.echo(f"{write(archive, configuration)} files are in {archive}")
+    else:
+        count = restore(archive, load(configuration).results)
+        click.echo(f"{count} results are new here. Make what you want to see: it takes them")
 
 
 if __name__ == "__main__":

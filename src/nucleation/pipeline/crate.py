@@ -1,7 +1,8 @@
-"""An archive of results described as a research object: RO-Crate 1.1, JSON-LD that machines read.
+"""What an archive of results says of itself to machines: RO-Crate 1.1 and CODECHECK.
 
-https://w3id.org/ro/crate/1.1: one flat list of entities that refer to each other. Here: the
-archive, its files, the parameters, the code that made them, its authors and licence, and the paper.
+https://w3id.org/ro/crate/1.1: a flat list of entities that refer to each other. Here: the archive,
+its files, the code that made them, its authors and licence, and the paper.
+https://codecheck.org.uk/spec: the paper, and the files that a codechecker compares.
 """
 
 from __future__ import annotations
@@ -9,219 +10,108 @@ from __future__ import annotations
 import json
 import mimetypes
 import subprocess
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 from urllib.parse import quote
 
 import yaml
 
-from ..configuration.load import Configuration
-from ..datasets.provenance import PACKAGE, versions
-from ..model.quantities import declarations
-from .archives import CONFIGURATION, CRATE, MANIFEST, BundleError
+from ..datasets.provenance import moment, versions
 from .code import ROOT
 
+CRATE = "ro-crate-metadata.json"
 CHECKOUT = ROOT.parent.parent
-CONTEXT = ["https://w3id.org/ro/crate/1.1/context", {"sha256": "https://schema.org/sha256"}]
-"""The terms; the digest of a file is not among those of version 1.1."""
-
-FORMATS = {
-    ".nc": "application/x-netcdf", ".md": "text/markdown", ".yaml": "application/yaml",
-    ".yml": "application/yaml", ".log": "text/plain",
-}  # fmt: skip
-"""Media types that Python's table may lack."""
-
-Entity = dict[str, Any]
+SPECIFICATION = "https://w3id.org/ro/crate/1.1"
+# the digest of a file is not among the terms of version 1.1
+TERMS = [f"{SPECIFICATION}/context", {"sha256": "https://schema.org/sha256"}]
 
 
 class Packed(NamedTuple):
-    """What is said of a file in the archive: its digest (SHA-256) and its size (bytes)."""
+    """A file of an archive: its name there, its source, size (bytes) and SHA-256."""
 
-    digest: str
+    name: str
+    source: Path | bytes
     size: int
+    digest: str
 
 
-def text(settings: Configuration, files: dict[str, Packed], created: str) -> str:
-    """The text of ``ro-crate-metadata.json``.
-
-    Parameters
-    ----------
-    settings : Configuration
-        What the results were made with.
-    files : dict
-        The archive's files by name, without Snakemake's notes.
-    created : str
-        Date and time, ISO 8601.
-    """
-    citation = _citation()
-    licence = {
-        "@id": f"https://spdx.org/licenses/{citation['license']}",
-        "@type": "CreativeWork",
-        "name": citation["license"],
+def manifest(files: Iterable[Packed]) -> bytes:
+    """The content of ``codecheck.yml``, with files in its list."""
+    paper = _citation()["references"][0]
+    about = {
+        "version": "https://codecheck.org.uk/spec/config/1.0/",
+        "paper": {
+            "title": paper["title"],
+            "authors": [{"name": _agent(author)["name"]} for author in paper["authors"]],
+            "reference": f"https://doi.org/{paper['doi']}",
+        },
+        "manifest": [{"file": file.name, "sha256": file.digest} for file in files],
+        "summary": "Results of the replication; `make restore FILE=...` puts them in place",
+        "created": moment().isoformat(timespec="seconds"),
+        "versions": versions(),
     }
-    authors = [_agent(author, f"#author-{n}") for n, author in enumerate(citation["authors"], 1)]
-    papers = [paper for entry in citation["references"] for paper in _article(entry)]
-    parameters = _parameters(settings)
-    code = _code(citation, licence, authors)
-    described = [_file(name, packed) for name, packed in files.items()]
-    root = {
-        "@id": "./",
-        "@type": "Dataset",
-        "name": f"Results of {citation['title']}",
-        "description": citation["abstract"].strip(),
-        "datePublished": created,
-        "license": _reference(licence),
-        "author": [_reference(author) for author in authors],
-        "citation": [_reference(paper) for paper in papers if paper["@type"] == "ScholarlyArticle"],
-        "hasPart": [_reference(file) for file in described],
-        "mentions": {"@id": "#making"},
-    }
-    making = {
-        "@id": "#making",
-        "@type": "CreateAction",
-        "name": "The workflow run that made the results",
-        "endTime": created,
-        "instrument": _reference(code[0]),
-        "object": [{"@id": CONFIGURATION}, *(_reference(value) for value in parameters)],
-        "result": [_reference(f) for f in described if f["@id"] not in (CONFIGURATION, MANIFEST)],
-    }
-    graph = [
-        _descriptor(),
-        root,
-        *described,
-        making,
-        *code,
-        *parameters,
-        licence,
-        *authors,
-        *papers,
-    ]
-    return json.dumps({"@context": CONTEXT, "@graph": graph}, indent=1, ensure_ascii=False) + "\n"
+    return yaml.safe_dump(about, sort_keys=False, allow_unicode=True, encoding="utf-8")
 
 
-def _descriptor() -> Entity:
-    return {
-        "@id": CRATE,
-        "@type": "CreativeWork",
-        "conformsTo": {"@id": "https://w3id.org/ro/crate/1.1"},
-        "about": {"@id": "./"},
-    }
+def crate(files: Iterable[Packed]) -> bytes:
+    """The content of ``ro-crate-metadata.json``, with files in its list."""
+    cited, created = _citation(), moment().isoformat(timespec="seconds")
+    article, address = cited["references"][0], f"https://spdx.org/licenses/{cited['license']}"
+    licence = _entity(address, "CreativeWork", name=cited["license"])
+    developers, authors = ([*map(_agent, one["authors"])] for one in (cited, article))
+    paper = _entity(
+        f"https://doi.org/{article['doi']}", "ScholarlyArticle", name=article["title"],
+        datePublished=str(article["year"]), author=_ids(*authors),
+    )  # fmt: skip
+    code = _entity(
+        "#code", "SoftwareSourceCode", name=cited["title"], version=str(cited["version"]),
+        identifier=commit(CHECKOUT) or "none", license=_ids(licence), author=_ids(*developers),
+    )  # fmt: skip
+    described = [_file(file) for file in files]
+    root = _entity(
+        "./", "Dataset", name=f"Results of {cited['title']}", description=cited["abstract"],
+        datePublished=created, license=_ids(licence), author=_ids(*developers),
+        citation=_ids(paper), hasPart=_ids(*described), isBasedOn=_ids(code),
+    )  # fmt: skip
+    about = _entity(CRATE, "CreativeWork", conformsTo={"@id": SPECIFICATION}, about=_ids(root))
+    graph = [about, root, code, licence, paper, *authors, *developers, *described]
+    return json.dumps({"@context": TERMS, "@graph": graph}, indent=1).encode()
 
 
-def _reference(entity: Entity) -> Entity:
-    return {"@id": entity["@id"]}
+def _citation() -> dict[str, Any]:
+    return dict(yaml.safe_load((CHECKOUT / "CITATION.cff").read_text(encoding="utf-8")))
 
 
-def _file(name: str, packed: Packed) -> Entity:
-    suffix = Path(name).suffix
-    return {
-        "@id": quote(name),
-        "@type": "File",
-        "name": name,
-        "contentSize": str(packed.size),
-        "encodingFormat": FORMATS.get(suffix) or mimetypes.guess_type(name)[0] or "text/plain",
-        "sha256": packed.digest,
-    }
+def _entity(id: str, kind: str, **fields: Any) -> dict[str, Any]:
+    return {"@id": id, "@type": kind, **fields}
 
 
-def _parameters(settings: Configuration) -> list[Entity]:
-    """Every value that the results stand on, also those left out of the configuration's file."""
-    base = settings.base
-    groups = {
-        "material": base.material, "friction": base.friction, "loading": base.loading,
-        "stepping": base.stepping, "extraction": settings.extraction, "curves": settings.curves,
-    }  # fmt: skip
-    found = []
-    for group, values in groups.items():
-        for name, entry in declarations(type(values)).items():
-            value = getattr(values, name)
-            unit = {} if entry.unit in ("", "1") else {"unitText": entry.unit}
-            found.append(
-                {
-                    "@id": f"#{group}.{name}",
-                    "@type": "PropertyValue",
-                    "name": f"{group}.{name}",
-                    "description": entry.description,
-                    "value": list(value) if isinstance(value, tuple) else value,
-                    **unit,
-                }
-            )
-    return found
+def _ids(*entities: dict[str, Any]) -> Any:
+    """A reference to an entity, or to several."""
+    found = [{"@id": entity["@id"]} for entity in entities]
+    return found[0] if len(found) == 1 else found
 
 
-def _code(citation: Entity, licence: Entity, authors: list[Entity]) -> list[Entity]:
-    """The project's code, with its commit if it has one, and the libraries it ran with."""
-    libraries = [
-        {"@id": f"#{name}", "@type": "SoftwareApplication", "name": name, "version": version}
-        for name, version in versions().items()
-        if name != PACKAGE
-    ]
-    code = {
-        "@id": "#code",
-        "@type": "SoftwareSourceCode",
-        "name": citation["title"],
-        "version": str(citation["version"]),
-        "programmingLanguage": {"@id": "#python"},
-        "license": _reference(licence),
-        "author": [_reference(author) for author in authors],
-        "softwareRequirements": [_reference(library) for library in libraries],
-    }
-    if revision := commit(CHECKOUT):
-        code["identifier"] = revision
-    return [code, *libraries]
+def _file(file: Packed) -> dict[str, Any]:
+    return _entity(
+        quote(file.name), "File", name=file.name, contentSize=str(file.size), sha256=file.digest,
+        encodingFormat=mimetypes.guess_type(file.name)[0] or "text/plain",
+    )  # fmt: skip
 
 
-def commit(checkout: Path) -> str | None:
-    """The commit of a checkout, with a remark if files differ from it; None outside of git."""
-
-    def said(*arguments: str) -> str:
-        command = ["git", "-C", str(checkout), *arguments]
-        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-    try:
-        if Path(said("rev-parse", "--show-toplevel")) != checkout.resolve():
-            return None  # of another project around an unpacked release
-        changed = said("status", "--porcelain", "--untracked-files=no")
-        return said("rev-parse", "HEAD") + (
-            ", with changes that are not committed" if changed else ""
-        )
-    except (OSError, subprocess.CalledProcessError):
-        return None
-
-
-def _citation() -> Entity:
-    try:
-        return yaml.safe_load((CHECKOUT / "CITATION.cff").read_text(encoding="utf-8"))
-    except OSError as error:
-        raise BundleError(
-            f"the authors are named in CITATION.cff, which can't be read: {error}"
-        ) from error
-
-
-def _agent(author: Entity, id: str) -> Entity:
+def _agent(author: dict[str, str]) -> dict[str, Any]:
     """A person or, named by one name, a group of people."""
-    if "name" in author:
-        return {"@id": id, "@type": "Organization", "name": author["name"]}
-    names = author["given-names"], author["family-names"]
-    found = {
-        "@type": "Person",
-        "name": " ".join(names),
-        "givenName": names[0],
-        "familyName": names[1],
-    }
-    return {"@id": author.get("orcid", id), **found}
+    name = author.get("name") or f"{author['given-names']} {author['family-names']}"
+    kind = "Organization" if "name" in author else "Person"
+    return _entity(author.get("orcid", f"#{quote(name)}"), kind, name=name)
 
 
-def _article(entry: Entity) -> list[Entity]:
-    """A paper that the code replicates, followed by its authors."""
-    address = f"https://doi.org/{entry['doi']}"
-    authors = [_agent(author, f"{address}#{n}") for n, author in enumerate(entry["authors"], 1)]
-    paper = {
-        "@id": address,
-        "@type": "ScholarlyArticle",
-        "name": entry["title"],
-        "identifier": address,
-        "datePublished": str(entry["year"]),
-        "author": [_reference(author) for author in authors],
-    }
-    return [paper, *authors]
+def commit(checkout: Path) -> str:
+    """The commit of a checkout, with "-dirty" if files differ from it; empty outside of git."""
+    git = ["git", f"--git-dir={checkout / '.git'}", f"--work-tree={checkout}"]
+    command = [*git, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]
+    try:
+        return subprocess.run(command, capture_output=True, text=True).stdout.strip()
+    except OSError:  # no git
+        return ""

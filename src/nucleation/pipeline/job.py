@@ -26,8 +26,9 @@ from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError
 from ..model.quantities import ParameterError
 from . import code, keys
+from .elsewhere import give_all, others
 from .steps import LINKS, Sources, Task, task_of
-from .store import STEM, Store, StoreError, give_all, others, read_note
+from .store import STEM, Store, StoreError, path_in, read_note
 
 EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 """Failures that are told in one line: what to do about them is outside of the code."""
@@ -52,7 +53,7 @@ class Job:
         self.log = str(snakemake.log[0]) if snakemake.log else ""
         self.results = Path(link.rpartition(f"/{LINKS}/")[0])
         self.store = Store(self.results / "store")
-        self._others = others()
+        self._others = others(strict=False)
 
     def verify(self) -> None:
         """Make sure that this process has the code, parameters and sources it was planned with."""
@@ -105,17 +106,15 @@ class Job:
         key = keys.key_in(path)
         if key is None:
             return Path(path)
-        entry = Path(path).resolve().parent
+        file = path_in(self.store.entry(key), Path(path).suffix)  # wherever the link leads
         try:
-            if Path(path).suffix != ".nc":
-                read_note(entry, key, whole=True)
-                return entry / f"{STEM}{Path(path).suffix}"
-            dataset = netcdf.read(path)
+            if file.suffix != ".nc":
+                read_note(file.parent, whole=True)
+                return file
+            dataset = netcdf.read(file)
             if dataset.attrs.get("key") != key:
                 found = dataset.attrs.get("key", "missing")
-                raise DatasetError(
-                    f"{path} is another result than it should be: its key is {found}"
-                )
+                raise DatasetError(f"{file} is another result than it should be, of key {found}")
             return dataset
         except (DatasetError, StoreError) as error:
             self.store.set_aside(key)
@@ -133,7 +132,7 @@ class Job:
 
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
         self.store.put(key, write, about | {"rule": self.rule, "name": Path(task.link).name})
-        give_all(self.store.entry(key))
+        give_all(self.store.entry(key), self._others)
 
     def origin(self, task: Task) -> dict[str, str]:
         """Attributes of a task's dataset that say how it was made."""
@@ -145,7 +144,7 @@ class Job:
     def leave_link(self, task: Task) -> None:
         """Tell Snakemake that a result is there."""
         link, key = Path(task.link), str(keys.key_in(task.link))
-        lay(link, self.store.entry(key) / f"{STEM}{link.suffix}")
+        lay(link, path_in(self.store.entry(key), link.suffix))
 
 
 def lay(link: Path, target: Path) -> None:

@@ -8,9 +8,11 @@ of Snakemake decides what is current, and a dry run lists what will be computed.
 
 from __future__ import annotations
 
+import contextlib
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -80,14 +82,17 @@ class Steps:
     ----------
     rules : Snakemake's; one is asked for once it is used, so it may stand further down.
     results : directory of the results.
+    tidies : whether to remove links that lead to nothing. A cluster's jobs, which plan as well,
+        must not: what others have just made may not be seen on their node yet.
     """
 
-    def __init__(self, rules: Any, results: str) -> None:
-        self._rules, self._results = rules, results
+    def __init__(self, rules: Any, results: str, tidies: bool = False) -> None:
+        self._rules, self._results, self._tidies = rules, results, tidies
         self.store = Store(f"{results}/store")
         self._made: dict[str, Made] = {}
         self._together: dict[tuple[str, str], str] = {}
         self._links: dict[str, str] = {}  # by key: what has two names is made once
+        self.names: dict[str, set[str]] = {}  # under which a result is shown, by key
         self.made = cache(self._find)
 
     def link(self, name: str, suffix: str = "nc") -> str:
@@ -139,14 +144,20 @@ class Steps:
         task, shown = self._task(rule, name)
         key, suffix = str(keys.key_in(task.link)), task.link.rpartition(".")[2]
         done = self.store.note(key) is not None
-        path = (
-            str(path_in(self.store.entry(key), f".{suffix}"))
-            if done
-            else self._links.setdefault(key, task.link)
-        )
+        link = self._links.setdefault(key, task.link)
+        if not done and self._tidies:
+            self._unlink(Path(link), key)
+        path = str(path_in(self.store.entry(key), f".{suffix}")) if done else link
         made = Made(path, key, shown, task.sources)
         self._made[path] = made
+        self.names.setdefault(key, set()).add(shown)
         return made
+
+    def _unlink(self, link: Path, key: str) -> None:
+        """Remove a link that leads to no right entry: Snakemake would take it for made."""
+        if link.is_symlink() and (not link.exists() or self.store.is_wrong(key)):
+            with contextlib.suppress(OSError):
+                link.unlink()
 
     def behind(self, paths: Iterable[str]) -> dict[str, Made]:
         """All results among some files, first, and what they are made of, all the way down."""

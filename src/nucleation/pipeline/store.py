@@ -2,8 +2,8 @@
 
 An entry is a directory ``KEY/`` with the files of one result, ``result.nc``, ``result.csv``, ...,
 and ``entry.json``, which names its key and the size and digest of each file. The store of a
-directory of results is ``store/`` in it, and results are made there. Others (:func:`others`) are
-asked first: a shared directory, or a bucket.
+directory of results is ``store/`` in it, and results are made there. Others (:mod:`.elsewhere`)
+are asked first: a shared directory, or a bucket.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -24,17 +25,19 @@ from .keys import content
 NOTE = "entry.json"
 STEM = "result"
 """Name of the files of an entry, before their suffix."""
+FILE = re.compile(rf"{STEM}(\.\w+)+")
 ASIDE = "aside"
 """Where an entry goes that is not what its key says."""
-
-VARIABLES = ("NUCLEATION_STORES", "SNAKEMAKE_OUTPUT_CACHE")
-"""Environment variables that name further stores, separated by commas; the first that is set."""
 
 Note = dict[str, Any]
 
 
 class StoreError(ValueError):
     """A store that can't be used, or an entry that is damaged or foreign."""
+
+
+BAD = (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError)
+"""What reading a note can end in, if anybody may have written it."""
 
 
 class Other(Protocol):
@@ -75,17 +78,31 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
         note = json.loads((entry / NOTE).read_text("utf-8"))
         if note["key"] != (key or entry.name):
             raise StoreError(f"{entry} holds the result of another key, {note['key']}")
-        for name, file in note["files"].items():
-            path = entry / name
-            if os.path.basename(name) != name or path.stat().st_size != file["size"]:
+        for name in files_of(note):
+            path, file = entry / name, note["files"][name]
+            if path.stat().st_size != file["size"]:
                 raise StoreError(f"{path} is damaged: it has not the size it was given")
             if whole and content(path) != file["sha256"]:
                 raise StoreError(f"{path} is damaged: it is not what was written")
     except StoreError:
         raise
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except BAD as error:
         raise StoreError(f"{entry} is damaged: {error}") from None
     return dict(note)
+
+
+def files_of(note: Note) -> list[str]:
+    """Names of the files of an entry: plain ones, which can't lead out of it.
+
+    Raises
+    ------
+    StoreError
+        If one is none.
+    """
+    for name in note["files"]:
+        if not FILE.fullmatch(name):
+            raise StoreError(f"{name!r} is no name of a result's file")
+    return list(note["files"])
 
 
 class Store:
@@ -118,6 +135,13 @@ class Store:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]
 
+    def is_wrong(self, key: str) -> bool:
+        """Whether there is an entry that is not right, at this moment."""
+        try:
+            return self.entry(key).exists() and not read_note(self.entry(key))
+        except StoreError:
+            return True
+
     def listed(self) -> list[str]:
         """Keys of all entries, right or not."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
@@ -147,9 +171,10 @@ class Store:
     def take(self, key: str, others: list[Other]) -> str | None:
         """Copy an entry from the first of other stores that has it; its name, None if none has.
 
-        What is damaged, foreign or out of reach is said in a line.
+        What is damaged, foreign or out of reach is said in a line; what is out of reach leaves the
+        list.
         """
-        for other in others:
+        for other in list(others):
             self.directory.mkdir(parents=True, exist_ok=True)
             with self._unfinished() as place:
                 try:
@@ -158,7 +183,9 @@ class Store:
                         self._publish(place, key)
                         return str(other)
                 except Exception as error:  # of networks and buckets all sorts are raised
-                    print(f"Not taken from {other}: {_in_a_line(error)}", file=sys.stderr)
+                    print(f"Not taken from {other}: {in_a_line(error)}", file=sys.stderr)
+                    if not isinstance(error, (StoreError, FileNotFoundError)):
+                        others.remove(other)
         return None
 
     @contextlib.contextmanager
@@ -178,13 +205,16 @@ class Store:
         place.chmod(0o755)
         flush(place)
         with contextlib.suppress(StoreError):
-            read_note(self.entry(key))
+            read_note(self.entry(key), whole=True)
             return
         self.set_aside(key)
-        with contextlib.suppress(OSError):  # if one has appeared this very moment
-            place.rename(self.entry(key))
-        flush(self.directory)
         self._known.pop(key, None)
+        try:
+            place.rename(self.entry(key))
+        except OSError:
+            if self.note(key) is None:  # else one has appeared this very moment
+                raise
+        flush(self.directory)
 
     def set_aside(self, key: str) -> Path | None:
         """Move what is no right entry out of the way; where it is then."""
@@ -192,111 +222,19 @@ class Store:
             return None
         (self.directory / ASIDE).mkdir(exist_ok=True)
         place = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=self.directory / ASIDE))
-        self.entry(key).rename(place / key)
         self._known.pop(key, None)
+        with contextlib.suppress(FileNotFoundError):  # if another process was faster
+            self.entry(key).rename(place / key)
         return place / key
 
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that half of one is never found."""
         gone = self.directory / f".{key}.removed.tmp"
+        shutil.rmtree(gone, ignore_errors=True)  # left by a process that was killed here
         self.entry(key).rename(gone)
         shutil.rmtree(gone)
 
 
-class SharedDirectory:
-    """Another store in a directory, which many may use at once."""
-
-    def __init__(self, directory: Path) -> None:
-        self._store = Store(directory)
-
-    def __str__(self) -> str:
-        return str(self._store.directory)
-
-    def fetch(self, key: str, into: Path) -> bool:
-        """See :class:`Other`."""
-        entry = self._store.entry(key)
-        if not (entry / NOTE).is_file():
-            return False
-        for name in (NOTE, *read_note(entry)["files"]):
-            shutil.copyfile(entry / name, into / name)
-        return True
-
-    def give(self, entry: Path) -> None:
-        """See :class:`Other`."""
-        if os.access(self._store.directory, os.W_OK) and self._store.note(entry.name) is None:
-            note = read_note(entry)
-
-            def copy(place: Path) -> None:
-                for name in note["files"]:
-                    shutil.copyfile(entry / name, place / name)
-
-            self._store.put(entry.name, copy, {k: v for k, v in note.items() if k != "files"})
-
-
-class Bucket:
-    """A store behind a URL that fsspec knows, such as ``s3://bucket/path``."""
-
-    def __init__(self, url: str) -> None:
-        import fsspec
-
-        self._url = url.rstrip("/")
-        self._files, self._root = fsspec.core.url_to_fs(self._url)
-
-    def __str__(self) -> str:
-        return self._url
-
-    def fetch(self, key: str, into: Path) -> bool:
-        """See :class:`Other`."""
-        entry = f"{self._root}/{key}"
-        if not self._files.exists(f"{entry}/{NOTE}"):
-            return False
-        note = self._files.cat_file(f"{entry}/{NOTE}")
-        (into / NOTE).write_bytes(note)
-        for name in json.loads(note)["files"]:
-            self._files.get_file(f"{entry}/{os.path.basename(name)}", str(into / name))
-        return True
-
-    def give(self, entry: Path) -> None:
-        """See :class:`Other`: the note comes last, and without it there is no entry."""
-        target = f"{self._root}/{entry.name}"
-        if not self._files.exists(f"{target}/{NOTE}"):
-            for name in (*read_note(entry)["files"], NOTE):
-                self._files.put_file(str(entry / name), f"{target}/{name}")
-
-
-def others() -> list[Other]:
-    """The other stores that the environment names.
-
-    Raises
-    ------
-    StoreError
-        If one is no directory, can't be read, or is of a kind that nothing here can read.
-    """
-    found: list[Other] = []
-    text = next(filter(None, map(os.environ.get, VARIABLES)), "")
-    for name in filter(None, map(str.strip, text.split(","))):
-        if "://" in name:
-            try:
-                found.append(Bucket(name))
-            except (ImportError, ValueError) as error:
-                raise StoreError(f"the store {name} can't be used: {_in_a_line(error)}") from None
-        elif not Path(name).is_dir():
-            raise StoreError(f"the store {name!r} is no directory: make it first")
-        elif not os.access(name, os.R_OK | os.X_OK):
-            raise StoreError(f"the store {name!r} can't be read")
-        else:
-            found.append(SharedDirectory(Path(name).absolute()))
-    return found
-
-
-def give_all(entry: Path) -> None:
-    """Give a new entry to the other stores; what goes wrong there is said, and the result stays."""
-    for other in others():
-        try:
-            other.give(entry)
-        except Exception as error:  # of networks and buckets all sorts are raised
-            print(f"Not kept in {other}: {_in_a_line(error)}", file=sys.stderr)
-
-
-def _in_a_line(error: Exception) -> str:
+def in_a_line(error: Exception) -> str:
+    """An error of any kind as one line."""
     return " ".join(f"{type(error).__name__}: {error}".split())

@@ -60,7 +60,7 @@ def critical_length(**fault: Values) -> Any:
     k_c is the largest wavenumber at which a root of Eq. (5) is marginal. Two half-spaces of one
     material have Eq. (6), of different materials Eq. (9), a thin layer on a rigid body Eq. (11).
     """
-    return _critical(_fault(fault)).length
+    return _critical(fault_of(fault)).length
 
 
 def critical_mode(**fault: Values) -> CriticalMode:
@@ -81,7 +81,7 @@ def critical_mode(**fault: Values) -> CriticalMode:
     ParameterError
         If a parameter is missing, unknown or outside its range.
     """
-    return _critical(_with_velocity(_fault(fault)))
+    return _critical(_with_velocity(fault_of(fault)))
 
 
 def spectrum(wavenumber: Values, **fault: Values) -> Any:
@@ -111,12 +111,12 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
     def rates(systems: Systems, k: Any) -> Any:
         return systems.growth_rates(as_wavenumber(k))
 
-    own = _with_velocity(_fault(fault))
+    own = _with_velocity(fault_of(fault))
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
     found = own.evaluate(rates, k, rows=2, dtype=complex)
     if labelled(found):
         found = found.rename(row="root")
-    return _named(found, "growth_rate", "1/s", "growth rate of the mode", own)
+    return named(found, "growth_rate", "1/s", "growth rate of the mode", own)
 
 
 def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
@@ -150,12 +150,12 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     def functions(systems: Systems, k: Any) -> Any:
         return systems.pair.transfer_functions(as_wavenumber(k))
 
-    own = _fault(neutral | fault)
+    own = fault_of(neutral | fault)
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
     shear, normal = own.evaluate(functions, k, rows=2)
     return (
-        _named(shear, "G1", "1", "shear response", own),
-        _named(normal, "G2", "1", "normal response", own),
+        named(shear, "G1", "1", "shear response", own),
+        named(normal, "G2", "1", "normal response", own),
     )
 
 
@@ -168,9 +168,9 @@ def _critical(fault: Fault) -> CriticalMode:
     mirrored = np.logical_not(fault.bodies_differ)
     frequency = frequency + (abs(frequency) - frequency) * mirrored  # keeps the dimensions' names
     return CriticalMode(
-        _named(length, "critical_length", "m", "critical nucleation length", fault),
-        _named(wavenumber, "critical_wavenumber", "1/m", "critical wavenumber", fault),
-        _named(frequency, "critical_frequency", "rad/s", "frequency of the critical mode", fault),
+        named(length, "critical_length", "m", "critical nucleation length", fault),
+        named(wavenumber, "critical_wavenumber", "1/m", "critical wavenumber", fault),
+        named(frequency, "critical_frequency", "rad/s", "frequency of the critical mode", fault),
     )
 
 
@@ -202,7 +202,8 @@ ALIASES = {
 """What simulations, studies and their tables call parameters of a fault."""
 
 
-def _fault(parameters: dict[str, Any]) -> Fault:
+def fault_of(parameters: dict[str, Any]) -> Fault:
+    """The fault of keywords, some of which may be :data:`ALIASES`."""
     for alias, name in ALIASES.items():
         if alias in parameters:
             if name in parameters:
@@ -220,7 +221,7 @@ def _with_velocity(fault: Fault) -> Fault:
     return fault
 
 
-def _named(values: Any, name: str, units: str, long_name: str, fault: Fault) -> Any:
+def named(values: Any, name: str, units: str, long_name: str, fault: Fault) -> Any:
     """A DataArray with name and unit; a pint quantity if the fault has one; else the array."""
     if labelled(values):
         return values.rename(name).assign_attrs(units=units, long_name=long_name)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 TWO_MATERIALS = "two half-spaces of the two bodies' materials"
 HALF_SPACES = "two identical half-spaces of the first body's material"
+THIS_FAULT = "this fault, both bodies as they are"
 RIGID_BASE = "a layer of the first body's material and height on a rigid body"
 
 WEAKENING_RATE = Quantity(
@@ -44,6 +45,8 @@ class Length:
 
     def evaluate(self, fault: Fault, weakening_rate: Values) -> Any:
         """The length (m) of a fault, NaN outside its validity."""
+        if self.system == THIS_FAULT:
+            return self.compute(fault)
         names = inspect.signature(self.compute).parameters
         own = {"weakening_rate": weakening_rate}
         if self.system == TWO_MATERIALS:
@@ -82,6 +85,19 @@ def of_two_materials(fault: Fault) -> tuple[Any, Any]:
 
 
 _WEAKENING = "velocity weakening, near steady sliding, either law"
+
+
+def _stability_length(fault: Fault) -> Any:
+    from .creep.lengths import stability_values  # with SciPy, which takes a while
+
+    return stability_values(fault)[0]
+
+
+_OF_FAULT = Length(
+    "creeping_patch", "creeping patch, pushed", "its own eigenproblem, docs/patch_theory.md",
+    "this project", "a patch that creeps as it is pushed at its edge, constant a and b, either law",
+    THIS_FAULT, _stability_length, "zeta > 0 and L_s < 3 L_c",
+)  # fmt: skip
 
 _OF_ONE_MATERIAL = (
     Length(
@@ -159,7 +175,11 @@ _OF_TWO = (
     "rubin_ampuero_crack", "uenishi_rice", "creeping_asperity", "loaded_patch",
 )  # fmt: skip
 
-LENGTHS = (*_OF_ONE_MATERIAL, *(x.of_two() for x in _OF_ONE_MATERIAL if x.key in _OF_TWO))
+LENGTHS = (
+    _OF_FAULT,
+    *_OF_ONE_MATERIAL,
+    *(x.of_two() for x in _OF_ONE_MATERIAL if x.key in _OF_TWO),
+)
 """The lengths in use, in the order in which they are listed."""
 
 

@@ -1,0 +1,87 @@
+"""The oscillating mode along the creep, from the theory of the patch in place of a quiet run.
+
+The patches of :mod:`nucleation.theory.creep.front` have what the law of the drop asks for: time and
+Lambda at each length, and the left eigenvector, which says how each kind of forcing stirs the mode
+(:mod:`.mode_history`). An infinite block is loaded evenly, so that a load acts on friction alone; a
+displacement U of the edge acts through the slip ``p U``, ``(K1 + f S2) p = 0``, that goes with it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.parameters import Parameters
+from ..theory.creep.front import Advance, advance, first_growing, oscillating
+from ..theory.creep.lengths import NoPatch, Patches
+from ..theory.creep.linearised import local_coefficients
+from ..theory.creep.profile import edge_slip
+from .mode_history import ModeHistory
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+FIRST, LAST, INSTANTS = 0.8, 1.7, 24  # lengths over L_s that are followed, and how many
+SLOWED = 0.45  # frequency over that at L_s below which a patch leaves its oscillation behind
+PLACES = 400  # along x, for what depends on it
+
+
+def theory_history(parameters: Parameters, theory_length: float) -> ModeHistory:
+    """The oscillating mode of a run's creep, by the theory.
+
+    Parameters
+    ----------
+    parameters : the fault and its loads; mesh, steps and length of the block do not matter.
+    theory_length : L_c (m).
+
+    Raises
+    ------
+    NoPatch
+        If no patch turns unstable within the lengths looked at, or its creep opens the fault.
+    """
+    patches, loading = Patches.of(parameters), parameters.loading
+    if not np.isfinite(theory_length):
+        raise NoPatch("homogeneous sliding is stable")
+    start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
+    stable = first_growing(patches, theory_length, *start)
+    found = advance(patches, stable * np.linspace(FIRST, LAST, INSTANTS), *start)
+    rates = oscillating(found)
+    at_start = np.interp(stable, found.length, rates.imag)
+    above = found.length > stable
+    left = above & ~((rates.imag > SLOWED * at_start) & (rates.real > 0.0))
+    end = int(np.argmax(left)) if left.any() else found.length.size
+    known = np.flatnonzero(np.isfinite(rates[:end]))
+    x = np.linspace(0.0, found.length[-1], PLACES)
+    rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
+    columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
+    load, drive, strength, state = columns
+    memory = parameters.memory_time
+    return ModeHistory(
+        parameters, x, found.time[known], found.length[known], rates[known] / memory,
+        load / memory, drive / memory, strength / memory, state,
+    )  # fmt: skip
+
+
+def _weights(
+    patches: Patches, found: Advance, i: int, rate: complex, x: Array
+) -> tuple[complex, complex, ComplexArray, ComplexArray]:
+    """The weights of a :class:`~.mode_history.ModeHistory`, time in D/V."""
+    patch, creep, law = found.patches[i], found.creeps[i], patches.law
+    assert law is not None
+    friction = local_coefficients(law, patches.velocity, creep.slip_rate, found.log_states[i])
+    n = creep.slip_rate.size
+    # a mode of largest displacement 1 and its conjugate swing the slip rate by 2 |Lambda|
+    left = 2.0 * abs(rate) * patch.amplitude(rate)
+    by_rate = left[:n] + patch.evolution_by_rate * left[n:]
+    by_force = -by_rate / (creep.normal_stress * friction.by_rate)
+    base = float(patches.one.friction[0])
+    follows = creep.response.modes.values @ edge_slip(creep.response, base, base).rates
+    drive = -complex(left[:n] @ follows) * rate / law.characteristic_slip_distance
+    theta = creep.response.modes.theta
+    places, shares = found.length[i] * np.cos(theta), np.sin(theta) * found.length[i]
+    shares = shares * 0.5 * np.pi / n
+    along = [
+        np.interp(x, places[::-1], (weights / shares)[::-1], right=0.0) * (x[1] - x[0])
+        for weights in (by_force * friction.friction * creep.normal_stress, left[n:])
+    ]
+    return complex(by_force @ friction.friction), drive, along[0], along[1]

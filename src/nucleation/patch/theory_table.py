@@ -1,0 +1,150 @@
+"""L_s by the theory of the creeping patch beside L_s of simulations: a row for each fault."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..analysis.lengths import COLUMNS as LENGTHS
+from ..analysis.lengths import Files, to_csv
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, annotate, some, table
+from ..model.identity import fault
+from ..model.linearised import linearised
+from ..model.parameters import Parameters
+from ..theory.closed_forms import bimaterial_contrast
+from ..theory.creep.front import advance, first_growing, oscillating
+from ..theory.creep.lengths import NoPatch, Patches, stability_point
+from ..theory.creep.thin import thin_limit
+from .growth import FITTED
+
+COLUMNS = {
+    **some(LENGTHS, "id", "study", "role", "law", "friction_law", "height"),
+    **some(SHARED, "zeta_over_a", "f_beta"),
+    "theory_length": LENGTHS["theory_length"],
+    "stability_length": FITTED["stability_length"],
+    "creep_length": LENGTHS["creep_length"],
+    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
+    "front_frequency": Variable("1/s", "angular frequency there, by theory", "omega"),
+    "front_time": Variable("s", "time at which the patch has that length, by theory", "t"),
+    "fault": LENGTHS["fault"],
+}
+"""``stability_length`` is that of the simulations, a mean over what differs in noise and mesh."""
+
+DRAWN = {
+    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
+    "curve_length": Variable("1", "L_s over L_c of a thin layer", "L_s/L_c"),
+    "shown_beta": Variable("1", "friction times bimaterial contrast", "f beta"),
+    "shown_x": Variable("1", "distance from the edge over L_s", "x/L_s"),
+    "shown_rate": Variable("1", "slip rate of the creep over V", "v/V"),
+    "shown_stress": Variable("1", "compression over the applied one", "sigma/sigma0"),
+}
+"""The thin limit's curve, and the creep of some faults at their L_s."""
+
+CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
+PROFILES = 4  # faults whose creep is shown: evenly over the contrasts
+
+
+def gather(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """The table, the thin limit's curve and the creep of some faults.
+
+    Parameters
+    ----------
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
+    tables : on ``run``, with ``id`` and ``stability_length`` (m); runs without one are left out.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``; ``curve_ratio`` and ``curve_length`` (L_s/L_c) on ``curve``;
+        ``shown_beta`` on ``case``, and ``shown_x`` (over L_s), ``shown_rate`` (over V) and
+        ``shown_stress`` (over sigma0) on ``case`` and ``place``.
+    """
+    known = {
+        str(id): float(length)
+        for own in tables
+        for id, length in zip(own["id"].values, own["stability_length"].values, strict=True)
+        if np.isfinite(length)
+    }
+    faults: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    for run in runs:
+        if run["id"] in known:
+            own = fault(Parameters.from_dict(run["parameters"]))
+            faults.setdefault((run["study"], own), []).append(run)
+    rows = [
+        _row(same[0], float(np.mean([known[run["id"]] for run in same])))
+        for same in faults.values()
+    ]
+    first = {same[0]["id"]: same[0] for same in faults.values()}
+    drawn = xr.Dataset(
+        {
+            "curve_ratio": ("curve", CURVE),
+            "curve_length": ("curve", [thin_limit(ratio).length_ratio for ratio in CURVE]),
+            **_profiles(rows, first),
+        }
+    )
+    return annotate(table(rows, COLUMNS).merge(drawn), DRAWN)
+
+
+def files(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_patch_theory``: :func:`gather`, and its rows as CSV."""
+    found = gather(runs, tables)
+    return {".nc": found, ".csv": to_csv(found[list(COLUMNS)])}
+
+
+def _row(run: dict[str, Any], measured: float) -> dict[str, Any]:
+    parameters, critical = Parameters.from_dict(run["parameters"]), run["theory_length"]
+    interface, below = linearised(parameters.friction, parameters.loading), parameters.below
+    f_beta = 0.0
+    if below is not None:
+        f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
+    patches, loading = Patches.of(parameters), parameters.loading
+    start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
+    row = {
+        "id": run["id"], "study": run["study"], "role": run["role"],
+        "fault": fault(parameters), "law": parameters.friction.evolution,
+        "friction_law": parameters.friction.law, "height": parameters.geometry.height,
+        "zeta_over_a": interface.zeta / interface.a, "f_beta": f_beta, "theory_length": critical,
+        "stability_length": measured,
+        **dict.fromkeys(("creep_length", "front_length", "front_frequency", "front_time"),
+                        math.nan),
+    }  # fmt: skip
+    try:
+        row["creep_length"] = stability_point(Patches(patches.one), critical).length
+        row["front_length"] = first_growing(patches, critical, *start)
+        made = advance(patches, [row["front_length"]], *start)
+        row["front_frequency"] = float(oscillating(made)[0].imag) / parameters.memory_time
+        row["front_time"] = float(made.time[0])
+    except NoPatch:
+        pass
+    return row
+
+
+def _profiles(rows: list[dict[str, Any]], runs: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """The creep of some faults at their L_s, over the range of contrasts."""
+    ordered = sorted((row for row in rows if row["front_length"] > 0.0), key=lambda r: r["f_beta"])
+    if not ordered:
+        return {}
+    ordered = list({round(row["f_beta"], 6): row for row in ordered}.values())
+    shown = [ordered[i] for i in np.linspace(0, len(ordered) - 1, PROFILES).round().astype(int)]
+    shown = list({row["id"]: row for row in shown}.values())
+    x, rate, stress = [], [], []
+    for row in shown:
+        parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
+        made = advance(
+            Patches.of(parameters), [row["front_length"]], parameters.loading.initial_state
+        )
+        creep = made.creeps[0]
+        x.append(np.cos(creep.response.modes.theta))
+        rate.append(creep.slip_rate)
+        stress.append(creep.normal_stress)
+    return {
+        "shown_beta": ("case", [row["f_beta"] for row in shown]),
+        "shown_x": (("case", "place"), np.array(x)),
+        "shown_rate": (("case", "place"), np.array(rate)),
+        "shown_stress": (("case", "place"), np.array(stress)),
+    }

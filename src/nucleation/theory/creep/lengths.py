@@ -1,0 +1,256 @@
+"""The stability length L_s: the shortest creeping patch with a growing oscillating mode.
+
+The eigenproblem of :mod:`.linearised` is solved at lengths that rise by a constant factor until a
+mode grows, from below the shortest that any fault is known to have, and then between the last two.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from ...model.friction.constants import full_law
+from ...model.friction.law import Friction
+from ...model.linearised import interface_state
+from ...model.parameters import Parameters
+from ...model.quantities import ParameterError
+from ..arrays import fault_of, named
+from ..critical import systems_of
+from ..crossings import largest_crossings
+from ..fault import Fault, Values
+from ..spectrum import Systems
+from ..transfer import bodies_of
+from .linearised import (
+    FrozenPatch,
+    constant_coefficients,
+    creeping_patch,
+    local_coefficients,
+)
+from .modes import modes_for, response
+from .profile import LOADINGS, Creep
+
+Array = NDArray[np.float64]
+
+LONGEST = 3.0
+"""Patches up to this multiple of L_c are tried."""
+
+OSCILLATING = 0.01
+"""Modes of a smaller angular frequency, over V/D, do not count: none that has to do with L_s is as
+slow, and it is less than what is asked of a run's patch, whose spectrum is not as clean."""
+
+SHORTEST, FACTOR = 0.7, 1.12  # where the search starts, over its guess; from length to length
+PRECISION = 1e-5  # relative, of L_s for a given number of modes
+
+
+class NoPatch(ValueError):
+    """No patch of the lengths looked at turns unstable, or none keeps contact."""
+
+
+class StabilityPoint(NamedTuple):
+    """Where the creeping patch turns unstable.
+
+    Attributes
+    ----------
+    length : float
+        L_s (m).
+    frequency : float
+        Angular frequency of its mode there, over V/D.
+    growth : float
+        ``d Re Lambda/d log L`` over V/D.
+    error : float
+        Relative error of the length, by what three quarters of the modes would give.
+    """
+
+    length: float
+    frequency: float
+    growth: float
+    error: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Patches:
+    """The creeping patches of one fault, of any length.
+
+    Parameters
+    ----------
+    one : Systems
+        A single fault, all fields of shape (1,).
+    law : Friction, optional
+        With whose local a(v) and b(v); constant a and b by default.
+    velocity : float, optional
+        V (m/s), which a law needs.
+    loading : str
+        One of :data:`~.profile.LOADINGS`.
+    """
+
+    one: Systems
+    law: Friction | None = None
+    velocity: float = 1.0
+    loading: str = "edge"
+
+    @classmethod
+    def of(cls, parameters: Parameters) -> Patches:
+        """Those of a run, with its own friction law."""
+        one = systems_of([(*bodies_of(parameters), interface_state(parameters))])
+        return cls(one, parameters.friction, parameters.loading.velocity)
+
+    @cached_property
+    def number(self) -> int:
+        """Of modes that the fault needs."""
+        return modes_for(self.one)
+
+    def creep(self, length: float, number: int | None = None) -> Creep:
+        """How a patch of a length (m) creeps."""
+        friction = float(self.one.friction[0])
+        return LOADINGS[self.loading](response(self.one, length, number or self.number), friction)
+
+    def at(self, length: float, number: int | None = None) -> FrozenPatch:
+        """The linearised patch of a length (m); slip in D, time in D/V.
+
+        Raises
+        ------
+        NoPatch
+            If the creep takes all of the compression somewhere.
+        """
+        creep, one = self.creep(length, number), self.one
+        if creep.normal_stress.min() <= 0.0:
+            raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")
+        if self.law is not None:
+            friction = local_coefficients(self.law, self.velocity, creep.slip_rate)
+        else:
+            values = (float(x[0]) for x in (one.friction, one.a, one.zeta))
+            friction = constant_coefficients(creep.slip_rate, *values)
+        return creeping_patch(creep, friction)
+
+    def rate(self, length: float, number: int | None = None) -> complex:
+        """Lambda over V/D of the fastest growing oscillating mode, NaN without one."""
+        return self.at(length, number).oscillating(OSCILLATING)
+
+
+def stability_point(patches: Patches, critical: float) -> StabilityPoint:
+    """L_s of one fault.
+
+    Parameters
+    ----------
+    patches : Patches
+    critical : float
+        L_c (m), NaN where homogeneous sliding is stable.
+
+    Raises
+    ------
+    NoPatch
+        If homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing oscillating
+        mode, or its creep opens the fault.
+    """
+    if not math.isfinite(critical):
+        raise NoPatch("homogeneous sliding is stable")
+
+    def growth(log_length: float, number: int | None = None) -> float:
+        found = patches.rate(math.exp(log_length), number).real
+        return -1.0 if math.isnan(found) else found  # without an oscillating mode all decay
+
+    low, step = math.log(SHORTEST * _guess(patches.one) * critical), math.log(FACTOR)
+    while growth(low) > 0.0:
+        low -= 2.0 * step
+    high, longest = low + step, math.log(LONGEST * critical)
+    while growth(high) <= 0.0:
+        low, high = high, high + step
+        if low > longest:
+            raise NoPatch(f"no patch up to {LONGEST:g} L_c has a growing oscillating mode")
+    at = brentq(growth, low, high, xtol=PRECISION)
+    rate = patches.rate(math.exp(at))
+    slope = (growth(at + 1e-3) - growth(at - 1e-3)) / 2e-3
+    error = abs(growth(at, 3 * patches.number // 4) - growth(at)) / slope + PRECISION
+    return StabilityPoint(math.exp(at), rate.imag, slope, error)
+
+
+def _guess(one: Systems) -> float:
+    """About L_s over L_c: that of a thin layer (:mod:`.thin`), or of one that does not weaken."""
+    zeta = max(float(one.zeta[0]), 1e-6)
+    return min(0.5 * (1.0 + 0.25 * float(one.a[0]) / zeta), 1.0)
+
+
+def stability_length(
+    *, friction_law: Friction | None = None, loading: str = "edge", **fault: Values
+) -> Any:
+    """Stability length L_s: where a creeping patch turns unstable.
+
+    Parameters
+    ----------
+    friction_law : Friction, optional
+        The full law, of which each fault has its own with the fault's f, a, zeta and D, and local
+        a(v), b(v) along the patch; needs `velocity`. By default a and b are constant.
+    loading : {"edge"}
+        What drives the patch.
+    **fault
+        The parameters of :class:`~nucleation.theory.fault.Fault`.
+
+    Returns
+    -------
+    ndarray or DataArray
+        L_s (m), broadcast shape; NaN where homogeneous sliding is stable, where no patch up to
+        ``3 L_c`` has a growing oscillating mode, and where its creep would open the fault. A
+        DataArray if there is one among the parameters, else a pint quantity if there is one.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is missing, unknown or outside its range, or no law has a fault's constants.
+    """
+    own = fault_of(fault)
+    length, _, _ = stability_values(own, friction_law, loading)
+    return named(length, "stability_length", "m", "stability length of the creeping patch", own)
+
+
+def stability_values(
+    fault: Fault, friction_law: Friction | None = None, loading: str = "edge"
+) -> tuple[Any, Any, Any]:
+    """L_s (m), the mode's frequency over V/D and the relative error of L_s; plain, in SI units."""
+    if loading not in LOADINGS:
+        raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
+    if friction_law is not None and (fault.velocity is None or fault.friction is None):
+        raise ParameterError("a friction law needs the fault's velocity and friction")
+
+    def points(systems: Systems, velocity: Array) -> NDArray:
+        critical = 2.0 * np.pi / largest_crossings(systems)
+        found = np.full((3, critical.size), np.nan)
+        for i, length in enumerate(critical):
+            one = systems.at(np.array([i]))
+            law = None if friction_law is None else _own_law(friction_law, one, velocity[i])
+            try:
+                point = stability_point(Patches(one, law, velocity[i], loading), float(length))
+            except NoPatch:
+                continue
+            found[:, i] = point.length, point.frequency, point.error
+        return found
+
+    return tuple(fault.evaluate(points, 1.0 if fault.velocity is None else fault.velocity, rows=3))
+
+
+def effect_of_scales(parameters: Parameters, critical: float) -> tuple[float, float]:
+    """L_s (m) of a run's fault with its own friction law, and with constant a and b; or NaN.
+
+    A law's scales, such as v* and v0 of the paper's, make a(v) and b(v) change along the patch.
+    """
+    own, lengths = Patches.of(parameters), []
+    for patches in (own, dataclasses.replace(own, law=None)):
+        try:
+            lengths.append(stability_point(patches, critical).length)
+        except NoPatch:
+            lengths.append(math.nan)
+    return lengths[0], lengths[1]
+
+
+def _own_law(law: Friction, one: Systems, velocity: float) -> Friction:
+    """The law with the constants of a fault at V."""
+    distance = float(velocity / one.rate[0])
+    constants = (float(x[0]) for x in (one.friction, one.a, one.zeta))
+    return full_law(
+        law.changed({"characteristic_slip_distance": distance}), float(velocity), *constants
+    )

@@ -1,0 +1,186 @@
+"""The stress that slip of a patch makes, in modes that know the patch's two ends.
+
+With ``x = L cos(theta)`` slip is expanded as
+
+    u(x) = U phi_0 + sum_n c_n sin(2 n theta),      phi_0 = 2 theta/pi,    n = 1 ... N .
+
+Each vanishes at the front (theta = 0), as its square root, and the sines at the driven edge, where
+phi_0 is one. The edge has no shear stress: fields go on beyond it as their mirror image, so that
+``u - U`` is odd in x and beyond the front ``u = 0``. The Fourier transform of ``u'`` is then, with
+``w_0 = 2/pi`` and ``w_n = 2 n``, a sum of ``-pi (-1)^n w_n J_2n(k L)`` (DLMF 10.9), and with the
+transfer functions of :mod:`nucleation.theory.transfer`
+
+    shear stress lost:     mu int G1 (-1)^(n+1) w_n J_2n(kappa) sin(kappa x/L) dkappa/L ,
+    compression gained:    mu int G2 (-1)^(n+1) w_n J_2n(kappa) cos(kappa x/L) dkappa/L
+
+with ``kappa = k L > 0``. For half-spaces G1 and G2 are constant and the integrals known, ``mu G1
+2 n sin(2 n theta)/(L sin theta)`` and ``mu G2 u'``; what layers differ from half-spaces is
+integrated up to ``kH = CUT``, where nothing is left of it. No box and no mesh is involved.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import jv
+
+from ..spectrum import Systems
+
+Array = NDArray[np.float64]
+
+MODES, MORE_MODES = 16, 32
+"""Modes of slip: enough for an error of L_s of some 1e-4, and more where the stiffer body is
+above: pushed that way, slip piles up compression behind the front (:func:`modes_for`)."""
+
+STIFFER_ABOVE = -0.05
+"""``f G2/G1`` of the half-spaces below which there are more modes."""
+
+CUT = 14.0
+"""``kH`` beyond which layers are half-spaces: ``q^2 exp(-2 q)`` is 1e-10."""
+
+REACHES = (5.0, 25.0, 250.0)
+"""Patch lengths over height for which there are tables: thicker layers need shorter ones."""
+
+SLIMMEST = REACHES[-1]
+"""Patch length over height up to which layers are taken as they are (:func:`_thickened`)."""
+
+WIDTH, POINTS = 6.0, 10  # panels of kappa and their Gauss points: J_2n(kappa) turns with 2 pi
+FINEST = 1e-3  # the first panel, of thick layers
+
+
+@dataclasses.dataclass(frozen=True)
+class Modes:
+    """What of the modes does not depend on the fault: at `theta` and on a grid of `kappa`."""
+
+    theta: Array  # (N,), from the front to the edge
+    values: Array  # phi_0 and the sines at theta, (N, N + 1)
+    gradients: Array  # L u', (N, N + 1)
+    half_space: Array  # L/(mu G1) times the shear stress lost in half-spaces, (N, N + 1)
+    kappa: Array
+    shear: Array  # sin(kappa x/L) at theta, (kappa, N)
+    normal: Array  # cos(kappa x/L)
+    slip: Array  # weight of the quadrature times (-1)^(n+1) w_n J_2n(kappa), (kappa, N + 1)
+
+    @property
+    def smoothing(self) -> Array:
+        """Factors of phi_0 and the sines that leave out the last ones, (N + 1,)."""
+        part = np.arange(self.theta.size + 1) / (self.theta.size + 1)
+        return np.exp(-36.0 * part**6)
+
+    @property
+    def inverse(self) -> Array:
+        """From values at theta to the sines' coefficients, (N, N)."""
+        return np.linalg.inv(self.values[:, 1:])
+
+    def at(self, theta: Array) -> Array:
+        """phi_0 and the sines at other angles, (angle, N + 1)."""
+        values = np.sin(2.0 * np.outer(theta, np.arange(self.theta.size + 1)))
+        values[:, 0] = 2.0 * theta / np.pi
+        return values
+
+
+@lru_cache(maxsize=16)
+def modes(number: int, slimmest: float = 0.0) -> Modes:
+    """The modes, and their tables for patches up to `slimmest` times as long as a layer is high."""
+    n = np.arange(number + 1)
+    weights = np.where(n == 0, 2.0 / np.pi, 2.0 * n)
+    theta = 0.5 * np.pi * (np.arange(number) + 0.5) / number
+    angles = 2.0 * np.outer(theta, n)
+    values = np.sin(angles)
+    values[:, 0] = 2.0 * theta / np.pi
+    edges = np.append(0.0, np.geomspace(FINEST, WIDTH, 14))
+    edges = np.append(edges, np.arange(edges[-1] + WIDTH, CUT * slimmest + WIDTH, WIDTH))
+    points, shares = np.polynomial.legendre.leggauss(POINTS)
+    half = 0.5 * np.diff(edges)[:, None]
+    kappa = (edges[:-1, None] + half * (1.0 + points)).ravel()
+    bessel = jv(2 * n, kappa[:, None]) * (half * shares).reshape(-1, 1)
+    x = np.cos(theta)
+    return Modes(
+        theta, values, -weights * np.cos(angles) / np.sin(theta)[:, None],
+        2.0 * n * np.sin(angles) / np.sin(theta)[:, None], kappa, np.sin(np.outer(kappa, x)),
+        np.cos(np.outer(kappa, x)), -bessel * weights * (-1.0) ** n,
+    )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Response:
+    """Stress over sigma0 at theta by slip over D in each mode, (N, N + 1).
+
+    Attributes
+    ----------
+    modes : Modes
+    length : float
+        L (m).
+    shear : ndarray
+        Shear stress that the interface loses.
+    normal : ndarray
+        Compression that it gains.
+    """
+
+    modes: Modes
+    length: float
+    shear: Array
+    normal: Array
+
+    def coupled(self, friction: Array | float) -> Array:
+        """Shear stress lost plus friction that is gained: ``K1 + f S2``."""
+        return self.shear + np.reshape(friction, (-1, 1)) * self.normal
+
+
+def modes_for(one: Systems) -> int:
+    """How many modes one fault needs."""
+    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
+    above = float(one.friction[0]) * float(far.xy[0] / far.xx[0]) < STIFFER_ABOVE
+    return MORE_MODES if above else MODES
+
+
+def response(one: Systems, length: float, number: int = MODES) -> Response:
+    """The response of one fault's bodies to slip of a patch.
+
+    Parameters
+    ----------
+    one : Systems
+        Of a single fault, all fields of shape (1,).
+    length : float
+        L (m).
+    number : int
+        Of modes.
+    """
+    one, by_shear, by_normal = _thickened(one, length)
+    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
+    slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
+    own = modes(number, min(reach for reach in REACHES if slim <= reach * (1.0 + 1e-9)))
+    used = np.searchsorted(own.kappa, CUT * slim)
+    found = one.pair.stiffness(own.kappa[:used] / length, whole=False)
+    slip = own.slip[:used]
+    shear = far.xx * own.half_space + own.shear[:used].T @ ((found.xx - far.xx)[:, None] * slip)
+    normal = far.xy * own.gradients + own.normal[:used].T @ ((found.xy - far.xy)[:, None] * slip)
+    scale = float(one.softness[0]) / length
+    return Response(own, length, by_shear * scale * shear, by_normal * scale * normal)
+
+
+def _thickened(one: Systems, length: float) -> tuple[Systems, float, float]:
+    """Layers much thinner than the patch made thicker, and factors that undo it for ``kL = pi``.
+
+    Where ``kH`` is small G1 and G2 are powers of k, and thickness is but a factor.
+    """
+    heights = [float(b.height[0]) for b in one.pair if b is not None]
+    thicker = length / (SLIMMEST * min(heights))
+    if thicker <= 1.0:
+        return one, 1.0, 1.0
+    own, thick = (
+        s.pair.stiffness(np.array([np.pi / length]), whole=False)
+        for s in (one, _over_heights(one, thicker))
+    )
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factors = [float(a[0] / b[0]) for a, b in ((own.xx, thick.xx), (own.xy, thick.xy))]
+    return _over_heights(one, thicker), factors[0], factors[1] if np.isfinite(factors[1]) else 0.0
+
+
+def _over_heights(one: Systems, factor: float) -> Systems:
+    """The system with all heights multiplied."""
+    bodies = (b and b._replace(height=factor * b.height) for b in one.pair)
+    return one._replace(pair=type(one.pair)(*bodies))

@@ -1,0 +1,102 @@
+"""How a patch creeps: slip rate, stress and friction along it, as its loading makes them.
+
+Lengths along the fault in m, slip in D, slip rates in V, stresses in sigma0, times in D/V.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .modes import Response
+
+Array = NDArray[np.float64]
+
+SLOWEST = 1e-6
+"""Slip rates below this part of V do not count: friction's logarithm has no end."""
+
+
+NEAR = 2
+"""Places next to the front from which the singularity's share is found."""
+
+
+class Creep(NamedTuple):
+    """A patch that creeps, at the angles of its modes.
+
+    Attributes
+    ----------
+    response : Response
+        Of the bodies, and L.
+    slip_rate : ndarray
+        Over V, (N,).
+    normal_stress : ndarray
+        Compression over sigma0, (N,).
+    loaded : float
+        Displacement of the driven edge over D at which the patch has come to L.
+    """
+
+    response: Response
+    slip_rate: Array
+    normal_stress: Array
+    loaded: float
+
+
+def edge(response: Response, friction: float, strength: Array | float | None = None) -> Creep:
+    """The creep of a patch that is pushed at its edge.
+
+    Parameters
+    ----------
+    response : Response
+    friction : float
+        f, by which a change of normal stress changes the strength.
+    strength : array_like, optional
+        Shear stress over sigma0 that the patch is loaded by, (N,); f by default.
+
+    Notes
+    -----
+    Slip rate: the stress does not change, ``(K1 + f S2) v = 0``, ``v(0) = V``. Slip: the patch is
+    loaded to its strength, ``-(K1 + f S2) u = f sigma0``, and the edge has moved as far as it takes
+    for a front without a singularity. That slip has changed the normal stress by ``S2 u``.
+    """
+    slip = edge_slip(response, friction, friction if strength is None else strength)
+    rates = slip.rates
+    return Creep(
+        response,
+        np.maximum(response.modes.values @ rates, SLOWEST),
+        1.0 + response.normal @ slip.slip,
+        slip.loaded,
+    )
+
+
+class EdgeSlip(NamedTuple):
+    """Coefficients of slip rate and slip in the modes, and the edge's displacement."""
+
+    rates: Array
+    slip: Array
+    loaded: float
+
+
+def edge_slip(response: Response, friction: float, strength: Array | float) -> EdgeSlip:
+    """The modes' coefficients, (N + 1,) of the slip rate over V and of the slip over D.
+
+    Where slip changes the normal stress, the front's singularity is no square root, and neither is
+    the edge regular: an error of alternating sign at neighbouring places is left, which is taken
+    out of the result (:attr:`~.modes.Modes.smoothing`).
+    """
+    matrix = response.coupled(friction)
+    loads = np.stack([matrix[:, 0], np.broadcast_to(strength, matrix.shape[:1])], axis=1)
+    rates, held = -np.linalg.solve(matrix[:, 1:], loads).T
+    rates, held = np.append(1.0, rates), np.append(0.0, held)
+    near = response.modes.values[:NEAR]
+    squares = response.modes.theta[:NEAR] ** 2
+    ratio = (near @ held) / (near @ rates)
+    loaded = -float(np.polyfit(squares, ratio, NEAR - 1)[-1])
+    smoothing = response.modes.smoothing
+    return EdgeSlip(smoothing * rates, smoothing * (loaded * rates + held), loaded)
+
+
+LOADINGS: dict[str, Callable[..., Creep]] = {"edge": edge}
+"""How a patch may be loaded; each gives its creep, of which all else follows."""

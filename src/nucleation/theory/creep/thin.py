@@ -1,0 +1,83 @@
+"""The thin limit: where ``kH`` is small, L_s over L_c is a function of zeta/a alone.
+
+A thin layer on a rigid base resists slip by ``2 mu H/(1 - nu) d^2u/dx^2``. The patch creeps with
+``v = V y``, ``y = 1 - x/L``, and with ``S = i omega D/V`` and the length in
+``lambda = (1 - nu) sigma0 L^2/(2 mu H D)`` the marginal mode obeys
+
+    y (S + y) u'' = lambda S (a S - zeta y) u ,      u(0) = u(1) = 0 .
+
+Since Eq. (11) has ``zeta lambda = 4 pi^2`` at L_c, ``(L/L_c)^2 = zeta lambda/(4 pi^2)``. Derived
+line by line in ``docs/patch_theory.md``; here it is solved in Chebyshev polynomials, and in a test
+by its power series and by shooting.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+DEGREE = 48
+"""Of the polynomials: eigenvalues to 1e-10 for zeta/a from 0.1 on."""
+
+
+class ThinLimit(NamedTuple):
+    """The patch of a thin layer where it turns unstable.
+
+    Attributes
+    ----------
+    length_ratio : float
+        L_s over L_c of Eq. (11).
+    frequency : float
+        Angular frequency of its mode over V/D.
+    """
+
+    length_ratio: float
+    frequency: float
+
+
+@lru_cache(maxsize=4)
+def _second_derivative(degree: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Inner Chebyshev points y in (0, 1) and the matrix of ``d^2/dy^2`` with u = 0 at the ends."""
+    points = np.cos(np.pi * np.arange(degree + 1) / degree)
+    to_values = chebyshev.chebvander(points, degree)
+    twice = chebyshev.chebder(np.eye(degree + 1), 2)
+    second = 4.0 * chebyshev.chebvander(points, degree - 2) @ twice @ np.linalg.inv(to_values)
+    return 0.5 * (points[1:-1] + 1.0), second[1:-1, 1:-1]
+
+
+def softest(ratio: float, frequency: float, degree: int = DEGREE) -> complex:
+    """``1/(zeta lambda)`` of the longest wave that an angular frequency over V/D has."""
+    y, second = _second_derivative(degree)
+    rate = 1j * frequency
+    # 1/lambda u = (d^2/dy^2)^-1 [S (a S - zeta y)/(y (S + y))] u, with a = 1/ratio, zeta = 1
+    answer = rate * (rate / ratio - y) / (y * (rate + y))
+    values = np.linalg.eigvals(np.linalg.solve(second, np.diag(answer)))
+    return complex(values[np.argmax(values.real)])
+
+
+def thin_limit(zeta_over_a: float, degree: int = DEGREE) -> ThinLimit:
+    """Length and frequency of the thin limit.
+
+    Parameters
+    ----------
+    zeta_over_a : float
+        Positive; results are checked to 1e-6 from 0.2 on.
+
+    Raises
+    ------
+    ValueError
+        If it is not positive.
+    """
+    if not zeta_over_a > 0.0:
+        raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
+    low, high = 1e-3, np.sqrt(zeta_over_a)  # homogeneous sliding oscillates with the latter
+    while high - low > 1e-12 * high:
+        middle = 0.5 * (low + high)
+        below = softest(zeta_over_a, middle, degree).imag > 0.0
+        low, high = (middle, high) if below else (low, middle)
+    found = softest(zeta_over_a, high, degree)
+    return ThinLimit(float(1.0 / (2.0 * np.pi * np.sqrt(found.real))), high)

@@ -1,0 +1,85 @@
+"""The advancing front against simulations: when the patch has a length, where it is unstable."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from configurations import CONFIG
+
+from nucleation.configuration.load import load
+from nucleation.theory.creep import front
+from nucleation.theory.creep.front import advance, first_growing, oscillating
+from nucleation.theory.creep.lengths import NoPatch, Patches
+
+REFERENCE = CONFIG.parent / "results" / "reference"
+RUNS = {run.id: run for run in load(CONFIG / "config.yaml").runs}
+
+
+def found_of(run):
+    return first_growing(
+        Patches.of(run.parameters), run.theory_length, run.parameters.loading.initial_state
+    )
+
+
+def test_time_at_which_the_patch_has_a_length():
+    """The twins of simulations start at known times, with patches of known length."""
+    table = pd.read_csv(REFERENCE / "twin_runs.csv")
+    for name, rows in table.groupby("id"):
+        made = advance(
+            Patches.of(RUNS[name].parameters), rows.twin_length_first,
+            RUNS[name].parameters.loading.initial_state,
+        )  # fmt: skip
+        assert made.time == pytest.approx(rows.twin_time.to_numpy(), rel=0.015)
+
+
+def test_growth_of_the_frozen_patch():
+    """At the mean length of the twins, as the patches of the simulation have it when frozen."""
+    table = pd.read_csv(REFERENCE / "twin_runs.csv")
+    for name, rows in table.groupby("id"):
+        run = RUNS[name].parameters
+        made = advance(Patches.of(run), rows.twin_length, run.loading.initial_state)
+        rates = oscillating(made) / run.memory_time
+        assert rates.real == pytest.approx(rows.frozen_growth.to_numpy(), abs=0.35)
+        assert rates.imag == pytest.approx(rows.frozen_frequency.to_numpy(), rel=0.025)
+
+
+def test_stability_lengths_of_the_converged_runs():
+    table = pd.read_csv(REFERENCE / "patch_stability.csv")
+    table = table[(table.study == "converged") & table.height.isin([0.005, 0.1])]
+    assert len(table) >= 3
+    for _, row in table.iterrows():
+        assert found_of(RUNS[row.id]) == pytest.approx(row.stability_length, rel=0.01)
+
+
+@pytest.mark.slow
+def test_pairs():
+    """Any far side, contrast and sense: within 2.5 %, and within 3.3 % where zeta = a."""
+    table = pd.read_csv(REFERENCE / "pairs.csv").dropna(subset="stability_length")
+    table = table[(table.n_x == 400) | (table.study == "figure_2_simulated")]
+    off = np.array(
+        [found_of(RUNS[row.id]) / row.stability_length - 1.0 for _, row in table.iterrows()]
+    )
+    weak = table.zeta_over_a.to_numpy() < 1.1
+    assert np.abs(off[~weak]).max() < 0.025 and np.abs(off[weak]).max() < 0.033
+    assert np.sqrt(np.mean(off**2)) < 0.014
+
+
+def test_rounds_and_places_are_enough(monkeypatch):
+    run = RUNS["converged-aging-H0.1-phi1000-seed1"]
+    usual = found_of(run)
+    for name, value in (("ROUNDS", 8), ("FINE", 1600), ("AT_REST", 400), ("STEP", 0.003)):
+        monkeypatch.setattr(front, name, value)
+    assert found_of(run) == pytest.approx(usual, rel=2e-3)
+
+
+def test_the_older_the_interface_the_later():
+    patches = Patches.of(RUNS["converged-aging-H0.1-phi1-seed1"].parameters)
+    times = [advance(patches, [0.3], age).time[0] for age in (1.0, 100.0, 1e4)]
+    assert times[0] < 0.97 * times[1] < 0.93 * times[2]
+    loaded = advance(patches, [0.3], 1.0, initial_stress=0.2).time[0]
+    assert loaded == pytest.approx(0.53 * times[0], rel=0.1)
+
+
+def test_no_patch_grows():
+    run = RUNS["converged-aging-H0.1-phi1-seed1"]
+    with pytest.raises(NoPatch, match="no patch up to"):
+        first_growing(Patches.of(run.parameters), 0.05, 1.0)

@@ -1,0 +1,126 @@
+"""L_s of one fault and of many, against simulations and under changes that leave it alone."""
+
+import dataclasses
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from configurations import CONFIG
+
+from nucleation.api import Friction, ParameterError, critical_length, stability_length
+from nucleation.model.linearised import interface_state
+from nucleation.model.parameters import Geometry, Parameters
+from nucleation.theory.arrays import fault_of
+from nucleation.theory.creep.lengths import (
+    NoPatch,
+    Patches,
+    effect_of_scales,
+    stability_point,
+    stability_values,
+)
+from nucleation.theory.critical import theory_lengths
+from nucleation.theory.transfer import bodies_of
+
+REFERENCE = CONFIG.parent / "results" / "reference"
+FAULT = {
+    "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "second_shear_modulus": np.inf,
+    "friction": 0.41, "a": 0.0068, "slip_distance": 5e-7, "normal_stress": 1e6, "velocity": 1e-5,
+}  # fmt: skip
+
+
+def length_of(run):
+    return float(theory_lengths([(*bodies_of(run), interface_state(run))])[0])
+
+
+def test_the_map():
+    """Constant a and b: a per cent short of the simulations, whose fronts are no sharp ends."""
+    table = pd.read_csv(REFERENCE / "map.csv").groupby(["height", "zeta_over_a"])
+    simulated = table["stability_length"].mean()
+    height, ratio = (simulated.index.get_level_values(n).to_numpy() for n in simulated.index.names)
+    found = stability_length(**FAULT, height=height, zeta=ratio * FAULT["a"])
+    off = found / simulated.to_numpy() - 1.0
+    assert np.sqrt(np.mean(off**2)) < 0.012
+    assert off.min() > -0.033 and off.max() < 0.0
+
+
+def test_numbers_of_modes():
+    """The error that is given covers what twice as many modes change."""
+    for height, ratio, below in ((0.005, 2.288, np.inf), (0.1, 6.0, np.inf), (0.5, 1.0, 3.1e8)):
+        fault = fault_of(FAULT | dict(height=height, zeta=ratio * 0.0068,
+                                      second_shear_modulus=below))  # fmt: skip
+        length, _, error = stability_values(fault)
+        assert error < 1e-3
+
+        def finer(systems, length=length):
+            patches = Patches(systems)
+            rate = patches.rate(float(length), 2 * patches.number)
+            slope = stability_point(patches, float(length) / 0.55).growth
+            return np.full(systems.a.size, rate.real / slope)
+
+        assert abs(fault.evaluate(finer)) < max(float(error), 5e-4)
+
+
+def test_only_ratios_matter():
+    """Of moduli to stresses, of lengths to one another, and the velocity not at all."""
+    plain = stability_length(**FAULT, zeta=0.016, height=0.05)
+    scaled = FAULT | {"shear_modulus": 3.1e10, "normal_stress": 1e7, "velocity": 1e-3}
+    assert stability_length(**scaled, zeta=0.016, height=0.05) == pytest.approx(plain, rel=1e-6)
+    longer = FAULT | {"slip_distance": 5e-6}
+    assert stability_length(**longer, zeta=0.016, height=0.5) == pytest.approx(10 * plain, rel=1e-6)
+
+
+def test_arrays_keep_their_names():
+    height = xr.DataArray([0.01, 0.05], dims="height")
+    zeta = xr.DataArray([0.01, -0.01, 0.02], dims="zeta")
+    found = stability_length(**FAULT, height=height, zeta=zeta)
+    assert found.sizes == {"height": 2, "zeta": 3} and found.attrs["units"] == "m"
+    assert np.isnan(found.sel(zeta=1)).all() or found.isel(zeta=1).isnull().all()
+    alone = stability_length(**FAULT, height=0.05, zeta=0.02)
+    assert float(found[1, 2]) == pytest.approx(float(alone))
+    plain = stability_length(**FAULT, height=[[0.01], [0.05]], zeta=[0.01, -0.01, 0.02])
+    assert plain.shape == (2, 3)
+
+
+def test_identical_half_spaces():
+    """A multiple of Eq. (6) that depends on zeta/a alone."""
+    bodies = {"second_shear_modulus": None, "friction": None}
+    ratios = [
+        stability_length(**FAULT | bodies | {"shear_modulus": mu}, zeta=0.016)
+        / critical_length(**FAULT | bodies | {"shear_modulus": mu}, zeta=0.016)
+        for mu in (3e9, 3e10)
+    ]
+    assert ratios[0] == pytest.approx(ratios[1], rel=1e-6)
+    assert 0.5 < ratios[0] < 0.6
+
+
+def test_a_law_without_scales_is_one_of_constants():
+    law = Friction(law="dieterich_ruina", regularisation_slip_rate=1e-16)
+    fault = FAULT | {"height": 0.03, "zeta": 0.016}
+    assert stability_length(**fault, friction_law=law) == pytest.approx(
+        stability_length(**fault), rel=2e-3
+    )
+    with pytest.raises(ParameterError, match="velocity"):
+        stability_length(**fault | {"velocity": None}, friction_law=law)
+
+
+def test_scales_of_friction_near_the_velocity():
+    """Ten times v* leaves friction with other a and b at the front: a quarter of L_s."""
+    law = Friction().with_expansion(1e-6, 0.65, 0.008, 0.004)
+    run = Parameters(friction=law, geometry=Geometry(height=1.0))
+    run = run.replaced({"loading.velocity": 1e-6, "material.shear_modulus": 3e10})
+    own, constant = effect_of_scales(run, length_of(run))
+    assert own / constant < 0.85
+    far = dataclasses.replace(run, friction=dataclasses.replace(
+        law, slip_rate_scale=1e-12, regularisation_slip_rate=1e-14
+    ).with_expansion(1e-6, 0.65, 0.008, 0.004))  # fmt: skip
+    own, constant = effect_of_scales(far, length_of(far))
+    assert own / constant > 0.99
+
+
+def test_no_patch():
+    assert np.isnan(stability_length(**FAULT, height=0.1, zeta=-0.001))
+    with pytest.raises(NoPatch, match="stable"):
+        stability_point(Patches.of(Parameters()), np.nan)
+    with pytest.raises(ParameterError, match="loading = 'top'"):
+        stability_length(**FAULT, height=0.1, zeta=0.01, loading="top")

@@ -1,0 +1,112 @@
+"""The patch's modes against sums of plane waves in a long box, and against known profiles."""
+
+import numpy as np
+import pytest
+
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.theory.creep import modes as module
+from nucleation.theory.creep.modes import response
+from nucleation.theory.creep.profile import edge
+from nucleation.theory.critical import systems_of
+from nucleation.theory.transfer import RIGID, Body, transfer_functions
+
+MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=1 / 3)
+FAULT = InterfaceState()
+BOX, WAVES = 30.0, 8000  # box over L
+
+
+def pair(height, below=RIGID):
+    return Body(MATERIAL, height, "free"), below
+
+
+def in_a_box(bodies, length, slip, x):
+    """Stresses over sigma0 of a slip (m) that vanishes at 0 and beyond L, by quarter waves."""
+    size = BOX * length
+    k = (np.arange(WAVES) + 0.5) * np.pi / size
+    points = (np.arange(1000) + 0.5) / 1000 * length
+    weights = slip(points) * (points[1] - points[0])
+    amplitude = 2.0 / size * np.sin(np.outer(k, points)) @ weights
+    shear, normal = transfer_functions(k, *bodies)
+    scale = amplitude * MATERIAL.shear_modulus * k / FAULT.normal_stress
+    return (
+        np.array([np.sin(k * at) @ (scale * shear) for at in x]),
+        np.array([np.cos(k * at) @ (scale * normal) for at in x]),
+    )
+
+
+@pytest.mark.parametrize(
+    "bodies",
+    [
+        pair(0.05),
+        pair(0.5),
+        pair(0.05, Body(Material(shear_modulus=6.2e9, poisson_ratio=0.25), 0.1, "clamped")),
+        (Body(Material(shear_modulus=3.1e9, poisson_ratio=0.1), 0.1), Body(MATERIAL)),
+    ],
+)
+def test_stress_of_slip(bodies):
+    length = 0.3
+    one = systems_of([(*bodies, FAULT)])
+    made = response(one, length, 24)
+    own = made.modes
+
+    def slip(x):
+        return (x / length) * (1.0 - (x / length) ** 2) ** 3 * FAULT.slip_length
+
+    known = np.append(0.0, own.inverse @ slip(length * np.cos(own.theta)) / FAULT.slip_length)
+    inner = slice(4, 22, 4)
+    shear, normal = in_a_box(bodies, length, slip, length * np.cos(own.theta[inner]))
+    # the upper body's modulus, by which transfer functions are normalised, is the same in all
+    assert (made.shear @ known)[inner] == pytest.approx(shear, rel=2e-3, abs=2e-3 * shear.max())
+    largest = np.abs(normal).max()
+    assert (made.normal @ known)[inner] == pytest.approx(normal, rel=5e-3, abs=5e-3 * largest)
+
+
+def test_half_spaces_creep_as_a_crack_does():
+    """Their slip rate is ``(2/pi) arccos(x/L)``, and no stress normal to them changes."""
+    one = systems_of([(Body(MATERIAL), Body(MATERIAL), FAULT)])
+    creep = edge(response(one, 0.5), FAULT.friction)
+    theta = creep.response.modes.theta
+    assert creep.slip_rate == pytest.approx(2.0 * theta / np.pi, rel=1e-9)
+    assert creep.normal_stress == pytest.approx(np.ones_like(theta))
+
+
+def test_thin_layers_are_compressed_evenly():
+    """Their slip rate is ``1 - x/L``, and the edge moves ``(1 - nu) f sigma0 L^2/(4 mu H)``."""
+    length, height = 0.5, 2e-3
+    one = systems_of([(*pair(height), FAULT)])
+    creep = edge(response(one, length), FAULT.friction)
+    x = np.cos(creep.response.modes.theta)
+    assert creep.slip_rate == pytest.approx(1.0 - x, abs=0.01)
+    moved = (1.0 - 1 / 3) * FAULT.friction * FAULT.normal_stress * length**2 / (4 * 3.1e9 * height)
+    # the front's own resistance is some heights long
+    assert creep.loaded * FAULT.slip_length == pytest.approx(moved, rel=0.03)
+
+
+def test_the_push_takes_compression_off_a_softer_upper_block():
+    """Pushed in +x the block above thickens; the stiffer body below has f beta > 0."""
+    softer = systems_of([(Body(MATERIAL), RIGID, FAULT)])
+    stiffer = systems_of([(RIGID, Body(MATERIAL), FAULT)])
+    means = [
+        edge(response(one, 0.5, 32), FAULT.friction).normal_stress.mean()
+        for one in (softer, stiffer)
+    ]
+    assert means[0] < 1.0 < means[1]
+
+
+def test_very_thin_layers_are_like_less_thin_ones(monkeypatch):
+    """Beyond the tables' reach thickness is a factor."""
+    one = systems_of([(*pair(1e-3), FAULT)])
+    plain = response(one, 0.2)
+    monkeypatch.setattr(module, "SLIMMEST", 100.0)
+    rough = response(one, 0.2)
+    waves = np.sin(2.0 * np.outer(plain.modes.theta, np.arange(1, 3)))
+    known = plain.modes.inverse @ waves
+    whole, scaled = (made.shear[:, 1:] @ known for made in (plain, rough))
+    assert scaled[4:] == pytest.approx(whole[4:], rel=0.03, abs=0.03 * np.abs(whole).max())
+    assert not np.array_equal(scaled, whole)
+
+
+def test_more_modes_where_the_stiffer_body_is_above():
+    assert module.modes_for(systems_of([(*pair(0.1), FAULT)])) == module.MODES
+    assert module.modes_for(systems_of([(RIGID, Body(MATERIAL, 0.1), FAULT)])) == module.MORE_MODES

@@ -1,0 +1,92 @@
+"""The thin limit by a second route, and its own limit of strong weakening in closed form."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import root
+from scipy.special import sici
+
+from nucleation.api import stability_length
+from nucleation.theory.creep.thin import thin_limit
+
+THIN_BLOCK = {
+    "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "second_shear_modulus": np.inf,
+    "friction": 0.41, "a": 0.0068, "slip_distance": 5e-7, "normal_stress": 1e6,
+}  # fmt: skip
+
+
+def at_the_edge(ratio, frequency, scale):
+    """u(1) of the solution with u(0) = 0, u'(0) = 1; a = 1/ratio and zeta = 1."""
+    rate, start = 1j * frequency, 1e-8
+
+    def slope(y, u):
+        answer = rate * (rate / ratio - y) / (y * (rate + y))
+        return [u[1], scale * answer * u[0]]
+
+    begun = [start + 0j, 1.0 + scale * rate / ratio * start]
+    return solve_ivp(slope, (start, 1.0), begun, "DOP853", rtol=1e-11, atol=1e-14).y[0, -1]
+
+
+def shot(ratio, frequency, length_ratio):
+    """Frequency and length by shooting, from a first guess."""
+
+    def both(logarithms):
+        end = at_the_edge(ratio, *np.exp(logarithms))
+        return [end.real, end.imag]
+
+    found = root(both, np.log([frequency, (2.0 * np.pi * length_ratio) ** 2]), tol=1e-12)
+    frequency, scale = np.exp(found.x)
+    return np.sqrt(scale) / (2.0 * np.pi), frequency
+
+
+@pytest.mark.parametrize("ratio", [0.2, 1.0, 2.288, 6.0])
+def test_shooting_agrees(ratio):
+    found = thin_limit(ratio)
+    by_shooting = shot(ratio, 1.02 * found.frequency, 1.02 * found.length_ratio)
+    assert found == pytest.approx(by_shooting, rel=1e-7)
+
+
+def test_polynomials_converge():
+    for ratio in (0.2, 2.288, 30.0):
+        assert thin_limit(ratio) == pytest.approx(thin_limit(ratio, degree=80), rel=1e-9)
+
+
+def test_strong_weakening():
+    """The closed forms of docs/patch_theory.md, by quadrature."""
+    share = 1.0 / (2.0 * (np.euler_gamma + np.log(2.0 * np.pi) - sici(2.0 * np.pi)[1]))
+
+    def projected(function, n):
+        return quad(
+            lambda y: 2.0 * function(y) * np.sin(np.pi * y) * np.sin(n * np.pi * y), 0.0, 1.0,
+            limit=400,
+        )[0]  # fmt: skip
+
+    def first(y):
+        return np.sqrt(share) / y - y / np.sqrt(share)
+
+    mean = projected(lambda y: y**2 / share - 1.0, 1)
+    others = sum(projected(first, n) ** 2 / (n**2 - 1.0) for n in range(2, 40))
+    assert projected(first, 1) == pytest.approx(0.0, abs=1e-9)
+    ratio = 1e4
+    found = thin_limit(ratio)
+    assert found.frequency**2 / (1.0 + ratio) == pytest.approx(share, rel=1e-3)
+    assert (2.0 * found.length_ratio - 1.0) * ratio == pytest.approx(
+        0.5 * (mean + others), rel=1e-3
+    )
+
+
+def test_thin_blocks_come_to_it():
+    for ratio in (0.5, 2.288, 6.0):
+        limit = thin_limit(ratio).length_ratio
+        zeta = ratio * THIN_BLOCK["a"]
+        heights = np.array([1e-3, 1e-4, 1e-6])
+        scale = 2.0 * 3.1e9 * 5e-7 / (zeta * (1 - 1 / 3) * 1e6)
+        of_layer = 2.0 * np.pi * np.sqrt(scale * heights)  # Eq. (11)
+        off = stability_length(**THIN_BLOCK, zeta=zeta, height=heights) / of_layer / limit - 1.0
+        assert (np.abs(off) < [0.035, 0.01, 4e-3]).all()  # the last are taken as thicker
+        assert np.abs(off[2]) < np.abs(off[1]) < np.abs(off[0])
+
+
+def test_without_weakening():
+    with pytest.raises(ValueError, match="zeta/a"):
+        thin_limit(0.0)
