@@ -214,7 +214,7 @@ def test_claims_of_coarse_grids_are_judged_honestly(quick, results):
     by_id = {row["id"]: row for row in rows}
     assert by_id["eta"]["verdict"] == by_id["block-g1"]["verdict"] == "replicated"
     assert by_id["onset-time"]["verdict"] == "cannot be checked"
-    assert "no such run: study converged" in by_id["onset-time"]["reason"]
+    assert "no such run: role converged" in by_id["onset-time"]["reason"]
     assert by_id["mesh-along"]["verdict"] == "not replicated"
     assert by_id["mesh-along"]["ours"] == 80.0
     assert by_id["contact-kept"]["ours"] < 0.0

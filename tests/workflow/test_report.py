@@ -81,22 +81,3 @@ def test_animation_goes_through_creep_and_event(results):
     with Image.open(results / "figures" / "animation.gif") as animation:
         assert animation.n_frames == film.sizes["time"]
     assert (results / "figures" / "animation.gif").stat().st_size < 4e6
-
-
-def test_snakemakes_own_report_has_the_captions(reported, results):
-    """It is one HTML file, whose texts are in JSON."""
-    page = reported.directory / "snakemake.html"
-    done = reported("report", "--report", str(page))
-    assert done.returncode == 0, done.stdout
-    html = page.read_text(encoding="utf-8")
-    for text in (
-        "The two systems.",
-        "Creep, nucleation and rupture in the run",
-        "paper-aging-H0.1-phi1",
-        "Every figure and table of",
-        json.dumps(catalogue.FIGURES["figure_3"].title)[1:-1],
-        catalogue.CHECKS,
-    ):
-        assert text in html, text
-    assert "{{ snakemake" not in html
-    assert "system-message" not in html, "a caption that docutils complains of"

@@ -19,5 +19,5 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
 
 def test_every_target_has_a_text(workflow):
     listed = re.findall(r"^(\w+)  +\S", workflow("targets", "--quiet", "all").stdout, re.M)
-    assert {"paper", "lengths", "figure_3", "report", "check"} <= set(listed)
+    assert {"paper", "lengths", "figure_3", "report"} <= set(listed)
     assert not {"simulate", "extract", "draw_figure_3"} & set(listed)

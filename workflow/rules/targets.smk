@@ -118,7 +118,9 @@ def to_simulate(targets):
 
 def shown(target):
     """Names and keys of what a target shows, the results it is for first."""
-    return [(made.shown, made.key) for made in wanted(target).values()]
+    named = {made.shown: made.key for made in wanted(target).values()}
+    others = {name: key for key in named.values() for name in sorted(steps.names[key])}
+    return [*(named | others).items()]
 
 
 def everything(wildcards):
@@ -126,7 +128,7 @@ def everything(wildcards):
     found = {}
     for target in TARGETS:
         try:
-            found |= {made.shown: made.key for made in wanted(target).values()}
+            found |= dict(shown(target))
             found |= dict(batched_simulations(wanted(target)))
         except WorkflowError:
             pass  # the configuration lacks what this target needs

@@ -91,6 +91,8 @@ class Steps:
         self.store = Store(f"{results}/store")
         self._made: dict[str, Made] = {}
         self._together: dict[tuple[str, str], str] = {}
+        self._links: dict[str, str] = {}  # by key: what has two names is made once
+        self.names: dict[str, set[str]] = {}  # under which a result is shown, by key
         self.made = cache(self._find)
 
     def link(self, name: str, suffix: str = "nc") -> str:
@@ -117,6 +119,7 @@ class Steps:
         for name in names:
             self._together[rule, name] = job
             tasks.append(self._task(rule, name)[0])
+            self._links.setdefault(str(keys.key_in(tasks[-1].link)), tasks[-1].link)
         return tasks
 
     def _task(self, rule: str, name: str) -> tuple[Task, str]:
@@ -141,11 +144,13 @@ class Steps:
         task, shown = self._task(rule, name)
         key, suffix = str(keys.key_in(task.link)), task.link.rpartition(".")[2]
         done = self.store.note(key) is not None
+        link = self._links.setdefault(key, task.link)
         if not done and self._tidies:
-            self._unlink(Path(task.link), key)
-        path = str(path_in(self.store.entry(key), f".{suffix}")) if done else task.link
+            self._unlink(Path(link), key)
+        path = str(path_in(self.store.entry(key), f".{suffix}")) if done else link
         made = Made(path, key, shown, task.sources)
         self._made[path] = made
+        self.names.setdefault(key, set()).add(shown)
         return made
 
     def _unlink(self, link: Path, key: str) -> None:
