@@ -79,7 +79,7 @@ def test_in_the_workflow(workflow):
     done = own("report")
     assert done.returncode == 0, done.stdout
     assert "simulated time too short (granite-aging-H0.04-phi1-end_time20)" in done.stdout
-    assert "Study granite: 1 of 3 runs had no event" in done.stdout
+    assert "study granite: 1 of 3 runs had no event" in done.stdout
     assert "after 20" in done.stdout and "a longer end_time may show it" in done.stdout
 
     results = own.directory / "results"

@@ -51,7 +51,7 @@ def test_convergence_without_its_studies_says_so(workflow):
     other = workflow.configured({"studies": {"mine": {"runs": [{"height": 0.1}]}}})
     done = other("figure_convergence", "--dry-run")
     assert done.returncode != 0
-    assert "no study with role: convergence_quiet has a run of 0.005 m" in done.stdout
+    assert "the configuration has no study with role: convergence" in done.stdout
     assert "Traceback (most recent call last)" not in done.stdout
 
 
