@@ -11,7 +11,11 @@ from matplotlib.figure import Figure
 from ...figures import style
 
 BAND = 0.03  # relative error within which theory and simulation agree
-MARKERS = "os^Dvp"
+MARKERS = "osD^vp*X"
+COLOURS = (
+    style.BLUE, style.ORANGE, style.GREEN, style.VERMILLION, style.PURPLE, style.BLACK,
+    style.SKY_BLUE, style.OLD_AGE,
+)  # fmt: skip
 
 
 @style.styled
@@ -64,13 +68,14 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
         chosen = table["study"].values == study
         off = (table["front_length"] / table["stability_length"] - 1.0).values[chosen]
         axes.plot(
-            measured[chosen], 100.0 * off, MARKERS[n % len(MARKERS)], markersize=2.5,
+            measured[chosen], 100.0 * off, MARKERS[n % len(MARKERS)], markersize=2.8,
+            color=COLOURS[n % len(COLOURS)],
             label=str(study).replace("_", " "),
         )  # fmt: skip
     axes.axhspan(-100.0 * BAND, 100.0 * BAND, color=style.GUIDE, alpha=0.12, linewidth=0.0)
     axes.set_xlabel("$L_s/L_c$, simulated")
     axes.set_ylabel("theory over simulation, less one (%)")
-    axes.legend(fontsize=5.5)
+    axes.legend(fontsize=6.5, handletextpad=0.2, labelspacing=0.25)
 
 
 def _draw_creep(axes: Axes, table: xr.Dataset) -> None:
