@@ -1,4 +1,4 @@
-"""The target `check`: what is not current is found from the files alone."""
+"""The targets `check` and `prune`: what is not current, and what nothing refers to."""
 
 import dataclasses
 import json
@@ -12,17 +12,24 @@ import xarray as xr
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.datasets import netcdf
 from nucleation.pipeline import check, keys
-from nucleation.pipeline.keys import Store
+from nucleation.pipeline.store import Store
 
 RUN = "paper-slip-H0.02-phi1"
 
 
 @pytest.fixture
 def copied(quick, tmp_path):
-    """A plain copy of the results, without Snakemake's notes and with other times."""
+    """A plain copy of the results, without links and without Snakemake's notes."""
     shutil.copytree(
         quick.directory / "results", tmp_path / "results", copy_function=shutil.copyfile
     )
+    return dataclasses.replace(quick, directory=tmp_path)
+
+
+@pytest.fixture
+def linked(quick, tmp_path):
+    """A copy of the results with their links."""
+    shutil.copytree(quick.directory / "results", tmp_path / "results", symlinks=True)
     return dataclasses.replace(quick, directory=tmp_path)
 
 
@@ -49,91 +56,139 @@ def test_fresh_results_and_their_copies_are_current(quick, copied):
 def test_other_parameters_are_stale(copied):
     values = read_yaml(copied.config)
     values["extraction"] = {**values.get("extraction", {}), "edge_threshold": 0.2}
-    changed = copied.configured(values)
-    found = listed(changed)
-    assert found["lengths/paper.nc"] == ("stale", "its parameters changed")
-    assert found["lengths.csv"] == ("stale", "its sources changed")
-    assert found["figures/figure_3.png"][0] == found["article.md"][0] == "stale"
+    found = states(copied.configured(values))
+    assert {"lengths/paper.nc", "lengths.csv", "figures/figure_3.png", "article.md"} <= found.keys()
+    assert set(found.values()) == {"stale"}
     assert not any(path.startswith("simulations") for path in found)
     values["friction"] = {"aging_coefficient": 0.08}
-    (name,) = (path for path in listed(copied.configured(values)) if f"{RUN}." in path)
-    assert name.startswith("simulations/")
+    assert states(copied.configured(values))[f"simulations/{RUN}.nc"] == "stale"
 
 
-def test_damage_leftovers_and_strangers_are_found(copied):
-    results = copied.directory / "results" / "quick"
-    run = copied.dataset("simulations", RUN)
-    other = copied.dataset("simulations", "paper-aging-H0.02-phi1")
-    shutil.copy(run, other)  # a whole dataset, of another key
-    shutil.copy(run, run.with_name("mine.0123456789abcdef.nc"))
-    (results / "simulations" / ".half.nc.123.tmp").write_bytes(b"CDF")
-    (results / "simulations" / "a.checkpoint.npz").write_bytes(b"PK")
-    shutil.copy(run, results / "simulations" / "a.failed.nc")
+def test_damage_leftovers_and_strangers_are_found(linked):
+    results = linked.directory / "results" / "quick"
+    store, unfinished = results / "store", results / "unfinished"
+    run, other = (linked.dataset("simulations", f"paper-{law}-H0.02-phi1").parent
+                  for law in ("slip", "aging"))  # fmt: skip
+    run.rename(store / "aside")
+    other.rename(run)
+    (store / "aside").rename(other)  # whole entries, under each other's key
+    shutil.copy(run / "result.nc", results / "simulations" / "mine.nc")
     xr.Dataset({"x": np.arange(3.0)}).to_netcdf(results / "other.nc")
+    (store / ".half.tmp").mkdir()
+    unfinished.mkdir()
+    for name in (".a.checkpoint.npz.123.tmp", "a.checkpoint.npz", "a.failed.nc"):
+        (unfinished / name).write_bytes(b"PK")
+    cut = {}
     for name in ("theory.nc", "figures/figure_2.png", "lengths.csv", "article.md"):
-        content = (results / name).read_bytes()
-        (results / name).write_bytes(content[: len(content) // 2])
-    patch = copied.dataset("patches", "converged-aging-H0.1-phi1")
-    patch.write_bytes(patch.read_bytes()[:1000])
-    (results / keys.RECORDS / "tables" / "table_s1.csv.json").unlink()
-    assert states(copied) == {
-        f"simulations/{other.name}": "foreign",
-        "simulations/mine.0123456789abcdef.nc": "foreign",
-        "simulations/.half.nc.123.tmp": "incomplete",
-        "simulations/a.checkpoint.npz": "incomplete",
-        "simulations/a.failed.nc": "incomplete",
+        file = (results / name).resolve()
+        cut[name] = f"store/{file.parent.name}"
+        file.chmod(0o644)
+        file.write_bytes(file.read_bytes()[:100])
+    (results / "tables" / "table_s1.csv").unlink()
+    (results / "tables" / "table_s1.csv").write_text("my own\n")
+    shutil.rmtree((results / "figures" / "figure_1.png").resolve().parent)
+    assert states(linked) == {
+        f"store/{run.name}": "foreign",
+        f"store/{other.name}": "foreign",
+        "simulations/mine.nc": "foreign",
         "other.nc": "foreign",
-        "theory.nc": "damaged",
-        "figures/figure_2.png": "damaged",
-        "lengths.csv": "damaged",
-        "article.md": "damaged",
-        f"patches/{patch.name}": "damaged",
-        "tables/table_s1.csv": "foreign",
+        "store/.half.tmp": "incomplete",
+        "unfinished/.a.checkpoint.npz.123.tmp": "incomplete",
+        "unfinished/a.checkpoint.npz": "incomplete",
+        "unfinished/a.failed.nc": "incomplete",
+        **dict.fromkeys(cut.values(), "damaged"),
+        "figures/figure_1.png": "damaged",
+        "tables/table_s1.csv": "stale",
     }
-    # what has a plain name is made again; a dataset of another content is refused when it is read
-    planned = copied.planned()
-    assert {"theory", "draw_figure_2", "gather_lengths", "write_table_s1"} <= set(planned)
-    assert "simulate" not in planned
-    done = copied("lengths", "--forcerun", "extract")
-    assert done.returncode != 0
-    assert f"{other.name} is another result than it should be" in done.stdout
+    made = {"theory", "draw_figure_2", "gather_lengths", "write_article", "draw_figure_1"}
+    assert linked.planned() == {"simulate": 2, **dict.fromkeys(made, 1)}
+    assert states(linked)[f"store/{run.name}"] == "foreign", "a dry run moves no entry"
+    done = linked()
+    assert done.returncode == 0, done.stdout
+    assert (results / "tables" / "table_s1.csv~").read_text() == "my own\n"
+    left = {path.split("/")[0] for path in states(linked) if not path.startswith("store/aside")}
+    assert left == {"simulations", "other.nc", "store", "unfinished", "tables"}
 
 
-def test_datasets_of_earlier_parameters_are_named_and_pruned(copied):
-    values = read_yaml(copied.config)
-    values["studies"] = {"paper": values["studies"]["paper"]}
-    less = copied.configured(values)
-    found = states(less)
-    unused = {path for path, state in found.items() if state == check.UNUSED}
-    assert {path.split("/")[1].split("-")[0] for path in unused} == {"converged"}
-    done = less("prune")
-    assert done.returncode == 0 and done.stdout.count("removed results/quick/") == len(unused)
-    results = less.directory / "results" / "quick"
-    assert not any((results / path).exists() for path in unused)
+def files(directory):
+    return {path: path.read_bytes() for path in directory.rglob("*") if path.is_file()}
 
 
-def test_results_of_another_configuration_are_left_to_it(quick):
-    """results/quick lies below the results of config.yaml, of which there are none here."""
-    assert (quick.directory / "results/quick/simulations").is_dir()
-    assert check.files(quick.directory / "results") == []
+def of_table_s1(workflow, coefficient, results, target="table_s1"):
+    """A configuration that has made a target that needs no simulation."""
+    place = results.replace("/", "-")
+    made = workflow.configured(
+        {"results": results, "friction": {"aging_coefficient": coefficient},
+         "studies": {"mine": {"runs": [{"height": 0.1}]}}},
+        f"{place}-{coefficient}.yaml",
+    )  # fmt: skip
+    done = made(target)
+    assert done.returncode == 0, done.stdout
+    return made
 
 
-def test_every_damage_of_a_record_is_a_finding(tmp_path):
-    store, path = Store(tmp_path), tmp_path / "a.csv"
-    path.write_text("1\n")
-    made = keys.parts("code", {}, {})
-    store.sign(path, made)
-    assert store.problem(path, made) is None
-    assert store.problem(path, keys.parts("other", {}, {})) == "its code changed"
-    record = store.record_of(path)
-    for damage in ("", "[]", "{", "null", '{"content": 1}', "\udcff"):
-        record.write_text(damage, errors="surrogateescape")
-        assert "nothing vouches for it" in store.problem(path, made)
-    store.sign(path, made)
-    path.write_text("2\n")
-    assert store.problem(path, made) == "it is not what was written"
+def pruned(workflow, monkeypatch, remove):
+    monkeypatch.setenv("PRUNE", "yes" if remove else "")
+    done = workflow("prune")
+    assert done.returncode == 0, done.stdout
+    return re.findall(r"^(results\S*)  (\S+)  .* MB$", done.stdout, re.M)
+
+
+def test_unused_results_are_listed_and_removed_if_that_is_asked_for(workflow, monkeypatch):
+    first = of_table_s1(workflow, 0.08, "results")
+    entry = (first.directory / "results/tables/table_s1.md").resolve().parent
+    second = of_table_s1(workflow, 0.09, "results")  # shows others under the same names
+    before = files(workflow.directory / "results/store")
+    for _ in range(2):
+        (line,) = pruned(second, monkeypatch, remove=False)
+        assert line[0].endswith(entry.name) and line[1].startswith("table_s1.")
+        assert files(workflow.directory / "results/store") == before
+    assert pruned(second, monkeypatch, remove=True) == [line]
+    assert not entry.exists()
+    left = files(workflow.directory / "results/store")
+    assert left == {path: content for path, content in before.items() if entry not in path.parents}
+    assert pruned(second, monkeypatch, remove=True) == []
+    again = first("table_s1")
+    assert again.returncode == 0 and entry.exists(), again.stdout
+
+
+def test_results_of_other_configurations_are_not_pruned(workflow, monkeypatch):
+    """Neither below these results, nor in them, nor beside them in the same store."""
+    outer = of_table_s1(workflow, 0.08, "results")
+    of_table_s1(workflow, 0.09, "results/deep/er")
+    of_table_s1(workflow, 0.085, "results", target="figure_1")
+    beside = workflow.directory / "beside"
+    beside.mkdir()
+    (beside / "store").symlink_to(workflow.directory / "results/store")
+    of_table_s1(workflow, 0.095, "beside")
+    before = files(workflow.directory)
+    assert "deep" not in outer("check").stdout
+    assert pruned(outer, monkeypatch, remove=True) == []
+    after = files(workflow.directory)
+    assert {path: after.get(path) for path in before if ".snakemake" not in path.parts} == {
+        path: content for path, content in before.items() if ".snakemake" not in path.parts
+    }
+
+
+def test_moved_results_are_shown_once(workflow, monkeypatch):
+    """What the place of before has shown is not kept for ever."""
+    of_table_s1(workflow, 0.08, "results")
+    (workflow.directory / "results").rename(workflow.directory / "results-moved")
+    moved = of_table_s1(workflow, 0.09, "results-moved")
+    assert len(pruned(moved, monkeypatch, remove=False)) == 1
+
+
+@pytest.mark.parametrize("content", ["[]", "{", '{"keys": 1, "files": []}', "\udcff"])
+def test_nothing_is_pruned_beside_a_damaged_record(content, tmp_path):
+    store = Store(tmp_path / "store")
+    record = store.directory / "views" / "0.paper.json"
+    record.parent.mkdir(parents=True)
+    record.write_text(content, errors="surrogateescape")
+    with pytest.raises(check.StoreError, match="nothing can be said of unused results"):
+        check.prune(tmp_path, {}, remove=True)
 
 
 def test_sources_and_units_stand_in_datasets(quick):
     dataset = netcdf.read(quick.directory / "results/quick/lengths/paper.nc")
-    assert all(keys.key_in(path) for path in json.loads(dataset.attrs["sources"]))
+    sources = json.loads(dataset.attrs["sources"])["simulations"]
+    assert sources and all(re.fullmatch(keys.PATTERN, key) for key in sources)

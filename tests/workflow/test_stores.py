@@ -1,6 +1,7 @@
 """Results shared between checkouts by their keys, and what can be wrong with a store elsewhere."""
 
 import dataclasses
+import shutil
 
 import pytest
 
@@ -37,7 +38,7 @@ def simulations(ran):
     return {path.name: path.read_bytes() for path in paths}
 
 
-def test_results_are_taken_and_a_damaged_one_is_made_and_given_again(filled, tmp_path, monkeypatch):
+def test_results_are_taken_and_wrong_ones_are_made_and_given_again(filled, tmp_path, monkeypatch):
     shared, first = filled
     monkeypatch.setenv("NUCLEATION_STORES", str(shared))
     taken = elsewhere(first, tmp_path / "taken")
@@ -46,7 +47,10 @@ def test_results_are_taken_and_a_damaged_one_is_made_and_given_again(filled, tmp
     assert logs(taken).count(f"taken from {shared}") == 2
     assert simulations(taken) == simulations(first)
 
-    (path, _) = sorted(shared.glob("*/result.nc"))
+    swapped, damaged = sorted(shared.iterdir())
+    shutil.rmtree(swapped)
+    shutil.copytree(damaged, swapped)  # whole, and another's
+    path = damaged / "result.nc"
     path.chmod(0o644)
     content = bytearray(path.read_bytes())
     content[len(content) // 3] ^= 1
@@ -54,7 +58,10 @@ def test_results_are_taken_and_a_damaged_one_is_made_and_given_again(filled, tmp
     third = elsewhere(first, tmp_path / "third")
     third.directory.mkdir()
     assert third("simulations").returncode == 0
-    assert logs(third).count("\ntaken from") == logs(third).count("Not taken from") == 1
+    assert logs(third).count(f"Not taken from {shared}") == 2
+    assert "holds the result of another key" in logs(third)
+    assert "is not what was written" in logs(third)
+    assert simulations(third).keys() == simulations(first).keys()
     assert all(read_note(shared / key, whole=True) for key in Store(shared).listed())
 
 

@@ -61,7 +61,7 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
     store, entries = Store(results / "store"), []
-    targets = [target for record in records(store) for target in record["targets"].values()]
+    targets = records(store)
     for key in sorted({key for target in targets for key in target["keys"]}):
         for name, file in read_note(store.entry(key), whole=True)["files"].items():
             name = f"store/{key}/{name}"

@@ -64,7 +64,7 @@ def unused(store: Store, expected: Mapping[str, str]) -> list[str]:
     """Keys in a store that neither the configuration nor any directory of results refers to."""
     kept = {*expected.values()}
     for record in records(store):
-        kept.update(*(target["keys"] for target in record["targets"].values()))
+        kept.update(record["keys"])
     return [key for key in store.listed() if key not in kept]
 
 
@@ -96,6 +96,8 @@ def _shown(results: Path, store: Store, expected: Mapping[str, str]) -> Iterator
         key = next((key for key in map(expected.get, _names(name)) if key), None)
         if key is None:
             yield Finding(path, "foreign", "nothing in the configuration makes it")
+        elif path.is_symlink() and not path.exists():
+            yield Finding(path, "damaged", "its result is not in the store: make it again")
         elif not _shows(path, store, key):
             yield Finding(path, "stale", "it is of other parameters or other code: make it again")
 

@@ -49,8 +49,7 @@ def show(results: Path, target: str, shown: Iterable[tuple[str, str]]) -> list[P
         If an entry is missing or damaged; a damaged one is moved aside.
     """
     store, shown = Store(results / "store"), list(shown)
-    record = _record(store, results)
-    before = set(record["targets"].get(target, {}).get("files", ()))
+    place = _place(store, results, target)
     laid = []
     for name, key in shown:
         note = _verified(store, key)
@@ -59,40 +58,47 @@ def show(results: Path, target: str, shown: Iterable[tuple[str, str]]) -> list[P
             for suffix in suffixes(note)
         ]
     files = [path.relative_to(results).as_posix() for path in laid]
-    record["targets"][target] = {"keys": sorted({key for _, key in shown}), "files": files}
-    others = {f for other in record["targets"].values() for f in other["files"]}
-    for name in before - others:
+    before = _files(place)
+    when = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
+    record = {"target": target, "when": when, "keys": sorted({key for _, key in shown})}
+    with replacing(place) as temporary:
+        temporary.write_text(json.dumps({**record, "files": files}, indent=1) + "\n")
+    targets = place.parent.glob(f"{place.name.partition('.')[0]}.*.json")
+    for name in before.difference(*map(_files, targets)):
         if (results / name).is_symlink():
             (results / name).unlink()
-    record["when"] = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
-    with replacing(_place(store, results)) as temporary:
-        temporary.write_text(json.dumps(record, indent=1) + "\n")
     return laid
 
 
 def records(store: Store) -> list[dict[str, Any]]:
-    """What all directories of results show of a store."""
+    """What the targets of all directories of results show of a store."""
     found = []
-    for path in sorted((store.directory / VIEWS).glob("*.json")):
+    for path in sorted((store.directory / VIEWS).glob("*.*.json")):
         try:
-            found.append(json.loads(path.read_text("utf-8")))
-        except (OSError, ValueError) as error:
+            record = json.loads(path.read_text("utf-8"))
+            found.append({name: list(map(str, record[name])) for name in ("keys", "files")})
+        except (OSError, ValueError, KeyError, TypeError) as error:
             raise StoreError(f"{path} can't be read, so nothing can be said of unused results: "
-                             f"{error}") from None  # fmt: skip
+                             f"{error!r}") from None  # fmt: skip
     return found
 
 
-def _place(store: Store, results: Path) -> Path:
-    name = hashlib.sha256(str(results.resolve()).encode()).hexdigest()[:16]
-    return store.directory / VIEWS / f"{name}.json"
+def _place(store: Store, results: Path, target: str) -> Path:
+    """The record of a target, which others at work do not write.
+
+    It is named by where the results are from the store, so that both can be moved or copied.
+    """
+    where = os.path.relpath(results.resolve(), store.directory.resolve())
+    name = hashlib.sha256(where.encode()).hexdigest()[:16]
+    return store.directory / VIEWS / f"{name}.{target}.json"
 
 
-def _record(store: Store, results: Path) -> dict[str, Any]:
+def _files(record: Path) -> set[str]:
+    """The files in a record; none if there is none that can be read."""
     try:
-        found = json.loads(_place(store, results).read_text("utf-8"))
-        return found if isinstance(found["targets"], dict) else {"targets": {}}
+        return set(json.loads(record.read_text("utf-8"))["files"])
     except (OSError, ValueError, KeyError, TypeError):
-        return {"results": str(results.resolve()), "targets": {}}
+        return set()
 
 
 def _verified(store: Store, key: str) -> Note:
