@@ -13,13 +13,15 @@ import pytest
 import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
+from scipy.interpolate import BarycentricInterpolator
 
 from nucleation.analysis import moments
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import parameters_of
+from nucleation.api import critical_length, stability_length
 from nucleation.figures import catalogue, laws
 from nucleation.model.quantities import declarations
-from nucleation.report import encode, explorer, page, player, tables
+from nucleation.report import encode, explorer, page, player, stability, tables
 from nucleation.report.captions import caption_html
 
 ROOT = page.HERE.parents[2]
@@ -157,6 +159,51 @@ def test_sliders_are_parameters_of_the_library_at_the_configurations_values(sett
         assert (declaration.unit == "1") == (slider.unit == "")
     wide = explorer.controls(dataclasses.replace(material, shear_modulus=1e12), interface)
     assert wide[0]["high"] == wide[0]["value"] == 1000.0
+
+
+# ---- The stability length in the page
+
+
+def interpolated(table, zeta_over_a, nu, f, height):
+    """L_s over L_c by the page's table, with SciPy's polynomials."""
+    logs = np.frombuffer(base64.b64decode(table["logs"]), "<f4")
+    values = logs.reshape([len(nodes) for nodes in table["nodes"]])
+    ratio = (np.clip(height, *table["heights"]) / table["centre"]) ** table["power"]
+    at = (np.log(zeta_over_a), nu, f, (ratio - 1.0) / (ratio + 1.0))
+    for nodes, x in zip(table["nodes"], at, strict=True):
+        values = BarycentricInterpolator(nodes, values)(x)
+    return np.exp(values)
+
+
+@pytest.mark.slow
+def test_stability_lengths_are_within_the_precision_that_the_page_states():
+    random, table = np.random.default_rng(11), stability.in_page()
+    assert len(json.dumps(table)) < 30_000
+    low, high = np.transpose([np.log([0.4, 50.0]), (0.0, 0.49), (0.0, 1.0), np.log([1e-6, 1e6])])
+    places = random.uniform(low, high, (150, 4))
+    weakening, nu, f, height = places.T
+    weakening, height = np.exp(weakening), np.exp(height)
+    expected = stability.length_ratio(weakening, nu, f, height)
+    found = [interpolated(table, *one) for one in zip(weakening, nu, f, height, strict=True)]
+    errors = np.array(found) / expected - 1.0
+    assert np.abs(errors).max() < stability.PRECISION
+    assert np.sqrt(np.mean(errors**2)) < 0.3 * stability.PRECISION
+
+
+def test_stability_ratio_depends_on_four_numbers_alone(settings):
+    """A fault of other stress, stiffness, a and D, but of the same four numbers."""
+    material, own = settings.base.material, settings.main_text_interface
+    fault = {
+        "shear_modulus": material.shear_modulus, "poisson_ratio": material.poisson_ratio,
+        "normal_stress": own.normal_stress, "friction": own.friction, "a": own.a,
+        "zeta": own.zeta, "slip_distance": own.slip_length, "height": np.array([0.005, 0.05, 0.5]),
+        "second_shear_modulus": np.inf,
+    }  # fmt: skip
+    unit = material.shear_modulus * own.slip_length / own.normal_stress / (own.a + own.zeta)
+    height = fault["height"] * (1.0 - material.poisson_ratio) / unit
+    found = stability.length_ratio(own.zeta / own.a, material.poisson_ratio, own.friction, height)
+    expected = stability_length(**fault) / critical_length(**fault)
+    np.testing.assert_allclose(found, expected, rtol=1e-5)
 
 
 # ---- The player's data

@@ -11,13 +11,14 @@ from nucleation.model.material import Material
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.delay import growth
 from nucleation.patch.map_table import mean_over_seeds
-from nucleation.report import drop_law, explorer, page
+from nucleation.report import drop_law, explorer, page, stability
+from nucleation.theory.creep.lengths import stability_length
 from nucleation.theory.critical import critical_length, critical_wavenumber, theory_length
 from nucleation.theory.transfer import RIGID, Body
 
 pytestmark = pytest.mark.system
 
-THEORY_TRACE = 2
+THEORY_TRACE, STABILITY_TRACE = 2, 3
 PARAMETER_OF = {slider.key: slider for slider in explorer.SLIDERS}
 
 
@@ -103,12 +104,10 @@ def test_a_second_block_is_chosen(web):
     np.testing.assert_allclose(drawn_curve(web), rigid)
 
 
-def drawn_curve(web):
-    """Heights and lengths (m) of the curve, once the page has drawn what it was told."""
+def drawn_curve(web, trace=THEORY_TRACE):
+    """Heights and lengths (m) of a curve, once the page has drawn what it was told."""
     web.evaluate("() => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))")
-    script = (
-        f"() => {{ const t = element('theory-plot').data[{THEORY_TRACE}]; return [t.x, t.y]; }}"
-    )
+    script = f"() => {{ const t = element('theory-plot').data[{trace}]; return [t.x, t.y]; }}"
     return np.array(web.evaluate(script))
 
 
@@ -150,7 +149,7 @@ def test_values_can_be_typed_and_bad_ones_have_no_result(web, settings):
     length = float(critical_length(0.02, Material(shear_modulus=31e9), interface))
     values = web.locator("#values dd").all_inner_texts()
     assert float(values[0].removesuffix(" m")) == pytest.approx(length, rel=1e-4)
-    assert float(values[1].removesuffix(" rad/m")) == pytest.approx(2 * np.pi / length, rel=1e-4)
+    assert float(values[2].removesuffix(" rad/m")) == pytest.approx(2 * np.pi / length, rel=1e-4)
     for bad in ("", "0", "-3", "1e9"):
         web.fill("#number-mu", bad)
         assert web.get_attribute("#number-mu", "aria-invalid") == "true"
@@ -160,6 +159,54 @@ def test_values_can_be_typed_and_bad_ones_have_no_result(web, settings):
     web.click("#reset")
     assert web.get_attribute("#number-mu", "aria-invalid") is None
     np.testing.assert_allclose(drawn_curve(web)[1], expected_curve(settings), rtol=1e-6)
+
+
+def library_stability(p):
+    """L_s (m) by the library, for parameters under the page's names, some of them arrays."""
+    return stability_length(
+        shear_modulus=p["mu"], poisson_ratio=p["nu"], normal_stress=p["sigma0"], a=p["a"],
+        zeta=p["zeta"], slip_distance=p["ell"], friction=p["f"], height=p["H"],
+        second_shear_modulus=np.inf,
+    )  # fmt: skip
+
+
+def test_stability_length_in_the_page_is_that_of_the_library(web, settings):
+    """The number and the curve, at the configuration's values and as controls move."""
+    base = explorer.si_values(settings.base.material, settings.main_text_interface)
+    shown = []
+    for changes in ({}, {"zeta": 0.008, "nu": 0.1}, {"f": 0.9, "sigma0": 3.0, "H": 0.02}):
+        for key, value in changes.items():
+            web.fill(f"#number-{key}", str(value))
+        heights, lengths = drawn_curve(web, STABILITY_TRACE)
+        p = {
+            key: float(web.input_value(f"#number-{key}")) * (slider.factor if slider else 1.0)
+            for key, slider in (PARAMETER_OF | {"H": None}).items()
+        }
+        assert changes or {**p, "H": 0.0} == pytest.approx({**base, "H": 0.0})
+        expected = library_stability(p | {"H": heights[::80]})
+        np.testing.assert_allclose(lengths[::80], expected, rtol=stability.PRECISION)
+        words = web.locator("#values dd").nth(1).inner_text()
+        shown.append(float(words.split(" m = ")[0]))
+        assert shown[-1] == pytest.approx(float(library_stability(p)), rel=stability.PRECISION)
+        over = shown[-1] / float(web.locator("#values dd").nth(0).inner_text().removesuffix(" m"))
+        assert float(words.split(" = ")[1].split()[0]) == pytest.approx(over, abs=0.01)
+    assert len(set(shown)) == 3
+    web.click("#reset")
+
+
+@pytest.mark.parametrize("change", ["weakening", "body"])
+def test_where_the_table_does_not_hold_there_is_no_stability_length(web, change):
+    if change == "body":
+        web.select_option("#below", "clamped")
+    else:
+        web.fill("#number-a", "0.05")  # zeta/a = 0.32
+    assert all(value is None for value in drawn_curve(web, STABILITY_TRACE)[1])
+    assert all(value > 0.0 for value in drawn_curve(web)[1])
+    words = web.locator("#values dd").nth(1).inner_text()
+    assert words.startswith("not known here: only ")
+    assert ("rigid base" in words) == (change == "body")
+    web.click("#reset")
+    assert all(value > 0.0 for value in drawn_curve(web, STABILITY_TRACE)[1])
 
 
 def test_axes_like_those_of_figure_3(web):

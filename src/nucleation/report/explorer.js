@@ -17,6 +17,14 @@ function parameters() {
   return { ...p, second: secondBody(p) };
 }
 
+const table = { ...data.stability, logs: floats(data.stability.logs) };
+
+// L_s (m) by height and L_c; null where there is none.
+function stability(p) {
+  const ratio = Theory.stabilityRatio(p, table);
+  return (height, length) => (ratio ? length * ratio(height) : null);
+}
+
 function curves(p) {
   const solve = Theory.solver(p);
   return {
@@ -57,8 +65,8 @@ function pointTraces() {
   }));
 }
 
-function line(name, y, style, more = {}) {
-  const hovertemplate = "H = %{x:.4g} m<br>L<sub>c</sub> = %{y:.4g} m<extra>%{fullData.name}</extra>";
+function line(name, y, style, more = {}, symbol = "c") {
+  const hovertemplate = `H = %{x:.4g} m<br>L<sub>${symbol}</sub> = %{y:.4g} m<extra>%{fullData.name}</extra>`;
   return { name, x: heights, y, mode: "lines", line: style, hovertemplate, ...more };
 }
 
@@ -66,13 +74,13 @@ function theoryLayout() {
   const linear = element("linear").checked;
   const type = linear ? "linear" : "log";
   const end = data.linear; // of the linear axes
-  const seen = heights.map((height, i) => (height <= end ? plotted.length[i] : 0));
+  const seen = heights.map((height, i) => (height <= end ? Math.max(plotted.length[i], plotted.stability[i]) : 0));
   const shown = data.points.flatMap((series) => series.length_high);
   const top = 1.15 * Math.max(...seen, ...shown);
   const ticks = linear ? {} : { dtick: "D2" };
   const ranges = linear ? [[0, end], [0, top]] : [data.seen.map(Math.log10)];
   return layout({
-    title: heading("Critical nucleation length L<sub>c</sub> (m)"),
+    title: heading("Lengths L<sub>c</sub> and L<sub>s</sub> (m)"),
     xaxis: axis("Height of the block H (m)", { type, range: ranges[0], ...ticks }),
     yaxis: axis("", { type, ...ticks, ...(linear ? { range: ranges[1] } : { autorange: true }) }),
     legend: legend(),
@@ -80,7 +88,7 @@ function theoryLayout() {
   });
 }
 
-let plotted = { length: [], thin: [] };
+let plotted = { length: [], thin: [], stability: [] };
 const configured = curves(data.base);
 
 // The theory of each fault, where there are several.
@@ -95,15 +103,20 @@ function ownTraces() {
 function drawTheory() {
   const p = parameters();
   const refused = controls.map((control) => control.refused).filter(Boolean);
+  const patch = stability(p);
   plotted = curves(p);
-  if (refused.length) plotted = { length: heights.map(() => null), thin: heights.map(() => null) };
-  const blue = colour("theory");
+  plotted.stability = heights.map((height, i) => patch(height, plotted.length[i]));
+  for (const name of refused.length ? Object.keys(plotted) : []) plotted[name] = heights.map(() => null);
+  const [blue, green] = [colour("theory"), colour("field-2")];
   const at = Theory.solver(p)(p.H);
+  at.stability = patch(p.H, at.length);
   const traces = [
     line("theory, as configured", configured.length, { color: colour("soft"), width: 1, dash: "dot" }),
     line("theory, H k → 0", plotted.thin, { color: blue, width: 1.3, dash: "dash" }),
     line("theory", plotted.length, { color: blue, width: 2.5 }),
+    line("patch turns unstable, L<sub>s</sub>", plotted.stability, { color: green, width: 2.5 }, {}, "s"),
     { name: "values below", ...cross(p.H, refused.length ? null : at.length, blue) },
+    { name: "values below", ...cross(p.H, refused.length ? null : at.stability, green) },
     ...ownTraces(),
     ...pointTraces(),
   ];
@@ -114,10 +127,19 @@ function drawTheory() {
 function values(p, at) {
   return [
     ["Critical length L<sub>c</sub>", `${at.length.toPrecision(5)} m`],
+    ["Stability length of the patch L<sub>s</sub>", patchWords(p, at)],
     ["Critical wavenumber k<sub>c</sub>", `${at.wavenumber.toPrecision(5)} rad/m`],
     ["Angular frequency ω", `${at.frequency.toPrecision(5)} rad/s`],
     ["L<sub>c</sub> for H k → 0, Eq. (11)", `${Theory.thinLength(p.H, p).toPrecision(5)} m`],
   ];
+}
+
+function patchWords(p, at) {
+  if (at.stability) return `${at.stability.toPrecision(3)} m = ${(at.stability / at.length).toFixed(2)} L<sub>c</sub>`;
+  const [low, high] = table.ends.zeta_over_a;
+  return p.second ? "not known here: only on a rigid base"
+    : `not known here: only for ζ/a from ${low} to ${high}, ν from ${table.ends.nu.join(" to ")}`
+      + ` and f from ${table.ends.f.join(" to ")}`;
 }
 
 let waiting = false; // several inputs between two frames of the screen are drawn once

@@ -23,7 +23,7 @@ from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..patch.mode_history import ModeHistory
-from ..report import drop_law, encode, explorer, faults, length_map, own, tables
+from ..report import drop_law, encode, explorer, faults, length_map, own, stability, tables
 from .captions import caption_html
 
 Array = NDArray[np.float64]
@@ -115,6 +115,7 @@ def build(content: Content) -> str:
         lengths=tables.length_rows(lengths) if lengths is not None else [],
         drop=data["drop"],
         map=data["map"],
+        stability=data["stability"],
         drop_words=drop_law.WORDS,
         run=_run(content),
         origin=_origin(content),
@@ -141,6 +142,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "player": _player(content),
         "drop": drop_law.in_page(content.modes, content.friction, content.interface),
         "map": length_map.in_page(content.results.get("map")),
+        "stability": stability.in_page(),
         "colours": {
             "theory": style.THEORY,
             "mark": style.VERMILLION,

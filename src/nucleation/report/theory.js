@@ -164,5 +164,36 @@ const Theory = (() => {
     return 2 * Math.PI * Math.sqrt((2 * height * modulus * p.ell) / (p.zeta * p.sigma0));
   }
 
-  return { solver, thinLength, transfer };
+  // Shares of the nodes in the value at x of the polynomial through them.
+  function shares(x, nodes) {
+    const factor = (own, other) => (own === other ? 1 : (x - other) / (own - other));
+    return nodes.map((own) => nodes.reduce((product, other) => product * factor(own, other), 1));
+  }
+
+  // L_s over L_c of a block on a rigid base as a function of its height (m), by the table of
+  // nucleation.report.stability; undefined where the table does not hold.
+  function stabilityRatio(p, table) {
+    const at = { zeta_over_a: p.zeta / p.a, nu: p.nu, f: p.f };
+    const inside = ([name, [low, high]]) => at[name] >= low && at[name] <= high;
+    if (p.second || !Object.entries(table.ends).every(inside)) return undefined;
+    const [weakening, poisson, friction, places] = table.nodes;
+    const logs = places.map(() => 0);
+    let next = 0;
+    for (const one of shares(Math.log(at.zeta_over_a), weakening)) {
+      for (const two of shares(p.nu, poisson)) {
+        for (const three of shares(p.f, friction)) {
+          for (let i = 0; i < logs.length; i += 1) logs[i] += one * two * three * table.logs[next++];
+        }
+      }
+    }
+    const unit = (p.mu * p.ell) / ((1 - p.nu) * (p.a + p.zeta) * p.sigma0);
+    return (height) => {
+      const h = Math.min(Math.max(height / unit, table.heights[0]), table.heights[1]);
+      const r = (h / table.centre) ** table.power;
+      const here = shares((r - 1) / (r + 1), places);
+      return Math.exp(logs.reduce((sum, log, i) => sum + log * here[i], 0));
+    };
+  }
+
+  return { solver, stabilityRatio, thinLength, transfer };
 })();
