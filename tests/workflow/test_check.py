@@ -98,6 +98,7 @@ def test_damage_leftovers_and_strangers_are_found(linked):
         "unfinished/a.failed.nc": "incomplete",
         **dict.fromkeys(cut.values(), "damaged"),
         "figures/figure_1.png": "damaged",
+        "figures/figure_1.pdf": "damaged",
         "tables/table_s1.csv": "stale",
     }
     made = {"theory", "draw_figure_2", "gather_lengths", "write_article", "draw_figure_1"}

@@ -22,7 +22,8 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     template : str
         Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
         number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(role)``,
-        its rows of lengths, one for each fault; and the filters ``digits(n)``, ``percent(n)`` and
+        its rows of lengths, one for each fault; ``by_theory(role)``, the range of their L_s/L_c by
+        theory; and the filters ``digits(n)``, ``percent(n)`` and
         ``typeset``, of texts with formulas.
     claims : list of dict
         Rows of :func:`nucleation.claims.table.evaluate`.
@@ -51,12 +52,16 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
     def runs(role: str) -> list[dict[str, Any]]:
         return [row for row in records if row["role"] == role]
 
+    def by_theory(role: str) -> str:
+        ratios = [row["creep_length"] / row["theory_length"] for row in runs(role)]
+        return f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else "not computed"
+
     def ours(id: str) -> str:
         return number_text(by_id[id]) or "not computed"
 
     return environment.from_string(template).render(
         claim=by_id.__getitem__, ours=ours, verdicts=counts(claims), claims=claims, runs=runs,
-        pairs=paired(runs("paper"), runs("converged")), verdict=Verdict,
+        by_theory=by_theory, pairs=paired(runs("paper"), runs("converged")), verdict=Verdict,
     )  # fmt: skip
 
 

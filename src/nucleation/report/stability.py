@@ -32,8 +32,8 @@ tested at random faults."""
 @lru_cache(maxsize=1)
 def in_page() -> dict[str, Any]:
     """What the page reads: ends, nodes of each axis, and the logarithms on them."""
-    ends = [np.log(ENDS["zeta_over_a"]), ENDS["nu"], ENDS["f"], _place(np.array(HEIGHTS))]
-    nodes = [_chebyshev(*map(float, pair), n) for pair, n in zip(ends, NODES, strict=True)]
+    ends = np.array([np.log(ENDS["zeta_over_a"]), ENDS["nu"], ENDS["f"], _place(np.array(HEIGHTS))])
+    nodes = [_chebyshev(low, high, n) for (low, high), n in zip(ends, NODES, strict=True)]
     weakening, nu, f, place = np.meshgrid(*nodes, indexing="ij")
     height = CENTRE * ((1.0 + place) / (1.0 - place)) ** (1.0 / POWER)
     logs = np.log(length_ratio(np.exp(weakening), nu, f, height))
