@@ -128,21 +128,6 @@ def needed(files, what):
     return given
 
 
-def captioned(path, name):
-    """A picture for Snakemake's own report, which has the captions of the project's."""
-    entry = FIGURES[name]
-    return report(
-        path, caption=caption_file(name), category=entry.category, labels={"shows": entry.title}
-    )
-
-
-def caption_file(name):
-    return str(Path(BASE, "workflow", "report", f"{name}.rst"))
-
-
-report: str(Path(BASE, "workflow", "report", "workflow.rst"))
-
-
 include: "workflow/rules/studies.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/simulations.smk"
