@@ -147,6 +147,15 @@ def test_bad_command_line_stops_before_any_job(workflow, arguments, fragment):
     assert not (workflow.directory / "results").exists()
 
 
+def test_wrong_time_of_results_stops_before_any_job(workflow, monkeypatch):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "abc")
+    done = workflow("table_s1", "--quiet", "all")
+    assert done.returncode != 0
+    assert "SOURCE_DATE_EPOCH = 'abc' is not allowed" in done.stdout
+    assert "numpy" not in done.stdout
+    assert not (workflow.directory / "results").exists()
+
+
 def test_warnings_come_once_before_the_jobs(workflow):
     done = workflow("table_s1")
     assert done.returncode == 0, done.stdout
@@ -159,7 +168,7 @@ def test_warnings_come_once_before_the_jobs(workflow):
     ("target", "missing"),
     [
         ("lengths", "study with table: lengths"),
-        ("figure_sensitivity", "study sensitivity"),
+        ("figure_sensitivity", "study with role: sensitivity"),
     ],
 )
 def test_target_without_its_studies_says_which(workflow, target, missing):
@@ -174,7 +183,7 @@ def test_figure_without_its_simulation_says_which(workflow):
     other = workflow.configured({"studies": {"mine": {"runs": [{"height": 0.1}]}}})
     done = other("figure_3", "--dry-run")
     assert done.returncode != 0
-    assert "no run of the configuration has study paper, law aging, height 0.1" in done.stdout
+    assert "no study with role: paper has a run with height 0.1 m" in done.stdout
     assert "Traceback (most recent call last)" not in done.stdout
 
 
