@@ -56,6 +56,7 @@ def _option(*names: str, key: str, **settings: Any) -> Any:
 @_option("--height", key="height", default="inf", show_default=True)
 @_option("--far-side", key="far_side", default="traction", show_default=True)
 @_option("--second-far-side", key="second_far_side", note="of the second body; the same by default")
+@_option("--plane", key="plane", default="strain", show_default=True)
 @click.option(
     "--second-body", default="same", show_default=True, metavar="BODY",
     help="same; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3",
@@ -169,9 +170,11 @@ def _as_text(
             if length.system == system:
                 lines += _length_lines(length, lengths[length.key], fault, float(mode.length))
     modulus = "" if one_material else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
+    star = "mu/(1 - nu)" if fault.plane == "strain" else "mu (1 + nu)"
     lines += [
         "",
-        f"with mu* = mu/(1 - nu){modulus}, b = a + zeta, natural logarithms; all are full lengths",
+        f"in plane {fault.plane}, with mu* = {star}{modulus}, b = a + zeta, natural logarithms;",
+        "all are full lengths",
     ]
     return "\n".join(lines)
 
