@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from .patch.expected_drop import expected_drop
     from .simulation.run import run, simulate
     from .theory.creep.lengths import stability_length
+    from .theory.specimen import specimen_fit
 
 __all__ = [
     "CriticalMode",
@@ -65,6 +66,7 @@ __all__ = [
     "read",
     "run",
     "simulate",
+    "specimen_fit",
     "spectrum",
     "stability_length",
     "transfer_functions",
@@ -76,6 +78,7 @@ _LATER = {
     "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
     "run": ".simulation.run", "simulate": ".simulation.run",
     "expected_drop": ".patch.expected_drop", "stability_length": ".theory.creep.lengths",
+    "specimen_fit": ".theory.specimen",
 }  # fmt: skip
 
 
