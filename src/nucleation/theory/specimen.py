@@ -113,12 +113,15 @@ def specimen_fit(
     if np.ndim(size) or any(np.ndim(value) for value in fault.values()):
         raise ParameterError("a specimen is one: its length and parameters are single numbers")
 
+    def plain(found: Any) -> Any:
+        return np.array(getattr(found, "magnitude", found))
+
     def lengths(values: Any) -> Any:
-        found = np.asarray(critical_length(**fault, **{unknown: values}), dtype=float)
+        found = plain(critical_length(**fault, **{unknown: values}))
         if forward is not critical_length:
             near = ~(found > FAR * size)
             found[~near] = np.inf
-            found[near] = forward(**fault, **{unknown: np.asarray(values)[near]})
+            found[near] = plain(forward(**fault, **{unknown: np.asarray(values)[near]}))
         return found
 
     def excess(log_value: float) -> float:
