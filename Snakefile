@@ -40,6 +40,7 @@ from nucleation.configuration.load import configure
 from nucleation.configuration.roles import PAIRS as PAIR_ROLES, REFINEMENTS, ROLES, forgotten
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
+from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.studies import theory_curves
 from nucleation.configuration.study_names import study_parameters
 from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
