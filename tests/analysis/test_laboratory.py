@@ -42,12 +42,12 @@ def test_what_was_not_read_is_blank():
 
 
 def test_lengths_only_where_all_is_known():
-    rows = TABLE.to_dataframe().set_index("id")
+    rows = TABLE.to_dataframe().set_index("laboratory_fault")
     for name, fault in FAULTS.items():
         known = all(fault.numbers[n].low == fault.numbers[n].high for n in NEEDED)
-        assert np.isfinite(rows.loc[name, "critical_length"]) == known == (not fault.unknown)
+        assert np.isfinite(rows.loc[name, "theory_length"]) == known == (not fault.unknown)
         assert bool(rows.loc[name, "unknown"]) == (not known)
-    assert rows["critical_length"].notna().sum() == 2
+    assert rows["theory_length"].notna().sum() == 2
 
 
 def test_a_model_of_a_triaxial_sample():
@@ -113,7 +113,7 @@ def test_what_is_refused(given, said):
 def test_the_figure_has_a_row_for_each_known_length():
     axes = figure_laboratory.draw(TABLE).axes[0]
     titles = [label.get_text() for label in axes.get_yticklabels()]
-    lengths = np.isfinite([TABLE[n].values for n in ("fault_length", "critical_length")])
+    lengths = np.isfinite([TABLE[n].values for n in ("fault_length", "theory_length")])
     assert titles == list(TABLE["title"].values[lengths.any(axis=0)])
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend == ["fault", "$L_s$, $L_c$, of\nassumed numbers", "observed"]

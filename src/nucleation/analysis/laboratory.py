@@ -16,7 +16,7 @@ import xarray as xr
 import yaml
 
 from ..datasets.shared import SHARED
-from ..datasets.variables import Variable, table
+from ..datasets.variables import Variable, some, table
 from ..model.material import PLANES
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import parse
@@ -24,6 +24,7 @@ from ..theory.arrays import critical_length
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES
 from ..theory.specimen import SPECIMEN
+from .lengths import COLUMNS as LENGTHS
 from .lengths import Files, with_csv
 
 STATUSES = ("measured", "assumed", "unknown")
@@ -49,14 +50,13 @@ ENTRIES = {
 WORDS = ("title", "material", "source", "read", "says")
 
 COLUMNS = {
-    "id": Variable("", "name of the fault"),
+    "laboratory_fault": Variable("", "name of the laboratory fault"),
     "title": Variable("", "authors and year"),
     "fault_length": Variable("m", "length of the fault"),
-    "normal_stress": Variable("Pa", "lowest compressive normal stress", "sigma0"),
+    "lowest_stress": Variable("Pa", "lowest compressive normal stress", "sigma0"),
     "observed_low": Variable("m", "shortest nucleation length that was observed"),
     "observed_high": Variable("m", "longest nucleation length that was observed"),
-    "stability_length": Variable("m", "stability length of the creeping patch", "L_s"),
-    "critical_length": Variable("m", "critical nucleation length of the theory", "L_c"),
+    **some(LENGTHS, "creep_length", "theory_length"),
     "plane": SHARED["plane"],
     "assumed": Variable("", "numbers of the theory's lengths that were assumed"),
     "unknown": Variable("", "numbers that they need and nobody has read"),
@@ -186,14 +186,14 @@ def _row(own: LaboratoryFault) -> dict[str, Any]:
     if parameters is not None:
         found = float(stability_length(**parameters)), float(critical_length(**parameters))
     return {
-        "id": own.name,
+        "laboratory_fault": own.name,
         "title": own.title,
         "fault_length": own.numbers["fault_length"].low,
-        "normal_stress": own.numbers["normal_stress"].low,
+        "lowest_stress": own.numbers["normal_stress"].low,
         "observed_low": observed.low,
         "observed_high": observed.high,
-        "stability_length": found[0],
-        "critical_length": found[1],
+        "creep_length": found[0],
+        "theory_length": found[1],
         "plane": own.plane,
         "assumed": " ".join(own.assumed if parameters else ()),
         "unknown": " ".join(own.unknown),

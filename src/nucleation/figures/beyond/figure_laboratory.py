@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
+from ...types import Array
 
 
 @style.styled
@@ -23,7 +25,7 @@ def draw(table: xr.Dataset) -> Figure:
     Figure
         Two columns wide.
     """
-    lengths = ["fault_length", "observed_low", "critical_length"]
+    lengths = ["fault_length", "observed_low", "theory_length"]
     known = np.isfinite([table[name].values for name in lengths]).any(axis=0)
     shown = table.isel(run=np.flatnonzero(known))
     rows = np.arange(shown.sizes["run"])
@@ -31,27 +33,28 @@ def draw(table: xr.Dataset) -> Figure:
     axes = figure.add_subplot()
     axes.plot(shown["fault_length"], rows, "|", color=style.BLACK, markersize=11.0, label="fault")
     assumed = shown["assumed"].values.astype(str) != ""
-    for low, high, colour, label, face, of in (
-        ("stability_length", "critical_length", style.BLUE, "$L_s$, $L_c$", None, ~assumed),
-        (
-            "stability_length",
-            "critical_length",
-            style.BLUE,
-            "$L_s$, $L_c$, of\nassumed numbers",
-            "w",
-            assumed,
-        ),
-        ("observed_low", "observed_high", style.VERMILLION, "observed", None, rows >= 0),
+    for of, face, label in (
+        (~assumed, style.BLUE, ""),
+        (assumed, "white", ", of\nassumed numbers"),
     ):
-        ends = shown[low].values[of], shown[high].values[of]
-        if not np.isfinite(ends).any():
-            continue
-        axes.hlines(rows[of], *ends, color=colour)
-        points = {"color": colour, "markerfacecolor": face or colour}
-        axes.plot(np.ravel(ends), np.tile(rows[of], 2), "o", label=label, **points)
+        theory = shown["creep_length"].values[of], shown["theory_length"].values[of]
+        _draw_ends(axes, rows[of], theory, style.BLUE, face, f"$L_s$, $L_c${label}")
+    observed = shown["observed_low"].values, shown["observed_high"].values
+    _draw_ends(axes, rows, observed, style.VERMILLION, style.VERMILLION, "observed")
     axes.set_xscale("log")
     axes.set_yticks(rows, shown["title"].values.astype(str))
     axes.set_ylim(rows.size - 0.5, -0.5)
     axes.set_xlabel("Length (m)")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
+
+
+def _draw_ends(
+    axes: Axes, rows: Array, ends: tuple[Array, Array], colour: str, face: str, label: str
+) -> None:
+    """Both ends of ranges (m) and a line between them, nothing if all are unknown."""
+    if np.isfinite(ends).any():
+        axes.hlines(rows, *ends, color=colour)
+        axes.plot(
+            np.ravel(ends), np.tile(rows, 2), "o", color=colour, markerfacecolor=face, label=label
+        )
