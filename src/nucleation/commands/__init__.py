@@ -87,6 +87,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     from ..model.quantities import ParameterError
 
     try:
+        _require_time()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
         error.show()
@@ -100,6 +101,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.Abort:
         click.echo("Interrupted", err=True)
         return INTERRUPTED
+
+
+def _require_time() -> None:
+    """Refuse a wrong SOURCE_DATE_EPOCH at once: NumPy can't be loaded whole with it."""
+    if os.environ.get("SOURCE_DATE_EPOCH"):
+        from ..datasets.provenance import moment
+
+        moment()
 
 
 def _refuse(message: str) -> int:
