@@ -75,7 +75,8 @@ def specimen_fit(
     length : float
         Of the specimen along the fault (m).
     criterion : {"critical", "stability"}
-        Which length has to fit: L_c, or L_s of the creeping patch that is pushed at its edge.
+        Which length has to fit: L_c, or L_s of the creeping patch that is pushed at its edge, with
+        constant a and b.
     within : (float, float), optional
         Values to look at; by default all that occur (:data:`nucleation.model.plausible.RANGES`).
     **fault
