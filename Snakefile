@@ -42,6 +42,7 @@ from nucleation.configuration.roles import (
 )  # fmt: skip
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
+from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.studies import theory_curves
 from nucleation.configuration.study_names import study_parameters
 from nucleation.datasets import provenance

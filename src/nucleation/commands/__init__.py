@@ -40,6 +40,8 @@ Completion of commands and options in bash (zsh and fish in the same way):
 
 COMMANDS = {
     "length": "Critical nucleation length of a fault: the theory's, and others in use.",
+    "specimen": "Normal stress, slip distance or modulus at which a nucleation length fits into a "
+    "specimen.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
     "export": "Write slip, slip rate, stresses and state at points of the fault, a file for each.",
