@@ -82,7 +82,7 @@ EXPLAINED = {
     "figure_2_simulated-aging-H1-phi1-shear_modulus5167000000-seed0-"
     "second_shear_modulus3100000000-zeta_over_a1": "The stiffer body above",
 }
-"""Faults whose L_s is more than 3 % from the simulated one, and the part of the page that says why."""
+"""Faults whose L_s is more than 3 % off, and the part of the page that says why."""
 
 
 def patch_theory_errors():
@@ -97,10 +97,8 @@ def patch_theory_rows():
     table = patch_theory_errors()
     for words, studies in STUDIES.items():
         rows = table[table["study"].isin(studies)]
-        cells = [
-            f"{np.sqrt(np.mean(rows[name] ** 2)):.1f} %, {rows[name][rows[name].abs().idxmax()]:+.1f} %"
-            for name in ("front", "creep")
-        ]
+        errors = [rows[name] for name in ("front", "creep")]
+        cells = [f"{np.sqrt(np.mean(e**2)):.1f} %, {e[e.abs().idxmax()]:+.1f} %" for e in errors]
         yield f"| {' | '.join([words, str(len(rows)), *cells])} |"
 
 
