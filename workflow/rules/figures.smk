@@ -57,7 +57,7 @@ for _name, _inputs in DRAWN.items():
         input:
             **_inputs,
         output:
-            captioned(link(f"figures/{_name}", "png"), _name),
+            link(f"figures/{_name}", "png"),
         log:
             log(f"figures/{_name}"),
         localrule: True
@@ -123,7 +123,7 @@ rule draw_animation:
         film=only("film"),
         lengths=only("gather_lengths"),
     output:
-        captioned(link("figures/animation", "gif"), "animation"),
+        link("figures/animation", "gif"),
     log:
         log("figures/animation"),
     params:
@@ -131,5 +131,21 @@ rule draw_animation:
         id=inset_id,
     message:
         "Animation of creep, nucleation and rupture"
+    script:
+        STEP
+
+
+rule draw_figure_laboratory:
+    input:
+        table=only("gather_laboratory"),
+    output:
+        link("figures/figure_laboratory", "png"),
+    log:
+        log("figures/figure_laboratory"),
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_laboratory:draw",
+    message:
+        "Laboratory faults: lengths observed and computed"
     script:
         STEP

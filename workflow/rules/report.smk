@@ -10,10 +10,9 @@ ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_
 """What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
 the paper's figures nor the verdicts, which are about the paper's runs."""
 TABLES = {"theory": "theory", "lengths": "gather_lengths", "drop": "gather_drop",
-          "map": "gather_map",
-          "patch_theory": "gather_patch_theory", "twin_runs": "gather_twins", "sensitivity": "sensitivity",
-          "pairs": "gather_pairs", "convergence": "convergence", "dispersion": "dispersion",
-          "verification": "verification"}  # fmt: skip
+          "map": "gather_map", "patch_theory": "gather_patch_theory", "twin_runs": "gather_twins",
+          "sensitivity": "sensitivity", "pairs": "gather_pairs", "convergence": "convergence",
+          "dispersion": "dispersion", "verification": "verification"}  # fmt: skip
 """The rules of the datasets that figures are downloaded with."""
 
 
@@ -48,7 +47,10 @@ def caption_values(wildcards):
 rule write_report:
     input:
         figures=lambda wildcards: [pictured(name) for name in ENTRIES],
-        captions=[caption_file(name if name in FIGURES else "figure_studies") for name in ENTRIES],
+        captions=[
+            str(BASE / f"workflow/report/{name if name in FIGURES else 'figure_studies'}.rst")
+            for name in ENTRIES
+        ],
         datasets=lambda wildcards: [
             dataset_behind(name) for name in catalogue.datasets_of(ENTRIES.values())
         ],

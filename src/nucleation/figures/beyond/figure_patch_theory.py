@@ -32,7 +32,7 @@ def draw(table: xr.Dataset) -> Figure:
     Figure
         Two columns wide.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 6.6 * style.CENTIMETRE)
+    figure = style.new_figure(style.DOUBLE_COLUMN, 7.6 * style.CENTIMETRE)
     ratio, parity, creep = figure.subplots(1, 3)
     _draw_ratio(ratio, table)
     _draw_parity(parity, table)
@@ -45,17 +45,19 @@ def draw(table: xr.Dataset) -> Figure:
 
 def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
     """L_s/L_c over zeta/a: the thin limit, and simulations by their height."""
-    axes.semilogx(table["curve_ratio"], table["curve_length"], color=style.THIN_LIMIT)
+    axes.semilogx(
+        table["curve_ratio"], table["curve_length"], color=style.THIN_LIMIT, label="thin layers",
+    )  # fmt: skip
     alike = np.flatnonzero(table["f_beta"].values == 0.0)
     own = table.isel(run=alike)
-    shade = np.log10(own["height"] / own["theory_length"])
     drawn = axes.scatter(
-        own["zeta_over_a"], own["stability_length"] / own["theory_length"], c=shade, s=7.0,
-        cmap=style.SEQUENCE,
+        own["zeta_over_a"], own["stability_length"] / own["theory_length"], s=7.0,
+        c=own["height"] / own["theory_length"], norm="log", cmap=style.SEQUENCE, label="simulated",
     )  # fmt: skip
-    bar = axes.figure.colorbar(drawn, ax=axes)
-    bar.set_label(r"$\log_{10}(H/L_c)$")
-    axes.axhline(0.5, color=style.GUIDE, linewidth=0.6, linestyle=":")
+    axes.figure.colorbar(drawn, ax=axes, label="$H/L_c$")
+    axes.axhline(0.5, color=style.GUIDE, linewidth=0.6, linestyle=":", label="one half")
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.legend(fontsize=style.SMALL)
     axes.set_xlabel(r"$\zeta/a$")
     axes.set_ylabel("$L_s/L_c$")
 
@@ -74,8 +76,11 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
         )  # fmt: skip
     axes.axhspan(-100.0 * BAND, 100.0 * BAND, color=style.GUIDE, alpha=0.12, linewidth=0.0)
     axes.set_xlabel("$L_s/L_c$, simulated")
-    axes.set_ylabel("theory over simulation, less one (%)")
-    axes.legend(fontsize=6.5, handletextpad=0.2, labelspacing=0.25)
+    axes.set_ylabel(r"$L_s$: theory / simulation $-$ 1 (%)")
+    axes.figure.legend(
+        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=min(len(studies), 8),
+        fontsize=style.SMALL, handletextpad=0.2, columnspacing=1.0, title="Studies in (b)",
+    )  # fmt: skip
 
 
 def _draw_creep(axes: Axes, table: xr.Dataset) -> None:
