@@ -11,8 +11,6 @@ import pytest
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "results" / "reference"
 FAULT = ["law", "height", "phi0"]
-SHOWN_LENGTHS = (0.48, 0.53, 0.56, 0.59, 0.63, 0.68)
-"""Of the twins, over the theory's: the nearest of each run are on the page."""
 
 
 def percent(value, digits):
@@ -57,22 +55,7 @@ def error_rows():
         yield f"| {' | '.join(cells)} |"
 
 
-def twin_rows():
-    """Growth and frequency of kicks and of the frozen patch, at some lengths."""
-    twins = table("twin_runs")
-    twins["ratio"] = twins["twin_length"] / twins["theory_length"]
-    for _, rows in twins.groupby("id", sort=False):
-        nearest = [(rows["ratio"] - shown).abs().idxmin() for shown in SHOWN_LENGTHS]
-        for _, row in rows.loc[list(dict.fromkeys(nearest))].iterrows():
-            cells = (
-                row["law"], f"{row['height']:g}", f"{row['ratio']:.3f}",
-                *(f"{row[name]:+.2f}" for name in ("twin_growth", "frozen_growth")),
-                *(f"{row[name]:.1f}" for name in ("twin_frequency", "frozen_frequency")),
-            )  # fmt: skip
-            yield f"| {' | '.join(cells)} |"
-
-
-TABLES = (value_rows, error_rows, twin_rows)
+TABLES = (value_rows, error_rows)
 
 
 @pytest.mark.parametrize("rows", TABLES)
