@@ -33,11 +33,13 @@ STYLE = """
 #show raw: set text(size: 0.95em)
 #show figure: set block(above: 1.5em, below: 1.5em)
 #show figure.where(kind: table): set text(size: 0.85em)
+#show figure.where(kind: image): set figure(placement: auto)
+#show heading: it => place.flush() + it
 #show table.cell: set align(left)
 #show table: set par(justify: false)
 #show table: set text(hyphenate: false)
 #show figure.caption: it => block(width: 100%, align(left, text(size: 0.9em, it.body)))
-#set figure(placement: auto, gap: 0.8em)
+#set figure(gap: 0.8em)
 #set table(inset: (x: 3pt, y: 3pt), stroke: (_, y) => if y == 0 { (bottom: 0.5pt) })
 """
 PAGE = {"papersize": "a4", "fontsize": "10pt", "page-numbering": "1", "lang": "en", "region": "GB"}
@@ -90,7 +92,7 @@ def as_pdf(source: dict[str, Any], pictures: Mapping[str, Path]) -> bytes:
             shutil.copyfile(path, place)
         main = Path(directory, "article.typ")
         main.write_text(_written(source, "typst", STYLE, PAGE), "utf-8")
-        return bytes(typst.compile(main, root=directory, ignore_system_fonts=True))
+        return bytes(typst.compile(str(main), root=directory, ignore_system_fonts=True))
 
 
 def _written(source: dict[str, Any], to: str, header: str, variables: Mapping[str, str]) -> str:

@@ -7,7 +7,6 @@ import re
 import shutil
 import subprocess
 import sys
-import tarfile
 import tempfile
 import tomllib
 from pathlib import Path
@@ -42,12 +41,14 @@ def build(directory: Path, configuration: Path) -> None:
     source = (directory / f"{stem}-source.tar.gz").resolve()
     git = ["git", "-C", str(CHECKOUT), "archive", f"--prefix={stem}/", f"--output={source}", "HEAD"]
     subprocess.run(git, check=True)
-    with tempfile.TemporaryDirectory() as place, tarfile.open(source) as tar:
-        tar.extractall(place, filter="data")  # so that the wheel is of the commit, too
+    with tempfile.TemporaryDirectory() as place:  # so that the wheel is of the commit, too
+        subprocess.run(["tar", "-xzf", str(source), "-C", place], check=True)
         pip = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation"]
         subprocess.run([*pip, "-w", str(directory), f"{place}/{stem}"], check=True)
-    sums = {path.name: path.read_bytes() for path in sorted(directory.iterdir())}
-    lines = [f"{hashlib.sha256(content).hexdigest()}  {name}\n" for name, content in sums.items()]
+    lines = []
+    for path in sorted(directory.iterdir()):
+        with path.open("rb") as file:
+            lines.append(f"{hashlib.file_digest(file, 'sha256').hexdigest()}  {path.name}\n")
     (directory / CHECKSUMS).write_text("".join(lines), "utf-8")
 
 
