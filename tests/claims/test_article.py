@@ -24,6 +24,7 @@ def test_article_follows_the_numbers(given):
     text = render(TEMPLATE, rows, lengths)
     assert "{{" not in text and "{%" not in text and "nan" not in text
     assert f"judged {len(rows)} of its statements" in text
+    assert "figure_map" not in text and "figure_map" in render(TEMPLATE, rows, lengths, beyond=True)
     changed = json.loads(json.dumps(rows))
     for row in changed:
         if row["id"] == "onset-time":
