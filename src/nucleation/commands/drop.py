@@ -47,15 +47,15 @@ def _chosen() -> list[str]:
 @parameter_options(_chosen(), USUAL)
 @click.option(
     "--quiet-run", is_flag=True,
-    help="follow the mode in a quick simulation of the block, not by the theory of the patch",
+    help="take the patch from a quick simulation of the block instead of its theory",
 )  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(as_json: bool, quiet_run: bool, **options: Any) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 
-    A block is pushed from its side, as by `simulate`. Its creeping patch turns unstable at L_s, and
-    the force drops when its mode has grown to the size of the loading: later the less it is shaken.
-    The theory of the patch says how the mode grows, and the law of the drop how far it comes.
+    A block is pushed from its side, as by `simulate`. Its creeping patch becomes unstable at L_s.
+    The force drops once the unstable mode has grown to the size of the loading, so the weaker the
+    perturbation, the later. The growth follows from the theory of the patch.
 
     \b
     Example:

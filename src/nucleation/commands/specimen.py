@@ -21,7 +21,7 @@ NAMES = {"critical": "L_c", "stability": "L_s"}
 @units.option("--length", key="length", entry=SPECIMEN, required=True)
 @click.option(
     "--find", "unknown", type=click.Choice(list(UNKNOWNS.choices)), default="normal_stress",
-    show_default=True, help="what is looked for; if it is given too, it is judged",
+    show_default=True, help="the parameter to find; if its value is given too, it is judged",
 )  # fmt: skip
 @click.option(
     "--criterion", type=click.Choice(list(CRITERIA)), default="critical", show_default=True,
