@@ -64,7 +64,7 @@ calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, 
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $(PARTS)
 
-REFERENCE := patch_stability.csv patch_convergence.csv twin_runs.csv verification.csv pairs.csv \
+REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv twin_runs.csv verification.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
 	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
@@ -72,7 +72,7 @@ REFERENCE := patch_stability.csv patch_convergence.csv twin_runs.csv verificatio
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_verification figure_dispersion figure_drop \
-		animation figure_pairs figure_2_simulated pairs figure_map floors $(OPTIONS)
+		animation figure_pairs figure_2_simulated pairs figure_map figure_patch_theory floors $(OPTIONS)
 	mkdir -p results/reference
 	cd results && install -m 644 $(REFERENCE) reference/
 	sed 's|](figures/|](|' results/article.md > results/reference/article.md

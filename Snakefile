@@ -37,12 +37,14 @@ os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nuc
 from nucleation.configuration.advice import advise
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.configuration.load import configure
-from nucleation.configuration.roles import PAIRS as PAIR_ROLES, REFINEMENTS, ROLES, forgotten
+from nucleation.configuration.roles import (
+    JUDGED, LONGER, PAIRS as PAIR_ROLES, PAPERS, REFINEMENTS, ROLES, forgotten,
+)  # fmt: skip
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
+from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.configuration.studies import theory_curves
 from nucleation.configuration.study_names import study_parameters
-from nucleation.claims.evidence import JUDGED, LONGER, PAPERS
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from nucleation.figures import catalogue

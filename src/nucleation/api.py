@@ -42,10 +42,12 @@ from .theory.literature_table import lengths_in_use
 
 if TYPE_CHECKING:
     from .analysis.extraction import extract
+    from .analysis.laboratory import laboratory_faults
     from .datasets.netcdf import read, write
     from .patch.expected_drop import expected_drop
     from .simulation.run import run, simulate
     from .theory.creep.lengths import stability_length
+    from .theory.specimen import specimen_fit
 
 __all__ = [
     "CriticalMode",
@@ -63,10 +65,12 @@ __all__ = [
     "critical_mode",
     "expected_drop",
     "extract",
+    "laboratory_faults",
     "lengths_in_use",
     "read",
     "run",
     "simulate",
+    "specimen_fit",
     "spectrum",
     "stability_length",
     "transfer_functions",
@@ -80,9 +84,10 @@ _LATER = {
     "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
     "run": ".simulation.run", "simulate": ".simulation.run",
     "expected_drop": ".patch.expected_drop", "stability_length": ".theory.creep.lengths",
+    "specimen_fit": ".theory.specimen", "laboratory_faults": ".analysis.laboratory",
 }  # fmt: skip
 
-_LIGHT = {"stability_length"}
+_LIGHT = {"stability_length", "specimen_fit", "laboratory_faults"}
 """Those that need no extra."""
 
 

@@ -15,11 +15,11 @@ from reference_evidence import REFERENCE, ROOT, evaluated, evidence
 
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
-from nucleation.claims.evidence import LONGER
 from nucleation.claims.measure import Measures
 from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 from nucleation.claims.statements import bimaterial
 from nucleation.claims.symbols import as_markdown
+from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
 

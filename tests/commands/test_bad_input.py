@@ -146,6 +146,13 @@ def test_bad_command_lines(nucleation, directory, monkeypatch, words, said):
     assert sorted(directory.iterdir()) == before
 
 
+@pytest.mark.parametrize("words", [["show", "x.nc"], ["simulate", "x.nc"], length()])
+def test_wrong_time_of_results_is_refused_by_every_command(nucleation, monkeypatch, words):
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "abc")
+    ended = nucleation(*words)
+    assert ended.code == 2 and "Error: SOURCE_DATE_EPOCH = 'abc' is not allowed" in ended.err
+
+
 def test_number_of_bad_command_lines():
     assert len(LINES) >= 60
 

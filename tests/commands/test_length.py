@@ -153,3 +153,14 @@ def test_json_has_the_frequency_without_a_velocity(nucleation):
     for more in ([], ["--velocity", "1mm/yr"]):
         theory = json.loads(nucleation("length", *words, *more).out)["theory"]
         assert theory["critical_frequency_over_rate"] == pytest.approx(0.5**0.5)
+
+
+def test_plane_stress(nucleation):
+    said = nucleation(*WORDS, "--plane", "stress").out
+    assert "in plane stress, with mu* = mu (1 + nu), b = a + zeta" in said
+    assert "in plane strain, with mu* = mu/(1 - nu), b = a + zeta" in nucleation(*WORDS).out
+    found = from_json(nucleation(*WORDS, "--plane", "stress", "--json"))
+    expected = math.pi * 30e9 * 1.25 * 5e-6 / (0.005 * 50e6)  # Eq. (6) with mu* = mu (1 + nu)
+    assert found["parameters"]["plane"] == "stress"
+    assert found["theory"]["critical_length"] == pytest.approx(expected)
+    assert found["lengths"][1]["length"] == pytest.approx(expected)

@@ -12,10 +12,10 @@ from registry import CLEAR_ERROR, RECOVERED, disturb
 
 SEED = os.environ.get("FAULT_SEED", "1")
 LONG = {
-    "flipped_cache_entry", "truncated_cache_entry", "clock_set_back_during_the_run",
+    "flipped_entry_elsewhere", "truncated_entry_elsewhere", "clock_set_back_during_the_run",
     "closed_terminal", "sigkill_batch", "sigkill_snakemake_of_a_batch",
 }  # fmt: skip
-"""Left to make torture; workflow/test_cache.py damages a cache, test_batches.py kills a batch."""
+"""Left to make torture; workflow/test_stores.py damages a store, test_batches.py kills a batch."""
 EACH = [name for name in FAULTS if name not in LONG]
 TESTED = EACH if "CI" in os.environ else EACH[::3]
 

@@ -30,6 +30,8 @@ BAD = {
     "missing": (None, "can't be read: No such file"),
     "binary": (b"\x80\xff", "is not valid YAML"),
     "code": (f"__use_yte__: true\n{GOOD}".encode(), "__use_yte__ = True is not allowed"),
+    "twice": (b"results: a\nresults: b\n", "the key results stands twice, in lines 1 and 2"),
+    "octal": (GOOD.replace("0.01", "0010").encode(), "YAML takes 0010 for 8"),
     "nested": (b"[" * 5000, "is not valid YAML"),
     "list": (b"[1, 2]", "must be a mapping"),
 }

@@ -38,7 +38,7 @@ def random_faults(number, bodies, seed):
             "poisson_ratio": random.uniform(-0.2, 0.49), "a": random.uniform(0.002, 0.02),
             "normal_stress": 10.0 ** random.uniform(6, 8), "friction": random.uniform(0.05, 0.9),
             "slip_distance": 10.0 ** random.uniform(-6, -4), "height": height,
-            "far_side": random.choice(sides),
+            "far_side": random.choice(sides), "plane": random.choice(["strain", "stress"]),
         }  # fmt: skip
         if bodies == "rigid":
             fault["second_shear_modulus"] = np.inf

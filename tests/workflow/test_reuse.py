@@ -40,10 +40,10 @@ def test_without_notes_changed_parameters_and_code_are_seen(plain):
     assert plain.planned() == {}, "back to the first code, its results are used again"
 
 
-def test_units_of_variables_are_part_of_every_dataset(plain):
-    edit(plain, "src/nucleation/datasets/variables.py", '"slip rate", "v"', '"slip rate", "V"')
+def test_units_of_variables_are_part_of_the_datasets_that_have_them(plain):
+    edit(plain, "src/nucleation/simulation/recorded.py", '"slip rate", "v"', '"slip rate", "V"')
     planned = plain.planned()
-    assert planned["simulate"] == SIMULATIONS and {"theory", "dispersion"} <= planned.keys()
+    assert planned["simulate"] == SIMULATIONS and not {"theory", "dispersion"} & planned.keys()
 
 
 @pytest.mark.parametrize(
@@ -79,7 +79,7 @@ def rename(workflow, old, new):
 
 
 @pytest.mark.parametrize(
-    ("old", "new"), [("fem/kernels", "fem/loops"), ("patch/hops", "patch/jumps")]
+    ("old", "new"), [("fem/kernels", "fem/loops"), ("patch/mode_history", "patch/modes_in_time")]
 )
 def test_renamed_module_makes_nothing_stale(plain, old, new):
     rename(plain, old, new)
@@ -116,17 +116,17 @@ def test_times_of_files_do_not_matter(plain):
 
 def test_code_edited_after_planning_is_refused(plain, tmp_path):
     """The edit is made by the first job itself, between planning and the simulations."""
-    edit(plain, "workflow/scripts/table_s1.py", "with Job(",
+    edit(plain, "workflow/scripts/step.py", "run(snakemake)",
          "import pathlib\n"
          "_f = pathlib.Path(__file__).parents[2] / 'src/nucleation/simulation/control.py'\n"
          "_f.write_text(_f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5'))\n\n"
-         "with Job(")  # fmt: skip
+         "run(snakemake)")  # fmt: skip
     values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},
               "runs": [{"height": 0.1, "tolerance": 0.1}]}}}  # fmt: skip
     mine = plain.configured(values, "edited.yaml")
     done = mine("table_s1", "lengths", "--cores", "1", "--prioritize", "write_table_s1")
     assert done.returncode != 0
-    assert "has changed since this job was planned" in done.stdout
+    assert "have changed since this job was planned" in done.stdout
     assert not list((plain.directory / "new" / "simulations").glob("*.nc"))
     done = mine("lengths")
     assert done.returncode == 0, done.stdout

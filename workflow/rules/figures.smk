@@ -133,3 +133,19 @@ rule draw_animation:
         "Animation of creep, nucleation and rupture"
     script:
         STEP
+
+
+rule draw_figure_laboratory:
+    input:
+        table=only("gather_laboratory"),
+    output:
+        link("figures/figure_laboratory", "png"),
+    log:
+        log("figures/figure_laboratory"),
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_laboratory:draw",
+    message:
+        "Laboratory faults: lengths observed and computed"
+    script:
+        STEP

@@ -129,3 +129,18 @@ rule sensitivity:
         "Sensitivity of critical lengths"
     script:
         STEP
+
+
+# Published laboratory faults: the lengths observed, and those of the theory where enough was read.
+rule gather_laboratory:
+    output:
+        link("laboratory"),
+    log:
+        log("laboratory"),
+    params:
+        call="nucleation.analysis.laboratory:files",
+        faults=read_yaml(Path(SOURCE, "nucleation", "analysis", "laboratory.yaml")),
+    message:
+        "Laboratory faults: lengths observed and computed"
+    script:
+        STEP

@@ -62,6 +62,10 @@ TARGETS = {
         "How noisy each mesh is with its steps, as a declared strength.",
         lambda: [steps("gather_floors")],
     ),
+    "figure_laboratory": (
+        "Laboratory faults: lengths observed and computed.",
+        lambda: [*drawn("figure_laboratory"), steps("gather_laboratory")],
+    ),
     "patch_convergence": (
         "Where patches turn unstable on refined meshes.",
         lambda: [steps("gather_patches", "patch_convergence")],

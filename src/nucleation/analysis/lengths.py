@@ -73,6 +73,7 @@ COLUMNS = {
     "correlation_length": Variable("m", "its correlation length along x"),
     "far_side": SHARED["far_side"],
     **SECOND_BODY,
+    "plane": SHARED["plane"],
     "fault": Variable("", "digest of all that the fault's physics depends on"),
     "ensemble": Variable("", "digest of all that the run is given but its seed"),
 }
@@ -196,6 +197,7 @@ def _given(run: dict[str, Any]) -> dict[str, Any]:
     return second_body(Parameters.from_dict(parameters)) | {
         "shear_modulus": parameters["material"]["shear_modulus"],
         "poisson_ratio": parameters["material"]["poisson_ratio"],
+        "plane": parameters["material"].get("plane", "strain"),
         "friction_coefficient": interface["friction"],
         "direct_effect": interface["a"],
         "velocity_weakening": interface["zeta"],

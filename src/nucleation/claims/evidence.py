@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import over_realisations, realisations
+from ..configuration.roles import JUDGED, PAPERS
 from ..model.friction.law import Friction
 from ..model.identity import fault
 from ..model.linearised import InterfaceState
@@ -18,13 +19,6 @@ from ..model.parameters import Geometry, Loading, Parameters
 from .claim import Cause, Result
 from .measure import Measures, mean
 from .said import Missing, Ours
-
-JUDGED, PAPERS = "converged", "paper"
-"""Roles of studies: the one that verdicts stand on, and the one on the paper's own mesh."""
-
-LONGER = "long_blocks"
-"""Role of runs in longer blocks than those with the role :data:`JUDGED`; in tables of lengths also
-of the runs that they are compared with."""
 
 MESH = "A coarse mesh lets the force drop early"
 """Section of docs/findings.md on the difference of the two."""
@@ -40,7 +34,8 @@ class Evidence:
     interface : the main text's rounded friction.
     theory : dataset of the theory's curves.
     dispersion : dataset of single modes integrated in time.
-    lengths : tables of lengths, one for each study judged, and of the role :data:`LONGER`.
+    lengths : tables of lengths, one for each study judged, and of the role
+        :data:`~nucleation.configuration.roles.LONGER`.
     measures : what is read from each of their simulations, by id.
     patches : stability of the patches with the role :data:`JUDGED`, by id of each fault's first
         realisation.

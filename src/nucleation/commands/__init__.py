@@ -41,6 +41,8 @@ Completion of commands and options in bash (zsh and fish in the same way):
 
 COMMANDS = {
     "length": "Critical nucleation length of a fault: the theory's, and others in use.",
+    "specimen": "Normal stress, slip distance or modulus at which a nucleation length fits into a "
+    "specimen.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
     "export": "Write slip, slip rate, stresses and state at points of the fault, a file for each.",
@@ -48,7 +50,7 @@ COMMANDS = {
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""
 
-LIGHT = {"length"}
+LIGHT = {"length", "specimen"}
 """Commands that need no extra; the others need ``solver``."""
 
 
@@ -91,6 +93,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     from ..model.quantities import ParameterError
 
     try:
+        _require_time()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
         error.show()
@@ -104,6 +107,14 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.Abort:
         click.echo("Interrupted", err=True)
         return INTERRUPTED
+
+
+def _require_time() -> None:
+    """Refuse a wrong SOURCE_DATE_EPOCH at once: NumPy can't be loaded whole with it."""
+    if os.environ.get("SOURCE_DATE_EPOCH"):
+        from ..datasets.provenance import moment
+
+        moment()
 
 
 def _refuse(message: str) -> int:

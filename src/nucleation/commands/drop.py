@@ -81,7 +81,8 @@ def command(as_json: bool, quiet_run: bool, **options: Any) -> int:
 
 
 def _as_json(run: Run, found: ExpectedDrop | None, reason: str) -> str:
-    theory = {"theory": {"critical_length": run.theory_length}}
+    plane = run.parameters.material.plane
+    theory = {"theory": {"critical_length": run.theory_length, "plane": plane}}
     declared = {"perturbation": dataclasses.asdict(run.parameters.perturbation)}
     if found is None:
         return json.dumps(theory | declared | {"unknown": reason}, indent=2)
@@ -102,7 +103,7 @@ def _as_json(run: Run, found: ExpectedDrop | None, reason: str) -> str:
 def _as_text(run: Run, found: ExpectedDrop | None, reason: str) -> str:
     critical = run.theory_length
     lines = [
-        "Theory of homogeneous sliding:",
+        f"Theory of homogeneous sliding, in plane {run.parameters.material.plane}:",
         f"  L_c    {f'{critical:.4g} m':<26} critical nucleation length",
         "The creeping patch:",
     ]

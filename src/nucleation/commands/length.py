@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import math
 import textwrap
-import warnings
 from typing import Any
 
 import click
@@ -15,12 +13,10 @@ import numpy as np
 from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.friction.law import Friction
 from ..model.material import Material
-from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError, declarations
-from ..model.units import bounds, parse
 from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
 from ..theory.creep.lengths import stability_values
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import Fault
 from ..theory.literature_table import (
     LENGTHS,
     TWO_MATERIALS,
@@ -29,6 +25,7 @@ from ..theory.literature_table import (
     of_two_materials,
     values_of,
 )
+from .fault_options import doubts_told, fault_options, fault_values, given_of
 from .text import plain
 
 NOTEWORTHY = 0.03
@@ -37,29 +34,8 @@ NOTEWORTHY = 0.03
 DENSITY = declarations(Material)["density"]
 
 
-def _option(*names: str, key: str, **settings: Any) -> Any:
-    return units.option(*names, key=key, entry=QUANTITIES[key], **settings)
-
-
 @click.command("length", epilog=EXIT_CODES)
-@_option("--shear-modulus", key="shear_modulus", required=True)
-@_option("--poisson", "--poisson-ratio", key="poisson_ratio", required=True)
-@_option("--normal-stress", key="normal_stress", required=True)
-@_option("--a", "--direct-effect", key="a", required=True)
-@_option("--b", key="b", note="this or --zeta")
-@_option("--zeta", key="zeta", note="zeta = b - a")
-@_option("--slip-distance", "--characteristic-slip-distance", key="slip_distance", required=True)
-@_option(
-    "--friction", "--friction-coefficient", key="friction", note="needed where the bodies differ"
-)
-@_option("--velocity", key="velocity", note="for frequencies alone")
-@_option("--height", key="height", default="inf", show_default=True)
-@_option("--far-side", key="far_side", default="traction", show_default=True)
-@_option("--second-far-side", key="second_far_side", note="of the second body; the same by default")
-@click.option(
-    "--second-body", default="same", show_default=True, metavar="BODY",
-    help="same; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3",
-)  # fmt: skip
+@fault_options(required=True)
 @units.option(
     "--density", key="density", entry=DENSITY,
     note="to check that inertia does not matter; needs --velocity",
@@ -68,11 +44,9 @@ def _option(*names: str, key: str, **settings: Any) -> Any:
     "--weakening-rate", key="weakening_rate", entry=WEAKENING_RATE,
     note="of Uenishi and Rice's length; b sigma0/D if left out",
 )  # fmt: skip
-@click.option("--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10")
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    second_body: str, density: float | None, weakening_rate: float | None,
-    per_decade: bool, as_json: bool, **parameters: Any,
+    density: float | None, weakening_rate: float | None, as_json: bool, **options: Any,
 ) -> int:  # fmt: skip
     """Critical nucleation length of a fault: the theory's, and others in use.
 
@@ -83,40 +57,18 @@ def command(
       nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
           --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
     """
-    given = {k: v for k, v in parameters.items() if v is not None} | _second(second_body)
-    if per_decade:
-        given |= {k: given[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in given}
+    given = fault_values(**options)
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
-    with warnings.catch_warnings(record=True) as doubts:
-        warnings.simplefilter("always", ImplausibleWarning)
+    with doubts_told():
         fault = Fault(**given)
         mode = critical_mode(
             **given if "velocity" in given else {**given, "velocity": _unit_rate(fault)}
         )
-    for text in dict.fromkeys(str(doubt.message) for doubt in doubts):
-        click.echo(f"warning: {text}", err=True)
     lengths = values_of(fault, weakening_rate)
     print_as = _as_json if as_json else _as_text
     click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))
     return DONE if np.isfinite(mode.length) else STABLE
-
-
-def _second(text: str) -> dict[str, float]:
-    """The parameters of the second body."""
-    if text == "same":
-        return {}
-    if text == "rigid":
-        return {"second_shear_modulus": math.inf}
-    keys = ("second_shear_modulus", "second_poisson_ratio", "second_height")
-    parts = text.split(",")
-    if not 2 <= len(parts) <= 3:
-        raise ParameterError(
-            f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
-            f"in {bounds(QUANTITIES[keys[0]])}, Poisson's ratio in "
-            f"{bounds(QUANTITIES[keys[1]])} and perhaps a height, with commas between"
-        )
-    return {k: parse(k, part, QUANTITIES[k]) for k, part in zip(keys, parts, strict=False)}
 
 
 def _unit_rate(fault: Fault) -> float:
@@ -133,10 +85,9 @@ def _over_rate(fault: Fault, mode: CriticalMode) -> float:
 def _as_json(
     fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
 ) -> str:
-    names = (name for name in QUANTITIES if getattr(fault, name) is not None)
     return json.dumps(
         {
-            "parameters": {name: plain(getattr(fault, name)) for name in names},
+            "parameters": given_of(fault),
             "theory": {
                 "critical_length": plain(mode.length),
                 "critical_wavenumber": plain(mode.wavenumber),
@@ -169,9 +120,11 @@ def _as_text(
             if length.system == system:
                 lines += _length_lines(length, lengths[length.key], fault, float(mode.length))
     modulus = "" if one_material else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
+    star = "mu/(1 - nu)" if fault.plane == "strain" else "mu (1 + nu)"
     lines += [
         "",
-        f"with mu* = mu/(1 - nu){modulus}, b = a + zeta, natural logarithms; all are full lengths",
+        f"in plane {fault.plane}, with mu* = {star}{modulus}, b = a + zeta, natural logarithms;",
+        "all are full lengths",
     ]
     return "\n".join(lines)
 

@@ -15,6 +15,11 @@ Run = Any
 """Of :mod:`.runs`, which knows this module."""
 
 OWN = "own"
+JUDGED, PAPERS = "converged", "paper"
+"""The role that verdicts on lengths stand on, and that of the runs on the paper's own mesh."""
+LONGER = "long_blocks"
+"""Runs in longer blocks than those with the role :data:`JUDGED`; in tables of lengths also of the
+runs that they are compared with."""
 
 
 class Need(NamedTuple):
@@ -47,14 +52,14 @@ class Role(NamedTuple):
 
 ROLES = {
     OWN: Role("a study of your own: lengths, a figure, its part of the report", True, False),
-    "paper": Role(
+    PAPERS: Role(
         "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts", study=(LENGTHS,),
         runs=(INTERFACE,), heights=("inset_height", "space_time_height"), usual=True,
     ),
-    "converged": Role(
+    JUDGED: Role(
         "the runs on which verdicts about lengths stand", study=(LENGTHS,), runs=(INTERFACE,),
     ),
-    "long_blocks": Role(
+    LONGER: Role(
         "those in longer blocks, for the claim that the length plays no role", several=True,
         runs=(INTERFACE,),
     ),

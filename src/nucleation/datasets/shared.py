@@ -16,6 +16,7 @@ SHARED = {
     "applied_stress": Variable("Pa", "compressive stress on the top", "sigma0"),
     "shear_modulus": Variable("Pa", "shear modulus", "mu"),
     "poisson_ratio": Variable("1", "Poisson's ratio", "nu"),
+    "plane": Variable("", "plane of deformation, strain or stress"),
     "direct_effect": Variable("1", "direct effect at V", "a"),
     "velocity_weakening": Variable("1", "velocity weakening at V", "zeta"),
     "zeta_over_a": Variable("1", "velocity weakening over direct effect", "zeta/a"),

@@ -1,11 +1,37 @@
-"""Linear isotropic elasticity in plane strain: moduli and wave speeds."""
+"""Linear isotropic elasticity in two dimensions: moduli and wave speeds."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Any
 
 from .quantities import Checked, quantity
+
+PLANES = ("strain", "stress")
+
+
+def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
+    """Poisson's ratio that plane strain has to have to respond like a material in its plane.
+
+    Parameters
+    ----------
+    poisson_ratio : float or array_like
+        nu of the material.
+    plane : {"strain", "stress"}
+        Plane strain holds bodies that are thick along z, plane stress thin plates.
+
+    Returns
+    -------
+    float or array_like
+        nu itself in plane strain, ``nu/(1 + nu)`` in plane stress; mu is the same.
+
+    Notes
+    -----
+    In-plane elasticity has two moduli, mu and ``kappa``: ``3 - 4 nu`` in plane strain and
+    ``(3 - nu)/(1 + nu)`` in plane stress (Muskhelishvili, 1953), which is ``3 - 4 nu/(1 + nu)``.
+    """
+    return poisson_ratio if plane == "strain" else poisson_ratio / (1.0 + poisson_ratio)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -22,15 +48,26 @@ class Material(Checked):
         "mass density; zero makes the block quasi-static, without inertia", unit="kg/m^3",
         low=0.0, high=1e6, closed="low", symbol="rho", default=1200.0,
     )  # fmt: skip
+    plane: str = quantity(
+        "plane of deformation, of all bodies: strain if they are thick along z, stress for plates "
+        "that are thin against all lengths in the plane",
+        choices=PLANES, default="strain",
+    )  # fmt: skip
+
+    @property
+    def in_plane_ratio(self) -> float:
+        """Poisson's ratio of the same response in plane strain (:func:`in_plane_ratio`)."""
+        return in_plane_ratio(self.poisson_ratio, self.plane)
 
     @property
     def lame_modulus(self) -> float:
-        """Lame's first parameter ``lambda = 2 mu nu / (1 - 2 nu)`` (Pa)."""
-        return 2.0 * self.shear_modulus * self.poisson_ratio / (1.0 - 2.0 * self.poisson_ratio)
+        """Lame's first parameter ``2 mu nu / (1 - 2 nu)`` (Pa), in plane stress the plate's."""
+        ratio = self.in_plane_ratio
+        return 2.0 * self.shear_modulus * ratio / (1.0 - 2.0 * ratio)
 
     @property
     def p_wave_modulus(self) -> float:
-        """Modulus of uniaxial strain ``lambda + 2 mu`` (Pa)."""
+        """Modulus ``lambda + 2 mu`` (Pa) of P waves, in plane stress ``E/(1 - nu^2)``."""
         return self.lame_modulus + 2.0 * self.shear_modulus
 
     @property

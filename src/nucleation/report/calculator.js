@@ -34,8 +34,9 @@ function parameters() {
   const [wrong, kind] = [[], choice("second_body")];
   const used = data.fields.filter(({ key }) => kind === "other" || !key.startsWith("second_"));
   const v = Object.fromEntries(used.map((field) => [field.key, read(field, wrong)]));
-  const upper = { mu: v.shear_modulus, nu: v.poisson_ratio, H: v.height, farSide: farSide("") };
-  const other = { mu: v.second_shear_modulus, nu: v.second_poisson_ratio, H: v.second_height };
+  const inPlane = (nu) => (choice("plane") === "stress" ? nu / (1 + nu) : nu);
+  const upper = { mu: v.shear_modulus, nu: inPlane(v.poisson_ratio), H: v.height, farSide: farSide("") };
+  const other = { mu: v.second_shear_modulus, nu: inPlane(v.second_poisson_ratio), H: v.second_height };
   const second = { ...(kind === "other" ? other : upper), farSide: farSide("second_") || upper.farSide };
   const alike = Object.keys(upper).every((name) => upper[name] === second[name]);
   if (element("friction").value === "" && (kind === "rigid" || !alike)) {
@@ -54,6 +55,7 @@ function words() {
   const other = ["second_shear_modulus", "second_poisson_ratio", "second_height"].map((key) => text(key) || "inf");
   const all = [
     ...Object.keys(fields).filter((key) => !key.startsWith("second_")).map((key) => [key, text(key)]),
+    ["plane", choice("plane")],
     ["far_side", bounded("") ? farSide("") : ""],
     ["second_body", kind === "other" ? other.join(",") : kind],
     ["second_far_side", bounded("second_") ? farSide("second_") : ""],
@@ -68,7 +70,7 @@ function body({ H, farSide }) {
 function systemWords(p) {
   const below = { same: "one like it", rigid: "a rigid body" }[choice("second_body")]
     ?? `${body(p.second)}, of another material`;
-  return `${body(p)}, on ${below}; plane strain; a/b = ${(p.a / (p.a + p.zeta)).toPrecision(3)}.`.replace(/^a/, "A");
+  return `${body(p)}, on ${below}; plane ${choice("plane")}; a/b = ${(p.a / (p.a + p.zeta)).toPrecision(3)}.`.replace(/^a/, "A");
 }
 
 function answer(p) {
@@ -153,6 +155,7 @@ function readAddress() {
   if (other.length > 1) {
     ["second_shear_modulus", "second_poisson_ratio", "second_height"].forEach((key, i) => put(key, other[i] ?? ""));
   }
+  element("plane").value = given.get("plane") ?? "strain";
   element("far_side").value = given.get("far-side") ?? "traction";
   element("second_far_side").value = given.get("second-far-side") ?? "";
 }

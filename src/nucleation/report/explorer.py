@@ -52,10 +52,10 @@ def controls(material: Material, interface: InterfaceState) -> list[dict[str, An
         ``key``, ``label``, ``symbol``, ``unit``, ``factor`` (SI over the unit), ``low``, ``high``,
         ``log`` and ``value``; the last four in the unit, the range widened to hold the value.
     """
-    given = {Material: material, InterfaceState: interface}
+    given = _given(material, interface)
     result = []
     for slider in SLIDERS:
-        value = float(f"{getattr(given[slider.group], slider.parameter) / slider.factor:.12g}")
+        value = float(f"{given[slider.group][slider.parameter] / slider.factor:.12g}")
         result.append(
             {
                 "key": slider.key,
@@ -74,5 +74,11 @@ def controls(material: Material, interface: InterfaceState) -> list[dict[str, An
 
 def si_values(material: Material, interface: InterfaceState) -> dict[str, float]:
     """The parameters under the names of the page's code, in SI units."""
-    given = {Material: dataclasses.asdict(material), InterfaceState: dataclasses.asdict(interface)}
+    given = _given(material, interface)
     return {slider.key: given[slider.group][slider.parameter] for slider in SLIDERS}
+
+
+def _given(material: Material, interface: InterfaceState) -> dict[type, dict[str, Any]]:
+    """The values by group; the page computes in plane strain."""
+    in_strain = dataclasses.asdict(material) | {"poisson_ratio": material.in_plane_ratio}
+    return {Material: in_strain, InterfaceState: dataclasses.asdict(interface)}

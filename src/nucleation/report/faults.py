@@ -9,6 +9,7 @@ import xarray as xr
 
 from ..figures import style
 from ..model.identity import DIGITS
+from ..model.material import in_plane_ratio
 
 
 class Column(NamedTuple):
@@ -35,8 +36,8 @@ FAULT = (
 """What makes a fault of its own for the theory, with the density, which the theory doesn't need.
 Runs of other heights, laws and ages are of the same one here: they lie about one curve."""
 
-BELOW = ("below", "far_side", "second_shear_modulus", "second_poisson_ratio")
-"""And what lies below."""
+BELOW = ("below", "far_side", "second_shear_modulus", "second_poisson_ratio", "plane")
+"""And what lies below, and the plane of both."""
 
 LOOKS = (
     ("circle", "●", style.VERMILLION), ("square", "■", style.BLACK), ("diamond", "◆", style.PURPLE),
@@ -56,13 +57,16 @@ class Fault(NamedTuple):
     values: dict[str, float]  # by variable, SI
     runs: list[int]
     rigid: bool  # the base below, the only one that the page's theory knows
+    plane: str
 
     def in_page(self) -> dict[str, Any]:
-        """The fault as the page's code reads it; its curve has no points below zeta = 0."""
+        """The fault as the page's code reads it, which has plane strain and no zeta below 0."""
+        ratio = in_plane_ratio(self.values["poisson_ratio"], self.plane)
+        values = self.values | {"poisson_ratio": ratio}
         return {
             "label": f"fault {self.letter}",
             "colour": self.colour,
-            "values": {c.key: self.values[c.variable] for c in FAULT if c.key},
+            "values": {c.key: values[c.variable] for c in FAULT if c.key},
         }
 
 
@@ -77,7 +81,7 @@ def faults(lengths: xr.Dataset) -> list[Fault]:
     return [
         Fault(
             _letter(n), *LOOKS[n % len(LOOKS)], dict(zip(names, mark, strict=False)), runs,
-            mark[len(FAULT)] == "rigid",
+            mark[len(FAULT)] == "rigid", mark[-1],
         )
         for n, (mark, runs) in enumerate(found.items())
     ]  # fmt: skip

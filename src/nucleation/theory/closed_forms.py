@@ -31,7 +31,7 @@ def bimaterial_contrast(upper: Material, lower: Material) -> float:
     body it is ``(1 - 2 nu1)/[2 (1 - nu1)]``, 1/4 for ``nu1 = 1/3``.
     """
     psi = lower.shear_modulus / upper.shear_modulus
-    nu1, nu2 = upper.poisson_ratio, lower.poisson_ratio
+    nu1, nu2 = upper.in_plane_ratio, lower.in_plane_ratio
     difference = psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)
     return difference / (2.0 * (psi * (1.0 - nu1) + (1.0 - nu2)))
 
@@ -39,7 +39,7 @@ def bimaterial_contrast(upper: Material, lower: Material) -> float:
 def bimaterial_modulus(upper: Material, lower: Material) -> float:
     """The effective modulus ``M`` (Pa) of two half-spaces (Eq. 8), ``mu/(1 - nu)`` if identical."""
     psi = lower.shear_modulus / upper.shear_modulus
-    nu1, nu2 = upper.poisson_ratio, lower.poisson_ratio
+    nu1, nu2 = upper.in_plane_ratio, lower.in_plane_ratio
     beta = bimaterial_contrast(upper, lower)
     sum_ = psi * (1.0 - nu1) + (1.0 - nu2)
     return 2.0 * lower.shear_modulus / (1.0 - beta**2) / sum_
@@ -73,7 +73,7 @@ def half_spaces_length(material: Material, interface: InterfaceState) -> float:
     NoInstability
         Unless ``zeta > 0``.
     """
-    modulus = material.shear_modulus / (1.0 - material.poisson_ratio)
+    modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
     return math.pi * modulus * _weakening_length(interface)
 
 
@@ -135,7 +135,7 @@ def thin_limit_length(height: ArrayLike, material: Material, interface: Interfac
     NoInstability
         Unless ``zeta > 0``.
     """
-    modulus = material.shear_modulus / (1.0 - material.poisson_ratio)
+    modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
     height = np.asarray(height, dtype=float)
     return 2.0 * math.pi * np.sqrt(2.0 * height * modulus * _weakening_length(interface))
 

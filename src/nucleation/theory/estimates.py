@@ -31,7 +31,7 @@ def stiffness_of(parameters: Parameters) -> Stiffness:
     """The stiffness of a run's bodies."""
     if parameters.below is None:
         material = parameters.material
-        thick = material.shear_modulus / (1.0 - material.poisson_ratio)
+        thick = material.shear_modulus / (1.0 - material.in_plane_ratio)
         return Stiffness(thick, 2.0 * parameters.geometry.height * thick)
     pair = Pair(*(body.layers for body in bodies_of(parameters)))
     heights = parameters.geometry.height, parameters.below.geometry.height

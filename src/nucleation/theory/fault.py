@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
-from ..model.material import Material
+from ..model.material import Material, in_plane_ratio
 from ..model.plausible import warn_of_implausible
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
 from ..model.units import is_quantity, magnitude
@@ -56,6 +56,7 @@ def _declared() -> dict[str, Quantity]:
         "second_height": body["height"],
         "far_side": body["far_side"],
         "second_far_side": body["far_side"],
+        "plane": material["plane"],
     }
 
 
@@ -100,6 +101,8 @@ class Fault:
         two words for it), u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy.
     second_far_side : str, optional
         The same of the second body; that of the first one by default.
+    plane : {"strain", "stress"}
+        Plane strain, or plane stress of thin plates, in which nu stands for ``nu/(1 + nu)``.
 
     Attributes
     ----------
@@ -132,6 +135,7 @@ class Fault:
     second_height: Values | None = None
     far_side: str = "traction"
     second_far_side: str | None = None
+    plane: str = "strain"
     registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -144,8 +148,8 @@ class Fault:
             object.__setattr__(self, name, checked(name, getattr(self, name), QUANTITIES[name]))
         if self.second_far_side is None:
             object.__setattr__(self, "second_far_side", self.far_side)
-        for name in ("far_side", "second_far_side"):
-            if getattr(self, name) not in FAR_SIDES:
+        for name in _WORDS:
+            if getattr(self, name) not in QUANTITIES[name].choices:
                 raise ParameterError(refusal(name, getattr(self, name), QUANTITIES[name]))
         if self.zeta is None:
             object.__setattr__(self, "zeta", self.b - self.a)
@@ -165,8 +169,14 @@ class Fault:
 
     def _given(self) -> list[str]:
         names = (field.name for field in dataclasses.fields(self))
-        others = ("far_side", "second_far_side", "registry")
+        others = (*_WORDS, "registry")
         return [n for n in names if n not in others and getattr(self, n) is not None]
+
+    @property
+    def in_plane_ratios(self) -> tuple[Any, Any]:
+        """nu of both bodies in plane strain, ``nu/(1 + nu)`` in plane stress."""
+        ratios = self.poisson_ratio, self.second_poisson_ratio
+        return in_plane_ratio(ratios[0], self.plane), in_plane_ratio(ratios[1], self.plane)
 
     @property
     def bodies_differ(self) -> Any:
@@ -201,7 +211,10 @@ class Fault:
             Shape ``(rows,) + broadcast shape``; the first dimension is called ``row``.
         """
         neutral = {"friction": 0.0, "velocity": 1.0}  # where not given they do not matter
-        values = [getattr(self, n) for n in _OF_SYSTEMS]
+        own = dict(
+            zip(("poisson_ratio", "second_poisson_ratio"), self.in_plane_ratios, strict=True)
+        )
+        values = [own[n] if n in own else getattr(self, n) for n in _OF_SYSTEMS]
         values = [neutral[n] if v is None else v for n, v in zip(_OF_SYSTEMS, values, strict=True)]
 
         def core(*inputs: Array) -> NDArray:
@@ -236,6 +249,7 @@ class Fault:
         return Systems(Pair(upper, lower), friction, a, zeta, softness, velocity / slip_distance)
 
 
+_WORDS = ("far_side", "second_far_side", "plane")
 _OF_SYSTEMS = (
     "shear_modulus", "poisson_ratio", "height", "second_shear_modulus", "second_poisson_ratio",
     "second_height", "friction", "a", "zeta", "slip_distance", "velocity", "normal_stress",

@@ -2,8 +2,8 @@
 
 All are full lengths (not half-lengths), in plane strain, with ``mu* = mu/(1 - nu)``,
 ``b = a + zeta`` and ``zeta = b - a``; a and b belong to **natural** logarithms. SI units. What is
-computed outside its range of validity is NaN. The list of them with formulas and sources in words
-is :mod:`nucleation.theory.literature_table`.
+computed outside its range of validity is NaN. In plane stress nu is to be ``nu/(1 + nu)``. The list
+of them with formulas and sources in words is :mod:`nucleation.theory.literature_table`.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ class Length:
         if self.system == THIS_FAULT:
             return self.compute(fault)
         names = inspect.signature(self.compute).parameters
-        own = {"weakening_rate": weakening_rate}
+        own = {"weakening_rate": weakening_rate, "poisson_ratio": fault.in_plane_ratios[0]}
         if self.system == TWO_MATERIALS:
             modulus, coupling = of_two_materials(fault)
             own |= {"shear_modulus": modulus, "poisson_ratio": 0.0}  # of which mu* = M
@@ -77,10 +77,10 @@ class Length:
 
 def of_two_materials(fault: Fault) -> tuple[Any, Any]:
     """The modulus M (Pa) of the pair as half-spaces and ``f |beta|``."""
+    nu, second_nu = fault.in_plane_ratios
     modulus, beta = literature.bimaterial(
-        fault.shear_modulus, fault.poisson_ratio, fault.second_shear_modulus,
-        fault.second_poisson_ratio,
-    )  # fmt: skip
+        fault.shear_modulus, nu, fault.second_shear_modulus, second_nu
+    )
     return modulus, abs(beta) * (0.0 if fault.friction is None else fault.friction)
 
 

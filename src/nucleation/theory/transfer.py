@@ -1,8 +1,8 @@
 """Quasi-static response of elastic bodies to a Fourier mode of interfacial slip (Text S1.1).
 
 All fields vary as ``exp(Lambda t - i k x)``. The upper body (1) occupies ``0 < y < H1``, the lower
-body (2) ``-H2 < y < 0``; plane strain. One body responds to tractions by
-``du_i = M_ij dsigma_yj``, and a pair of bodies that slides without opening by
+body (2) ``-H2 < y < 0``; in plane stress nu stands for ``nu/(1 + nu)``. One body responds to
+tractions by ``du_i = M_ij dsigma_yj``, and a pair of bodies that slides without opening by
 
     dsigma_xy = -mu k G1 deps,    dsigma_yy = i mu k G2 deps .
 
@@ -51,7 +51,7 @@ class Body(Checked):
     def layers(self) -> Layers:
         """The body as one layer."""
         material = self.material
-        return Layers(material.shear_modulus, material.poisson_ratio, self.height, self.far_side)
+        return Layers(material.shear_modulus, material.in_plane_ratio, self.height, self.far_side)
 
 
 @dataclasses.dataclass(frozen=True)

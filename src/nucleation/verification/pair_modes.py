@@ -57,6 +57,7 @@ class Layers(NamedTuple):
                 "height": height,
                 "shear_modulus": self.modulus,
                 "poisson_ratio": self.poisson_ratio,
+                "plane": "strain",
                 "second_body": "deformable",
                 "second_height": second_height,
                 "second_shear_modulus": self.second_modulus,

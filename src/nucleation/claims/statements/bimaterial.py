@@ -61,7 +61,7 @@ def bimaterial_g2(evidence: Evidence) -> Ours:
     method="2 mu G1 of two identical half-spaces by collocation, over mu",
 )  # fmt: skip
 def bimaterial_modulus_limit(evidence: Evidence) -> Result:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     values = [
         2.0 * pair_transfer(Layer(HALF_SPACE, nu), Layer(-HALF_SPACE, nu), points)[0]
         for points in (48, 64)
@@ -78,7 +78,7 @@ def bimaterial_modulus_limit(evidence: Evidence) -> Result:
     "to no difference with the ratio of the two by Eq. (8)", said=formula(0.0, "0"),
 )  # fmt: skip
 def bimaterial_contrast_limit(evidence: Evidence) -> Ours:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     couplings, contrasts = [], []
     for psi in (1.02, 1.01):
         g1, g2 = pair_transfer(Layer(HALF_SPACE, nu), Layer(-HALF_SPACE, nu, psi))

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from ...configuration.roles import JUDGED, LONGER, PAPERS
 from ..claim import Claim, Result, claim
-from ..evidence import JUDGED, LONGER, PAPERS, Evidence, on_both
+from ..evidence import Evidence, on_both
 from ..said import Missing, Ours, below, number, words
 from .simulations import INSET, SHOWN, relative_change
 

@@ -21,7 +21,7 @@ FAR_BELOW = 1e-5  # m: a height far below those of Fig. 3
 
 def block(q: float, evidence: Evidence) -> Layer:
     """A block of kH = q, free of stress on top."""
-    return Layer(q, evidence.material.poisson_ratio, far_side="traction")
+    return Layer(q, evidence.material.in_plane_ratio, far_side="traction")
 
 
 def block_transfer(q: float, evidence: Evidence) -> tuple[float, float]:
@@ -31,7 +31,7 @@ def block_transfer(q: float, evidence: Evidence) -> tuple[float, float]:
 
 
 def _block_ratios(evidence: Evidence, which: int) -> Ours:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     ratios = [
         block_transfer(q, evidence)[which] / printed.block_transfer(q, nu)[which]
         for q in LAYER_NUMBERS
@@ -69,7 +69,7 @@ def block_g2(evidence: Evidence) -> Ours:
     method="Navier's equation by collocation, kH = 40",
 )  # fmt: skip
 def block_high_limit(evidence: Evidence) -> Result:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     values = []
     for points in (48, 64):
         g1, g2 = pair_transfer(block(HALF_SPACE, evidence), points=points)
@@ -87,7 +87,7 @@ def block_high_limit(evidence: Evidence) -> Result:
 def block_thin_g1(evidence: Evidence) -> Result:
     ratios = [block_transfer(q, evidence)[0] / (2.0 * q) for q in (THIN, 2.0 * THIN)]
     limit = (4.0 * ratios[0] - ratios[1]) / 3.0
-    said = formula(1.0 / (1.0 - evidence.material.poisson_ratio), "1/(1 - nu)")
+    said = formula(1.0 / (1.0 - evidence.material.in_plane_ratio), "1/(1 - nu)")
     return Result(Ours.within(limit, 1e-7 * limit), said)
 
 
@@ -106,7 +106,7 @@ def thin_ratio(height: float, evidence: Evidence) -> float:
     """L_c by search, transfer functions by collocation, over Eq. (11)."""
     material, interface = evidence.material, evidence.interface
     thin = printed.thin_length(
-        height, material.poisson_ratio, interface.zeta, interface.normal_stress,
+        height, material.in_plane_ratio, interface.zeta, interface.normal_stress,
         material.shear_modulus, interface.slip_length,
     )  # fmt: skip
     k, _ = marginal.critical_wavenumber(
@@ -157,7 +157,7 @@ def thin_deviation(evidence: Evidence) -> Ours:
 
 
 def _matrix_difference(evidence: Evidence, q: float, expected: np.ndarray, points: int) -> float:
-    ours = compliance(Layer(q, evidence.material.poisson_ratio), points)
+    ours = compliance(Layer(q, evidence.material.in_plane_ratio), points)
     return float(np.abs(ours - expected).max() / np.abs(expected).max())
 
 
@@ -169,7 +169,7 @@ def _matrix_difference(evidence: Evidence, q: float, expected: np.ndarray, point
     "the largest entry", said=formula(0.0, "0"),
 )  # fmt: skip
 def response_matrix(evidence: Evidence) -> Ours:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     return Ours.exactly(
         max(
             _matrix_difference(evidence, q, printed.response_matrix(q, nu), 40)
@@ -185,7 +185,7 @@ def response_matrix(evidence: Evidence) -> Ours:
     method="the same for kH = 40", said=formula(0.0, "0"),
 )  # fmt: skip
 def response_matrix_limit(evidence: Evidence) -> Ours:
-    expected = printed.half_space_response(evidence.material.poisson_ratio)
+    expected = printed.half_space_response(evidence.material.in_plane_ratio)
     return Ours.exactly(_matrix_difference(evidence, HALF_SPACE, expected, 64))
 
 
@@ -200,7 +200,7 @@ def block_displacement(evidence: Evidence) -> Ours:
     differences = []
     for q in LAYER_NUMBERS[1:]:
         y, u, w = block_field(block(q, evidence), 40)
-        field = printed.block_field(q, y / q, evidence.material.poisson_ratio)
+        field = printed.block_field(q, y / q, evidence.material.in_plane_ratio)
         field = field / field[0, 0]
         differences.append(max(np.abs(field[0] - u).max(), np.abs(field[1] - 1j * w).max()))
     return Ours.exactly(max(differences))

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from ...configuration.roles import JUDGED, PAPERS
 from ..claim import Claim, Result, claim
-from ..evidence import JUDGED, PAPERS, Evidence, on_both
+from ..evidence import Evidence, on_both
 from ..said import Missing, Ours, above, below, formula, number, words
 
 CLAIMS: list[Claim] = []

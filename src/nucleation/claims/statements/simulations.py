@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from ...configuration.roles import JUDGED
 from ..claim import Claim, Result, claim
-from ..evidence import JUDGED, Evidence, on_both
+from ..evidence import Evidence, on_both
 from ..said import Ours, above, number, words
 
 CLAIMS: list[Claim] = []

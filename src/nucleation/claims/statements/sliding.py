@@ -96,7 +96,7 @@ def literature_underestimate(evidence: Evidence) -> Ours:
 
 def half_spaces(evidence: Evidence, points: int = 64) -> tuple[float, float]:
     """G1 and G2 of two identical half-spaces, from Navier's equation."""
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     return pair_transfer(Layer(HALF_SPACE, nu), Layer(-HALF_SPACE, nu), points)
 
 
@@ -108,7 +108,7 @@ def half_spaces(evidence: Evidence, points: int = 64) -> tuple[float, float]:
 )  # fmt: skip
 def half_spaces_g1(evidence: Evidence) -> Result:
     fine, coarse = half_spaces(evidence)[0], half_spaces(evidence, 48)[0]
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     return Result(Ours.within(fine, fine - coarse), formula(1.0 / (2.0 * (1.0 - nu))))
 
 
@@ -129,7 +129,7 @@ def half_spaces_g2(evidence: Evidence) -> Ours:
     method="the same for layers of kH = 0.1, 0.5, 1 and 3", said=formula(0.0, "0"),
 )  # fmt: skip
 def symmetric_g2(evidence: Evidence) -> Ours:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     couplings = [pair_transfer(Layer(q, nu), Layer(-q, nu), 32)[1] for q in (0.1, 0.5, 1.0, 3.0)]
     return Ours.furthest(couplings, target=0.0)
 
@@ -146,7 +146,7 @@ def half_spaces_wavenumber(evidence: Evidence) -> tuple[float, float]:
 def _printed_wavenumber(evidence: Evidence) -> float:
     interface, material = evidence.interface, evidence.material
     return printed.half_space_wavenumber(
-        material.poisson_ratio, interface.zeta, interface.normal_stress, material.shear_modulus,
+        material.in_plane_ratio, interface.zeta, interface.normal_stress, material.shear_modulus,
         interface.slip_length,
     )  # fmt: skip
 
@@ -178,7 +178,7 @@ def eta(evidence: Evidence) -> float:
     method="from the k_c found by search",
 )  # fmt: skip
 def eta_value(evidence: Evidence) -> Result:
-    nu = evidence.material.poisson_ratio
+    nu = evidence.material.in_plane_ratio
     return Result(Ours.exactly(eta(evidence)), formula(math.pi / (1.0 - nu), "pi/(1 - nu)"))
 
 
@@ -289,7 +289,7 @@ def short_waves_stable(evidence: Evidence) -> Result:
     def fastest(height: float, k_c: float) -> float:
         def transfer(wavenumber: float) -> tuple[float, float]:
             q = min(wavenumber * height, HALF_SPACE)
-            return printed.block_transfer(q, material.poisson_ratio)
+            return printed.block_transfer(q, material.in_plane_ratio)
 
         modulus, interface = material.shear_modulus, evidence.interface
         return max(marginal.growth_at(k, transfer, modulus, interface).real for k in k_c * SHORT)

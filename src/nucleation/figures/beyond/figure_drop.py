@@ -20,7 +20,7 @@ KINDS = {
     "strength": ("D", style.BLACK, "roughness"),
 }
 STRENGTHS = (3e-13, 3e-1)
-RATIOS = (0.45, 1.0)
+RATIOS = (0.45, 1.06)
 MEAN = "simulated: mean, range"
 FEWEST = 8  # realisations of which a distribution is shown
 GOAL = 0.03  # of the law's mean

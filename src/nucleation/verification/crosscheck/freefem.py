@@ -34,6 +34,7 @@ MISSING = (
 )
 MOST_STEPS = 200_000  # a run that needs more has failed
 UNUSED = (
+    "material.plane",
     "loading.initial_shear_stress", "stepping.tolerance", "stepping.shortest_step",
     "stepping.event_drop",
     "perturbation.correlation_time", "perturbation.correlation_length", "perturbation.seed",
@@ -80,6 +81,7 @@ def arguments(
     unused = (*FIXED, *UNUSED)
     taken = [name for name in named if name not in unused and not name.startswith("second_body.")]
     values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
+    values["poisson_ratio"] = parameters.material.in_plane_ratio
     values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
     values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
     below = parameters.below
@@ -87,7 +89,9 @@ def arguments(
         if below.mesh.grading != 1.0:
             raise FreeFemError("the script for FreeFem++ has second_body.grading = 1.0 only")
         values |= {f"second_{name}": value for name, value in asdict(below.material).items()}
+        del values["second_plane"]
         values |= {
+            "second_poisson_ratio": below.material.in_plane_ratio,
             "second_height": below.geometry.height,
             "second_n_y": below.mesh.n_y,
             "second_bottom": below.bottom,

@@ -1,0 +1,210 @@
+"""Published laboratory faults: what was read of them, and lengths where that suffices.
+
+The numbers are in ``laboratory.yaml``, each with whether it was measured or assumed and where it
+was read. What nobody has read is unknown: no length is computed from it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from importlib.resources import files as resources
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+import yaml
+
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, some, table
+from ..model.material import PLANES
+from ..model.quantities import ParameterError, Quantity
+from ..model.units import parse
+from ..theory.arrays import critical_length
+from ..theory.creep.lengths import stability_length
+from ..theory.fault import QUANTITIES
+from ..theory.specimen import SPECIMEN
+from .lengths import COLUMNS as LENGTHS
+from .lengths import Files, with_csv
+
+STATUSES = ("measured", "assumed", "unknown")
+NEEDED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "b", "slip_distance")
+"""What a length needs; without a height the bodies are half-spaces."""
+
+_OWN = ("normal_stress", "friction", "a", "b", "slip_distance", "velocity", "height")
+ENTRIES = {
+    **{name: QUANTITIES[name] for name in ("shear_modulus", "poisson_ratio", *_OWN)},
+    "young_modulus": dataclasses.replace(
+        QUANTITIES["shear_modulus"], description="Young's modulus", symbol="E"
+    ),
+    "density": Quantity("mass density", unit="kg/m^3", low=0.0, high=1e6),
+    "fault_length": SPECIMEN,
+    "thickness": dataclasses.replace(SPECIMEN, description="thickness of the bodies along z"),
+    "loading_rate": Quantity("rate of the shear stress", unit="Pa/s", low=0.0, high=1e15),
+    "observed_length": dataclasses.replace(
+        SPECIMEN, description="nucleation length that was observed"
+    ),
+}
+"""What a number may be, with unit and range."""
+
+WORDS = ("title", "material", "source", "read", "says")
+
+COLUMNS = {
+    "laboratory_fault": Variable("", "name of the laboratory fault"),
+    "title": Variable("", "authors and year"),
+    "fault_length": Variable("m", "length of the fault"),
+    "lowest_stress": Variable("Pa", "lowest compressive normal stress", "sigma0"),
+    "observed_low": Variable("m", "shortest nucleation length that was observed"),
+    "observed_high": Variable("m", "longest nucleation length that was observed"),
+    **some(LENGTHS, "creep_length", "theory_length"),
+    "plane": SHARED["plane"],
+    "assumed": Variable("", "numbers of the theory's lengths that were assumed"),
+    "unknown": Variable("", "numbers that they need and nobody has read"),
+}
+
+
+class Number(NamedTuple):
+    """A number of an experiment in SI units; NaN where it is unknown.
+
+    Attributes
+    ----------
+    low, high : float
+        Ends of its range, equal for a single number.
+    status : {"measured", "assumed", "unknown"}
+    where : str
+        Where it was read.
+    """
+
+    low: float
+    high: float
+    status: str
+    where: str
+
+
+UNKNOWN = Number(math.nan, math.nan, "unknown", "not read")
+
+
+@dataclasses.dataclass(frozen=True)
+class LaboratoryFault:
+    """A published laboratory fault.
+
+    Attributes
+    ----------
+    name, title, material, source : str
+        What it is, and who published it.
+    read : str
+        How much of the source was read.
+    says : str
+        What the source says of nucleation, in our words.
+    plane : {"strain", "stress"}
+    numbers : dict of Number
+        By the names of :data:`ENTRIES`, all of them.
+    """
+
+    name: str
+    title: str
+    material: str
+    source: str
+    read: str
+    says: str
+    plane: str
+    numbers: dict[str, Number]
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """What a length needs of :data:`NEEDED` and is not known as one number."""
+        return tuple(n for n in NEEDED if self.numbers[n].low != self.numbers[n].high)
+
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """What a length needs and was assumed, by the source or by this project."""
+        return tuple(n for n in (*NEEDED, "height") if self.numbers[n].status == "assumed")
+
+    @property
+    def parameters(self) -> dict[str, Any] | None:
+        """The parameters of :class:`~nucleation.theory.fault.Fault`, None if some are unknown."""
+        if self.unknown:
+            return None
+        values = {name: self.numbers[name].low for name in NEEDED}
+        if math.isfinite(height := self.numbers["height"].low):
+            values["height"] = height
+        return values | {"plane": self.plane}
+
+
+def laboratory_faults() -> tuple[LaboratoryFault, ...]:
+    """All published laboratory faults of which something was read.
+
+    Raises
+    ------
+    ParameterError
+        If an entry of the file is none: naming fault, key, value, unit and range.
+    """
+    text = resources(__package__).joinpath("laboratory.yaml").read_text(encoding="utf-8")
+    return tuple(read_fault(name, entry) for name, entry in yaml.safe_load(text).items())
+
+
+def read_fault(name: str, entry: dict[str, Any]) -> LaboratoryFault:
+    """One fault as it stands in the file; raises ParameterError for what is no entry."""
+    allowed = {*WORDS, "plane", "quantities"}
+    missing, extra = {*WORDS, "quantities"} - entry.keys(), entry.keys() - allowed
+    if missing or extra:
+        raise ParameterError(
+            f"{name}: lacks {sorted(missing)}, has {sorted(extra)} which is no key"
+        )
+    plane = entry.get("plane", "strain")
+    if plane not in PLANES:
+        raise ParameterError(f"{name}.plane = {plane!r} is not allowed: one of {', '.join(PLANES)}")
+    numbers = dict.fromkeys(ENTRIES, UNKNOWN)
+    for key, given in entry["quantities"].items():
+        numbers[key] = _number(f"{name}.{key}", key, given)
+    young, ratio = numbers["young_modulus"], numbers["poisson_ratio"]
+    if numbers["shear_modulus"] is UNKNOWN and math.isfinite(young.low + ratio.low):
+        status = max(young.status, ratio.status, key=("measured", "assumed").index)
+        low, high = (e / (2.0 * (1.0 + ratio.low)) for e in (young.low, young.high))
+        numbers["shear_modulus"] = Number(low, high, status, "E/[2 (1 + nu)]")
+    words = {word: entry[word] for word in WORDS}
+    return LaboratoryFault(name=name, plane=plane, numbers=numbers, **words)
+
+
+def _number(place: str, key: str, given: dict[str, Any]) -> Number:
+    """One number of an entry, checked."""
+    if key not in ENTRIES:
+        raise ParameterError(f"{place} is not allowed: known are {', '.join(ENTRIES)}")
+    if given.keys() != {"value", "status", "where"} or given["status"] not in STATUSES[:2]:
+        raise ParameterError(
+            f"{place} = {given} is not allowed: it needs value, where and a status, measured or "
+            "assumed; what is unknown is left out"
+        )
+    ends = given["value"] if isinstance(given["value"], list) else [given["value"]] * 2
+    low, high = (float(parse(place, str(end), ENTRIES[key])) for end in ends)
+    return Number(low, high, given["status"], given["where"])
+
+
+def _row(own: LaboratoryFault) -> dict[str, Any]:
+    parameters, observed = own.parameters, own.numbers["observed_length"]
+    found = (np.nan, np.nan)
+    if parameters is not None:
+        found = float(stability_length(**parameters)), float(critical_length(**parameters))
+    return {
+        "laboratory_fault": own.name,
+        "title": own.title,
+        "fault_length": own.numbers["fault_length"].low,
+        "lowest_stress": own.numbers["normal_stress"].low,
+        "observed_low": observed.low,
+        "observed_high": observed.high,
+        "creep_length": found[0],
+        "theory_length": found[1],
+        "plane": own.plane,
+        "assumed": " ".join(own.assumed if parameters else ()),
+        "unknown": " ".join(own.unknown),
+    }
+
+
+def files(faults: dict[str, dict[str, Any]]) -> Files:
+    """The step ``gather_laboratory``: :data:`COLUMNS` of the file's entries, with CSV."""
+    return with_csv(laboratory_table(tuple(read_fault(*item) for item in faults.items())))
+
+
+def laboratory_table(faults: tuple[LaboratoryFault, ...]) -> xr.Dataset:
+    """:data:`COLUMNS` of some faults: lengths observed, and computed where all is known."""
+    return table([_row(own) for own in faults], COLUMNS)

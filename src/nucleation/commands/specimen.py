@@ -1,0 +1,91 @@
+"""``nucleation specimen``: at which stress, slip distance or modulus a nucleation length fits."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import click
+
+from ..commands import DONE, EXIT_CODES, STABLE, units
+from ..model.quantities import ParameterError
+from ..theory.fault import QUANTITIES
+from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
+from .fault_options import doubts_told, fault_options, fault_values
+from .text import plain
+
+NAMES = {"critical": "L_c", "stability": "L_s"}
+
+
+@click.command("specimen", epilog=EXIT_CODES)
+@units.option("--length", key="length", entry=SPECIMEN, required=True)
+@click.option(
+    "--find", "unknown", type=click.Choice(list(UNKNOWNS.choices)), default="normal_stress",
+    show_default=True, help="what is looked for; if it is given too, it is judged",
+)  # fmt: skip
+@click.option(
+    "--criterion", type=click.Choice(list(CRITERIA)), default="critical", show_default=True,
+    help="the length that has to fit: L_c of homogeneous sliding, or L_s of a patch that is "
+    "pushed at its edge",
+)  # fmt: skip
+@fault_options(required=False)
+@click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
+def command(length: float, unknown: str, criterion: str, as_json: bool, **options: Any) -> int:
+    """Normal stress, slip distance or modulus at which a nucleation length fits into a specimen.
+
+    The question of `length` asked backwards. A specimen that is shorter than its nucleation length
+    does not nucleate, and that is an answer.
+
+    \b
+    Example:
+      nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa --poisson 0.35 \\
+          --a 0.0068 --zeta 0.016 --slip-distance 0.5um --plane stress
+    """
+    given = fault_values(**options)
+    own = given.pop(unknown, None)
+    if missing := [name for name in UNKNOWNS.choices if name not in {unknown, *given}]:
+        raise ParameterError(f"{missing[0]} is missing: one parameter is looked for, {unknown}")
+    with doubts_told():
+        fit = specimen_fit(unknown, length, criterion, **given)
+        now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))
+    if as_json:
+        judged = None if now is None else {"value": own, "length": plain(now)}
+        found = {
+            "specimen": plain(length),
+            "criterion": criterion,
+            **fit._asdict(),
+            "given": judged,
+        }
+        click.echo(json.dumps(found | {"plane": given["plane"]}, indent=2))
+    else:
+        click.echo(_as_text(length, criterion, fit, own, now, given["plane"]))
+    return DONE if fit.exists else STABLE
+
+
+def _as_text(
+    length: float, criterion: str, fit: Fit, own: float | None, now: float | None, plane: str
+) -> str:
+    name, unit = NAMES[criterion], fit.unit
+    lines = []
+    if own is not None and now is not None:
+        at, long = f"At {fit.unknown} = {own:.4g} {unit}", f"{name} is {now:.4g} m"
+        if now <= length:
+            lines += [f"{at} {long}, {now / length:.3g} of the specimen: it can nucleate."]
+        elif now > length:
+            lines += [f"{at} {long}, {now / length:.3g} times the specimen: it does not nucleate."]
+        else:
+            lines += [f"{at} there is no {name}: it does not nucleate."]
+    lines.append(f"{name} fits into {length:.4g} m, in plane {plane}, if")
+    low, high = fit.searched
+    for first, last in fit.intervals:
+        if last == high and first > low:
+            lines.append(f"  {fit.unknown} > {first:.4g} {unit}")
+        elif first == low and last < high:
+            lines.append(f"  {fit.unknown} < {last:.4g} {unit}")
+        else:
+            lines.append(f"  {first:.4g} {unit} < {fit.unknown} < {last:.4g} {unit}")
+    if not fit.intervals:
+        why = "it is longer" if fit.exists else "there is none"
+        lines.append(f"  never: {why} at all values")
+    entry = QUANTITIES[fit.unknown].description
+    return "\n".join([*lines, f"looked for: {entry}, {low:g} to {high:g} {unit}"])

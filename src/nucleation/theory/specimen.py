@@ -1,0 +1,143 @@
+"""Backwards: at which value of one parameter a nucleation length fits into a specimen."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from ..model.parameters import Geometry
+from ..model.plausible import RANGES
+from ..model.quantities import ParameterError, Quantity, declarations
+from .arrays import critical_length
+from .creep.lengths import stability_length
+from .fault import QUANTITIES, Values, checked
+
+UNKNOWNS = Quantity(
+    "what is looked for", choices=("normal_stress", "slip_distance", "shear_modulus"), kind="str"
+)
+CRITERIA = {"critical": critical_length, "stability": stability_length}
+"""The lengths that can be asked to fit: L_c of homogeneous sliding, L_s of the creeping patch."""
+
+SPECIMEN = dataclasses.replace(
+    declarations(Geometry)["length"], description="length of the specimen along the fault"
+)
+PER_DECADE = 12
+"""Values at which the length is computed, in each decade, before roots are looked for between."""
+FAR = 4.0
+"""L_s is taken for longer than the specimen where L_c is this much longer: the least L_s of
+150 random faults is 0.39 L_c, and a patch that is very long against its height takes seconds."""
+
+
+class Fit(NamedTuple):
+    """Where a nucleation length fits into a specimen.
+
+    Attributes
+    ----------
+    unknown : str
+        The parameter that was looked for.
+    unit : str
+        Its unit.
+    intervals : tuple of (float, float)
+        The values, low to high, at which the nucleation length exists and is at most the
+        specimen's. None: it does not nucleate. An end that is one of `searched` is none of the
+        specimen's.
+    searched : (float, float)
+        The values that were looked at.
+    exists : bool
+        Whether there is a nucleation length at any of them, of whatever length.
+    monotonic : bool
+        Whether the length rises or falls all along, wherever it exists.
+    """
+
+    unknown: str
+    unit: str
+    intervals: tuple[tuple[float, float], ...]
+    searched: tuple[float, float]
+    exists: bool
+    monotonic: bool
+
+
+def specimen_fit(
+    unknown: str, length: Values, criterion: str = "critical",
+    within: tuple[float, float] | None = None, **fault: Any,
+) -> Fit:  # fmt: skip
+    """Values of one parameter at which a nucleation length fits into a specimen.
+
+    Parameters
+    ----------
+    unknown : {"normal_stress", "slip_distance", "shear_modulus"}
+        What is looked for: sigma0 (Pa), D (m) or mu (Pa) of the first body. The second body has
+        the same mu unless `second_shear_modulus` is given, which then stays.
+    length : float
+        Of the specimen along the fault (m).
+    criterion : {"critical", "stability"}
+        Which length has to fit: L_c, or L_s of the creeping patch that is pushed at its edge, with
+        constant a and b.
+    within : (float, float), optional
+        Values to look at; by default all that occur (:data:`nucleation.model.plausible.RANGES`).
+    **fault
+        The other parameters of :class:`~nucleation.theory.fault.Fault`, single numbers.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is missing, unknown, outside its range, an array, or what is looked for.
+
+    Notes
+    -----
+    Eq. (5) knows sigma0 and D by ``mu D/sigma0`` alone, and L_c rises with it, so that one end
+    decides: ``sigma0 = mu k D G1(k)/h_plus`` at ``k = 2 pi/length`` unless L_c jumps there. That
+    of the first body's mu against another second body is not as simple. So the length is computed
+    at :data:`PER_DECADE` values in each decade, and each change between fitting and not fitting is
+    followed by Brent's method; what happens between two of these values alone is missed.
+    """
+    for name, value, allowed in (
+        ("unknown", unknown, UNKNOWNS.choices), ("criterion", criterion, CRITERIA)
+    ):  # fmt: skip
+        if value not in allowed:
+            raise ParameterError(f"{name} = {value!r} is not allowed: one of {', '.join(allowed)}")
+    if unknown in fault:
+        raise ParameterError(f"{unknown} is not allowed: it is what is looked for")
+    forward, entry = CRITERIA[criterion], QUANTITIES[unknown]
+    size = checked("length", length, SPECIMEN)
+    low, high = (float(checked(unknown, end, entry)) for end in within or RANGES[unknown])
+    if not low < high:
+        raise ParameterError(f"within = ({low:g}, {high:g}) {entry.unit} is no range")
+    if np.ndim(size) or any(np.ndim(value) for value in fault.values()):
+        raise ParameterError("a specimen is one: its length and parameters are single numbers")
+
+    def plain(found: Any) -> Any:
+        return np.array(getattr(found, "magnitude", found))
+
+    def lengths(values: Any) -> Any:
+        found = plain(critical_length(**fault, **{unknown: values}))
+        if forward is not critical_length:
+            near = ~(found > FAR * size)
+            found[~near] = np.inf
+            found[near] = plain(forward(**fault, **{unknown: np.asarray(values)[near]}))
+        return found
+
+    def excess(log_value: float) -> float:
+        found = float(lengths(math.exp(log_value)))
+        return math.log(found / float(size)) if math.isfinite(found) else 1.0
+
+    values = np.geomspace(low, high, 2 + math.ceil(PER_DECADE * math.log10(high / low)))
+    found = lengths(values)
+    fits = found <= size
+    ends = [low] if fits[0] else []
+    for i in np.flatnonzero(fits[1:] != fits[:-1]):
+        ends.append(math.exp(brentq(excess, *np.log(values[i : i + 2]), xtol=1e-12)))
+    ends += [high] if fits[-1] else []
+    steps = np.diff(found[np.isfinite(found)])
+    return Fit(
+        unknown, entry.unit, tuple(zip(ends[::2], ends[1::2], strict=True)), (low, high),
+        bool((found > 0.0).any()), bool((steps > 0.0).all() or (steps < 0.0).all()),
+    )  # fmt: skip

@@ -1,0 +1,119 @@
+"""Published laboratory faults: what the file may hold, and the lengths that follow."""
+
+import math
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.laboratory import (
+    ENTRIES,
+    NEEDED,
+    STATUSES,
+    laboratory_faults,
+    laboratory_table,
+    read_fault,
+)
+from nucleation.api import ParameterError, critical_length, stability_length
+from nucleation.figures.beyond import figure_laboratory
+
+FAULTS = {fault.name: fault for fault in laboratory_faults()}
+TABLE = laboratory_table(tuple(FAULTS.values()))
+WORDS = {"title": "A (2000)", "material": "glass", "source": "doi:1", "read": "all", "says": "long"}
+
+
+def entry(**quantities):
+    given = {k: {"value": v, "status": "measured", "where": "p. 1"} for k, v in quantities.items()}
+    return WORDS | {"quantities": given}
+
+
+def test_every_number_says_where_it_is_from():
+    for fault in FAULTS.values():
+        assert fault.title and fault.source and fault.read
+        assert set(fault.numbers) == set(ENTRIES)
+        for number in fault.numbers.values():
+            assert number.status in STATUSES and number.where
+            assert (number.status == "unknown") == math.isnan(number.low)
+
+
+def test_what_was_not_read_is_blank():
+    for fault in FAULTS.values():
+        if fault.read == "not read":
+            assert {number.status for number in fault.numbers.values()} == {"unknown"}
+
+
+def test_lengths_only_where_all_is_known():
+    rows = TABLE.to_dataframe().set_index("laboratory_fault")
+    for name, fault in FAULTS.items():
+        known = all(fault.numbers[n].low == fault.numbers[n].high for n in NEEDED)
+        assert np.isfinite(rows.loc[name, "theory_length"]) == known == (not fault.unknown)
+        assert bool(rows.loc[name, "unknown"]) == (not known)
+    assert rows["theory_length"].notna().sum() == 2
+
+
+def test_a_model_of_a_triaxial_sample():
+    """Half-spaces, Eq. (6); the stress on the plane is that of 90 MPa along the axis."""
+    sample = FAULTS["pyquake3d_laboratory"]
+    sigma = 90e6 * math.cos(math.radians(30.0)) ** 2
+    assert sample.numbers["normal_stress"].low == pytest.approx(sigma)
+    expected = math.pi * 30.04e9 * 1e-7 / (0.0055 * 0.75 * sigma)
+    assert critical_length(**sample.parameters) == pytest.approx(expected)
+
+
+def test_the_moduli_of_a_plate():
+    plate = FAULTS["crackdyn_pmma"]
+    modulus = plate.numbers["shear_modulus"]
+    assert modulus.low == pytest.approx(3e9 / 2.7) and modulus.status == "measured"
+    assert plate.plane == "stress" and plate.parameters is None
+
+
+@pytest.mark.parametrize("function", [critical_length, stability_length])
+def test_lengths_fall_inversely_with_the_stress(function):
+    """As Latour and others (2013) saw: of half-spaces; thin bodies give way as its root."""
+    sample = FAULTS["pyquake3d_laboratory"].parameters
+    stress = np.array([1e7, 2e7, 4e7])
+
+    def exponents(**own):
+        return np.diff(np.log(function(**sample | {"normal_stress": stress} | own))) / math.log(2.0)
+
+    assert exponents() == pytest.approx(-1.0, abs=1e-6)
+    thin = exponents(height=1e-5, second_shear_modulus=math.inf, friction=0.0)
+    assert thin == pytest.approx(-0.5, abs=0.01)
+
+
+def test_the_loading_rate_does_not_matter_to_the_linear_theory():
+    """What Guerin-Marthe and others (2019) saw lies beyond it: V is in frequencies alone."""
+    sample = FAULTS["pyquake3d_laboratory"].parameters
+    lengths = critical_length(**sample, velocity=np.array([1e-9, 1e-3]))
+    assert lengths[0] == lengths[1]
+
+
+def test_units_and_ranges():
+    fault = read_fault("glass", entry(normal_stress=["1 MPa", "2 MPa"], a=0.01))
+    assert fault.numbers["normal_stress"][:2] == (1e6, 2e6)
+    assert "normal_stress" in fault.unknown and "a" not in fault.unknown
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (entry(normal_stress="1 m"), "glass.normal_stress = '1 m' is not allowed: .* Pa is needed"),
+        (entry(a="-1"), r"glass.a = -1.0 is not allowed: direct-effect coefficient a must lie in"),
+        (entry(stress="1 MPa"), "glass.stress is not allowed: known are shear_modulus"),
+        (WORDS, r"glass: lacks \['quantities'\]"),
+        (entry() | {"plane": "antiplane"}, "glass.plane = 'antiplane' is not allowed"),
+        (WORDS | {"quantities": {"a": {"value": 0.01, "status": "measured"}}}, "it needs value"),
+        (WORDS | {"quantities": {"a": {"value": 1, "status": "sure", "where": "x"}}}, "a status"),
+    ],
+)
+def test_what_is_refused(given, said):
+    with pytest.raises(ParameterError, match=said):
+        read_fault("glass", given)
+
+
+def test_the_figure_has_a_row_for_each_known_length():
+    axes = figure_laboratory.draw(TABLE).axes[0]
+    titles = [label.get_text() for label in axes.get_yticklabels()]
+    lengths = np.isfinite([TABLE[n].values for n in ("fault_length", "theory_length")])
+    assert titles == list(TABLE["title"].values[lengths.any(axis=0)])
+    legend = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert legend == ["fault", "$L_s$, $L_c$, of\nassumed numbers", "observed"]

@@ -1,0 +1,60 @@
+"""``nucleation specimen`` against the library."""
+
+import json
+
+import pytest
+
+from nucleation import api
+
+WORDS = [
+    "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa", "--poisson",
+    "0.35", "--a", "0.0068", "--zeta", "0.016", "--slip-distance", "0.5um", "--plane", "stress",
+]  # fmt: skip
+FAULT = {"height": 0.1, "shear_modulus": 3.1e9, "poisson_ratio": 0.35, "a": 0.0068, "zeta": 0.016,
+         "slip_distance": 5e-7, "plane": "stress"}  # fmt: skip
+
+
+@pytest.mark.parametrize("criterion", ["critical", "stability"])
+def test_json_has_the_library_s_numbers(nucleation, criterion):
+    ended = nucleation(*WORDS, "--criterion", criterion, "--normal-stress", "1MPa", "--json")
+    found, fit = json.loads(ended.out), api.specimen_fit("normal_stress", 0.2, criterion, **FAULT)
+    assert (ended.code, ended.err) == (0, "")
+    assert found["intervals"] == [list(interval) for interval in fit.intervals]
+    forward = {"critical": api.critical_length, "stability": api.stability_length}[criterion]
+    now = float(forward(**FAULT, normal_stress=1e6))
+    assert found["given"] == {"value": 1e6, "length": pytest.approx(now)}
+    assert found["unknown"] == "normal_stress" and found["plane"] == "stress"
+
+
+def test_a_short_specimen_is_an_answer(nucleation):
+    ended = nucleation(*WORDS, "--normal-stress", "1MPa")
+    assert ended.code == 0
+    assert "L_c is 0.3197 m, 1.6 times the specimen: it does not nucleate" in ended.out
+    assert "L_c fits into 0.2 m, in plane stress, if\n  normal_stress > 1.941e+06 Pa" in ended.out
+    more = nucleation(*WORDS, "--normal-stress", "2MPa").out
+    assert "0.976 of the specimen: it can nucleate" in more
+
+
+def test_other_unknowns(nucleation):
+    ended = nucleation(*WORDS, "--normal-stress", "1MPa", "--find", "slip_distance")
+    assert "slip_distance < 2.576e-07 m" in ended.out
+
+
+def test_several_intervals_and_none(nucleation):
+    contrast = [
+        "specimen", "--length", "20", "--poisson", "0.2", "--a", "0.01", "--friction", "0.8",
+        "--slip-distance", "0.01um", "--normal-stress", "100MPa", "--second-body", "10GPa,0.2",
+        "--find", "shear_modulus", "--shear-modulus", "10GPa",
+    ]  # fmt: skip
+    ended = nucleation(*contrast, "--zeta=-1e-4")
+    assert ended.code == 0 and "there is no L_c: it does not nucleate" in ended.out
+    assert "shear_modulus < 1.952e+09 Pa\n  shear_modulus > 5.124e+10 Pa" in ended.out
+    ended = nucleation(*contrast, "--zeta=-9e-3")
+    assert ended.code == 3 and "never: there is none at all values" in ended.out
+
+
+def test_what_is_refused(nucleation):
+    ended = nucleation(*WORDS, "--find", "shear_modulus")
+    assert ended.code == 2 and "normal_stress is missing" in ended.err
+    ended = nucleation(*WORDS[:2], "20 Pa", *WORDS[3:])
+    assert ended.code == 2 and "length of the specimen" in ended.err and "m is needed" in ended.err

@@ -1,0 +1,137 @@
+"""Plane stress: nu/(1 + nu) for nu at the same mu, in theory, commands and simulations."""
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.analysis.lengths import gather
+from nucleation.api import (
+    Material,
+    ParameterError,
+    Parameters,
+    critical_length,
+    lengths_in_use,
+    spectrum,
+    stability_length,
+    transfer_functions,
+)
+from nucleation.configuration.load import configure
+from nucleation.fem.assembled import assemble
+from nucleation.fem.grid import Grid
+from nucleation.model.identity import fault
+from nucleation.report.faults import faults
+from nucleation.simulation.run import simulate
+
+PMMA = {"shear_modulus": 3.1e9, "normal_stress": 1e6, "a": 0.0068, "zeta": 0.016,
+        "slip_distance": 5e-7, "friction": 0.41, "velocity": 1e-5}  # fmt: skip
+NU, NU2 = 0.35, 0.25
+SETTINGS = {
+    "half-spaces": {},
+    "rigid base": {"second_shear_modulus": np.inf, "height": 0.1},
+    "two materials": {"second_shear_modulus": 30e9, "height": 0.1, "second_far_side": "clamped"},
+}
+
+
+def both(function, **fault):
+    """In plane stress, and in plane strain with the ratios replaced by hand."""
+    ratios = {"poisson_ratio": NU, "second_poisson_ratio": NU2}
+    changed = {name: nu / (1.0 + nu) for name, nu in ratios.items()}
+    return function(**ratios, plane="stress", **fault), function(**changed, **fault)
+
+
+@pytest.mark.parametrize("setting", SETTINGS.values(), ids=SETTINGS)
+@pytest.mark.parametrize("function", [critical_length, stability_length, lengths_in_use])
+def test_theory_is_that_of_the_other_ratio(function, setting):
+    ours, expected = both(function, **PMMA, **setting)
+    if function is lengths_in_use:
+        ours, expected = ours.to_array(), expected.to_array()
+    np.testing.assert_array_equal(ours, expected)
+
+
+@pytest.mark.parametrize("function", [transfer_functions, spectrum])
+def test_modes_are_those_of_the_other_ratio(function):
+    def found(**fault):
+        return np.asarray(function([3.0, 30.0], **fault))
+
+    np.testing.assert_array_equal(*both(found, **PMMA, **SETTINGS["two materials"]))
+
+
+def test_a_thin_plate_is_a_bar_of_youngs_modulus():
+    """``mu k G1 -> E H k^2`` for ``Hk -> 0``: nothing holds it along z."""
+    k, height = 1e-3, 0.01
+    shear, _ = transfer_functions(
+        k, **PMMA, poisson_ratio=NU, plane="stress", second_shear_modulus=np.inf, height=height
+    )
+    young = 2.0 * PMMA["shear_modulus"] * (1.0 + NU)
+    assert PMMA["shear_modulus"] * k * shear == pytest.approx(young * height * k**2, rel=1e-6)
+
+
+def test_lengths_of_plates_of_pmma():
+    """0.1 m high under 2.8 MPa: 0.164 m on itself falls by 11 %, on a rigid base by 6 %."""
+
+    def length(**own):
+        fault = PMMA | {"normal_stress": 2.79e6, "poisson_ratio": NU, "height": 0.1}
+        return critical_length(**fault, **own)
+
+    assert length() == pytest.approx(0.164, abs=5e-4)
+    assert length(plane="stress") == pytest.approx(0.146, abs=1e-3)
+    rigid = {"second_shear_modulus": np.inf}
+    assert length(plane="stress", **rigid) / length(**rigid) == pytest.approx(0.94, abs=0.005)
+
+
+def test_stiffness_matrix_is_that_of_plane_stress():
+    """Energies of uniform strains against ``E/(1 - nu^2) [[1, nu], [nu, 1]]``, and wave speeds."""
+    material = Material(shear_modulus=1.3e9, poisson_ratio=NU, density=1100.0, plane="stress")
+    plate = 2.0 * 1.3e9 * (1.0 + NU) / (1.0 - NU**2)
+    grid = Grid(0.3, 0.2, 4, 3)
+    stiffness, _ = assemble(grid, material)
+    x, y = (positions.ravel() for positions in np.meshgrid(grid.x, grid.y))
+    for strain_x, strain_y in ((1.0, 0.0), (0.0, 1.0), (1.0, 1.0)):
+        moved = np.column_stack([strain_x * x, strain_y * y]).ravel()
+        energy = plate * (strain_x**2 + strain_y**2 + 2.0 * NU * strain_x * strain_y) * 0.3 * 0.2
+        assert moved @ stiffness @ moved == pytest.approx(energy, rel=1e-12)
+    assert material.p_wave_modulus == pytest.approx(plate, rel=1e-14)
+    assert material.shear_wave_speed == Material(1.3e9, density=1100.0).shear_wave_speed
+
+
+def test_simulation_is_that_of_the_other_ratio():
+    """To the last bit, of two materials; in plane stress nothing else changes."""
+    base = Parameters().replaced(
+        {"height": 0.05, "block_length": 0.6, "n_x": 40, "n_y": 4, "end_time": 0.3,
+         "second_body": "deformable", "second_shear_modulus": 6e9}
+    )  # fmt: skip
+    ratios = {"poisson_ratio": NU, "second_poisson_ratio": NU2}
+    stress = base.replaced(ratios | {"plane": "stress"})
+    strain = base.replaced({name: nu / (1.0 + nu) for name, nu in ratios.items()})
+    ours, expected = simulate(stress), simulate(strain)
+    for name in ours:
+        np.testing.assert_array_equal(ours[name], expected[name], err_msg=name)
+    assert '"plane": "stress"' in ours.attrs["parameters"]
+    assert fault(stress) != fault(strain)
+
+
+def test_faults_keep_their_digests_in_plane_strain():
+    assert fault(Parameters()) == fault(Parameters().replaced({"plane": "strain"}))
+    assert fault(Parameters()) != fault(Parameters().replaced({"plane": "stress"}))
+
+
+def test_other_planes_are_refused():
+    refused = "plane = 'antiplane' is not allowed: .* must be one of strain, stress"
+    with pytest.raises(ParameterError, match=refused):
+        Material(plane="antiplane")
+    with pytest.raises(ParameterError, match=refused):
+        critical_length(**PMMA, poisson_ratio=NU, plane="antiplane")
+
+
+def test_a_study_of_both_planes():
+    """Both are varied as any parameter, and tables of lengths and the report tell them apart."""
+    settings = {"n_x": 40, "n_y": 4, "end_time": 0.1}
+    runs = [{"height": 0.01, "plane": ["strain", "stress"]}]
+    found = configure({"studies": {"s": {"defaults": settings, "runs": runs}}}).runs
+    done = [simulate(run.parameters) for run in found]
+    table = gather([run.to_dict() for run in found], done, ExtractionSettings())
+    assert table["plane"].values.tolist() == ["strain", "stress"]
+    ratios = [own.in_page()["values"]["nu"] for own in faults(table)]
+    assert ratios == pytest.approx([1 / 3, 1 / 4])
+    first, second = table["theory_length"].values
+    assert second / first == pytest.approx(0.943, abs=0.002)

@@ -1,0 +1,114 @@
+"""At which stress, slip distance or modulus a nucleation length fits: against Eq. (5) by hand."""
+
+import math
+
+import numpy as np
+import pytest
+
+from nucleation.api import (
+    ParameterError,
+    critical_length,
+    specimen_fit,
+    stability_length,
+    transfer_functions,
+)
+
+FRICTION = {"a": 0.0068, "zeta": 0.016, "friction": 0.41}
+PMMA = {"poisson_ratio": 0.35, **FRICTION}
+OTHERS = {"shear_modulus": 3.1e9, "normal_stress": 1e6, "slip_distance": 5e-7}
+BODIES = {
+    "half-spaces": {},
+    "plates": {"height": 0.1, "plane": "stress"},
+    "rigid base": {"height": 0.02, "second_shear_modulus": math.inf},
+    "two materials": {"second_shear_modulus": 9e9, "height": 0.05, "second_far_side": "clamped"},
+}
+
+
+def by_hand(unknown, length, bodies):
+    """``g = h_plus`` at ``k = 2 pi/length``, solved for the factor in ``mu k D G1/sigma0``."""
+    k, zeta, b = 2.0 * math.pi / length, FRICTION["zeta"], FRICTION["a"] + FRICTION["zeta"]
+    own = {"shear_modulus": OTHERS["shear_modulus"]}
+    shear, normal = transfer_functions(k, **own, poisson_ratio=0.35, **bodies)
+    square = (FRICTION["friction"] * normal / shear) ** 2
+    p, q = 2.0 * zeta + square * b, 1.0 + square
+    marginal = (p + math.sqrt(p**2 - 4.0 * q * zeta**2)) / (2.0 * q)
+    softness = marginal / (OTHERS["shear_modulus"] * k * float(shear))  # D over sigma0
+    if unknown == "slip_distance":
+        return softness * OTHERS["normal_stress"]
+    return OTHERS["slip_distance"] / softness
+
+
+def without(unknown):
+    return {name: value for name, value in OTHERS.items() if name != unknown}
+
+
+@pytest.mark.parametrize("bodies", BODIES.values(), ids=BODIES)
+@pytest.mark.parametrize("unknown", ["normal_stress", "slip_distance"])
+def test_the_end_is_that_of_the_equation(unknown, bodies):
+    for length in (0.03, 0.2, 3.0):
+        found = specimen_fit(unknown, length, **PMMA, **without(unknown), **bodies)
+        [(low, high)] = found.intervals
+        end, other = (low, high) if unknown == "normal_stress" else (high, low)
+        assert end == pytest.approx(by_hand(unknown, length, bodies), rel=1e-8)
+        assert found.monotonic and other in found.searched
+
+
+def test_modulus_of_identical_half_spaces():
+    [(low, high)] = specimen_fit("shear_modulus", 0.2, **PMMA, **without("shear_modulus")).intervals
+    assert high == pytest.approx(0.2 * 0.016 * (1.0 - 0.35) * 1e6 / (math.pi * 5e-7), rel=1e-10)
+    assert low == 1e2
+
+
+@pytest.mark.parametrize("bodies", BODIES.values(), ids=BODIES)
+def test_the_creeping_patch_fits_where_it_says(bodies):
+    found = specimen_fit("normal_stress", 0.2, "stability", **PMMA, **without("normal_stress"),
+                         **bodies)  # fmt: skip
+    [(low, _)] = found.intervals
+    at = stability_length(**PMMA, **without("normal_stress"), **bodies, normal_stress=low)
+    assert at == pytest.approx(0.2, rel=1e-4)
+    whole = specimen_fit("normal_stress", 0.2, **PMMA, **without("normal_stress"), **bodies)
+    assert low < whole.intervals[0][0]  # L_s is shorter than L_c
+
+
+def test_several_answers():
+    """With strengthening friction a contrast is needed: moduli near the second one's are stable."""
+    fault = {"poisson_ratio": 0.2, "a": 0.01, "zeta": -1e-4, "friction": 0.8, "slip_distance": 1e-8,
+             "normal_stress": 1e8, "second_shear_modulus": 1e10}  # fmt: skip
+    found = specimen_fit("shear_modulus", 1.0, **fault)
+    assert len(found.intervals) == 2 and not found.monotonic
+    (_, first), (second, _) = found.intervals
+    assert first < 1e10 < second
+    for end, outwards in ((first, 1.0 - 1e-6), (second, 1.0 + 1e-6)):
+        inside, outside = end * outwards, end / outwards
+        assert critical_length(**fault, shear_modulus=inside) <= 1.0
+        assert not critical_length(**fault, shear_modulus=outside) <= 1.0
+
+
+def test_no_answer():
+    stable = PMMA | {"zeta": -0.01}
+    found = specimen_fit("normal_stress", 0.2, **stable, **without("normal_stress"))
+    assert found.intervals == () and not found.exists
+    short = specimen_fit(
+        "normal_stress", 0.2, within=(1e4, 1e6), **PMMA, **without("normal_stress")
+    )
+    assert short.intervals == () and short.exists
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"unknown": "a"}, "unknown = 'a' is not allowed: one of normal_stress, slip_distance"),
+        ({"criterion": "L_c"}, "criterion = 'L_c' is not allowed: one of critical, stability"),
+        ({"length": -1.0}, r"length = -1.0 m is not allowed: length of the specimen along"),
+        ({"length": [1.0, 2.0]}, "a specimen is one"),
+        ({"a": np.array([0.01, 0.02])}, "a specimen is one"),
+        ({"normal_stress": 1e6}, "normal_stress is not allowed: it is what is looked for"),
+        ({"within": (1e6, 1e5)}, r"within = \(1e\+06, 100000\) Pa is no range"),
+        ({"within": (-1.0, 1e5)}, r"normal_stress = -1.0 Pa is not allowed"),
+        ({"slip_distance": -1.0}, "slip_distance = -1.0 m is not allowed"),
+    ],
+)
+def test_what_is_refused(changed, said):
+    usual = {"unknown": "normal_stress", "length": 0.2, **PMMA, **without("normal_stress")}
+    with pytest.raises(ParameterError, match=said):
+        specimen_fit(**usual | changed)
