@@ -19,15 +19,12 @@ function read({ key, label, optional, units, low, high, closed, range }, wrong) 
   return empty ? NONE[key] : value;
 }
 
-const bounded = (prefix) => ({
-  "": element("height").value !== "",
-  second_: { same: element("height").value !== "", other: element("second_height").value !== "" }[choice("second_body")],
-})[prefix];
-
-// The far side of a layer; of a half-space it does not matter.
-function farSide(prefix) {
-  return bounded(prefix) ? choice(`${prefix}far_side`) : "traction";
+// Whether a body, of the prefix "" or "second_", is a layer, and its far side, which no half-space has.
+function bounded(prefix) {
+  const kind = prefix && choice("second_body");
+  return kind !== "rigid" && choice(kind === "other" ? "second_height" : "height") !== "";
 }
+const farSide = (prefix) => (bounded(prefix) ? choice(`${prefix}far_side`) : "traction");
 
 // Parameters as theory.js has them, and what is wrong.
 function parameters() {
@@ -50,15 +47,15 @@ function parameters() {
 
 // Names and texts of all that is given, for the address and the command line.
 function words() {
-  const text = (key) => (element(key).value === "" ? "" : element(key).value + (choice(`unit-${key}`)));
+  const text = (key) => (element(key).value === "" ? "" : element(key).value + choice(`unit-${key}`));
   const kind = choice("second_body");
   const other = ["second_shear_modulus", "second_poisson_ratio", "second_height"].map((key) => text(key) || "inf");
   const all = [
     ...Object.keys(fields).filter((key) => !key.startsWith("second_")).map((key) => [key, text(key)]),
     ["plane", choice("plane")],
-    ["far_side", bounded("") ? farSide("") : ""],
+    ["far_side", bounded("") ? choice("far_side") : ""],
     ["second_body", kind === "other" ? other.join(",") : kind],
-    ["second_far_side", bounded("second_") ? farSide("second_") : ""],
+    ["second_far_side", bounded("second_") ? choice("second_far_side") : ""],
   ];
   return all.filter(([, given]) => given !== "").map(([key, given]) => [key.replaceAll("_", "-"), given]);
 }
@@ -68,8 +65,8 @@ function body({ H, farSide }) {
 }
 
 function systemWords(p) {
-  const below = { same: "one like it", rigid: "a rigid body" }[choice("second_body")]
-    ?? `${body(p.second)}, of another material`;
+  const other = p.second?.farSide === p.farSide ? "one like it" : `one like it, but ${data.far_sides[p.second?.farSide]}`;
+  const below = { same: other, rigid: "a rigid body" }[choice("second_body")] ?? `${body(p.second)}, of another material`;
   return `${body(p)}, on ${below}; plane ${choice("plane")}; a/b = ${(p.a / (p.a + p.zeta)).toPrecision(3)}.`.replace(/^a/, "A");
 }
 
@@ -96,30 +93,30 @@ function answer(p) {
   ]];
 }
 
-function row(length, metresLong, critical) {
-  const known = Number.isFinite(metresLong);
-  return [
-    ["Length", length.title], ["Value", known ? metres(metresLong) : "–"],
-    ["Over L_c", known && critical > 0 ? (metresLong / critical).toPrecision(3) : "–"],
-    ["Formula", length.formula], ["Source", length.source],
-    ["Valid for", known ? length.validity : `not valid here: needs ${length.needs}`],
-  ];
-}
-
+// The lengths in use, by the systems that they are for; with two materials the pair's own come first.
 function table(p, critical) {
   const found = Lengths.all(p, data.limits);
   const two = !p.second || p.second.mu !== p.mu || p.second.nu !== p.nu;
-  const systems = [...new Set(data.lengths.map(({ system }) => system))].filter((name) => name !== data.two_materials);
-  const layered = p.H < Infinity || (p.second && p.second.H < Infinity);
-  const cell = ([label, text]) => `<td data-label="${label}">${text.replaceAll("<", "&lt;")}</td>`;
-  return (two ? [data.two_materials, ...systems] : systems).map((system) => {
-    const own = data.lengths.filter((length) => length.system === system);
-    const rows = own.map((length) => row(length, found[length.key], critical));
-    const heads = rows[0].map(([label]) => `<th scope="col">${label}</th>`).join("");
-    const lines = rows.map((cells) => `<tr>${cells.map(cell).join("")}</tr>`).join("");
-    const spaces = [data.two_materials, data.half_spaces].includes(system);
-    const title = `For ${system}${layered && spaces ? "; yours are not half-spaces" : ""}`;
-    return `<tbody><tr><th colspan="6" scope="colgroup">${title}</th></tr><tr class="heads">${heads}</tr>${lines}</tbody>`;
+  const layered = Math.min(p.H, p.second ? p.second.H : Infinity) < Infinity;
+  const spaces = [data.two_materials, data.half_spaces];
+  const systems = new Set([...(two ? spaces : []), ...data.lengths.map(({ system }) => system)]);
+  if (!two) systems.delete(data.two_materials);
+  const cells = (length) => {
+    const [value, known] = [found[length.key], Number.isFinite(found[length.key])];
+    return {
+      Length: length.title, Value: known ? metres(value) : "–",
+      "Over L_c": known && critical > 0 ? (value / critical).toPrecision(3) : "–",
+      Formula: length.formula, Source: length.source,
+      "Valid for": known ? length.validity : `not valid here: needs ${length.needs}`,
+    };
+  };
+  return [...systems].map((system) => {
+    const rows = data.lengths.filter((length) => length.system === system).map((length) => Object.entries(cells(length)));
+    const line = (row) => row.map(([label, text]) => `<td data-label="${label}">${text.replaceAll("<", "&lt;")}</td>`).join("");
+    const doubt = layered && spaces.includes(system) ? "; yours are not half-spaces" : "";
+    return `<tbody><tr><th colspan="6" scope="colgroup">For ${system}${doubt}</th></tr>
+      <tr class="heads">${rows[0].map(([label]) => `<th scope="col">${label}</th>`).join("")}</tr>
+      ${rows.map((row) => `<tr>${line(row)}</tr>`).join("")}</tbody>`;
   }).join("");
 }
 
@@ -142,7 +139,7 @@ function put(key, text) {
   element(key).value = parts ? parts[1] : "";
   const named = Object.entries(fields[key].units);
   const [unit] = named.find(([name, factor]) => (parts?.[2] ? name === parts[2].replace(/[µμ]/, "u") : factor === 1)) ?? [];
-  if (unit) element(`unit-${key}`).value = unit;
+  if (parts && unit) element(`unit-${key}`).value = unit;
 }
 
 function readAddress() {
