@@ -20,7 +20,7 @@ CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
-	targets check prune bundle restore torture
+	targets check prune bundle restore release torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -70,12 +70,12 @@ REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv twin_run
 	tables/claims_pairs.csv tables/claims_pairs.md
 
 reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
-	$(BIN)/snakemake paper patch_convergence figure_patch_stability figure_3_extended \
+	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_verification figure_dispersion figure_drop \
 		animation figure_pairs figure_2_simulated pairs figure_map figure_patch_theory floors $(OPTIONS)
 	mkdir -p results/reference
 	cd results && install -m 644 $(REFERENCE) reference/
-	sed 's|](figures/|](|' results/article.md > results/reference/article.md
+	sed 's|](figures/|](|' results/replication.md > results/reference/article.md
 	@# digits beyond the twelfth are those of one machine
 	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
 
@@ -90,6 +90,10 @@ prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
 
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
 	@$(BIN)/python -m nucleation.pipeline.bundle write "$(or $(FILE),results.tar)" "$(CONFIG)"
+
+release: $(STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
+	$(LAUNCH) paper replication report $(OPTIONS) $(CONFIGURED)
+	@$(BIN)/python -m nucleation.pipeline.release "$(or $(RELEASE),release)" "$(CONFIG)"
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
 	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)" "$(CONFIG)"

@@ -156,6 +156,7 @@ localrules:
     gather_patches,
     gather_twins,
     join_batches,
+    print_article,
     write_article,
     write_report,
     write_table_s1,

@@ -40,7 +40,8 @@ def named(requirements):
 
 CORE = named(PROJECT["dependencies"])
 BEYOND = {
-    "report": "report", "claims/article.py": "report", "pipeline": "workflow",
+    "report": "report", "claims/article.py": "report", "claims/printing.py": "article",
+    "pipeline": "workflow",
     "figures": "figures", "commands/show.py": "figures", "analysis": "solver", "fem": "solver",
     "simulation": "solver",
 }  # fmt: skip
@@ -86,7 +87,9 @@ def test_what_is_asked_for_is_what_the_extra_brings(extra):
 def test_everything_declared_is_pinned():
     pinned = re.findall(r"^([\w.-]+)==", (ROOT / "environment.txt").read_text(), re.M)
     assert named(PROJECT["dependencies"]) | named(EXTRAS["test"]) <= set(map(normal, pinned))
-    assert {"solver", "figures", "report", "workflow", "remote", "docs", "test"} == set(EXTRAS)
+    assert {"solver", "figures", "report", "workflow", "article", "remote", "docs", "test"} == set(
+        EXTRAS
+    )
 
 
 def run(*command, code=0, **options):

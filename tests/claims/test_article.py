@@ -8,7 +8,7 @@ import pytest
 from reference_evidence import ROOT, evaluated, evidence
 
 from nucleation.claims import table
-from nucleation.claims.article import digits, paired, percent, render
+from nucleation.claims.article import digits, paired, percent, render, rounded
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 
@@ -24,6 +24,7 @@ def test_article_follows_the_numbers(given):
     text = render(TEMPLATE, rows, lengths)
     assert "{{" not in text and "{%" not in text and "nan" not in text
     assert f"judged {len(rows)} of its statements" in text
+    assert "figure_map" not in text and "figure_map" in render(TEMPLATE, rows, lengths, beyond=True)
     changed = json.loads(json.dumps(rows))
     for row in changed:
         if row["id"] == "onset-time":
@@ -42,7 +43,7 @@ def test_template_states_no_result_of_its_own():
     """Decimal numbers stand in the template as parameters of the paper or of the figure alone."""
     text = re.sub(r"\{[{%#].*?[}%#]\}", "", TEMPLATE, flags=re.S)
     text = re.sub(r"\(https?://\S+\)|\[doi:\S+\]", "", text)
-    assert set(re.findall(r"\d+\.\d+", text)) == {"0.005", "0.01", "0.05", "0.1"}
+    assert set(re.findall(r"\d+\.\d+", text)) == {"0.005", "0.01", "0.02", "0.05", "0.1"}
 
 
 @pytest.mark.slow
@@ -68,6 +69,21 @@ def test_unknown_name_is_an_error(given):
 def test_numbers_in_words():
     assert digits(0.123456, 3) == "0.123" and digits(None, 3) == "–"
     assert percent(0.1234) == "12 %" and percent(-0.0266, 1) == "-2.7 %" and percent(None) == "–"
+
+
+def test_our_numbers_are_rounded_to_their_range():
+    row = {"ours": -0.00342, "uncertainty": (-0.0067, 0.0755), "unit": "1"}
+    assert rounded(row) == "-0.0034 (-0.0067 to 0.0755)"
+    row = {"ours": 0.16201, "uncertainty": (0.16201, 0.16201), "unit": "m"}
+    assert rounded(row) == "0.162 m" and digits(1e-5, 1) == "1e-5" and digits(25342, 2) == "2.5e4"
+
+
+def test_what_is_cited_is_listed_and_what_is_listed_cited():
+    text, _, listed = TEMPLATE.partition("## References")
+    entries = re.findall(r"^- ([^,]+),.*?\((\d{4})\)", listed, re.M | re.S)
+    assert len(entries) == len(re.findall("^- ", listed, re.M)) > 4
+    cited = re.findall(r"([A-Z]\w+)(?: and \w+)?, (\d{4})\b", text)
+    assert {*cited, ("Aldam", "2017")} == set(entries)  # the paper itself, by its title
 
 
 def test_runs_are_paired_by_fault():

@@ -137,7 +137,13 @@ def test_table_compares_with_the_reference_study():
 def test_runs_of_another_material_are_not_compared():
     def run(study, modulus):
         values = PARAMETERS.replaced({"shear_modulus": modulus}).to_dict()
-        return {"id": study, "study": study, "parameters": values, "theory_length": 0.4}
+        return {
+            "id": study,
+            "study": study,
+            "role": study,
+            "parameters": values,
+            "theory_length": 0.4,
+        }
 
     runs = [run("paper", 3e9), run("converged", 3e9), run("converged", 9e9), run("paper", 9e9)]
     lengths = (0.22, 0.2, 0.8, 0.84)

@@ -90,6 +90,10 @@ def test_versions_of_what_is_imported_count(package, monkeypatch):
     code._version.cache_clear()
 
 
+def test_a_library_that_is_not_here_stops_no_planning():
+    assert code._version("no-such-library") == "missing"
+
+
 def test_digest_of_the_simulation_reaches_its_libraries():
     names = {name for path in code.closure("nucleation.simulation.run")
              for name in code._libraries(path)}  # fmt: skip

@@ -103,7 +103,10 @@ def test_more_coupling_is_shorter(f_beta, more, zeta_over_a):
 @settings(max_examples=25)
 @given(bodies, bodies | st.just(RIGID), interfaces, powers(-2, 2))
 def test_only_ratios_of_lengths_matter(upper, lower, interface, scale):
-    """With heights and slip length so many times as large, so is the critical length."""
+    """With heights and slip length so many times as large, so is the critical length.
+
+    At the stress below which held layers are stable it is infinite, and decided by round-off.
+    """
 
     def scaled(body):
         return body if body is RIGID else Body(body.material, body.height * scale, body.far_side)
@@ -115,6 +118,7 @@ def test_only_ratios_of_lengths_matter(upper, lower, interface, scale):
         length = critical_wavenumber(upper, lower, interface).length
     except NoInstability:
         return  # a thin held layer is a stiff spring
+    assume(length < 1e4 * min(body.height for body in (upper, lower) if body is not RIGID))
     found = critical_wavenumber(scaled(upper), scaled(lower), larger).length
     assert found == pytest.approx(scale * length, rel=1e-6)
 

@@ -21,3 +21,9 @@ def test_every_target_has_a_text(workflow):
     listed = re.findall(r"^(\w+)  +\S", workflow("targets", "--quiet", "all").stdout, re.M)
     assert {"paper", "lengths", "figure_3", "report"} <= set(listed)
     assert not {"simulate", "extract", "draw_figure_3"} & set(listed)
+
+
+def test_article_on_paper_has_the_figures_beyond(workflow):
+    planned = workflow.planned("replication")
+    made = {"write_article", "draw_figure_3", "draw_figure_drop", "draw_figure_map"}
+    assert planned["print_article"] == 1 and made <= planned.keys()

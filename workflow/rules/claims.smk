@@ -47,6 +47,27 @@ rule evaluate_pairs:
         STEP
 
 
+# The same with the figures that come after it, on paper.
+rule print_article:
+    input:
+        template=str(Path(BASE, "docs", "article.md.in")),
+        citation=str(Path(BASE, "CITATION.cff")),
+        claims=only("evaluate_claims"),
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        figures=lambda wildcards: [steps(f"draw_{name}") for name in PRINTED],
+    output:
+        link("replication", "pdf"),
+    log:
+        log("replication"),
+    params:
+        call="nucleation.claims.printing:write",
+        names=lambda wildcards: PRINTED,
+    message:
+        "Article on the replication as PDF and LaTeX"
+    script:
+        STEP
+
+
 rule write_article:
     input:
         template=str(Path(BASE, "docs", "article.md.in")),

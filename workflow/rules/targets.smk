@@ -1,6 +1,7 @@
 # What users ask for. A target needs results and all that these are made of; its own job, which takes
 # no time and always runs, lays links to them under plain names (docs/reuse.md).
 PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
+PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map"]
 
 
 def drawn(name):
@@ -35,6 +36,10 @@ TARGETS = {
     "lengths": ("Onset and critical length of each of them.", lambda: [steps("gather_lengths")]),
     "claims": ("A verdict on every statement of the paper.", lambda: [steps("evaluate_claims")]),
     "article": ("The replication as a short article.", article),
+    "replication": (
+        "The article with figures of L_s, drop and map: PDF, LaTeX and Markdown.",
+        lambda: [*article(), steps("print_article")],
+    ),
     "table_s1": ("Table S1: parameters of the friction law.", lambda: [steps("write_table_s1")]),
     **{
         name: (f"{FIGURES[name].title}.", lambda name=name: drawn(name))

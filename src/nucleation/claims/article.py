@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -11,10 +13,13 @@ import xarray as xr
 from ..analysis.lengths import over_realisations
 from .claim import Verdict
 from .symbols import as_markdown
-from .table import counts, number_text
+from .table import counts
 
 
-def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dataset]) -> str:
+def render(
+    template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dataset],
+    beyond: bool = False,
+) -> str:  # fmt: skip
     """The article's text.
 
     Parameters
@@ -29,6 +34,8 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
         Rows of :func:`nucleation.claims.table.evaluate`.
     lengths : iterable of Dataset
         Tables of lengths, one for each study.
+    beyond : bool
+        Whether the figures of L_s, the drop and the map are there, and belong into the text.
 
     Raises
     ------
@@ -57,11 +64,12 @@ def render(template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dat
         return f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else "not computed"
 
     def ours(id: str) -> str:
-        return number_text(by_id[id]) or "not computed"
+        return rounded(by_id[id])
 
     return environment.from_string(template).render(
         claim=by_id.__getitem__, ours=ours, verdicts=counts(claims), claims=claims, runs=runs,
-        by_theory=by_theory, pairs=paired(runs("paper"), runs("converged")), verdict=Verdict,
+        by_theory=by_theory, beyond=beyond, pairs=paired(runs("paper"), runs("converged")),
+        verdict=Verdict,
     )  # fmt: skip
 
 
@@ -75,7 +83,19 @@ def paired(
 
 def digits(value: float | None, number: int) -> str:
     """A number to some significant digits, a dash for none."""
-    return "–" if value is None else f"{value:.{number}g}"
+    text = "–" if value is None else f"{value:.{number}g}"
+    return re.sub(r"e([+-])0*", lambda sign: "e" + sign[1].strip("+"), text)
+
+
+def rounded(row: dict[str, Any]) -> str:
+    """Our number of a claim with range and unit, to three digits of the largest of them."""
+    if row["ours"] is None:
+        return "not computed"
+    numbers = [row["ours"], *row["uncertainty"]]
+    places = max(0, 2 - math.floor(math.log10(max(map(abs, numbers)) or 1.0)))
+    value, low, high = (f"{number:.{places}f}" for number in numbers)
+    unit = "" if row["unit"] == "1" else f" {row['unit']}"
+    return f"{value}{unit}" if low == high else f"{value} ({low} to {high}){unit}"
 
 
 def percent(value: float | None, places: int = 0) -> str:

@@ -18,9 +18,9 @@ GREEK = {
 }  # fmt: skip
 
 LETTERS = (
-    "L_c", "k_c", "K_c", "c_s", "G1", "G2", "G_1", "G_2", "f0", "v0", "phi0", "f_d", "F_N", "H",
-    "L", "V", "D", "M", "k", "kH", "Hk", "sigma0", "sigma_yy", "sigma_xy", "Lambda_theory", "g'",
-    "Re", "Im", "infinity", "dphi/dt", "df/dlogV",
+    "L_c", "L_s", "k_c", "K_c", "c_s", "G1", "G2", "G_1", "G_2", "f0", "v0", "phi0", "f_d", "F_N",
+    "H", "L", "V", "D", "M", "k", "kH", "Hk", "sigma0", "sigma_yy", "sigma_xy", "Lambda_theory",
+    "g'", "Re", "Im", "infinity", "dphi/dt", "df/dlogV",
 )  # fmt: skip
 """Symbols beside the Greek letters; ``a``, ``f``, ``i``, ``t`` and ``v`` are such next to others
 alone."""
@@ -45,6 +45,7 @@ LETTER = re.compile(
 )
 """Symbols that are words too, told by what stands beside them."""
 NUMBER = re.compile(r"(\d+(?:\.\d+)?)(?:e([-+]?\d+))?(?![\d.]*\d)")
+POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([-+]?\d+)(?!\w)")
 OPERATORS = {
     "->": (r"\to", "→"), ">>": (r"\gg", "≫"), "=": ("=", "="), "<": ("<", "&lt;"),
     ">": (">", ">"), "+": ("+", "+"), "-": ("-", "−"), "/": ("/", "/"),
@@ -74,6 +75,20 @@ def as_html(text: str) -> str:
 def as_markdown(text: str) -> str:
     """A text as Markdown with its formulas between dollars; all else is escaped."""
     return _typeset(text, lambda tokens: f"${_tex(text, tokens)}$", _escaped)
+
+
+def as_parts(text: str) -> list[str]:
+    """Plain texts and formulas in TeX by turns; 1e-5 is a formula here, and the panel (a) none."""
+
+    def marked(piece: str) -> str:
+        return _typeset(piece, lambda tokens: f"\0{_tex(piece, tokens)}\0", str)
+
+    pieces = re.split(r"(\([a-z]\))", text)
+    pieces[::2] = map(marked, pieces[::2])
+    parts = "".join(pieces).split("\0")
+    for i in range(0, len(parts), 2):
+        parts[i] = POWER.sub(lambda number: f"\0{_number(*number.groups())[0]}\0", parts[i])
+    return "\0".join(parts).split("\0")
 
 
 def _typeset(text: str, formula: Callable[[list[Token]], str], plain: Callable[[str], str]) -> str:

@@ -26,7 +26,7 @@ ROOT = Path(__file__).resolve().parents[1]
 NEUTRAL = f"{PACKAGE}.pipeline"
 """The wing that surrounds computations and can't change what they compute: in no digest."""
 
-DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml"}
+DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml", "pypandoc": "pypandoc_binary"}
 """Libraries whose distribution has another name than what is imported."""
 
 COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotlib": ("pillow",)}
@@ -106,7 +106,10 @@ def load(*roots: str) -> None:
 
 @cache
 def _version(library: str) -> str:
-    return importlib.metadata.version(library)
+    try:
+        return importlib.metadata.version(library)
+    except importlib.metadata.PackageNotFoundError:
+        return "missing"  # here: the job that needs it says so
 
 
 # -- syntax trees ----------------------------------------------------------------------------------

@@ -1,0 +1,81 @@
+"""A release: its parts, its checksums, and metadata that agree with the project's."""
+
+import json
+import re
+import subprocess
+import tarfile
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+
+import nucleation
+from nucleation.pipeline import bundle, release
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+CITED = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
+ZENODO = json.loads((ROOT / ".zenodo.json").read_text("utf-8"))
+CODEMETA = json.loads((ROOT / "codemeta.json").read_text("utf-8"))
+
+
+@pytest.mark.slow
+@pytest.mark.system
+def test_release_is_whole_and_its_checksums_hold(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("config.yaml").write_text("studies: {one: {runs: [{height: 0.02, n_x: 40, n_y: 4}]}}")
+    Path("results").mkdir()
+    for name in release.SHOWN:
+        Path("results", name).write_text(name)
+    monkeypatch.setattr(bundle, "write", lambda archive, _: archive.write_bytes(b"results"))
+    release.build(Path("out"), Path("config.yaml"))
+    stem = f"{PROJECT['name']}-{PROJECT['version']}"
+    names = {path.name for path in Path("out").iterdir()} - {release.CHECKSUMS}
+    (wheel,) = (name for name in names if name.endswith(".whl"))
+    assert wheel.startswith(f"{stem.replace('-', '_', stem.count('-') - 1)}-py3")
+    assert names == {*release.SHOWN, wheel, f"{stem}-results.tar", f"{stem}-source.tar.gz"}
+    check = ["sha256sum", "-c", "--strict", release.CHECKSUMS]
+    told = subprocess.run(check, cwd="out", text=True, capture_output=True, check=True).stdout
+    assert {line.partition(":")[0] for line in told.splitlines()} == names
+    with tarfile.open(f"out/{stem}-source.tar.gz") as tar:
+        assert f"{stem}/pyproject.toml" in tar.getnames()
+    with pytest.raises(OSError):
+        release.build(Path("out"), Path("config.yaml"))
+
+
+def test_what_is_missing_is_said(tmp_path):
+    for name in release.METADATA:
+        (tmp_path / name).write_text("all is there")
+    assert release.missing(tmp_path) == []
+    (tmp_path / "CITATION.cff").write_text(f"doi: {release.MARK}")
+    assert release.missing(tmp_path) == [f"CITATION.cff: {release.MARK}"]
+
+
+def test_versions_agree():
+    found = [CITED["version"], ZENODO["version"], CODEMETA["version"], nucleation.__version__]
+    assert set(map(str, found)) == {PROJECT["version"]}
+    changes = (ROOT / "CHANGELOG.md").read_text("utf-8")
+    assert re.search(rf"^## {re.escape(PROJECT['version'])}\b", changes, re.M)
+
+
+def test_metadata_agree():
+    assert CITED["license"] == ZENODO["license"] == PROJECT["license"]
+    assert CODEMETA["license"].endswith(f"/{PROJECT['license']}")
+    assert CITED["title"] == ZENODO["title"] == CODEMETA["name"]
+    assert CITED["keywords"] == ZENODO["keywords"] == CODEMETA["keywords"]
+    assert CITED["abstract"] == ZENODO["description"] == CODEMETA["description"]
+    assert len(CITED["authors"]) == len(ZENODO["creators"]) == len(CODEMETA["author"])
+    doi = CITED["references"][0]["doi"]
+    assert doi == ZENODO["related_identifiers"][0]["identifier"]
+    assert CODEMETA["referencePublication"]["@id"] == f"https://doi.org/{doi}"
+
+
+def test_files_of_the_forge_call_what_is_there():
+    container = json.loads((ROOT / ".devcontainer/devcontainer.json").read_text("utf-8"))
+    flow = yaml.safe_load((ROOT / ".github/workflows/ci.yml").read_text("utf-8"))
+    job = flow["jobs"]["run"]
+    assert job["steps"][-1]["run"] == ".ci/run" and job["container"] == container["image"]
+    assert "make .venv/environment.stamp" in container["postCreateCommand"]
+    for form in (ROOT / ".github/ISSUE_TEMPLATE").glob("*.yml"):
+        assert {"name", "description", "body"} == set(yaml.safe_load(form.read_text("utf-8")))
