@@ -19,7 +19,7 @@ OPTIONS = --cores $(CORES) --workflow-profile workflow/profiles/default
 CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
-.PHONY: help paper report quick test test-quick lint hooks docs bench reference schema lock clean-venv asked-python \
+.PHONY: help paper report quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
 	targets check prune bundle restore release torture
 
 help: ## This list
@@ -57,6 +57,9 @@ hooks: $(STAMP) ## Have git check what make lint checks before each commit
 
 docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+
+calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, in one page
+	PYTHONPATH=src $(BIN)/python -m nucleation.report.calculator results/calculator.html
 
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $(PARTS)

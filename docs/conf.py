@@ -77,6 +77,15 @@ def mathematics(writer, node):
     raise docutils.nodes.SkipNode
 
 
+def calculator(app, error):
+    """The calculator beside the pages."""
+    if error is None and app.builder.name == "html":
+        from nucleation.report.calculator import build
+
+        Path(app.outdir, "calculator.html").write_text(build(), encoding="utf-8")
+
+
 def setup(app):
+    app.connect("build-finished", calculator)
     app.connect("autodoc-process-docstring", formulas)
     app.add_html_math_renderer("mathml", (mathematics, None), (mathematics, None))

@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+from nucleation import installed
+
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
@@ -29,7 +31,7 @@ def named(requirements):
     found = set()
     for requirement in requirements:
         name, extras = re.match(r"([\w.-]+)(?:\[([\w,]+)\])?", requirement).groups()
-        if name == "nucleation":
+        if normal(name) == PROJECT["name"]:
             found |= named(each for extra in extras.split(",") for each in EXTRAS[extra])
         else:
             found.add(normal(name))
@@ -38,11 +40,11 @@ def named(requirements):
 
 CORE = named(PROJECT["dependencies"])
 BEYOND = {
-    "report": "report",
-    "claims/article.py": "report",
-    "claims/printing.py": "article",
+    "report": "report", "claims/article.py": "report", "claims/printing.py": "article",
     "pipeline": "workflow",
-}
+    "figures": "figures", "commands/show.py": "figures", "analysis": "solver", "fem": "solver",
+    "simulation": "solver",
+}  # fmt: skip
 """Parts of the package that need one of the extras as well."""
 
 
@@ -69,22 +71,33 @@ def test_every_import_is_declared():
             providers = {normal(each) for each in distributions[module]}
             assert providers & allowed, f"{name} imports {module}"
             used |= providers
-    idle = CORE - used - {"pandas", "netcdf4"}  # of xarray: its tables and its files
-    assert not idle
+    unused = {"netcdf4"}  # xarray reads and writes with it
+    assert not (CORE | named(EXTRAS["solver"]) | named(EXTRAS["figures"])) - used - unused
+
+
+@pytest.mark.parametrize("extra", installed.EXTRAS)
+def test_what_is_asked_for_is_what_the_extra_brings(extra):
+    distributions = importlib.metadata.packages_distributions()
+    modules = {each for name in installed.EXTRAS[extra] for each in distributions[name]}
+    own = [each for each in EXTRAS[extra] if not each.startswith(PROJECT["name"])]
+    assert set(map(normal, modules)) == named(own)
+    assert PROJECT["name"] == installed.DISTRIBUTION
 
 
 def test_everything_declared_is_pinned():
     pinned = re.findall(r"^([\w.-]+)==", (ROOT / "environment.txt").read_text(), re.M)
     assert named(PROJECT["dependencies"]) | named(EXTRAS["test"]) <= set(map(normal, pinned))
-    assert {"report", "workflow", "article", "remote", "docs", "test"} == set(EXTRAS)
+    assert {"solver", "figures", "report", "workflow", "article", "remote", "docs", "test"} == set(
+        EXTRAS
+    )
 
 
-def run(*command, **options):
+def run(*command, code=0, **options):
     done = subprocess.run(
         [str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT, text=True, timeout=600, **options,
     )  # fmt: skip
-    assert done.returncode == 0, done.stdout
+    assert done.returncode == code, done.stdout
     return done.stdout
 
 
@@ -131,13 +144,21 @@ def closure(names):
 
 
 @pytest.fixture(scope="module")
-def installed(wheel, tmp_path_factory):
+def light(wheel, tmp_path_factory):
+    return environment(wheel, tmp_path_factory.mktemp("light"), CORE)
+
+
+@pytest.fixture(scope="module")
+def solving(wheel, tmp_path_factory):
+    return environment(wheel, tmp_path_factory.mktemp("solving"), CORE | named(EXTRAS["solver"]))
+
+
+def environment(wheel, directory, requirements):
     """An environment with the wheel and what it declares, its own files linked from this one."""
-    directory = tmp_path_factory.mktemp("environment")
     venv.create(directory, with_pip=False, symlinks=True)
     base = {"base": str(directory), "platbase": str(directory)}
     library = Path(sysconfig.get_path("purelib", vars=base))
-    for name in closure(CORE):
+    for name in closure(requirements):
         for file in importlib.metadata.distribution(name).files:
             top = Path(file).parts[0]
             origin = Path(importlib.metadata.distribution(name).locate_file(top))
@@ -148,12 +169,11 @@ def installed(wheel, tmp_path_factory):
     return directory / "bin" / "python"
 
 
-def outside(installed, directory, *arguments):
-    """Run the environment's Python far from the checkout."""
+def outside(python, directory, *arguments, code=0):
+    """Run an environment's Python far from the checkout."""
     clean = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    return run(
-        installed, *arguments, cwd=directory, env={**clean, "NUMBA_CACHE_DIR": str(directory)}
-    )
+    clean |= {"NUMBA_CACHE_DIR": str(directory)}
+    return run(python, *arguments, code=code, cwd=directory, env=clean)
 
 
 LIBRARY = """
@@ -170,20 +190,90 @@ write(simulate(block), "run.nc")
 
 COMMANDS = """
 import importlib.metadata
-for point in importlib.metadata.distribution("nucleation").entry_points:
+for point in importlib.metadata.distribution("nucleation-length").entry_points:
     print(point.name, "=", point.value)
 """
 
 
+FAULT = "--shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa --a 0.010 --b 0.015"
+LENGTH = ["-m", "nucleation", "length", *FAULT.split(), "--slip-distance", "5um"]
+
+THEORY = """
+from nucleation import api
+fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.010, b=0.015)
+for function in api.critical_length, api.stability_length:
+    print(round(float(function(**fault, slip_distance=5e-6)), 3))
+print(api.lengths_in_use(**fault, slip_distance=5e-6).sizes, api.Parameters().geometry.height)
+try:
+    from nucleation.api import simulate
+except ImportError as error:
+    print(error)
+"""
+
+
 @pytest.mark.slow
-def test_library_and_command_work_with_what_is_declared(installed, tmp_path):
-    assert outside(installed, tmp_path, "-c", LIBRARY) == "2.513\n"
-    assert "slip_rate" in outside(installed, tmp_path, "-m", "nucleation", "show", "run.nc")
-    small = "simulate again.nc --n-x 16 --n-y 2 --end-time 0.02"
-    outside(installed, tmp_path, "-m", "nucleation", *small.split())
-    assert (tmp_path / "again.nc").stat().st_size > 10_000
-    fault = "--shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa --a 0.010 --b 0.015"
-    words = ["length", *fault.split(), "--slip-distance", "5um"]
-    assert "2.51" in outside(installed, tmp_path, "-m", "nucleation", *words)
-    (command,) = run(installed, "-c", COMMANDS).splitlines()
+def test_library_alone_has_lengths_and_names_the_extra_for_the_rest(light, tmp_path):
+    advice = "this needs numba, netCDF4, tqdm: pip install 'nucleation-length[solver]'"
+    *lengths, said = outside(light, tmp_path, "-c", THEORY).splitlines()
+    assert lengths == ["2.513", "1.947", "Frozen({}) 0.005"] and said.startswith(advice)
+    assert "2.513 m" in outside(light, tmp_path, *LENGTH)
+    for words in (["simulate", "run.nc"], ["drop"], ["show", "run.nc"], ["export", "a", "b"]):
+        said = outside(light, tmp_path, "-m", "nucleation", *words, code=2)
+        assert said.startswith(f"Error: {advice}") and len(said.splitlines()) == 1
+    report = outside(light, tmp_path, "-c", "import nucleation.report", code=1)
+    assert "nucleation-length[report]" in report.splitlines()[-1]
+    (command,) = run(light, "-c", COMMANDS).splitlines()
     assert command == "nucleation = nucleation.__main__:start"
+
+
+def tried(python, directory):
+    """The library and the commands that need the solver."""
+    assert outside(python, directory, "-c", LIBRARY) == "2.513\n"
+    assert "slip_rate" in outside(python, directory, "-m", "nucleation", "show", "run.nc")
+    small = "simulate again.nc --n-x 16 --n-y 2 --end-time 0.02"
+    outside(python, directory, "-m", "nucleation", *small.split())
+    assert (directory / "again.nc").stat().st_size > 10_000
+    assert "2.513 m" in outside(python, directory, *LENGTH)
+
+
+@pytest.mark.slow
+def test_library_and_command_work_with_what_is_declared(solving, tmp_path):
+    tried(solving, tmp_path)
+    plot = ["-m", "nucleation", "show", "run.nc", "--plot", "run.png"]
+    assert "nucleation-length[figures]" in outside(solving, tmp_path, *plot, code=2)
+
+
+@pytest.mark.slow
+@pytest.mark.system
+def test_it_works_with_the_oldest_versions(wheel, tmp_path):
+    """Those that pyproject.toml allows, of all that simulates and draws; pip downloads them."""
+    wanted = [*PROJECT["dependencies"], *EXTRAS["solver"], *EXTRAS["figures"]]
+    assert all(">=" in requirement for requirement in wanted)
+    constraints = tmp_path / "oldest.txt"
+    constraints.write_text("\n".join(wanted).replace(">=", "=="))
+    venv.create(tmp_path / "environment", with_pip=True)
+    python = tmp_path / "environment" / "bin" / "python"
+    try:
+        run(python, "-m", "pip", "--quiet", "install", "-c", constraints,
+            f"{wheel}[solver,figures]")  # fmt: skip
+    except AssertionError:
+        if os.environ.get("CI") == "true":
+            raise
+        pytest.skip("no packages can be installed here")
+    tried(python, tmp_path)
+    outside(python, tmp_path, "-m", "nucleation", "show", "run.nc", "--plot", "run.png")
+
+
+@pytest.mark.system
+def test_the_other_project_in_its_place_is_told(tmp_path):
+    """Both installed into one place, the other one last."""
+    place = tmp_path / "nucleation"
+    place.mkdir()
+    for part in SOURCE.iterdir():
+        (place / part.name).symlink_to(part)
+    (place / "__init__.py").unlink()
+    (place / "__init__.py").write_text('"""nucleation - generated bindings."""')
+    for words in (["-m", "nucleation", "--help"], ["-c", "import nucleation.api"]):
+        own = {"cwd": tmp_path, "env": {"PYTHONPATH": str(tmp_path)}}
+        said = run(sys.executable, *words, code=1, **own)
+        assert "is not nucleation-length" in said and "pip uninstall nucleation" in said

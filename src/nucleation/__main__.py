@@ -2,11 +2,17 @@
 
 import sys
 
-from .commands import run
+from .installed import require_own
 
 
 def start() -> None:
     """Run the command line of this process and end it with its exit code."""
+    try:
+        require_own()
+    except ImportError as error:
+        sys.exit(f"Error: {error}")
+    from .commands import run
+
     sys.exit(run())
 
 

@@ -15,7 +15,8 @@ DataArray goes out as one. Where homogeneous sliding is stable, lengths are NaN.
 What carries a unit is converted to SI units: a DataArray by its attribute ``units``, and pint
 quantities, of which the results are quantities too.
 
-Simulations, extraction and datasets are imported when first used, since that takes a while.
+Simulations, extraction and datasets are imported when first used, since that takes a while; they
+need the extra ``solver``.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from .installed import require, require_own
 from .model.friction.law import Friction
 from .model.material import Material
 from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
@@ -76,6 +78,8 @@ __all__ = [
 ]
 
 
+require_own()
+
 _LATER = {
     "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
     "run": ".simulation.run", "simulate": ".simulation.run",
@@ -83,9 +87,14 @@ _LATER = {
     "specimen_fit": ".theory.specimen", "laboratory_faults": ".analysis.laboratory",
 }  # fmt: skip
 
+_LIGHT = {"stability_length", "specimen_fit", "laboratory_faults"}
+"""Those that need no extra."""
+
 
 def __getattr__(name: str) -> Any:
     if name in _LATER:
+        if name not in _LIGHT:
+            require("solver")
         return getattr(importlib.import_module(_LATER[name], __package__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 

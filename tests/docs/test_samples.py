@@ -12,6 +12,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from collections import defaultdict
 from functools import cache
 
@@ -85,7 +86,17 @@ def container(arguments, tmp_path):
     assert parse_args(asked)[1].targets == ["figure_studies"]
 
 
+def packages(arguments, directory):
+    """What is installed are extras that there are; test_packaging.py installs them."""
+    (what,) = (re.fullmatch(r"\.(?:\[(.*)\])?", word) for word in arguments if word[0] == ".")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert {*filter(None, (what[1] or "").split(","))} <= set(project["optional-dependencies"])
+
+
 RULES = {
+    "pip": packages,
+    "pipx": packages,
+    "uvx": packages,
     "docker": container,
     "nucleation": simulation,
     "make": make,

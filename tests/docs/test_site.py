@@ -42,6 +42,11 @@ def test_every_page_is_in_the_site(site):
         assert (site / page.relative_to(DOCS).with_suffix(".html")).is_file(), page
 
 
+def test_calculator_is_in_the_site(site):
+    assert 'href="calculator.html"' in (site / "index.html").read_text()
+    assert "Nucleation length of a fault" in (site / "calculator.html").read_text()
+
+
 def test_reference_has_signatures_and_texts(site):
     api = (site / "generated" / "nucleation.api.html").read_text()
     assert 'id="nucleation.api.critical_length"' in api

@@ -124,13 +124,20 @@ class Opened:
         self.page.on("console", lambda message: self.complaints.append(message.text))
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.goto(path.as_uri())
-        self.page.wait_for_selector("#theory-plot .main-svg")
 
 
 @pytest.fixture(scope="session")
 def opened(browser, report) -> Opened:
     """The report on a wide screen, opened once."""
-    return Opened(browser, report, viewport={"width": 1280, "height": 900})
+    one = Opened(browser, report, viewport={"width": 1280, "height": 900})
+    one.page.wait_for_selector("#theory-plot .main-svg")
+    return one
+
+
+@pytest.fixture(scope="session")
+def open_page(browser):
+    """Open another page on a wide screen."""
+    return lambda path: Opened(browser, path, viewport={"width": 1280, "height": 900})
 
 
 @pytest.fixture
@@ -147,6 +154,7 @@ def open_report(browser, report):
 
     def open_(**options) -> Opened:
         made.append(Opened(browser, report, **options))
+        made[-1].page.wait_for_selector("#theory-plot .main-svg")
         return made[-1]
 
     yield open_

@@ -24,7 +24,7 @@ from nucleation.model.quantities import declarations
 from nucleation.report import encode, explorer, page, player, stability, tables
 from nucleation.report.captions import caption_html
 
-ROOT = page.HERE.parents[2]
+ROOT = encode.HERE.parents[2]
 
 
 def downloads(html):
@@ -164,28 +164,30 @@ def test_sliders_are_parameters_of_the_library_at_the_configurations_values(sett
 # ---- The stability length in the page
 
 
-def interpolated(table, zeta_over_a, nu, f, height):
-    """L_s over L_c by the page's table, with SciPy's polynomials."""
-    logs = np.frombuffer(base64.b64decode(table["logs"]), "<f4")
-    values = logs.reshape([len(nodes) for nodes in table["nodes"]])
-    ratio = (np.clip(height, *table["heights"]) / table["centre"]) ** table["power"]
-    at = (np.log(zeta_over_a), nu, f, (ratio - 1.0) / (ratio + 1.0))
-    for nodes, x in zip(table["nodes"], at, strict=True):
+def interpolated(table, at):
+    """What one of the page's tables has, with SciPy's polynomials."""
+    values = np.frombuffer(base64.b64decode(table["logs"]), "<f4")
+    values = values.reshape([len(nodes) for nodes in table["nodes"].values()])
+    for name, nodes in table["nodes"].items():
+        x = np.clip(at[name], *table["ends"][name])
+        x = np.log(x) if name == "zeta_over_a" else x
         values = BarycentricInterpolator(nodes, values)(x)
     return np.exp(values)
 
 
 @pytest.mark.slow
-def test_stability_lengths_are_within_the_precision_that_the_page_states():
-    random, table = np.random.default_rng(11), stability.in_page()
-    assert len(json.dumps(table)) < 30_000
-    low, high = np.transpose([np.log([0.4, 50.0]), (0.0, 0.49), (0.0, 1.0), np.log([1e-6, 1e6])])
-    places = random.uniform(low, high, (150, 4))
-    weakening, nu, f, height = places.T
-    weakening, height = np.exp(weakening), np.exp(height)
-    expected = stability.length_ratio(weakening, nu, f, height)
-    found = [interpolated(table, *one) for one in zip(weakening, nu, f, height, strict=True)]
-    errors = np.array(found) / expected - 1.0
+@pytest.mark.parametrize("name", stability.TABLES)
+def test_stability_lengths_are_within_the_precision_that_the_page_states(name):
+    random, table = np.random.default_rng(11), stability.TABLES[name]
+    assert len(json.dumps(stability.in_page())) < 30_000
+    at = {key: random.uniform(*ends, 100) for key, ends in table.ends.items()}
+    at["zeta_over_a"] = np.exp(random.uniform(*np.log(table.ends["zeta_over_a"]), 100))
+    if "place" in at:  # heights beyond both ends as well
+        ratio = (np.exp(random.uniform(*np.log([1e-6, 1e6]), 100)) / stability.CENTRE) ** 0.7
+        at["place"] = (ratio - 1.0) / (ratio + 1.0)
+    expected = table.values(**at)
+    each = [dict(zip(at, values, strict=True)) for values in zip(*at.values(), strict=True)]
+    errors = [interpolated(stability.in_page()["tables"][name], one) for one in each] / expected - 1
     assert np.abs(errors).max() < stability.PRECISION
     assert np.sqrt(np.mean(errors**2)) < 0.3 * stability.PRECISION
 
@@ -201,7 +203,10 @@ def test_stability_ratio_depends_on_four_numbers_alone(settings):
     }  # fmt: skip
     unit = material.shear_modulus * own.slip_length / own.normal_stress / (own.a + own.zeta)
     height = fault["height"] * (1.0 - material.poisson_ratio) / unit
-    found = stability.length_ratio(own.zeta / own.a, material.poisson_ratio, own.friction, height)
+    ratio = (height / stability.CENTRE) ** stability.POWER
+    found = stability.rigid_base(
+        (ratio - 1.0) / (ratio + 1.0), own.zeta / own.a, material.poisson_ratio, own.friction
+    )
     expected = stability_length(**fault) / critical_length(**fault)
     np.testing.assert_allclose(found, expected, rtol=1e-5)
 

@@ -11,8 +11,8 @@ import sys
 import tomllib
 from pathlib import Path
 
-EXTRAS = ("report", "workflow")
-PROJECT = re.compile(r"nucleation( \(pyproject\.toml\))?$")
+EXTRAS = ("solver", "figures", "report", "workflow")
+PROJECT = re.compile(r"nucleation(-length)?( \(pyproject\.toml\))?$")
 
 
 def name_of(requirement: str) -> str:

@@ -15,6 +15,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
+from ..installed import MissingExtra, require
 
 DONE = 0
 FAILED = 1
@@ -49,6 +50,9 @@ COMMANDS = {
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""
 
+LIGHT = {"length", "specimen"}
+"""Commands that need no extra; the others need ``solver``."""
+
 
 class LazyGroup(click.Group):
     """Commands of this package, each imported when it is used: help and completion stay quick."""
@@ -59,6 +63,8 @@ class LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         if name not in COMMANDS:
             return None
+        if name not in LIGHT:
+            require("solver")
         return importlib.import_module(f".{name}", __package__).command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -92,7 +98,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as error:
         error.show()
         return error.exit_code
-    except (ParameterError, DatasetError, MemoryError) as error:
+    except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
         return _refuse(str(error) or "not enough memory")
     except OSError as error:
         return _refuse(

@@ -18,6 +18,7 @@ from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.output import require_writable
 from ..datasets import netcdf
+from ..installed import require
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..pipeline.running import simulation_code
@@ -94,6 +95,7 @@ def kind_of(dataset: xr.Dataset) -> Kind:
 
 
 def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
+    require("figures")
     if kind.figure is None:
         known = ", ".join(k.name for k in KINDS if k.figure)
         raise ParameterError(

@@ -5,12 +5,30 @@ from __future__ import annotations
 import base64
 import json
 import mimetypes
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
+from markupsafe import Markup
 from numpy.typing import ArrayLike
 
 mimetypes.add_type("application/x-netcdf", ".nc")
+
+HERE = Path(__file__).parent
+
+
+def template(name: str) -> Template:
+    """A template of a page; what is filled in stays text unless it is marked as HTML."""
+    return Environment(
+        loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True,
+    ).get_template(name)  # fmt: skip
+
+
+def source(name: str) -> Markup:
+    """A script or style sheet of the pages."""
+    return Markup((HERE / name).read_text(encoding="utf-8"))
 
 
 def data_address(content: bytes, name: str) -> str:
@@ -24,9 +42,10 @@ def float32(values: ArrayLike) -> str:
     return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")
 
 
-def script_json(value: Any) -> str:
+def script_json(value: Any) -> Markup:
     """JSON that can stand inside a ``<script>`` element: no text in it can end the element.
 
     Nor can any begin a comment, after which the element's own end would not be found.
     """
-    return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    text = json.dumps(value, allow_nan=False, separators=(",", ":"))
+    return Markup(text.replace("<", "\\u003c"))

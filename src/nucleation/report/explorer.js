@@ -17,13 +17,7 @@ function parameters() {
   return { ...p, second: secondBody(p) };
 }
 
-const table = { ...data.stability, logs: floats(data.stability.logs) };
-
-// L_s (m) by height and L_c; null where there is none.
-function stability(p) {
-  const ratio = Theory.stabilityRatio(p, table);
-  return (height, length) => (ratio ? length * ratio(height) : null);
-}
+const lengthOfPatch = Stability.reader(data.stability);
 
 function curves(p) {
   const solve = Theory.solver(p);
@@ -103,7 +97,7 @@ function ownTraces() {
 function drawTheory() {
   const p = parameters();
   const refused = controls.map((control) => control.refused).filter(Boolean);
-  const patch = stability(p);
+  const patch = lengthOfPatch(p);
   plotted = curves(p);
   plotted.stability = heights.map((height, i) => patch(height, plotted.length[i]));
   for (const name of refused.length ? Object.keys(plotted) : []) plotted[name] = heights.map(() => null);
@@ -127,19 +121,11 @@ function drawTheory() {
 function values(p, at) {
   return [
     ["Critical length L<sub>c</sub>", `${at.length.toPrecision(5)} m`],
-    ["Stability length of the patch L<sub>s</sub>", patchWords(p, at)],
+    ["Stability length of the patch L<sub>s</sub>", Stability.words(p, at, data.stability)],
     ["Critical wavenumber k<sub>c</sub>", `${at.wavenumber.toPrecision(5)} rad/m`],
     ["Angular frequency ω", `${at.frequency.toPrecision(5)} rad/s`],
     ["L<sub>c</sub> for H k → 0, Eq. (11)", `${Theory.thinLength(p.H, p).toPrecision(5)} m`],
   ];
-}
-
-function patchWords(p, at) {
-  if (at.stability) return `${at.stability.toPrecision(3)} m = ${(at.stability / at.length).toFixed(2)} L<sub>c</sub>`;
-  const [low, high] = table.ends.zeta_over_a;
-  return p.second ? "not known here: only on a rigid base"
-    : `not known here: only for ζ/a from ${low} to ${high}, ν from ${table.ends.nu.join(" to ")}`
-      + ` and f from ${table.ends.f.join(" to ")}`;
 }
 
 let waiting = false; // several inputs between two frames of the screen are drawn once

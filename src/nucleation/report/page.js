@@ -1,67 +1,7 @@
 "use strict";
-// What the page's parts share: the data, colours and axes of all plots, controls, and lists of values.
+// What all pages share: the data, controls, lists of values, arrays.
 const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
-const dark = window.matchMedia("(prefers-color-scheme: dark)");
-const SETTINGS = { displayModeBar: false, responsive: true, doubleClick: "reset" };
-
-// Colours come from the style sheet, which knows of dark screens.
-
-function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-}
-
-function axis(title, more = {}) {
-  return {
-    title: { text: title, standoff: 6 },
-    gridcolor: colour("line"),
-    linecolor: colour("soft"),
-    zeroline: false,
-    showline: true,
-    ticks: "outside",
-    tickcolor: colour("soft"),
-    exponentformat: "power",
-    automargin: true,
-    ...more,
-  };
-}
-
-function layout(more) {
-  return {
-    paper_bgcolor: "rgba(0,0,0,0)",
-    plot_bgcolor: "rgba(0,0,0,0)",
-    font: { family: "inherit", size: 13, color: colour("ink") },
-    margin: { l: 58, r: 12, t: 30, b: 44 },
-    // a finger that moves over a plot scrolls the page
-    dragmode: window.matchMedia("(pointer: coarse)").matches ? false : "zoom",
-    hoverlabel: { align: "left" },
-    ...more,
-  };
-}
-
-// What a plot shows, above it and not beside the axis: that leaves more room on a phone.
-function heading(text) {
-  return { text, font: { size: 14 }, x: 0, xref: "container", y: 0.99, yanchor: "top", pad: { l: 8 } };
-}
-
-// Below a plot, for the same reason.
-function legend() {
-  return {
-    orientation: "h", x: 0, xref: "container", y: 0, yref: "container", yanchor: "bottom",
-    font: { size: 12 },
-  };
-}
-
-// A cross at the values that the controls have.
-function cross(x, y, shade) {
-  return {
-    x: [x], y: [y], mode: "markers", showlegend: false, hoverinfo: "skip",
-    marker: { symbol: "cross-thin-open", size: 16, color: shade, line: { width: 2 } },
-  };
-}
-
-const redrawn = []; // functions that draw again when the colours change
-dark.addEventListener("change", () => redrawn.forEach((draw) => draw()));
 
 // A control is a slider and a number in the unit shown; the number is exact, the slider coarse.
 function makeControl({ key, factor, low, high, log, value, label = "Height", unit = "m" }, changed) {

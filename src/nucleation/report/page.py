@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import plotly.offline
 import xarray as xr
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
@@ -28,7 +27,6 @@ from .captions import caption_html
 
 Array = NDArray[np.float64]
 
-HERE = Path(__file__).parent
 HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 """Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""
 
@@ -36,7 +34,8 @@ SEEN = (2e-3, 1.0)
 """Heights (m) that the page shows first; so close that the curve looks smooth on either axes."""
 
 SCRIPTS = (
-    "page.js", "tables.js", "theory.js", "explorer.js", "player.js", "drop.js", "map.js",
+    "page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js", "player.js",
+    "drop.js", "map.js",
 )  # fmt: skip
 """What runs in the page, in this order; the first has what the others share."""
 
@@ -86,19 +85,15 @@ def build(content: Content) -> str:
     content : Content
         What is shown; sections without content are left out.
     """
-    environment = Environment(
-        loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined,
-        trim_blocks=True, lstrip_blocks=True,
-    )  # fmt: skip
     lengths = content.results.get("lengths")
     groups, data = _groups(content), _data(content, lengths)
     pictures = {p["name"]: p for group in groups.values() for p in group}
     if content.own is not None:
         groups.pop(catalogue.OWN, None)
-    return environment.get_template("template.html").render(
-        styles=_source("page.css"),
-        scripts=[Markup(plotly.offline.get_plotlyjs()), *map(_source, SCRIPTS)],
-        data=Markup(encode.script_json(data)),
+    return encode.template("template.html").render(
+        styles=encode.source("page.css"),
+        scripts=[Markup(plotly.offline.get_plotlyjs()), *map(encode.source, SCRIPTS)],
+        data=encode.script_json(data),
         claims=tables.claim_rows(content.claims or []),
         counts=tables.verdict_counts(content.claims or []),
         controls=explorer.controls(content.material, content.interface),
@@ -120,10 +115,6 @@ def build(content: Content) -> str:
         run=_run(content),
         origin=_origin(content),
     )
-
-
-def _source(name: str) -> Markup:
-    return Markup((HERE / name).read_text(encoding="utf-8"))
 
 
 def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:

@@ -1,14 +1,16 @@
 "use strict";
-// The critical nucleation length of a block on a rigid base or on a second body, computed in the page.
+// The critical nucleation length of a body on a rigid base or on a second body, computed in the page.
 //
 // The same theory as nucleation.theory: the neutral points of Eq. (5) with the transfer functions of
-// both bodies, each with the condition on its own far side (Eq. 10 for free ones). With q = k H, b = a + zeta, rho = f G2 / G1 and the stiffness
-// s = mu ell / (sigma0 H), sliding is marginal where s q G1(q) = h(rho), and h is the upper root of
-// (h - zeta)^2 = rho^2 h (b - h). Only s knows of the height (the second body's has a given ratio to
-// it), so that h / (q G1) is tabulated once for all heights. SI units; zeta > 0.
+// both bodies, each with the condition on its own far side (Eq. 10 for free ones). With q = k H, b =
+// a + zeta, rho = f G2 / G1 and the stiffness s = mu ell / (sigma0 H), sliding is marginal where s q
+// G1(q) = h(rho), and h is the upper root of (h - zeta)^2 = rho^2 h (b - h). Only s knows of H, a
+// reference height that both bodies' have given ratios to, so that h / (q G1) is tabulated once for
+// all H. SI units.
 const Theory = (() => {
   const SATURATION = 25; // above this q the block is a half-space, to round-off
   const SMALLEST = 1e-6; // q at the lower end of the table
+  const LEAST = 1e-15; // of the search: no layer under traction is as thin
   const POINTS = 4000;
 
   // sinh(x) - x times exp(-x), without cancellation.
@@ -81,10 +83,11 @@ const Theory = (() => {
     );
   }
 
-  // G1 and G2, normalised by the upper body's modulus, at q = k H of the upper body. Without
-  // p.second the base is rigid; it has mu (Pa), nu, heightRatio = H2/H and farSide.
+  // G1 and G2, normalised by the upper body's modulus, at q = k H. The upper body's height is
+  // p.heightRatio H, by default H. Without p.second the base is rigid; it has mu (Pa), nu,
+  // heightRatio and farSide.
   function transfer(q, p) {
-    const a = layer(q, p.nu, p.farSide || "free");
+    const a = layer(q * (p.heightRatio ?? 1), p.nu, p.farSide || "free");
     if (!p.second) return { g1: a.xx, g2: a.xy };
     const r = p.second.mu / p.mu;
     const b = layer(q * p.second.heightRatio, p.second.nu, p.second.farSide || "free");
@@ -93,24 +96,40 @@ const Theory = (() => {
     return { g1: shareA * a.xx + shareB * b.xx, g2: shareA * a.xy - shareB * b.xy };
   }
 
-  // The upper root h of the quadratic above.
+  // The upper root h of the quadratic above, NaN without one.
   function marginalStiffness(signed, a, zeta) {
     const [rho, b] = [Math.abs(signed), a + zeta];
     const root = Math.sqrt((rho * b) ** 2 + 4 * a * zeta);
     return (2 * zeta + rho * rho * b + rho * root) / (2 * (1 + rho * rho));
   }
 
-  // The stiffness s at which q is marginal.
+  // The stiffness s at which q is marginal, zero where none is.
   function marginal(q, p) {
     const { g1, g2 } = transfer(q, p);
-    return marginalStiffness((p.f * g2) / g1, p.a, p.zeta) / (q * g1);
+    return Math.max(marginalStiffness((p.f * g2) / g1, p.a, p.zeta) / (q * g1), 0) || 0;
   }
 
-  // p: mu (Pa), nu, sigma0 (Pa), f, a, zeta, ell (m), V (m/s). Returns a function of the height (m).
+  // Whether a mode grows: with zeta < 0 the load also has to exceed the lower root of the quadratic.
+  function grows(q, s, p) {
+    const { g1, g2 } = transfer(q, p);
+    const [load, rho] = [s * q * g1, (p.f * g2) / g1];
+    if (p.zeta < 0) return (load - p.zeta) ** 2 < rho ** 2 * load * (p.a + p.zeta - load);
+    return load < marginalStiffness(rho, p.a, p.zeta);
+  }
+
+  // p with the heights H and second.H (m, Infinity of half-spaces) as ratios to a reference height.
+  function scaled(p) {
+    const least = Math.min(p.H, p.second ? p.second.H : Infinity);
+    const reference = Number.isFinite(least) ? least : 1;
+    const second = p.second && { ...p.second, heightRatio: p.second.H / reference };
+    return { ...p, heightRatio: p.H / reference, second, reference };
+  }
+
+  // p: mu (Pa), nu, sigma0 (Pa), f, a, zeta, ell (m), V (m/s). Returns a function of H (m).
   function solver(p) {
     const q = new Float64Array(POINTS);
     const stiffness = new Float64Array(POINTS);
-    const highest = SATURATION / Math.min(1, p.second ? p.second.heightRatio : 1);
+    const highest = SATURATION / Math.min(1, p.heightRatio ?? 1, p.second ? p.second.heightRatio : 1);
     const ratio = Math.log(highest / SMALLEST) / (POINTS - 1);
     for (let i = 0; i < POINTS; i += 1) {
       q[i] = SMALLEST * Math.exp(ratio * i);
@@ -122,21 +141,23 @@ const Theory = (() => {
     };
   }
 
-  // The largest marginal q: sliding is stable above it, so that the search begins at the top.
+  // The largest marginal q, NaN without one: sliding is stable above it, so that the search begins
+  // at the top.
   function largestCrossing(s, p, q, stiffness) {
     const top = (stiffness[POINTS - 1] * q[POINTS - 1]) / s; // G1, G2 are constant up there
     if (top >= q[POINTS - 1]) return top;
     let i = POINTS - 1;
-    while (i > 0 && stiffness[i] < s) i -= 1;
+    while (i > 0 && (stiffness[i] < s || (p.zeta < 0 && !grows(q[i], s, p)))) i -= 1;
     let low = q[i];
     let high = q[Math.min(i + 1, POINTS - 1)];
-    while (marginal(low, p) < s) {
+    while (!grows(low, s, p)) {
       high = low;
       low /= 2;
+      if (low < LEAST) return NaN;
     }
     for (let n = 0; n < 60; n += 1) {
       const middle = Math.sqrt(low * high);
-      if (marginal(middle, p) > s) low = middle;
+      if (grows(middle, s, p)) low = middle;
       else high = middle;
     }
     return Math.sqrt(low * high);
@@ -153,7 +174,7 @@ const Theory = (() => {
     const large = (rho * b + Math.sqrt((rho * b) ** 2 + 4 * p.a * p.zeta)) / (2 * p.a);
     const small = -p.zeta / (p.a * large);
     const misfit = (w) => Math.abs((b * w * w) / (1 + w * w) - load);
-    const w = (misfit(large) <= misfit(small) ? large : small) * (signed < 0 ? -1 : 1);
+    const w = (misfit(small) + 1e-9 * load < misfit(large) ? small : large) * (signed < 0 ? -1 : 1);
     const wavenumber = q / height;
     return { length: (2 * Math.PI) / wavenumber, wavenumber, frequency: (w * p.V) / p.ell };
   }
@@ -164,36 +185,5 @@ const Theory = (() => {
     return 2 * Math.PI * Math.sqrt((2 * height * modulus * p.ell) / (p.zeta * p.sigma0));
   }
 
-  // Shares of the nodes in the value at x of the polynomial through them.
-  function shares(x, nodes) {
-    const factor = (own, other) => (own === other ? 1 : (x - other) / (own - other));
-    return nodes.map((own) => nodes.reduce((product, other) => product * factor(own, other), 1));
-  }
-
-  // L_s over L_c of a block on a rigid base as a function of its height (m), by the table of
-  // nucleation.report.stability; undefined where the table does not hold.
-  function stabilityRatio(p, table) {
-    const at = { zeta_over_a: p.zeta / p.a, nu: p.nu, f: p.f };
-    const inside = ([name, [low, high]]) => at[name] >= low && at[name] <= high;
-    if (p.second || !Object.entries(table.ends).every(inside)) return undefined;
-    const [weakening, poisson, friction, places] = table.nodes;
-    const logs = places.map(() => 0);
-    let next = 0;
-    for (const one of shares(Math.log(at.zeta_over_a), weakening)) {
-      for (const two of shares(p.nu, poisson)) {
-        for (const three of shares(p.f, friction)) {
-          for (let i = 0; i < logs.length; i += 1) logs[i] += one * two * three * table.logs[next++];
-        }
-      }
-    }
-    const unit = (p.mu * p.ell) / ((1 - p.nu) * (p.a + p.zeta) * p.sigma0);
-    return (height) => {
-      const h = Math.min(Math.max(height / unit, table.heights[0]), table.heights[1]);
-      const r = (h / table.centre) ** table.power;
-      const here = shares((r - 1) / (r + 1), places);
-      return Math.exp(logs.reduce((sum, log, i) => sum + log * here[i], 0));
-    };
-  }
-
-  return { solver, stabilityRatio, thinLength, transfer };
+  return { scaled, solver, thinLength, transfer };
 })();

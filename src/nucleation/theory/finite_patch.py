@@ -104,7 +104,7 @@ def marginal_loaded_patch(a_over_b: float) -> tuple[float, float]:
 
 
 @lru_cache(maxsize=1)
-def _polynomial() -> Array:
+def polynomial() -> Array:
     """Chebyshev coefficients of the factor's logarithm, over :func:`_nearness` from -1 to 1."""
     points = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
     ratios = 1.0 - np.exp(0.5 * (1.0 + points) * np.log(1.0 - NEAREST))
@@ -125,4 +125,4 @@ def loaded_patch_factor(a_over_b: Any) -> Any:
     a_over_b : array_like
         From 0 to :data:`NEAREST`.
     """
-    return np.exp(chebyshev.chebval(_nearness(a_over_b), _polynomial()))
+    return np.exp(chebyshev.chebval(_nearness(a_over_b), polynomial()))

@@ -1,0 +1,200 @@
+"""The calculator in a real browser: the library's lengths, and an address that holds the fault."""
+
+import json
+import shlex
+
+import numpy as np
+import pytest
+
+from nucleation.api import critical_length, lengths_in_use, stability_length
+from nucleation.commands import run
+from nucleation.report import calculator, stability
+from nucleation.theory.fault import QUANTITIES
+
+pytestmark = pytest.mark.system
+
+
+@pytest.fixture(scope="module")
+def calculating(open_page, tmp_path_factory):
+    path = tmp_path_factory.mktemp("calculator") / "calculator.html"
+    path.write_text(calculator.build(), encoding="utf-8")
+    return open_page(path)
+
+
+@pytest.fixture
+def web(calculating):
+    yield calculating.page
+    assert calculating.complaints == []
+
+
+def random_faults(number, bodies, seed):
+    """Faults of all far sides as the API takes them; layers and half-spaces, zeta of both signs."""
+    random = np.random.default_rng(seed)
+    sides = [name for name in calculator.FAR_SIDES]
+    for _ in range(number):
+        height = random.choice([np.inf, 10.0 ** random.uniform(-2, 2)])
+        fault = {
+            "shear_modulus": 10.0 ** random.uniform(9, 11), "b": random.uniform(0.005, 0.03),
+            "poisson_ratio": random.uniform(-0.2, 0.49), "a": random.uniform(0.002, 0.02),
+            "normal_stress": 10.0 ** random.uniform(6, 8), "friction": random.uniform(0.05, 0.9),
+            "slip_distance": 10.0 ** random.uniform(-6, -4), "height": height,
+            "far_side": random.choice(sides), "plane": random.choice(["strain", "stress"]),
+        }  # fmt: skip
+        if bodies == "rigid":
+            fault["second_shear_modulus"] = np.inf
+        else:
+            fault["second_far_side"] = random.choice(sides)
+        if bodies == "other":
+            fault["second_shear_modulus"] = fault["shear_modulus"] * 10.0 ** random.uniform(-1, 1)
+            fault["second_poisson_ratio"] = random.uniform(-0.2, 0.49)
+            fault["second_height"] = random.choice([np.inf, 10.0 ** random.uniform(-2, 2)])
+        yield {k: v if isinstance(v, str) else float(v) for k, v in fault.items()}
+
+
+def address(fault):
+    """The fault as the page's address has it, in SI units."""
+    first = {k: v for k, v in fault.items() if not k.startswith("second_")}
+    words = {k: v for k, v in first.items() if v != np.inf}
+    if "second_far_side" in fault:
+        words["second_far_side"] = fault["second_far_side"]
+    if "second_shear_modulus" in fault:
+        keys = ("second_shear_modulus", "second_poisson_ratio", "second_height")
+        rigid = fault["second_shear_modulus"] == np.inf
+        words["second_body"] = "rigid" if rigid else ",".join(str(fault[key]) for key in keys)
+    return "&".join(f"{k.replace('_', '-')}={v}" for k, v in words.items())
+
+
+def computed(web, faults):
+    """What the page computes for faults in its address: theory, L_s and the lengths in use."""
+    return web.evaluate(
+        """(addresses) => addresses.map((address) => {
+          history.replaceState(null, "", "#" + address);
+          readAddress();
+          show();
+          const [p, wrong] = parameters();
+          return [answer(p)[0], Lengths.all(p, data.limits), wrong];
+        })""",
+        [address(fault) for fault in faults],
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("bodies", ["same", "rigid", "other"])
+def test_lengths_are_those_of_the_library(web, bodies):
+    faults = list(random_faults(40, bodies, 3))
+    lengths = 0
+    for fault, (at, in_use, wrong) in zip(faults, computed(web, faults), strict=True):
+        assert wrong == []
+        expected = float(critical_length(**fault))
+        lengths += np.isfinite(expected)
+        found = np.nan if at["length"] is None else at["length"]
+        assert found == pytest.approx(expected, rel=1e-8, nan_ok=True), fault
+        listed = lengths_in_use(**fault)
+        for key in set(listed) - {"creeping_patch"}:
+            value = np.nan if in_use[key] is None else in_use[key]
+            assert value == pytest.approx(float(listed[key]), rel=1e-9, nan_ok=True), (key, fault)
+    assert lengths > 10
+
+
+SYSTEMS = {
+    "rigid": {"second_shear_modulus": np.inf, "height": 0.3},
+    "thick": {"second_shear_modulus": np.inf},
+    "identical": {"height": 0.3},
+    "half-spaces": {},
+    "soft": {"second_shear_modulus": 2e9, "second_poisson_ratio": 0.1, "second_height": np.inf},
+    "thick pair": {
+        "height": 200.0,
+        "far_side": "clamped",
+        "second_shear_modulus": 3e9,
+        "second_poisson_ratio": 0.3,
+        "second_height": 150.0,
+        "second_far_side": "traction",
+    },
+    "hard": {"second_shear_modulus": 1e11, "second_poisson_ratio": 0.4, "second_height": np.inf},
+}
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_stability_length_is_within_the_stated_precision(web, name):
+    random, faults = np.random.default_rng(8), []
+    for _ in range(6):
+        a = random.uniform(0.002, 0.01)
+        fault = {
+            "shear_modulus": 1e10, "poisson_ratio": random.uniform(0.0, 0.45), "a": a,
+            "normal_stress": 5e6, "b": a * (1.0 + random.uniform(0.45, 8.0)),
+            "slip_distance": 1e-5, "friction": random.uniform(0.1, 0.9),
+        }  # fmt: skip
+        faults.append(fault | SYSTEMS[name])
+    for fault, (at, _, _) in zip(faults, computed(web, faults), strict=True):
+        expected = float(stability_length(**fault))
+        assert at["stability"] == pytest.approx(expected, rel=stability.PRECISION), fault
+
+
+@pytest.mark.parametrize(
+    "more", [{"height": 0.3, "far_side": "velocity", "second_shear_modulus": np.inf},
+             {"height": 0.3, "second_far_side": "roller"}, {"a": 0.012}],
+)  # fmt: skip
+def test_where_the_tables_do_not_hold_it_says_so(web, more):
+    fault = {"shear_modulus": 1e10, "poisson_ratio": 0.2, "normal_stress": 5e6, "a": 0.005}
+    computed(web, [fault | {"b": 0.015, "slip_distance": 1e-6, "friction": 0.6} | more])
+    assert web.locator("#values dd").nth(1).inner_text().startswith("not known here: only ")
+
+
+def test_the_command_beside_gives_the_same(web, capsys):
+    """The very line that the page shows, run by the command."""
+    for bodies, seed in (("same", 4), ("rigid", 5), ("other", 6)):
+        fault = next(f for f in random_faults(20, bodies, seed) if critical_length(**f) > 0)
+        ((at, _, _),) = computed(web, [fault])
+        name, *words = shlex.split(web.inner_text("#command"))
+        assert name == "nucleation" and run([*words, "--json"]) == 0
+        theory = json.loads(capsys.readouterr().out)["theory"]
+        assert theory["critical_length"] == pytest.approx(at["length"], rel=1e-8)
+        assert theory["critical_frequency_over_rate"] == pytest.approx(
+            float(web.locator("#values dd").nth(3).inner_text().removesuffix(" V/D")), rel=1e-3
+        ), fault
+
+
+def test_values_and_units_go_through_the_address(web):
+    start = web.url.split("#")[0]
+    web.goto(f"{start}#shear-modulus=30GPa&poisson-ratio=0.25&normal-stress=50MPa&a=0.010&b=0.015"
+             "&slip-distance=5µm&velocity=1mm/yr&height=2km&second-body=10GPa,0.2,inf")  # fmt: skip
+    assert web.input_value("#height") == "2" and web.input_value("#unit-height") == "km"
+    assert web.input_value("#unit-slip_distance") == "um"
+    assert "the friction coefficient is needed" in web.inner_text("#values")
+    web.fill("#friction", "0.6")
+    values = web.locator("#values dd").all_inner_texts()
+    assert values[3].endswith(" rad/s")
+    kept = web.url
+    assert "&second-body=10GPa%2C0.2%2Cinf" in kept and "velocity=1mm%2Fyr" in kept
+    web.select_option("#unit-height", "mm")
+    assert web.locator("#values dd").all_inner_texts() != values
+    web.goto(kept)
+    assert web.locator("#values dd").all_inner_texts() == values
+    web.select_option("#second_body", "same")
+    assert not web.locator("#second_shear_modulus").is_visible()
+
+
+NEEDED = [field for field in calculator.FIELDS if not field.empty]
+
+
+@pytest.mark.parametrize("field", NEEDED, ids=lambda field: field.key)
+def test_bad_values_have_no_result(web, field):
+    web.goto(web.url.split("#")[0] + "#shear-modulus=3e10&poisson-ratio=0.25&normal-stress=5e7"
+             "&a=0.01&b=0.015&slip-distance=5e-6&friction=0.6&second-body=1e10,0.2,1")  # fmt: skip
+    assert web.locator("#others tbody").count() == 3
+    low = QUANTITIES[field.key.removeprefix("second_")].low
+    for bad in ("", str(low), "1e30"):
+        web.fill(f"#{field.key}", bad)
+        assert web.get_attribute(f"#{field.key}", "aria-invalid") == "true"
+        (said,) = web.locator("#values dt").all_inner_texts()
+        assert said.startswith(f"No values: {field.label} must lie in (")
+        assert web.locator("#others tbody").count() == 0
+
+
+def test_needs_no_network_and_fits_a_phone(calculating):
+    assert len({url.split("#")[0] for url in calculating.requests}) == 1
+    web = calculating.page
+    web.set_viewport_size({"width": 360, "height": 800})
+    assert web.evaluate("document.documentElement.scrollWidth") <= 360
+    web.set_viewport_size({"width": 1280, "height": 900})
+    unnamed = "[...document.querySelectorAll('input, select')].filter((one) => !one.labels.length"
+    assert web.evaluate(f"{unnamed} && !one.ariaLabel).length") == 0
