@@ -16,20 +16,39 @@ from .quantities import Checked, ParameterError, Quantity, declarations, plain, 
 from .recording import Recording
 from .second_body import SecondBody
 
+LOADINGS = ("edge", "top", "remote")
+"""Kinds of loading: docs/loading.md."""
+
 EVENT_DROP = 0.02
 """Fall of the driving force, as a fraction, that makes an event unless another is asked for."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Loading(Checked):
-    """The external loading and the initial state of the interface."""
+    """The external loading and the initial state of the interface.
 
+    Raises
+    ------
+    ParameterError
+        Also if the shear stress rises with a loading that moves an edge, or not with a remote one.
+    """
+
+    kind: str = quantity(
+        "what loads the fault: edge, the left edge moves; top, the top moves and the side edges "
+        "are free; remote, a far shear stress rises on a fault that is periodic along x",
+        choices=LOADINGS, default="edge",
+    )  # fmt: skip
+    stress_rate: float = quantity(
+        "rate at which the far shear stress rises, with kind remote",
+        unit="Pa/s", low=0.0, high=1e15, closed="low", symbol="dtau/dt", default=0.0,
+    )  # fmt: skip
     normal_stress: float = quantity(
         "applied compressive normal stress",
         unit="Pa", low=0.0, high=1e10, symbol="sigma0", default=1.0e6,
     )  # fmt: skip
     velocity: float = quantity(
-        "imposed velocity of the left edge", unit="m/s", low=0.0, high=1.0, symbol="V",
+        "imposed velocity of the edge or the top that moves; with kind remote none does, and slip "
+        "rates count in it", unit="m/s", low=0.0, high=1.0, symbol="V",
         default=1.0e-5,
     )  # fmt: skip
     initial_state: float = quantity(
@@ -45,6 +64,15 @@ class Loading(Checked):
         "shear stress at the interface at the start, if initial_stress is uniform_shear",
         unit="Pa", low=0.0, high=1e10, closed="low", symbol="tau0", default=0.0,
     )  # fmt: skip
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.kind == "remote") != (self.stress_rate > 0.0):
+            rule = "more than 0" if self.kind == "remote" else "0"
+            raise ParameterError(
+                f"loading.stress_rate = {self.stress_rate:g} Pa/s is not allowed with loading.kind "
+                f"= {self.kind}: it must be {rule} Pa/s"
+            )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -120,6 +148,21 @@ class Parameters:
     perturbation: Perturbation = Perturbation()
     second_body: SecondBody = SecondBody()
     recording: Recording = Recording()
+
+    def __post_init__(self) -> None:
+        """Raise a ParameterError for a mesh or a second body that the loading does not go with."""
+        kind, n_x = self.loading.kind, self.mesh.n_x
+        if kind != "edge" and (n_x % 2 == 0) == (kind == "remote"):
+            parity = "odd" if kind == "remote" else "even"
+            raise ParameterError(
+                f"mesh.n_x = {n_x} is not allowed with loading.kind = {kind}: it must be {parity}"
+            )
+        below = self.below
+        if kind == "top" and below is not None and below.bottom != "clamped":
+            raise ParameterError(
+                f"second_body.bottom = {below.bottom} is not allowed with loading.kind = top, "
+                "where nothing else holds the second block: it must be clamped"
+            )
 
     @property
     def below(self) -> Below | None:
@@ -210,6 +253,7 @@ ALIASES = {
     "law": "friction.evolution",
     "friction_law": "friction.law",
     "phi0": "loading.initial_state",
+    "loading": "loading.kind",
     "kind": "perturbation.kind",
     "perturbation": "perturbation.kind",
     "slip_distance": "friction.characteristic_slip_distance",

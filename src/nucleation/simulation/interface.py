@@ -162,12 +162,13 @@ class Interface:
         p, normal = response.tangential, response.normal
         most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
         elastic = beta * operator.diagonal
+        first = normal.size - v.size  # node 0 is free only where no edge is driven
         for iteration in range(most + 1):
-            rates = np.append(imposed.velocity, v)
+            rates = operator.body.on_all_nodes(v, imposed.velocity)
             coefficient, slope, psi = self._friction(rates, past.log_state, beta)
             if imposed.strength is not None:
                 coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
-            linear_below = self.friction.linear_below(psi[1:])
+            linear_below = np.broadcast_to(self.friction.linear_below(psi), psi.shape)[first:]
             residual, damping, error = newton.balance(
                 p, normal, coefficient, slope, elastic, np.abs(v) + linear_below,
                 self.tolerance, rounding,
@@ -178,11 +179,11 @@ class Interface:
                 if normal.min() <= 0.0:
                     raise Tension("the interface is in tension")
                 # node 0 belongs to the driven edge; its friction follows from its rate V
-                tangential = np.append(-coefficient[0] * normal[0], p)
+                tangential = operator.body.on_all_nodes(p, -coefficient[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
             # old factors serve where they promise that one more iteration is enough
             if factors is None or error * factors.change(damping, elastic) > ENOUGH:
-                factors = Factors.of(operator, coefficient[1:], damping, elastic, beta)
+                factors = Factors.of(operator, coefficient[first:], damping, elastic, beta)
             change = factors.direction(residual, damping, elastic)
             if self.friction.asinh_of_rate:
                 v = _updated_by_asinh(v, change, damping, elastic, linear_below)
