@@ -24,6 +24,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from .model.friction.law import Friction
+from .model.heterogeneity import Heterogeneity
 from .model.material import Material
 from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from .model.perturbation import Perturbation
@@ -50,6 +51,7 @@ __all__ = [
     "Fault",
     "Friction",
     "Geometry",
+    "Heterogeneity",
     "Loading",
     "Material",
     "Mesh",

@@ -88,10 +88,11 @@ def _last_maximum(force: Array, end: int) -> int:
 def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:
     """Position (m) up to which the interface slips at one instant, faster than a rate (m/s).
 
-    With an edge that is pushed. Before the event the slip rate oscillates, and this edge with it, to and fro. It is needed to
-    find the patch's length, the furthest that it has come (:class:`Extent`), and for nothing else.
-    Between nodes log v is taken as linear in x. Only the part of the block next to the loaded
-    edge is searched, so that slip at the far corner does not count. Zero if nothing slips faster.
+    With an edge that is pushed. Before the event the slip rate oscillates, and the patch's edge
+    with it, to and fro. It is needed to find the patch's length, the furthest that it has come
+    (:class:`Extent`), and for nothing else. Between nodes log v is taken as linear in x. Only the
+    part of the block next to the loaded edge is searched, so that slip at the far corner does not
+    count. Zero if nothing slips faster.
     """
     near = x <= SEARCHED * x[-1]
     rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)  # also of single precision

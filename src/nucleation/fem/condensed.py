@@ -9,8 +9,8 @@ that of the driven edge:
 with the nodal tangential force p (N/m) at the free nodes and the nodal normal force R at the
 nodes 0..n_x, both on the (upper) body, R > 0 in compression. Free are the nodes 1..n_x; node 0 is
 that of the driven edge, repeats node n_x in a periodic body, or is free as well if no edge is
-driven (:mod:`.free_block`), and is counted from one like the others. For one block on a rigid base w is its
-displacement at the interface, for two bodies the difference of theirs.
+driven (:mod:`.free_block`), and is counted from one like the others. For one block on a rigid base
+w is its displacement at the interface, for two bodies the difference of theirs.
 """
 
 from __future__ import annotations

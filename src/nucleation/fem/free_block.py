@@ -153,8 +153,7 @@ class FreeBlock:
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of the block at rest, seen from its top that moves at a velocity (m/s)."""
-        odd, even = self.parts(displacement)
-        motion = self.even.at_rest(even, velocity)
+        motion = self.even.at_rest(self.parts(displacement)[1], velocity)
         rates = self.joined(self.odd.zero_field(), motion.velocity)
         return Motion(displacement, rates, 2.0 * motion.momentum)
 

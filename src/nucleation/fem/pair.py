@@ -225,4 +225,5 @@ class PairEdge(EdgeValues):
         above[self._first_below :] = 0.0  # the upper block's own
         f = self._operator.series.forces
         modal = np.array([f[4] * x + f[5] * y - lower, above - (f[2] * x + f[3] * y)])
-        return self._operator.along_x.interface_forces((2.0 / self._operator.along_x.grid.n_x) * modal)
+        layer = self._operator.along_x
+        return layer.interface_forces((2.0 / layer.grid.n_x) * modal)

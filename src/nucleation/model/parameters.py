@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from .friction.law import Friction
 from .friction.registry import LAWS, law_declarations
+from .heterogeneity import Heterogeneity
 from .material import Material
 from .names import Names
 from .perturbation import Perturbation
@@ -146,23 +147,49 @@ class Parameters:
     mesh: Mesh = Mesh()
     stepping: Stepping = Stepping()
     perturbation: Perturbation = Perturbation()
+    heterogeneity: Heterogeneity = Heterogeneity()
     second_body: SecondBody = SecondBody()
     recording: Recording = Recording()
 
-    def __post_init__(self) -> None:
-        """Raise a ParameterError for a mesh or a second body that the loading does not go with."""
+    def require_consistent(self) -> None:
+        """Raise a ParameterError where groups of parameters do not go with one another.
+
+        That is for a mesh or a second body that is not for the loading, and for a heterogeneity
+        beside the block or less than an element wide.
+        """
         kind, n_x = self.loading.kind, self.mesh.n_x
         if kind != "edge" and (n_x % 2 == 0) == (kind == "remote"):
             parity = "odd" if kind == "remote" else "even"
             raise ParameterError(
                 f"mesh.n_x = {n_x} is not allowed with loading.kind = {kind}: it must be {parity}"
             )
+        own, length = self.heterogeneity, self.geometry.length
+        for name, low, high in (("centre", 0.0, length), ("width", length / n_x, length)):
+            value = getattr(own, name)
+            if own.varies != "none" and value is not None and not low <= value <= high:
+                raise ParameterError(
+                    f"heterogeneity.{name} = {value:g} m is not allowed: it must lie in "
+                    f"[{low:.3g}, {high:.3g}] m, "
+                    + ("on the block" if name == "centre" else "from an element to the block")
+                )
         below = self.below
         if kind == "top" and below is not None and below.bottom != "clamped":
             raise ParameterError(
                 f"second_body.bottom = {below.bottom} is not allowed with loading.kind = top, "
                 "where nothing else holds the second block: it must be clamped"
             )
+
+    def require_edge(self, what: str) -> None:
+        """Raise a ParameterError, naming what is asked for, unless a uniform fault is pushed."""
+        for key, value, needed in (
+            ("loading.kind", self.loading.kind, "edge"),
+            ("heterogeneity.varies", self.heterogeneity.varies, "none"),
+        ):
+            if value != needed:
+                raise ParameterError(
+                    f"{key} = {value} is not allowed with {what}, which is known of a uniform "
+                    f"fault that is pushed at its edge alone: it must be {needed}"
+                )
 
     @property
     def below(self) -> Below | None:
@@ -205,7 +232,8 @@ class Parameters:
         Groups may be left out that records are older than: these are quiet, on a rigid base and
         record everything.
         """
-        values = {"perturbation": {}, "second_body": {}, "recording": {}} | values
+        later = "perturbation", "heterogeneity", "second_body", "recording"
+        values = {name: {} for name in later} | values
         return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
@@ -245,7 +273,7 @@ class Parameters:
 GROUPS: dict[str, type] = {
     "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
     "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
-    "second_body": SecondBody, "recording": Recording,
+    "heterogeneity": Heterogeneity, "second_body": SecondBody, "recording": Recording,
 }  # fmt: skip
 """The groups of :class:`Parameters` and their classes."""
 
@@ -254,6 +282,7 @@ ALIASES = {
     "friction_law": "friction.law",
     "phi0": "loading.initial_state",
     "loading": "loading.kind",
+    "heterogeneity": "heterogeneity.varies",
     "kind": "perturbation.kind",
     "perturbation": "perturbation.kind",
     "slip_distance": "friction.characteristic_slip_distance",

@@ -19,6 +19,7 @@ from ..types import Array
 from .drive import Drive, Imposed, Recorded, Remote, Steady
 from .realisation import Series, Sheet, profile
 
+
 class Loaded(Protocol):
     """What a drive needs of a body."""
 

@@ -31,8 +31,9 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     log_state = np.full(grid.n_x + 1, float(np.log(loading.initial_state)))
     motion = body.at_rest(balance.displacement, imposed.velocity)
     state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
+    normal = response.normal + dynamics.interface.extra_normal
     # at rest no friction acts on the driven edge's own node
     tangential = body.on_all_nodes(response.tangential, 0.0)
-    interface = InterfaceSolution(slip_rate, log_state, tangential, response.normal, response.w, 0)
+    interface = InterfaceSolution(slip_rate, log_state, tangential, normal, response.w, 0)
     force = float(tangential[grid.own].sum()) - dynamics.frame_inertia(imposed)
     return state, StepReport(interface, force, 0.0)

@@ -168,7 +168,7 @@ def extrapolated(state: State, step: Step, velocity: float, friction: Friction) 
     rates, but move the interface by next to nothing.
     """
     fastest = np.abs(state.past_slip_rates[0]).max()
-    distance = friction.characteristic_slip_distance
+    distance = float(np.min(friction.characteristic_slip_distance))
     scale = max(
         SLOW * velocity, SLOW_IN_EVENT * float(fastest), SLIGHT_SLIP * distance / step.length
     )
