@@ -59,7 +59,9 @@ def _half(grid: Grid) -> Grid:
 
 def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
     """One period, as long as the block, of the layers that a run's body or bodies are."""
-    upper = PeriodicBlock(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
+    far_side = "velocity" if parameters.loading.kind == "top" else "free"
+    grid = Grid.of(parameters.geometry, parameters.mesh)
+    upper = PeriodicBlock(grid, parameters.material, far_side)
     below = parameters.below
     if below is None:
         return upper

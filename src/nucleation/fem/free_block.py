@@ -271,8 +271,8 @@ class FreeOperator:
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some nodes, counted from 1, (n, n) each."""
         block = np.ix_(nodes - 1, nodes - 1)
-        stiffness, coupling = (matrix[block].astype(dtype) for matrix in self._dense)
-        return stiffness, coupling
+        stiffness, coupling = self._dense
+        return stiffness[block].astype(dtype), coupling[block].astype(dtype)
 
     def respond(self, load: Field, w: Array) -> FreeResponse:
         """The forces that hold the interface at nodal `w` (m) under a load, edges in balance."""

@@ -34,15 +34,6 @@ class Loading(Checked):
         Also if the shear stress rises with a loading that moves an edge, or not with a remote one.
     """
 
-    kind: str = quantity(
-        "what loads the fault: edge, the left edge moves; top, the top moves and the side edges "
-        "are free; remote, a far shear stress rises on a fault that is periodic along x",
-        choices=LOADINGS, default="edge",
-    )  # fmt: skip
-    stress_rate: float = quantity(
-        "rate at which the far shear stress rises, with kind remote",
-        unit="Pa/s", low=0.0, high=1e15, closed="low", symbol="dtau/dt", default=0.0,
-    )  # fmt: skip
     normal_stress: float = quantity(
         "applied compressive normal stress",
         unit="Pa", low=0.0, high=1e10, symbol="sigma0", default=1.0e6,
@@ -64,6 +55,15 @@ class Loading(Checked):
     initial_shear_stress: float = quantity(
         "shear stress at the interface at the start, if initial_stress is uniform_shear",
         unit="Pa", low=0.0, high=1e10, closed="low", symbol="tau0", default=0.0,
+    )  # fmt: skip
+    kind: str = quantity(
+        "what loads the fault: edge, the left edge moves; top, the top moves and the side edges "
+        "are free; remote, a far shear stress rises on a fault that is periodic along x",
+        choices=LOADINGS, default="edge",
+    )  # fmt: skip
+    stress_rate: float = quantity(
+        "rate at which the far shear stress rises, with kind remote",
+        unit="Pa/s", low=0.0, high=1e15, closed="low", symbol="dtau/dt", default=0.0,
     )  # fmt: skip
 
     def __post_init__(self) -> None:

@@ -54,6 +54,7 @@ class Drive(Protocol):
         ----------
         steps, frames : times (s) of all steps, and of the frames that show the interface.
         """
+        return None
 
 
 @dataclasses.dataclass(frozen=True)
