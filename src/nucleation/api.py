@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, Any
 
 from .installed import require, require_own
 from .model.friction.law import Friction
+from .model.heterogeneity import Heterogeneity
 from .model.material import Material
 from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from .model.perturbation import Perturbation
@@ -54,6 +55,7 @@ __all__ = [
     "Fault",
     "Friction",
     "Geometry",
+    "Heterogeneity",
     "Loading",
     "Material",
     "Mesh",

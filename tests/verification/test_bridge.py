@@ -15,11 +15,11 @@ from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model import linearised
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
-from nucleation.model.parameters import Parameters
+from nucleation.model.parameters import Geometry, Parameters
 from nucleation.simulation.periodic import sliding_period, sliding_state
 from nucleation.theory.critical import critical_wavenumber
 from nucleation.theory.spectrum import growth_rates
-from nucleation.theory.transfer import RIGID, transfer_functions
+from nucleation.theory.transfer import RIGID, bodies_of, transfer_functions
 from nucleation.theory.transfer import Body as Layer
 from nucleation.verification import dispersion, pair_modes
 from nucleation.verification.orders import orders
@@ -177,6 +177,24 @@ def test_modes_grow_and_turn_as_the_theory_says(height, ratio):
     print(f"\nH = {height}, kH = {kh:.3f}: {found * 0.05}, theory {expected * 0.05}, {error}")
     assert error.max() < AGREEMENT
     assert (found[0].real > 0.0) == (ratio < 1.0)
+
+
+@pytest.mark.parametrize("ratio", [0.8, pytest.param(1.25, marks=pytest.mark.slow)])
+def test_modes_grow_as_the_theory_says_below_a_top_that_is_moved(ratio):
+    """With the far side that `loading.kind = top` gives the theory and the period."""
+    top = dataclasses.replace(
+        PARAMETERS,
+        loading=dataclasses.replace(PARAMETERS.loading, kind="top"),
+        geometry=Geometry(height=0.2),
+    )
+    bodies, state = bodies_of(top), linearised.interface_state(top)
+    assert bodies[0].far_side == "velocity"
+    k = ratio * critical_wavenumber(*bodies, state).wavenumber
+    expected = growth_rates(k, *bodies, state)
+    error = np.abs(dispersion.measured_rates(top, 0.2, k) - expected) / np.abs(expected)
+    print(f"\nkH = {k * 0.2:.3f}: {error}")
+    assert error.max() < AGREEMENT
+    assert (expected[0].real > 0.0) == (ratio < 1.0)
 
 
 @pytest.mark.parametrize("height", [0.005, 0.1, 0.5])

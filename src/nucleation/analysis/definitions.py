@@ -88,10 +88,11 @@ def _last_maximum(force: Array, end: int) -> int:
 def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:
     """Position (m) up to which the interface slips at one instant, faster than a rate (m/s).
 
-    Before the event the slip rate oscillates, and this edge with it, to and fro. It is needed to
-    find the patch's length, the furthest that it has come (:class:`Extent`), and for nothing else.
-    Between nodes log v is taken as linear in x. Only the part of the block next to the loaded
-    edge is searched, so that slip at the far corner does not count. Zero if nothing slips faster.
+    With an edge that is pushed. Before the event the slip rate oscillates, and the patch's edge
+    with it, to and fro. It is needed to find the patch's length, the furthest that it has come
+    (:class:`Extent`), and for nothing else. Between nodes log v is taken as linear in x. Only the
+    part of the block next to the loaded edge is searched, so that slip at the far corner does not
+    count. Zero if nothing slips faster.
     """
     near = x <= SEARCHED * x[-1]
     rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)  # also of single precision
@@ -106,15 +107,57 @@ def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:
     return float(x[last] + part * (x[last + 1] - x[last]))
 
 
+def slipping_zone(
+    x: Array, slip_rate: Array, threshold: float, periodic: bool = False
+) -> tuple[float, float]:
+    """Positions (m) between which the interface slips faster than a rate (m/s) at one instant.
+
+    The zone is that about the fastest node. Between nodes log v is taken as linear in x. Where
+    nothing slips faster both are zero; in a period the zone may begin below zero or end beyond L.
+    """
+    rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)
+    fastest = int(np.argmax(rate))
+    if rate[fastest] <= threshold:
+        return 0.0, 0.0
+    if periodic:  # one period about the fastest node, of which node 0 and node n_x are the same
+        n = x.size - 1
+        order = np.arange(fastest - n // 2, fastest - n // 2 + n)
+        x, rate, fastest = (x[1] - x[0]) * order, rate[order % n], n // 2
+
+    def end(step: int) -> float:
+        outer = np.flatnonzero(rate[fastest::step] < threshold)
+        if not outer.size:
+            return float(x[::step][-1])
+        i = fastest + step * int(outer[0])
+        outside, inside = np.log(rate[i]), np.log(rate[i - step])
+        part = (inside - np.log(threshold)) / (inside - outside)
+        return float(x[i - step] + part * (x[i] - x[i - step]))
+
+    return end(-1), end(1)
+
+
+def patch_length(kind: str, x: Array, slip_rate: Array, threshold: float) -> float:
+    """Length (m) of the patch at one instant, by the kind of loading.
+
+    An edge that is pushed is one end of the patch; otherwise the patch is the zone about the
+    fastest node.
+    """
+    if kind == "edge":
+        return slipping_edge(x, slip_rate, threshold)
+    begin, end = slipping_zone(x, slip_rate, threshold, kind == "remote")
+    return end - begin
+
+
 class Extent:
     """The patch's length in a run that is going on, fed with one instant after another."""
 
-    def __init__(self, x: Array, threshold: float) -> None:
-        """`x` (m) along the interface, and the slip rate (m/s) at the edge."""
-        self._x, self._threshold = x, threshold
+    def __init__(self, x: Array, threshold: float, kind: str = "edge") -> None:
+        """`x` (m) along the interface, the slip rate (m/s) at the edge, and the loading's kind."""
+        self._x, self._threshold, self._kind = x, threshold, kind
         self.length = 0.0  # m
 
     def reach(self, slip_rate: Array) -> float:
         """The patch's length (m) now that the slip rates are these (m/s)."""
-        self.length = max(self.length, slipping_edge(self._x, slip_rate, self._threshold))
+        now = patch_length(self._kind, self._x, slip_rate, self._threshold)
+        self.length = max(self.length, now)
         return self.length

@@ -113,8 +113,11 @@ def gather(
 
 def _creep_length(run: dict[str, Any]) -> float:
     """L_s of steady creep with constant a and b (docs/patch_theory.md); NaN if there is none."""
+    parameters = Parameters.from_dict(run["parameters"])
+    if parameters.loading.kind != "edge":
+        return float("nan")
     try:
-        fault = Patches.of(Parameters.from_dict(run["parameters"])).one
+        fault = Patches.of(parameters).one
         return stability_point(Patches(fault), run["theory_length"]).length
     except NoPatch:
         return float("nan")

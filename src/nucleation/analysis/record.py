@@ -17,7 +17,7 @@ from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.event import FAST, WINDOW
 from ..types import Array
-from .definitions import ExtractionSettings, Onset, find_onset, slipping_edge
+from .definitions import ExtractionSettings, Onset, find_onset, patch_length
 
 
 def parameters_of(dataset: xr.Dataset) -> Parameters:
@@ -137,5 +137,6 @@ class Record:
 
     def _lengths(self, share: float) -> Array:
         rates, threshold = self.simulation["slip_rate"].values, share * self.velocity
-        edges = [slipping_edge(self.x, rate, threshold) for rate in rates]
+        kind = self.parameters.loading.kind
+        edges = [patch_length(kind, self.x, rate, threshold) for rate in rates]
         return np.maximum.accumulate(np.array(edges))

@@ -115,6 +115,8 @@ def _about(run: Run) -> Iterator[Advice]:
         )  # fmt: skip
         return
     yield from _steps(run, 2.0 * math.pi * math.sqrt(interface.a / interface.zeta))
+    if run.parameters.loading.kind != "edge":
+        return  # the rest is of patches that grow from an edge
     yield from _span(run)
     yield from _block(run)
     yield from _start(run)

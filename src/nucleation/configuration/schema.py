@@ -9,6 +9,7 @@ import yaml
 from ..analysis.definitions import ExtractionSettings
 from ..model.friction.law import Friction
 from ..model.friction.registry import law_declarations
+from ..model.heterogeneity import Heterogeneity
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading, Stepping
@@ -32,6 +33,7 @@ GROUPS: dict[str, type] = {
     "loading": Loading,
     "stepping": Stepping,
     "perturbation": Perturbation,
+    "heterogeneity": Heterogeneity,
     "second_body": SecondBody,
     "recording": Recording,
     "main_text_interface": InterfaceState,

@@ -6,9 +6,11 @@ that of the driven edge:
 
     p = p0 + D w,    R = R0 + N w
 
-with the nodal tangential force p (N/m) at the nodes 1..n_x and the nodal normal force R at the
-nodes 0..n_x, both on the (upper) body, R > 0 in compression. For one block on a rigid base w is its
-displacement at the interface, for two bodies the difference of theirs.
+with the nodal tangential force p (N/m) at the free nodes and the nodal normal force R at the
+nodes 0..n_x, both on the (upper) body, R > 0 in compression. Free are the nodes 1..n_x; node 0 is
+that of the driven edge, repeats node n_x in a periodic body, or is free as well if no edge is
+driven (:mod:`.free_block`), and is counted from one like the others. For one block on a rigid base
+w is its displacement at the interface, for two bodies the difference of theirs.
 """
 
 from __future__ import annotations
@@ -40,6 +42,10 @@ class Response:
 
 class Condensed(Protocol):
     """D and N of a body: all that the interface's equations need."""
+
+    @property
+    def body(self) -> Any:
+        """The :class:`Body` itself."""
 
     @property
     def diagonal(self) -> Array:
@@ -96,6 +102,13 @@ class Body(Protocol):
     @property
     def grid_below(self) -> Grid | None:
         """The mesh of a second body, upside down: its lowest nodes are those of the interface."""
+
+    @property
+    def free_nodes(self) -> int:
+        """Number of the interface's nodes that friction moves."""
+
+    def on_all_nodes(self, values: Array, driven: float) -> Array:
+        """Values at the free nodes and that of the driven edge's own node, at the nodes 0..n_x."""
 
     @property
     def crossing_time(self) -> float:

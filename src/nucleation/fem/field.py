@@ -25,6 +25,10 @@ class Field:
         """The sum of two fields."""
         return Field(self.modes + other.modes, self.edge + other.edge)
 
+    def times(self, factor: float) -> Field:
+        """The field times a number."""
+        return Field(factor * self.modes, factor * self.edge)
+
     def to_arrays(self, name: str) -> dict[str, Array]:
         """The field as plain arrays, their names beginning with `name`."""
         return {f"{name}_modes": self.modes, f"{name}_edge": self.edge}

@@ -16,7 +16,8 @@ class Grid:
     """A rectangle ``[0, length] x [0, height]`` of ``n_x`` by ``n_y`` elements.
 
     The spacing is uniform along x. Along y the element heights grow geometrically from the
-    interface y = 0 to the top; the top one is ``grading`` times as high as the bottom one.
+    interface y = 0 to the top; the top one is ``grading`` times as high as the bottom one. If it is
+    periodic, node 0 is node n_x.
     """
 
     length: float
@@ -24,6 +25,7 @@ class Grid:
     n_x: int
     n_y: int
     grading: float = 1.0
+    periodic: bool = False
 
     @classmethod
     def of(cls, geometry: Geometry, mesh: Mesh) -> Grid:
@@ -34,6 +36,11 @@ class Grid:
     def dx(self) -> float:
         """Node spacing along x (m)."""
         return self.length / self.n_x
+
+    @property
+    def own(self) -> slice:
+        """The nodes 0..n_x without the one that only repeats another."""
+        return slice(1 if self.periodic else 0, None)
 
     @cached_property
     def x(self) -> Array:
@@ -51,5 +58,6 @@ class Grid:
     def nodal_lengths(self) -> Array:
         """Length of interface that each interface node stands for (m), shape (n_x + 1,)."""
         lengths = np.full(self.n_x + 1, self.dx)
-        lengths[[0, -1]] *= 0.5
+        if not self.periodic:
+            lengths[[0, -1]] *= 0.5
         return lengths

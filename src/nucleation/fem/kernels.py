@@ -25,7 +25,7 @@ def factorise(
 ):
     """Eliminate from the top down; fill `pivot` (level 0), `inverse` and `lower`.
 
-    `held` says which components, x and y, are zero on the top: none, both, or y on rollers. What
+    `held` says which components, x and y, are zero on the top: none, both, or one of them. What
     is held has no compliance, zeros in `inverse`.
 
     The blocks are ``A_xx = kxx M + mxx K``, ``A_yy = kyy M + myy K`` and
@@ -68,11 +68,11 @@ def factorise(
                 inverse[j, 0, m] = pivot[2, m] * det
                 inverse[j, 1, m] = -pivot[1, m] * det
                 inverse[j, 2, m] = pivot[0, m] * det
-            if j == top and held[1]:
+            if j == top and (held[0] or held[1]):
                 for m in range(n):
                     inverse[j, 0, m] = 0.0 if held[0] else 1.0 / pivot[0, m]
                     inverse[j, 1, m] = 0.0
-                    inverse[j, 2, m] = 0.0
+                    inverse[j, 2, m] = 0.0 if held[1] else 1.0 / pivot[2, m]
 
 
 @compiled

@@ -200,7 +200,7 @@ class PairEdge(EdgeValues):
             stiffness[own, own] = part.schur
         xx, xy, yy = self._operator.series.compliance
         released = np.array([xx * joint[0] + xy * joint[1], xy * joint[0] + yy * joint[1]])
-        scale = 2.0 / joint.shape[2]
+        scale = 2.0 / self._operator.along_x.grid.n_x
         return stiffness - scale * (joint[0] @ released[0].T + joint[1] @ released[1].T)
 
     @cached_property
@@ -225,4 +225,5 @@ class PairEdge(EdgeValues):
         above[self._first_below :] = 0.0  # the upper block's own
         f = self._operator.series.forces
         modal = np.array([f[4] * x + f[5] * y - lower, above - (f[2] * x + f[3] * y)])
-        return self._operator.along_x.interface_forces((2.0 / x.shape[1]) * modal)
+        layer = self._operator.along_x
+        return layer.interface_forces((2.0 / layer.grid.n_x) * modal)

@@ -11,11 +11,12 @@ the pair. There is no driven and no free edge: traction on the top drives the bl
 the step and the factorisation are those of the block.
 
 Interface arrays over "nodes 0..n_x" hold the period's nodes in the entries 1..n_x. Entry 0, in the
-block the node of the driven edge, slides at the imposed velocity and acts on nothing.
+block the node of the driven edge, repeats the last one.
 """
 
 from __future__ import annotations
 
+import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
@@ -39,10 +40,15 @@ class PeriodicBlock(SeparableBody):
     def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
         if grid.n_x % 2 == 0:
             raise ValueError(f"n_x = {grid.n_x} is not allowed: it must be odd in a periodic body")
+        grid = dataclasses.replace(grid, periodic=True)
         half = np.arange(1, grid.n_x // 2 + 1)
         theta = 2.0 * np.pi / grid.n_x * np.concatenate(([0], half, half))
         x_integral, no_edge = np.where(theta == 0.0, grid.length, 0.0), np.zeros((3, grid.n_x))
         super().__init__(grid, material, theta, x_integral, no_edge, far_side)
+
+    def on_all_nodes(self, values: Array, driven: float) -> Array:
+        """Values at the nodes 0..n_x, of which the first one is the last."""
+        return with_entry_zero(values)
 
     def operator(self, s: float) -> PeriodicOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
@@ -85,8 +91,9 @@ class PeriodicBlock(SeparableBody):
         return load
 
     def nodal_values(self, field: Field) -> tuple[Array, Array]:
-        """Nodal w_x and u_y, each of shape (n_y + 1, n_x)."""
-        return self.sine_values(field.modes[:, 0]), self.cosine_values(field.modes[:, 1])
+        """Nodal w_x and u_y, each of shape (n_y + 1, n_x + 1), the first column as the last."""
+        x, y = self.sine_values(field.modes[:, 0]), self.cosine_values(field.modes[:, 1])
+        return np.hstack((x[:, -1:], x)), np.hstack((y[:, -1:], y))
 
 
 class Circulant(ABC):

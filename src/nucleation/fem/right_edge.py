@@ -138,7 +138,7 @@ class RightEdge(EdgeValues):
         n_levels, n_x = body.grid.n_y + 1, body.grid.n_x
         diagonal = np.empty_like(self._inverse)
         kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
-        solution = np.zeros((n_levels, 2, n_x))
+        solution = np.zeros((n_levels, 2, body.modes))
         sums, rows = np.zeros((n_levels, 3, n_levels)), np.zeros((n_levels, n_levels))
         for i in range(n_levels):
             first = max(i, 1)
@@ -175,9 +175,9 @@ class RightEdge(EdgeValues):
         the forces on the edge values per unit of amplitude.
         """
         body, weights = self.body, self.body.edge_weights
-        rows = np.empty((2, body.grid.n_y + 1, body.grid.n_x))
+        rows = np.empty((2, body.grid.n_y + 1, body.modes))
         for component in (0, 1):
-            modes = np.zeros((body.grid.n_y + 1, 2, body.grid.n_x))
+            modes = np.zeros((body.grid.n_y + 1, 2, body.modes))
             modes[0, component] = 1.0
             kernels.substitute(self._inverse, self._lower, modes)
             rows[component] = weights[0] * (self._x[0] @ modes[:, 0])

@@ -36,7 +36,10 @@ def _stacked(matrix: Tridiagonal) -> Array:
     return np.array([matrix.lower, matrix.diagonal, matrix.upper])
 
 
-HELD = {"free": (False, False), "clamped": (True, True), "roller": (False, True)}
+HELD = {
+    "free": (False, False), "clamped": (True, True), "roller": (False, True),
+    "velocity": (True, False),
+}  # fmt: skip
 """Which of u_x and u_y are zero on the far side, by its condition; the others bear loads."""
 
 
@@ -59,10 +62,24 @@ class SeparableBody(ABC):
         self.grid, self.material, self.far_side = grid, material, far_side
         self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
         self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
+        self._set_modes(theta, x_integral, edge_weights)
+
+    def _set_modes(self, theta: Array, x_integral: Array, edge_weights: Array) -> None:
+        grid = self.grid
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / grid.dx
         self.x_mass = grid.dx * (4.0 + 2.0 * np.cos(theta)) / 6.0
         self.sine = np.sin(theta)
         self.x_integral, self.edge_weights = x_integral, edge_weights
+        self.modes = theta.size
+
+    @property
+    def free_nodes(self) -> int:
+        """Number of the interface's nodes that friction moves, all but the driven edge's."""
+        return self.grid.n_x
+
+    def on_all_nodes(self, values: Array, driven: float) -> Array:
+        """Values at the free nodes and that of the driven edge's own node, at the nodes 0..n_x."""
+        return np.append(driven, values)
 
     @abstractmethod
     def sine_amplitudes(self, nodal: Array) -> Array:
@@ -98,7 +115,7 @@ class SeparableBody(ABC):
     def zero_field(self) -> Field:
         """A field of zeros."""
         n = self.grid.n_y + 1
-        return Field(np.zeros((n, 2, self.grid.n_x)), np.zeros(n))
+        return Field(np.zeros((n, 2, self.modes)), np.zeros(n))
 
     @property
     def total_mass(self) -> float:
@@ -112,7 +129,7 @@ class SeparableBody(ABC):
         """
         load = self.zero_field()
         per_level = -self.material.density * acceleration * self.stacked.mass.sum(axis=0)
-        per_mode = self.sine_amplitudes(np.full(self.grid.n_x, self.grid.dx))
+        per_mode = self.sine_amplitudes(np.full(self.modes, self.grid.dx))
         load.modes[:, 0] = per_level[:, None] * per_mode
         return load
 
@@ -153,7 +170,7 @@ class SeparableBody(ABC):
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of a body at rest, seen from its driven edge (velocity in m/s)."""
         rates = self.zero_field()
-        rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.grid.n_x))
+        rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.modes))
         return Motion(displacement, rates, self.momentum_x(rates))
 
     def momentum_x(self, velocity: Field) -> float:
@@ -191,9 +208,9 @@ class SeparableOperator:
         )  # fmt: skip
         rho_s = s * material.density
         # stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy
-        self.pivot = np.empty((3, grid.n_x))
-        self._inverse = np.zeros((grid.n_y + 1, 3, grid.n_x))
-        self._lower = np.empty((grid.n_y, 4, grid.n_x))
+        self.pivot = np.empty((3, body.modes))
+        self._inverse = np.zeros((grid.n_y + 1, 3, body.modes))
+        self._lower = np.empty((grid.n_y, 4, body.modes))
         kernels.factorise(
             p_modulus * body.x_stiffness + rho_s * body.x_mass, shear * body.x_mass,
             shear * body.x_stiffness + rho_s * body.x_mass, p_modulus * body.x_mass,

@@ -80,6 +80,15 @@ class TwoBodies(Generic[Layer]):
         """Mass (kg/m) that moves with the driven edge: the upper body's."""
         return self.upper.total_mass
 
+    @property
+    def free_nodes(self) -> int:
+        """Number of the interface's nodes that friction moves."""
+        return self.upper.free_nodes
+
+    def on_all_nodes(self, values: Array, driven: float) -> Array:
+        """Values at the free nodes and that of the driven edge's own node, at the nodes 0..n_x."""
+        return self.upper.on_all_nodes(values, driven)
+
     def parts(self, field: Field) -> Parts:
         """The two bodies' fields in one of the pair, not copied."""
         n = self.grid.n_y + 1

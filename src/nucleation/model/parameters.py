@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 
 from .friction.law import Friction
 from .friction.registry import LAWS, law_declarations
+from .heterogeneity import Heterogeneity
+from .loading import Loading
 from .material import Material
 from .names import Names
 from .perturbation import Perturbation
@@ -18,33 +20,6 @@ from .second_body import SecondBody
 
 EVENT_DROP = 0.02
 """Fall of the driving force, as a fraction, that makes an event unless another is asked for."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Loading(Checked):
-    """The external loading and the initial state of the interface."""
-
-    normal_stress: float = quantity(
-        "applied compressive normal stress",
-        unit="Pa", low=0.0, high=1e10, symbol="sigma0", default=1.0e6,
-    )  # fmt: skip
-    velocity: float = quantity(
-        "imposed velocity of the left edge", unit="m/s", low=0.0, high=1.0, symbol="V",
-        default=1.0e-5,
-    )  # fmt: skip
-    initial_state: float = quantity(
-        "initial state variable (age) of the interface", unit="s", low=0.0, high=1e12,
-        symbol="phi0", default=1.0,
-    )  # fmt: skip
-    initial_stress: str = quantity(
-        "static field at the start: that of an interface that has not slipped, or of one that has "
-        "slipped to the uniform shear stress initial_shear_stress",
-        choices=("no_slip", "uniform_shear"), default="no_slip",
-    )  # fmt: skip
-    initial_shear_stress: float = quantity(
-        "shear stress at the interface at the start, if initial_stress is uniform_shear",
-        unit="Pa", low=0.0, high=1e10, closed="low", symbol="tau0", default=0.0,
-    )  # fmt: skip
 
 
 @dataclasses.dataclass(frozen=True)
@@ -118,8 +93,49 @@ class Parameters:
     mesh: Mesh = Mesh()
     stepping: Stepping = Stepping()
     perturbation: Perturbation = Perturbation()
+    heterogeneity: Heterogeneity = Heterogeneity()
     second_body: SecondBody = SecondBody()
     recording: Recording = Recording()
+
+    def require_consistent(self) -> None:
+        """Raise a ParameterError where groups of parameters do not go with one another.
+
+        That is for a mesh or a second body that is not for the loading, and for a heterogeneity
+        beside the block or less than an element wide.
+        """
+        kind, n_x = self.loading.kind, self.mesh.n_x
+        if kind != "edge" and (n_x % 2 == 0) == (kind == "remote"):
+            parity = "odd" if kind == "remote" else "even"
+            raise ParameterError(
+                f"mesh.n_x = {n_x} is not allowed with loading.kind = {kind}: it must be {parity}"
+            )
+        own, length = self.heterogeneity, self.geometry.length
+        for name, low, high in (("centre", 0.0, length), ("width", length / n_x, length)):
+            value = getattr(own, name)
+            if own.varies != "none" and value is not None and not low <= value <= high:
+                raise ParameterError(
+                    f"heterogeneity.{name} = {value:g} m is not allowed: it must lie in "
+                    f"[{low:.3g}, {high:.3g}] m, "
+                    + ("on the block" if name == "centre" else "from an element to the block")
+                )
+        below = self.below
+        if kind == "top" and below is not None and below.bottom != "clamped":
+            raise ParameterError(
+                f"second_body.bottom = {below.bottom} is not allowed with loading.kind = top, "
+                "where nothing else holds the second block: it must be clamped"
+            )
+
+    def require_edge(self, what: str) -> None:
+        """Raise a ParameterError, naming what is asked for, unless a uniform fault is pushed."""
+        for key, value, needed in (
+            ("loading.kind", self.loading.kind, "edge"),
+            ("heterogeneity.varies", self.heterogeneity.varies, "none"),
+        ):
+            if value != needed:
+                raise ParameterError(
+                    f"{key} = {value} is not allowed with {what}, which is known of a uniform "
+                    f"fault that is pushed at its edge alone: it must be {needed}"
+                )
 
     @property
     def below(self) -> Below | None:
@@ -162,7 +178,8 @@ class Parameters:
         Groups may be left out that records are older than: these are quiet, on a rigid base and
         record everything.
         """
-        values = {"perturbation": {}, "second_body": {}, "recording": {}} | values
+        later = "perturbation", "heterogeneity", "second_body", "recording"
+        values = {name: {} for name in later} | values
         return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
@@ -202,7 +219,7 @@ class Parameters:
 GROUPS: dict[str, type] = {
     "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
     "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
-    "second_body": SecondBody, "recording": Recording,
+    "heterogeneity": Heterogeneity, "second_body": SecondBody, "recording": Recording,
 }  # fmt: skip
 """The groups of :class:`Parameters` and their classes."""
 
@@ -210,6 +227,8 @@ ALIASES = {
     "law": "friction.evolution",
     "friction_law": "friction.law",
     "phi0": "loading.initial_state",
+    "loading": "loading.kind",
+    "heterogeneity": "heterogeneity.varies",
     "kind": "perturbation.kind",
     "perturbation": "perturbation.kind",
     "slip_distance": "friction.characteristic_slip_distance",

@@ -169,6 +169,7 @@ def quick_run(
 
     However long it is asked to run: it ends when it should have been there for long.
     """
+    parameters.require_edge("the law of the drop")
     expected = growth_time(parameters, longest)
     wanted = expected / (QUICK_STEPS * parameters.memory_time)
     longest_step = min(max(QUICK_STEP, wanted), LONGEST_STEP)

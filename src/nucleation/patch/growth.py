@@ -94,6 +94,7 @@ class _Creep:
 
     def __init__(self, record: Record) -> None:
         self.parameters, self.grid = record.parameters, record.grid
+        self.parameters.require_edge("the patch's own stability")
         self._operator = body_of(self.parameters).operator(0.0)
         self._threshold = record.threshold
         self._slowest_oscillation = OSCILLATING / self.parameters.memory_time

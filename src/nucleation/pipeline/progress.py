@@ -36,7 +36,8 @@ class Progress:
 
     def __init__(self, parameters: Parameters, stream: TextIO) -> None:
         threshold = ExtractionSettings().edge_threshold * parameters.loading.velocity
-        self._patch = Extent(Grid.of(parameters.geometry, parameters.mesh).x, threshold)
+        x = Grid.of(parameters.geometry, parameters.mesh).x
+        self._patch = Extent(x, threshold, parameters.loading.kind)
         self._end = parameters.stepping.end_time
         self._expected_length = _expected_length(parameters)
         self._stream = stream

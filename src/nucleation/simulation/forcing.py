@@ -7,6 +7,7 @@ U''(t) of a fluctuating velocity are exact, not sums over steps.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
@@ -15,10 +16,8 @@ from ..fem.field import Field
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..types import Array
-from .drive import Imposed, Steady
+from .drive import Drive, Imposed, Recorded, Remote, Steady
 from .realisation import Series, Sheet, profile
-
-Recorded = tuple[tuple[str, ...], Array]
 
 
 class Loaded(Protocol):
@@ -26,8 +25,9 @@ class Loaded(Protocol):
 
     grid: Grid
 
-    def top_load(self, normal_stress: float) -> Field:
-        """The load (N/m) of a compressive stress (Pa) on the top."""
+    @property
+    def top_load(self) -> Callable[..., Field]:
+        """The load (N/m) of a compressive stress (Pa), and of a shear stress, on the top."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,15 +35,6 @@ class Perturbed(Steady):
     """A steady drive and what a perturbation of relative strength eps adds to it."""
 
     strength: float  # eps
-
-    def realised(self, steps: Array, frames: Array) -> Recorded:
-        """The relative perturbation ``eps xi`` as a variable of a record: dimensions and values.
-
-        Parameters
-        ----------
-        steps, frames : times (s) of all steps, and of the frames that show the interface.
-        """
-        raise NotImplementedError
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,8 +69,7 @@ class FluctuatingLoad(InTime):
 
     def load(self, time: float) -> Field:
         """The load (N/m) at a time (s)."""
-        factor = 1.0 + self.strength * self.series.value(time)
-        return Field(factor * self.constant_load.modes, factor * self.constant_load.edge)
+        return self.constant_load.times(1.0 + self.strength * self.series.value(time))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -115,8 +105,19 @@ class ForcedState(Perturbed):
         return ("time", "x"), self.strength * np.array([self.sheet.values(t) for t in frames])
 
 
-def drive_of(parameters: Parameters, body: Loaded) -> Steady:
-    """The drive that parameters ask for, steady where nothing is perturbed."""
+def drive_of(parameters: Parameters, body: Loaded) -> Drive:
+    """The drive that parameters ask for: an edge or a top that moves, or a far load that rises."""
+    loading, near = parameters.loading, near_drive(parameters, body)
+    if loading.kind != "remote":
+        return near
+    shear = body.top_load(0.0, 1.0)
+    per_displacement = loading.stress_rate / loading.velocity
+    start = shear.times(loading.initial_shear_stress)
+    return Remote(near, start, shear.times(per_displacement))
+
+
+def near_drive(parameters: Parameters, body: Loaded) -> Steady:
+    """What moves, and the normal load: steady where nothing is perturbed."""
     declared, loading = parameters.perturbation, parameters.loading
     velocity, load = loading.velocity, body.top_load(loading.normal_stress)
     if not declared.acts:

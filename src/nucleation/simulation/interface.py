@@ -80,6 +80,10 @@ class Solver(Protocol):
     def friction(self) -> Friction:
         """The law that its slip distance is taken from."""
 
+    @property
+    def extra_normal(self) -> Array | float:
+        """Normal force (N/m) on the nodes 0..n_x beside what the body exerts."""
+
     def solve(
         self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
     ) -> InterfaceSolution:
@@ -133,10 +137,11 @@ class Factors:
 class Interface:
     """Friction between a body and what it slides on, and how tightly it is solved."""
 
-    friction: Friction
+    friction: Friction  # its parameters may be arrays over the nodes 0..n_x
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 8
     most_iterations_from_rest: int = 50
+    extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x beside what the body exerts
 
     def solve(
         self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
@@ -159,15 +164,16 @@ class Interface:
         """
         v, w, beta, factors = guess, response.w, past.beta, None
         rounding = ROUNDING * np.abs(past.w).max() / beta  # of v = (w - past.w) / beta
-        p, normal = response.tangential, response.normal
+        p, normal = response.tangential, response.normal + self.extra_normal
         most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
         elastic = beta * operator.diagonal
+        first = normal.size - v.size  # node 0 is free only where no edge is driven
         for iteration in range(most + 1):
-            rates = np.append(imposed.velocity, v)
+            rates = operator.body.on_all_nodes(v, imposed.velocity)
             coefficient, slope, psi = self._friction(rates, past.log_state, beta)
             if imposed.strength is not None:
                 coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
-            linear_below = self.friction.linear_below(psi[1:])
+            linear_below = np.broadcast_to(self.friction.linear_below(psi), psi.shape)[first:]
             residual, damping, error = newton.balance(
                 p, normal, coefficient, slope, elastic, np.abs(v) + linear_below,
                 self.tolerance, rounding,
@@ -178,11 +184,11 @@ class Interface:
                 if normal.min() <= 0.0:
                     raise Tension("the interface is in tension")
                 # node 0 belongs to the driven edge; its friction follows from its rate V
-                tangential = np.append(-coefficient[0] * normal[0], p)
+                tangential = operator.body.on_all_nodes(p, -coefficient[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
             # old factors serve where they promise that one more iteration is enough
             if factors is None or error * factors.change(damping, elastic) > ENOUGH:
-                factors = Factors.of(operator, coefficient[1:], damping, elastic, beta)
+                factors = Factors.of(operator, coefficient[first:], damping, elastic, beta)
             change = factors.direction(residual, damping, elastic)
             if self.friction.asinh_of_rate:
                 v = _updated_by_asinh(v, change, damping, elastic, linear_below)
@@ -190,7 +196,8 @@ class Interface:
                 v = self._updated(v, change)
             w, change = newton.moved(v, imposed.velocity, beta, past.w, response.w)
             dp, dnormal = operator.apply(change)
-            p, normal = response.tangential + dp, response.normal + dnormal
+            p = response.tangential + dp
+            normal = response.normal + dnormal + self.extra_normal
         raise NewtonFailure(f"no convergence in {most} iterations")
 
     def _friction(

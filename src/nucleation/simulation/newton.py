@@ -15,18 +15,19 @@ compiled = njit(cache=True, error_model="numpy")
 
 @compiled
 def balance(tangential, normal, coefficient, slope, elastic, resolved, tolerance, rounding):
-    """Residual ``p + f R`` and damping ``R df/dv`` at the nodes 1..n_x, and the largest error.
+    """Residual ``p + f R`` and damping ``R df/dv`` at the free nodes, and the largest error.
 
     `normal`, `coefficient` and `slope` are given at the nodes 0..n_x. The error is in units of what
     is tolerated: a relative change of the slip rate, `resolved`, and what displacements are rounded
     by; NaN if it is so anywhere.
     """
     n = elastic.size
+    first = normal.size - n
     residual, damping = np.empty(n), np.empty(n)
     largest, undefined = 0.0, False
     for i in range(n):
-        r = tangential[i] + coefficient[i + 1] * normal[i + 1]
-        d = slope[i + 1] * normal[i + 1]
+        r = tangential[i] + coefficient[i + first] * normal[i + first]
+        d = slope[i + first] * normal[i + first]
         residual[i], damping[i] = r, d
         scale = (elastic[i] + abs(d)) * (tolerance * resolved[i]) + elastic[i] * rounding
         error = abs(r) / scale

@@ -4,7 +4,7 @@ from ..datasets.variables import Variable
 
 RECORDED = {
     "time": Variable("s", "time", "t"),
-    "x": Variable("m", "distance from the loaded edge", "x"),
+    "x": Variable("m", "position along the interface, from the left edge", "x"),
     "y": Variable("m", "distance from the interface", "y"),
     "slip_rate": Variable("m/s", "slip rate", "v"),
     "slip": Variable("m", "slip", "epsilon"),
@@ -15,7 +15,7 @@ RECORDED = {
     ),
     "step_time": Variable("s", "time at the end of the step", "t"),
     "step_size": Variable("s", "time step", "dt"),
-    "driving_force": Variable("N/m", "force per depth on the loaded edge", "f_d"),
+    "driving_force": Variable("N/m", "force per depth that loads the fault", "f_d"),
     "maximal_slip_rate": Variable("m/s", "maximal slip rate", "max v"),
     "newton_iterations": Variable("1", "Newton iterations of the step"),
     "perturbation": Variable("1", "declared relative perturbation, as realised", "eps xi"),

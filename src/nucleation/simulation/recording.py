@@ -13,7 +13,6 @@ from ..datasets.variables import annotate
 from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
 from .event import FAST, WINDOW, DropWatch
-from .forcing import Perturbed
 from .recorded import RECORDED
 from .state import State
 from .step import Dynamics, StepReport
@@ -86,7 +85,7 @@ class Recorder:
             return
         self._last_scaled, self._last_frame_step = scaled, len(self._rows)
         interface, lengths = report.interface, self.grid.nodal_lengths
-        slip = self._drive.at(state.time).displacement + np.append(0.0, interface.w)
+        slip = self._drive.at(state.time).displacement + self._body.on_all_nodes(interface.w, 0.0)
         fields = (
             interface.slip_rate, np.exp(interface.log_state), -interface.normal / lengths,
             slip, -interface.tangential / lengths,
@@ -160,8 +159,9 @@ class Recorder:
         dataset.attrs["parameters"] = self.parameters.to_json()
         if not self._level.covers("interface"):
             return self._for_lengths(dataset)
-        if isinstance(self._drive, Perturbed):
-            dataset["perturbation"] = self._drive.realised(time, times)
+        realised = self._drive.realised(time, times)
+        if realised is not None:
+            dataset["perturbation"] = realised
         return dataset.assign(self._bodies()) if self._level.covers("everything") else dataset
 
     def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:

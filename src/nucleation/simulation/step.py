@@ -74,19 +74,22 @@ class Dynamics:
         load = self._load_with_past(state, step, imposed)
         guess = extrapolated(state, step, self.drive.velocity, self.interface.friction)
         past = Past.of(state, step.interface, imposed, step.first)
-        w = past.w + past.beta * (guess.slip_rate[1:] - imposed.velocity)
+        rates = guess.slip_rate[-self.body.free_nodes :]
+        w = past.w + past.beta * (rates - imposed.velocity)
         expected = Expectation(state.motions, step.length, state.last_step, state.body_memory)
         for response in operator.responses(load, w, expected):
-            solution = self.interface.solve(operator, response, past, imposed, guess.slip_rate[1:])
+            solution = self.interface.solve(operator, response, past, imposed, rates)
             balance = operator.balance(response, solution.w, expected)
             if balance.holds:
                 break
         formula, motions = step.body, state.motions
         motion = self.body.motion(formula.past, formula.beta, balance.displacement, motions)
         new = self._pushed(state, time, solution, motion, balance.memory)
-        # discrete balance along x: the driven edge carries what friction and inertia leave
-        rate = _rate_of_momentum(step, motion, motions)
-        force = float(solution.tangential.sum() - rate) - self.frame_inertia(imposed)
+        force = solution.tangential[self.grid.own].sum()
+        if self.drive.moves:
+            # discrete balance along x: what is moved carries what friction and inertia leave
+            force = force - _rate_of_momentum(step, motion, motions)
+        force = float(force) - self.frame_inertia(imposed)
         return new, StepReport(solution, force, step.error(guess.distance(solution)))
 
     def operator(self, s: float) -> Operator:
@@ -165,7 +168,7 @@ def extrapolated(state: State, step: Step, velocity: float, friction: Friction) 
     rates, but move the interface by next to nothing.
     """
     fastest = np.abs(state.past_slip_rates[0]).max()
-    distance = friction.characteristic_slip_distance
+    distance = float(np.min(friction.characteristic_slip_distance))
     scale = max(
         SLOW * velocity, SLOW_IN_EVENT * float(fastest), SLIGHT_SLIP * distance / step.length
     )

@@ -72,6 +72,21 @@ def growth_time(parameters: Parameters, length: float) -> float:
     critical length.
     """
     loading, stiffness = parameters.loading, stiffness_of(parameters)
+    if loading.kind != "edge":
+        return _time_to_strength(parameters)
     strength = linearised(parameters.friction, loading).friction * loading.normal_stress
     moved = length**2 / (2.0 * stiffness.thin) + length / stiffness.thick
     return strength * moved / loading.velocity
+
+
+def _time_to_strength(parameters: Parameters) -> float:
+    """Time (s) until a load without an edge has brought the whole interface to its strength."""
+    loading, below = parameters.loading, parameters.below
+    strength = linearised(parameters.friction, loading).friction * loading.normal_stress
+    missing = max(strength - loading.initial_shear_stress, 0.0)
+    if loading.kind == "remote":
+        return missing / loading.stress_rate
+    compliance = parameters.geometry.height / parameters.material.shear_modulus
+    if below is not None:
+        compliance += below.geometry.height / below.material.shear_modulus
+    return missing * compliance / loading.velocity

@@ -67,8 +67,10 @@ RIGID = RigidBody()
 
 
 def bodies_of(parameters: Parameters) -> tuple[Body, Body | RigidBody]:
-    """The upper and the lower body of a run, with its own far sides."""
-    upper = Body(parameters.material, parameters.geometry.height, "free")
+    """The upper and the lower body of a run, with the far sides that its loading gives them."""
+    moved = parameters.loading.kind == "top"
+    far_side = "velocity" if moved else "free"
+    upper = Body(parameters.material, parameters.geometry.height, far_side)
     below = parameters.below
     if below is None:
         return upper, RIGID

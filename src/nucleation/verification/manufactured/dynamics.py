@@ -26,7 +26,7 @@ from ...fem.field import Field, Motion
 from ...fem.grid import Grid
 from ...model.friction.law import Friction
 from ...model.parameters import Parameters
-from ...simulation.drive import Imposed
+from ...simulation.drive import Drive, Imposed
 from ...simulation.interface import Interface, InterfaceSolution, Past, Solver
 from ...simulation.state import State
 from ...simulation.step import Dynamics, StepReport
@@ -44,6 +44,7 @@ class GivenDisplacement:
 
     friction: Friction
     problem: Manufactured
+    extra_normal: float = 0.0
 
     def solve(
         self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
@@ -58,13 +59,15 @@ class GivenDisplacement:
         )  # fmt: skip
 
 
-class Manufactured:
+class Manufactured(Drive):
     """The solver's own step under the loads of a displacement, with its interface prescribed.
 
     It is the drive of its own :attr:`dynamics`.
     """
 
     body: Any  # a block, or a pair in what derives from it
+    velocity = 0.0
+    moves = True
 
     def __init__(self, parameters: Parameters, exact: Displacement) -> None:
         self.grid = Grid.of(parameters.geometry, parameters.mesh)

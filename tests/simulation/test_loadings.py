@@ -1,0 +1,245 @@
+"""Runs that are loaded at the top and from afar: energy, restart, convergence, heterogeneity."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.analysis.extraction import extract
+from nucleation.fem.assembled import assemble, unknown
+from nucleation.model.friction.law import Friction
+from nucleation.model.heterogeneity import Heterogeneity
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import Perturbation
+from nucleation.model.quantities import ParameterError
+from nucleation.model.second_body import SecondBody
+from nucleation.simulation.composition import composed
+from nucleation.simulation.run import run, simulate
+from nucleation.stepping.bdf import Formula, beta_of_step
+
+STEPPING = Stepping(end_time=10.0, time_after_event=0.0, longest_step=0.2)
+SEED = Heterogeneity(varies="normal_stress", change=-0.1, width=0.3)
+TOP = Parameters(
+    loading=Loading(kind="top"), geometry=Geometry(0.1, 1.5), mesh=Mesh(40, 4, 2.0),
+    second_body=SecondBody(kind="deformable", bottom="clamped"), stepping=STEPPING,
+)  # fmt: skip
+REMOTE = Parameters(
+    loading=Loading(kind="remote", stress_rate=2e5), geometry=Geometry(0.5, 3.0),
+    mesh=Mesh(61, 6, 4.0), stepping=STEPPING, heterogeneity=SEED,
+)  # fmt: skip
+LOADED = pytest.mark.parametrize("parameters", [TOP, REMOTE], ids=["top", "remote"])
+
+
+class Block:
+    """A body's assembled matrices and nodal values, of the one above or the one below."""
+
+    def __init__(self, parameters, dynamics, below):
+        body = dynamics.body
+        self.values = body.nodal_values_below if below else body.nodal_values
+        grid = body.grid_below if below else body.grid
+        material = parameters.below.material if below else parameters.material
+        self.stiffness, self.mass = assemble(grid, material)
+        i, j = np.meshgrid(np.arange(grid.n_x + 1), np.arange(grid.n_y + 1))
+        self.x, self.y = unknown(grid, i, j, 0), unknown(grid, i, j, 1)
+        self.sign = -1.0 if below else 1.0  # the one below is assembled upside down
+        self.top = grid.nodal_lengths * (0.0 if below else 1.0)
+        self.top[: grid.own.start] = 0.0  # that node is the last one
+
+    def vector(self, field, uniform):
+        out = np.empty(self.stiffness.shape[0])
+        w_x, u_y = self.values(field)
+        out[self.x], out[self.y] = w_x + uniform * (self.sign > 0.0), self.sign * u_y
+        return out
+
+
+def acceleration(v, past, earlier, step, previous):
+    if earlier is None:
+        return (v - past) / step
+    f = Formula.bdf2(beta_of_step(step, previous), previous)
+    return (v - f.from_past(np.array([past, earlier]))) / f.beta
+
+
+def residual_of_energy(parameters):
+    """What is missing in the balance through an event, over friction's dissipation; its share.
+
+    As in tests/verification/test_energy.py, for one body or two and a far load.
+    """
+    dynamics = composed(parameters)
+    # slip everywhere: with the usual tolerance of 1e-8, 6e-11 is missing of a remote load's work
+    dynamics.interface = dataclasses.replace(dynamics.interface, tolerance=1e-12)
+    bodies = [Block(parameters, dynamics, False)]
+    if parameters.below is not None:
+        bodies.append(Block(parameters, dynamics, True))
+    loading, own = parameters.loading, dynamics.grid.own
+    sums = dict.fromkeys(("work", "friction", "scheme"), 0.0)
+    before, start, fastest = None, 0.0, 0.0
+    for instant in run(parameters, None, dynamics):
+        state, report = instant.state, instant.report
+        imposed = dynamics.drive.at(state.time)
+        u = [b.vector(state.displacement, imposed.displacement) for b in bodies]
+        v = [b.vector(state.velocity, imposed.velocity) for b in bodies]
+        stored = sum(
+            0.5 * (p @ b.stiffness @ p + q @ b.mass @ q)
+            for b, p, q in zip(bodies, u, v, strict=True)
+        )
+        kinetic = [0.5 * q @ b.mass @ q for b, q in zip(bodies, v, strict=True)]
+        shear = loading.initial_shear_stress + loading.stress_rate * state.time
+        slip = imposed.displacement + report.interface.w
+        tangential = report.interface.tangential[own]
+        a = [np.zeros_like(q) for q in v]
+        if before is None:
+            start = stored
+        else:
+            step = state.last_step
+            a = [
+                acceleration(q, before["v"][i], before["earlier"] and before["earlier"][i], step,
+                             before["step"])
+                for i, q in enumerate(v)
+            ]  # fmt: skip
+            du = [new - old for new, old in zip(u, before["u"], strict=True)]
+            for b, d, new, old, k, k_old in zip(
+                bodies, du, a, before["a"], kinetic, before["kinetic"], strict=True
+            ):
+                sums["work"] -= loading.normal_stress * b.top @ d[b.y[-1]]
+                sums["scheme"] += 0.5 * (new + old) @ b.mass @ d - (k - k_old)
+            if loading.kind == "remote":
+                sums["work"] += (
+                    0.5 * (shear + before["shear"]) * (bodies[0].top @ du[0][bodies[0].x[-1]])
+                )
+            else:
+                force = 0.5 * (report.driving_force + before["force"])
+                sums["work"] -= force * (imposed.displacement - before["moved"])
+            mean = 0.5 * (tangential + before["tangential"])
+            sums["friction"] -= mean @ (slip - before["slip"])
+            fastest = max(fastest, report.interface.slip_rate.max())
+        before = {
+            "u": u, "v": v, "earlier": None if before is None else before["v"], "a": a,
+            "kinetic": kinetic, "shear": shear, "slip": slip, "tangential": tangential,
+            "moved": imposed.displacement, "force": report.driving_force, "step": state.last_step,
+        }  # fmt: skip
+        if fastest > 1e-2 and report.interface.slip_rate.max() < 0.5 * fastest:
+            rest = sums["work"] - (stored - start) - sums["friction"] - sums["scheme"]
+            return rest / sums["friction"], sums["scheme"] / sums["friction"]
+    raise AssertionError("no event")
+
+
+@LOADED
+@pytest.mark.slow
+def test_energy_is_conserved_through_an_event(parameters):
+    missing, scheme = residual_of_energy(parameters)
+    print(f"\n{missing:.1e} {scheme:.1e}")
+    assert abs(missing) < 1e-11
+    assert 0.0 < scheme < 3e-4
+
+
+@LOADED
+def test_a_run_that_goes_on_is_the_same_to_the_last_bit(parameters):
+    parameters = dataclasses.replace(
+        parameters, stepping=dataclasses.replace(STEPPING, end_time=0.5),
+        perturbation=Perturbation(kind="drive_velocity", strength=1e-3),
+    )  # fmt: skip
+    kept = []
+    whole = simulate(
+        parameters, keep=lambda arrays: kept.append(arrays()) if len(kept) < 20 else None
+    )
+    assert len(kept) == 20
+    again = simulate(parameters, start=kept[-1])
+    for name in whole.variables:
+        np.testing.assert_array_equal(again[name].values, whole[name].values)
+
+
+def test_a_patch_begins_where_it_is_told():
+    for centre in (0.9, 2.0):
+        own = dataclasses.replace(SEED, centre=centre)
+        record = simulate(dataclasses.replace(REMOTE, heterogeneity=own))
+        before = record.isel(time=-10)
+        at = float(before["x"].values[before["slip_rate"].values.argmax()])
+        assert abs(at - centre) < 0.3
+    found = extract(record)
+    assert 0.0 < found["length_low"] <= found["length"] <= found["length_high"] < 3.0
+
+
+def test_a_fault_in_a_period_has_no_first_node():
+    """A heterogeneity elsewhere in the period gives the same run, elsewhere."""
+    element = 3.0 / 61
+    shifted = dataclasses.replace(SEED, centre=1.5 + 20 * element)
+    short = dataclasses.replace(REMOTE, stepping=dataclasses.replace(STEPPING, end_time=2.0))
+    one, other = (
+        simulate(dataclasses.replace(short, heterogeneity=own))["slip"].isel(time=-1).values
+        for own in (dataclasses.replace(SEED, centre=1.5), shifted)
+    )
+    np.testing.assert_allclose(np.roll(one[1:], 20), other[1:], rtol=1e-6)
+    assert one[0] == one[-1]
+
+
+@pytest.mark.parametrize("law", ["product", "dieterich_ruina"])
+@pytest.mark.parametrize("varies", ["f", "a", "b", "zeta"])
+def test_constants_along_x_are_those_declared(law, varies):
+    friction, v = Friction(law=law), 1e-5
+    own = Heterogeneity(varies=varies, shape="step", centre=0.5, width=0.2, change=0.05)
+    factor = own.factor(np.array([0.3, 0.5, 0.9]), 1.0, False)
+    assert factor.tolist() == [1.0, 1.05, 1.0]
+    varied = own.friction(friction, v, factor)
+    f0, a, zeta = friction.expansion(v)
+    wanted = {"f": f0, "a": a, "b": a + zeta, "zeta": zeta}
+    wanted[varies] *= 1.05
+    state = friction.steady_state(v)
+    by_rate, by_state = varied.derivatives(v, state)
+    assert varied.coefficient(v, state)[1] == pytest.approx(wanted["f"], rel=1e-9)
+    assert v * by_rate[1] == pytest.approx(wanted["a"], rel=1e-9)
+    b = wanted["b"] if varies != "zeta" else a + wanted["zeta"]
+    if varies == "f":
+        b = a + zeta
+    slow = (v / friction.slip_speed(v)) ** 2
+    steady = by_rate * v - by_state * state * slow
+    zeta_there = wanted["zeta"] if varies in ("f", "zeta") else b - wanted["a"]
+    assert -steady[1] == pytest.approx(zeta_there, rel=1e-9)
+    assert varied.coefficient(v, state)[0] == friction.coefficient(v, state)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"loading.kind": "sideways"}, "must be one of edge, top, remote"),
+        ({"loading.kind": "remote"}, "stress_rate = 0 Pa/s is not allowed with loading.kind = rem"),
+        ({"loading.stress_rate": 1.0}, "with loading.kind = edge: it must be 0 Pa/s"),
+        ({"heterogeneity.change": 0.1}, "heterogeneity.varies = none: it must be 0"),
+        ({"heterogeneity.varies": "b"}, "it must be different from 0"),
+        ({"heterogeneity.varies": "b", "heterogeneity.change": -1.0}, "lie in (-1, 1000)"),
+    ],
+)
+def test_bad_values_are_refused(change, words):
+    with pytest.raises(ParameterError, match=words.replace("(", r"\(").replace(")", r"\)")):
+        Parameters().replaced(change)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "change", "words"),
+    [
+        (TOP, {"mesh.n_x": 41}, "n_x = 41 is not allowed with loading.kind = top: it must be even"),
+        (REMOTE, {"mesh.n_x": 60}, "it must be odd"),
+        (TOP, {"second_body.bottom": "free"}, "it must be clamped"),
+        (REMOTE, {"heterogeneity.centre": 4.0}, r"centre = 4 m is not allowed: .* \[0, 3\] m"),
+        (REMOTE, {"heterogeneity.width": 0.01}, r"width = 0.01 m is not allowed"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(parameters, change, words):
+    with pytest.raises(ParameterError, match=words):
+        composed(parameters.replaced(change))
+
+
+@LOADED
+@pytest.mark.slow
+def test_onset_converges_with_mesh_and_tolerance(parameters):
+    """Under a declared perturbation, on two meshes and with two tolerances."""
+    declared = Perturbation(kind="drive_velocity", strength=1e-4, seed=1)
+    odd = parameters.mesh.n_x % 2
+    onsets = []
+    for elements, rows, tolerance in ((60, 6, 1e-2), (120, 12, 1e-2), (120, 12, 1e-3)):
+        mesh = dataclasses.replace(parameters.mesh, n_x=elements + odd, n_y=rows)
+        stepping = dataclasses.replace(STEPPING, tolerance=tolerance, longest_step=0.1)
+        own = dataclasses.replace(parameters, mesh=mesh, stepping=stepping, perturbation=declared)
+        onsets.append(extract(simulate(own))["onset_time"])
+    print(f"\n{parameters.loading.kind}: {onsets}")
+    assert abs(onsets[1] / onsets[0] - 1.0) < 1e-3
+    assert abs(onsets[2] / onsets[1] - 1.0) < 1e-3
