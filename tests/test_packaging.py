@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from nucleation import installed
+from nucleation.datasets import installed
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"

@@ -24,7 +24,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from .installed import require, require_own
+from .datasets.installed import require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material

@@ -15,7 +15,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..installed import MissingExtra, require
+from ..datasets.installed import MissingExtra, require
 
 DONE = 0
 FAILED = 1

@@ -18,7 +18,7 @@ from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.output import require_writable
 from ..datasets import netcdf
-from ..installed import require
+from ..datasets.installed import require
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..pipeline.running import simulation_code

@@ -1,4 +1,4 @@
-"""Files written whole or not at all: netCDF, what variables are, where a result is from.
+"""Files written whole or not at all, what variables are, where a result is from; what is installed.
 
 It uses nothing of the project.
 """

@@ -8,6 +8,6 @@ share, ``explorer.js``, ``player.js``, ``drop.js`` and ``map.js`` are those part
 :mod:`.calculator` is another page, of a fault's lengths alone, by the same code.
 """
 
-from ..installed import require
+from ..datasets.installed import require
 
 require("report")

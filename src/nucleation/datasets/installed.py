@@ -50,7 +50,7 @@ def require_own() -> None:
     ImportError
         Saying how to get rid of the other one.
     """
-    package = sys.modules[__package__]
+    package = sys.modules[__name__.partition(".")[0]]
     if package.__doc__ is not None and not package.__doc__.startswith(_OWN):
         raise ImportError(
             f"the package nucleation in {package.__file__} is not {DISTRIBUTION} but the project "
