@@ -7,7 +7,7 @@ from nucleation.analysis.events import in_table, why, without_event
 ROW = {
     "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),
     "velocity_weakening": 0.016, "theory_length": 0.5, "reached_length": 0.1,
-    "simulated_time": 5.0, "block_length": 2.0,
+    "simulated_time": 5.0, "block_length": 2.0, "loading": "edge",
 }  # fmt: skip
 
 
@@ -27,6 +27,7 @@ def test_all_are_named_and_counted():
         ({}, "after 5 s its patch was 0.1 m long, 0.2 of the theory's critical length: a longer"),
         ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
         ({"reached_length": 0.999}, "filled the half of the block"),
+        ({"reached_length": 0.999, "loading": "remote"}, "and the force has not dropped"),
         ({"theory_length": float("nan"), "velocity_weakening": -0.01}, "stable by the theory"),
         ({"status": "failed: tension"}, "failed: tension"),
     ],

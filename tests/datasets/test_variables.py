@@ -15,7 +15,7 @@ COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L"
 TEXTS = {
     "id", "study", "role", "law", "friction_law", "below", "far_side", "kind", "initial_stress",
     "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
-    "plane", "laboratory_fault", "title", "assumed", "unknown",
+    "plane", "loading", "laboratory_fault", "title", "assumed", "unknown",
 }  # fmt: skip
 
 

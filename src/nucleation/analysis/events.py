@@ -51,7 +51,8 @@ def why(row: Mapping[str, Any]) -> str:
     if not math.isfinite(theory):
         return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
     patch += f", {reached / theory:.2g} of the theory's critical length"
-    if reached > NEARLY * SEARCHED * _number(row["block_length"]):
+    edge = row["loading"] == "edge"
+    if edge and reached > NEARLY * SEARCHED * _number(row["block_length"]):
         return f"{patch}, and filled the half of the block in which it is followed"
     if reached < theory:
         return f"{patch}: a longer end_time may show it"

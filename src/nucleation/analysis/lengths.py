@@ -74,6 +74,7 @@ COLUMNS = {
     "far_side": SHARED["far_side"],
     **SECOND_BODY,
     "plane": SHARED["plane"],
+    "loading": Variable("", "what loads the fault: edge, top or remote"),
     "fault": Variable("", "digest of all that the fault's physics depends on"),
     "ensemble": Variable("", "digest of all that the run is given but its seed"),
 }
@@ -201,6 +202,7 @@ def _given(run: dict[str, Any]) -> dict[str, Any]:
         "shear_modulus": parameters["material"]["shear_modulus"],
         "poisson_ratio": parameters["material"]["poisson_ratio"],
         "plane": parameters["material"].get("plane", "strain"),
+        "loading": parameters["loading"].get("kind", "edge"),
         "friction_coefficient": interface["friction"],
         "direct_effect": interface["a"],
         "velocity_weakening": interface["zeta"],

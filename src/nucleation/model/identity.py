@@ -22,7 +22,11 @@ NOT_PHYSICAL = (
 """Parameters and groups of them that are not of a fault but of how it is solved and shaken. The
 block is to be so long that its length plays no role."""
 
-LATER = {"material.plane": "strain"}
+LATER = {
+    "material.plane": "strain", "loading.kind": "edge", "loading.stress_rate": 0.0,
+    "heterogeneity.varies": "none", "heterogeneity.shape": "bump", "heterogeneity.centre": None,
+    "heterogeneity.width": 0.1, "heterogeneity.change": 0.0,
+}  # fmt: skip
 """Parameters that came later, with what all faults had before: their digests stay."""
 
 DIGITS = 10  # significant, of numbers
