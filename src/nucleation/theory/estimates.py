@@ -80,10 +80,15 @@ def growth_time(parameters: Parameters, length: float) -> float:
 
 
 def _time_to_strength(parameters: Parameters) -> float:
-    """Time (s) until a load without an edge has brought the whole interface to its strength."""
+    """Time (s) until a load without an edge has brought the whole interface to its strength.
+
+    That of sliding at V, and what the interface is older at the start than it is then.
+    """
     loading, below = parameters.loading, parameters.below
-    strength = linearised(parameters.friction, loading).friction * loading.normal_stress
-    missing = max(strength - loading.initial_shear_stress, 0.0)
+    sliding = linearised(parameters.friction, loading)
+    older = np.log1p(loading.initial_state * loading.velocity / sliding.slip_length)
+    peak = sliding.friction + (sliding.a + sliding.zeta) * older
+    missing = max(peak * loading.normal_stress - loading.initial_shear_stress, 0.0)
     if loading.kind == "remote":
         return missing / loading.stress_rate
     compliance = parameters.geometry.height / parameters.material.shear_modulus
