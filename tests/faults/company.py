@@ -36,7 +36,7 @@ def two_snakemakes(place, reference, random):
         done = first.end()
         require(done.status == 0, done.output)
         if running:
-            says(second, "locked")
+            says(second, "locked", ".snakemake/locks/")  # the second: removed as it was met
             return CLEAR_ERROR
     return RECOVERED  # the first was done before the second began
 

@@ -90,7 +90,7 @@ def job_taken_for_failed(place, reference, random):
     """Killed with its result in the store, before Snakemake has heard of it; others start then."""
     ids = random.sample(IDS, random.choice((1, 2)))
     place.forget(*ids)
-    running = place.start("--cores", "1")
+    running = place.start("lengths", "--cores", "1")
     made = [place.simulation(id) for id in ids]
     running.wait_for(lambda: any(path.exists() for path in made))
     with place.unharmed():

@@ -165,14 +165,14 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
     """And is, once run again, as one that nothing happened to (longer runs: tests/faults)."""
     slow = workflow.configured(configuration(5))
     process = slow.start("lengths", "--cores", "1")
-    while len(datasets(slow)) < 2:
+    while not datasets(slow):
         time.sleep(0.02)
         assert process.poll() is None
     for child in os.popen(f"pgrep -f {slow.directory}/.snakemake/scripts").read().split():
         os.kill(int(child), number)
     process.communicate(timeout=120)
     kept = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
-    assert process.returncode != 0 and 2 <= len(kept) < 5
+    assert process.returncode != 0 and 1 <= len(kept) < 5
     done = slow("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
     after = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
@@ -221,7 +221,7 @@ def test_a_run_that_fails_costs_its_batch_nothing_that_was_finished(workflow):
 def test_a_killed_workflow_keeps_what_a_batch_of_datasets_has_finished(workflow, batched):
     slow = workflow.configured(configuration(5, study_name=READ_ONE_BY_ONE))
     process = slow.start("lengths", "--cores", "1")
-    while len(datasets(slow)) < 2:
+    while not datasets(slow):
         time.sleep(0.02)
         assert process.poll() is None
     process.kill()
@@ -232,6 +232,6 @@ def test_a_killed_workflow_keeps_what_a_batch_of_datasets_has_finished(workflow,
     shutil.rmtree(slow.directory / "results/logs")
     done = slow("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
-    assert len(datasets(slow)) == 5 and 1 <= begun(slow) <= 3
+    assert len(datasets(slow)) == 5 and 1 <= begun(slow) <= 4
     _, single = batched
     assert_same_datasets(slow, single)

@@ -54,6 +54,7 @@ class Job:
         self.results = Path(link.rpartition(f"/{LINKS}/")[0])
         self.store = Store(self.results / "store")
         self._others = others(strict=False)
+        self.listener: Any = None  # the checkpoint of the run that began last, which hears signals
 
     def verify(self) -> None:
         """Make sure that this process has the code, parameters and sources it was planned with."""

@@ -44,8 +44,10 @@ def record_of(job: Job, task: Task) -> xr.Dataset:
     Failed
         If the run ends before its end time or event; its record is among the unfinished.
     Stopped
-        If a signal has stopped the run, which has left a checkpoint.
+        If a signal has stopped the run, which has left a checkpoint, or came after the run before.
     """
+    if job.listener is not None and job.listener.asked is not None:
+        raise Stopped(f"not begun, since the job was stopped by {job.listener.asked}")
     key, name = task.key, Path(task.link).stem
     if job.found(key):
         return job.open(str(path_in(job.store.entry(key), ".nc")))
@@ -53,7 +55,7 @@ def record_of(job: Job, task: Task) -> xr.Dataset:
 
     parameters = Parameters.from_dict(task.values["parameters"])
     place = job.results / UNFINISHED / f"{name}.nc"
-    checkpoint = checkpoint_of(parameters, place, task.code)
+    job.listener = checkpoint = checkpoint_of(parameters, place, task.code)
     checkpoint.listen()
 
     def write(dataset: xr.Dataset, path: Path) -> None:

@@ -47,6 +47,11 @@ class Checkpoint:
     fingerprint : identifies the parameters and the code; a checkpoint of others is refused.
     every : wall time (s) between checkpoints, by default that of :func:`interval`.
     log : where messages go.
+
+    Attributes
+    ----------
+    asked : str or None
+        Name of the signal that has asked to stop.
     """
 
     def __init__(
@@ -62,7 +67,7 @@ class Checkpoint:
         self._every = interval() if every is None else every
         self._log = log or sys.stderr
         self._last = time.monotonic()
-        self._asked: str | None = None  # name of the signal that asks to stop
+        self.asked: str | None = None
 
     def load(self) -> Arrays | None:
         """The stored arrays, or None if there are none of this run; says why it goes on or not."""
@@ -95,15 +100,15 @@ class Checkpoint:
         Stopped
             After a checkpoint that a signal has asked for.
         """
-        if self._asked is None and time.monotonic() - self._last < self._every:
+        if self.asked is None and time.monotonic() - self._last < self._every:
             return
         stored = arrays()
         labels = {"fingerprint": self._fingerprint, "content": _digest(stored)}
         with replacing(self.path) as temporary, temporary.open("wb") as file:
             np.savez(file, **{name: np.array(text) for name, text in labels.items()}, **stored)  # type: ignore[arg-type]
         self._last = time.monotonic()
-        if self._asked is not None:
-            raise Stopped(f"stopped by {self._asked}; a further run goes on from {self.path}")
+        if self.asked is not None:
+            raise Stopped(f"stopped by {self.asked}; a further run goes on from {self.path}")
 
     def remove(self) -> None:
         """Delete the checkpoint, once the result is safe."""
@@ -115,7 +120,7 @@ class Checkpoint:
             signal.signal(number, self._ask)
 
     def _ask(self, number: int, _: FrameType | None) -> None:
-        self._asked = signal.Signals(number).name
+        self.asked = signal.Signals(number).name
 
     def _say(self, message: str) -> None:
         print(message, file=self._log, flush=True)

@@ -35,8 +35,9 @@ MISSING = (
 MOST_STEPS = 200_000  # a run that needs more has failed
 UNUSED = (
     "material.plane",
-    "loading.initial_shear_stress", "stepping.tolerance", "stepping.shortest_step",
-    "stepping.event_drop",
+    "loading.initial_shear_stress", "loading.stress_rate", "heterogeneity.shape",
+    "heterogeneity.centre", "heterogeneity.width", "heterogeneity.change",
+    "stepping.tolerance", "stepping.shortest_step", "stepping.event_drop",
     "perturbation.correlation_time", "perturbation.correlation_length", "perturbation.seed",
     "recording.record",
 )  # fmt: skip

@@ -15,7 +15,7 @@ from ...theory.critical import run_length, theory_length
 
 FIXED = {
     "friction.law": "product", "friction.evolution": "aging", "mesh.grading": 1.0,
-    "loading.initial_stress": "no_slip",
+    "loading.initial_stress": "no_slip", "loading.kind": "edge", "heterogeneity.varies": "none",
 }  # fmt: skip
 """Parameters for which the script has this one value, by full name."""
 
