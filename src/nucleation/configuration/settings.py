@@ -39,9 +39,10 @@ def estimated_megabytes(parameters: Parameters) -> float:
     """Memory (MB) that a simulation needs, rounded up from measured runs.
 
     Libraries, some hundred vectors of the bodies (mostly the factors kept for step sizes in use)
-    and some dense matrices of the interface.
+    and some dense matrices of the interface: two in each factor if the top is moved.
     """
     mesh, below = parameters.mesh, parameters.below
     vector = 8e-6 * 2 * mesh.n_x * (mesh.n_y + (below.mesh.n_y if below else 0))
     matrix = 8e-6 * mesh.n_x**2
-    return 250.0 + 400.0 * vector + 8.0 * matrix
+    matrices = 32.0 if parameters.loading.kind == "top" else 8.0
+    return 250.0 + 400.0 * vector + matrices * matrix
