@@ -22,17 +22,16 @@ def table(name):
 
 
 def value_rows():
-    """L_s of each fault on both meshes, and what it is over the theory's length."""
+    """L_s of each fault, what the paper's mesh changes, and what it is over the theory's length."""
     both = table("patch_stability").set_index(FAULT)
     paper, declared = (both[both["study"] == name] for name in ("paper", "converged"))
     for fault, row in paper.iterrows():
         fine = declared.loc[fault]
         cells = (
-            fault[0], f"{fault[1]:g}", f"{fault[2]:g}", f"{row['stability_length']:.4f}",
-            f"{fine['stability_length']:.4f}",
-            percent(row["stability_length"] / fine["stability_length"] - 1.0, 1),
-            f"{fine['stability_ratio']:.3f}", f"{fine['stability_frequency']:.1f}",
-        )  # fmt: skip
+            *(fault[0], f"{fault[1]:g}", f"{fault[2]:g}", f"{fine['stability_length']:.4f}"),
+            percent(row["stability_length"] / fine["stability_length"] - 1.0, 1).removesuffix(" %"),
+            *(f"{fine['stability_ratio']:.3f}", f"{fine['stability_frequency']:.1f}"),
+        )
         yield f"| {' | '.join(cells)} |"
 
 

@@ -114,7 +114,9 @@ def _worst(runs):
 
 def floor_rows():
     """One row for each mesh, step and height of a quiet run: where it drops, and its noise."""
-    rows = [row for row in table("floors") if row["law"] == "aging"]
+    rows = [
+        row for row in table("floors") if row["law"] == "aging" and number(row, "height") > 0.01
+    ]
     for row in sorted(rows, key=lambda row: [number(row, name) for name in MESH]):
         ratio = number(row, "length") / number(row, "theory_length")
         cells = (
@@ -135,7 +137,7 @@ def strength(value):
 
 
 def sensitivity_rows():
-    """One row for each variation: changes of L_c and of L_c over the theory's, by height."""
+    """One row for each variation that changes anything: L_c, L_c over the theory's, by height."""
     rows = table("sensitivity")
     heights = sorted({row["height"] for row in rows}, key=float)
     for variation in dict.fromkeys(row["variation"] for row in rows):
@@ -146,7 +148,8 @@ def sensitivity_rows():
             found = [r for r in rows if (r["variation"], r["height"]) == (variation, height)]
             for name in ("length_change", "ratio_change", "onset_change"):
                 cells.append(signed(found[0][name], 100.0, 1) if found else "")
-        yield f"| {' | '.join(cells)} |"
+        if set(cells[1:]) != {"0"}:
+            yield f"| {' | '.join(cells)} |"
 
 
 PAGES = {
