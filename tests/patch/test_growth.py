@@ -7,7 +7,11 @@ import pytest
 import xarray as xr
 
 from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.friction.law import Friction
+from nucleation.model.heterogeneity import Heterogeneity
+from nucleation.model.linearised import interface_state
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.model.second_body import SecondBody
 from nucleation.patch import growth
 from nucleation.patch.growth import (
     FITTED,
@@ -17,7 +21,12 @@ from nucleation.patch.growth import (
     rough_crossing,
 )
 from nucleation.patch.tables import STABILITY, gather_stability
-from nucleation.simulation.run import simulate
+from nucleation.simulation.composition import composed
+from nucleation.simulation.recording import Recorder
+from nucleation.simulation.run import run, simulate
+from nucleation.theory.creep.lengths import Patches, stability_point
+from nucleation.theory.critical import theory_lengths
+from nucleation.theory.transfer import bodies_of
 
 pytestmark = pytest.mark.slow
 
@@ -150,3 +159,41 @@ def test_runs_of_another_material_are_not_compared():
     patches = [xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for length in lengths]
     table = gather_stability(runs, patches)
     np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, 0.0, 0.05], atol=1e-12)
+
+
+LAW = Friction(law="dieterich_ruina", characteristic_slip_distance=1.25e-7)
+WEAK = Heterogeneity(varies="f", change=-0.8, width=0.25)
+TWO = SecondBody(kind="deformable")
+LOADED = {
+    "remote": Parameters(
+        loading=Loading(
+            kind="remote", stress_rate=1e5, initial_state=0.01, initial_stress="uniform_shear",
+            initial_shear_stress=7.5e4,
+        ),
+        geometry=Geometry(0.1, 1.2), mesh=Mesh(161, 6, 4.0), second_body=TWO,
+    ),
+    "top": Parameters(
+        loading=Loading(kind="top", initial_state=0.05), geometry=Geometry(0.1, 2.0),
+        mesh=Mesh(280, 6, 4.0), second_body=dataclasses.replace(TWO, bottom="clamped"),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", LOADED)
+def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
+    """They begin where the fault is weakest: the numbers of docs/patch_theory.md, coarser."""
+    parameters = dataclasses.replace(
+        LOADED[kind], friction=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039), heterogeneity=WEAK,
+        stepping=Stepping(longest_step=0.4),
+    )  # fmt: skip
+    dynamics, velocity = composed(parameters), parameters.loading.velocity
+    recorder = Recorder(parameters, dynamics)
+    for instant in run(parameters, dynamics=dynamics):
+        recorder.record(instant.state, instant.report)
+        if instant.report.interface.slip_rate.max() > 30.0 * velocity:
+            break
+    found = follow_patch(recorder.dataset(), ExtractionSettings())
+    critical = float(theory_lengths([(*bodies_of(parameters), interface_state(parameters))])[0])
+    theory = stability_point(dataclasses.replace(Patches.of(parameters), law=None), critical)
+    assert theory.length == pytest.approx(float(found["stability_length"]), rel=0.04)
+    assert found["stability_length_error"] < 0.03 * theory.length

@@ -113,13 +113,16 @@ def gather(
 
 
 def _creep_length(run: dict[str, Any]) -> float:
-    """L_s of steady creep with constant a and b (docs/patch_theory.md); NaN if there is none."""
+    """L_s of steady creep with constant a and b (docs/patch_theory.md); NaN if there is none.
+
+    Without an edge, also NaN where what varies along the interface is more than its strength.
+    """
     parameters = Parameters.from_dict(run["parameters"])
-    if parameters.loading.kind != "edge":
+    if parameters.loading.kind != "edge" and parameters.heterogeneity.varies not in ("none", "f"):
         return float("nan")
     try:
-        fault = Patches.of(parameters).one
-        return stability_point(Patches(fault), run["theory_length"]).length
+        patches = dataclasses.replace(Patches.of(parameters), law=None)
+        return stability_point(patches, run["theory_length"]).length
     except NoPatch:
         return float("nan")
 

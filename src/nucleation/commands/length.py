@@ -12,6 +12,7 @@ import numpy as np
 
 from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.friction.law import Friction
+from ..model.loading import LOADINGS
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
 from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
@@ -31,6 +32,11 @@ from .text import plain
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the usual friction law that is told."""
 
+BEGINS = {
+    "edge": "pushed at its edge", "top": "begun at a free side", "remote": "begun in the interior",
+}  # fmt: skip
+"""What is said of the patch with each ``--loading``."""
+
 DENSITY = declarations(Material)["density"]
 
 
@@ -44,9 +50,15 @@ DENSITY = declarations(Material)["density"]
     "--weakening-rate", key="weakening_rate", entry=WEAKENING_RATE,
     note="of Uenishi and Rice's length; b sigma0/D if left out",
 )  # fmt: skip
+@click.option(
+    "--loading", type=click.Choice(LOADINGS), default="edge", show_default=True,
+    help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
+    "or interior; a top that moves has --far-side velocity",
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    density: float | None, weakening_rate: float | None, as_json: bool, **options: Any,
+    density: float | None, weakening_rate: float | None, loading: str, as_json: bool,
+    **options: Any,
 ) -> int:  # fmt: skip
     """Critical nucleation length of a fault: the theory's, and others in use.
 
@@ -67,7 +79,7 @@ def command(
         )
     lengths = values_of(fault, weakening_rate)
     print_as = _as_json if as_json else _as_text
-    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density))
+    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density, loading))
     return DONE if np.isfinite(mode.length) else STABLE
 
 
@@ -83,8 +95,9 @@ def _over_rate(fault: Fault, mode: CriticalMode) -> float:
 
 
 def _as_json(
-    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
-) -> str:
+    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None,
+    loading: str,
+) -> str:  # fmt: skip
     return json.dumps(
         {
             "parameters": given_of(fault),
@@ -94,7 +107,8 @@ def _as_json(
                 "critical_frequency": fault.velocity and plain(mode.angular_frequency),
                 "critical_frequency_over_rate": plain(_over_rate(fault, mode)),
                 "speed_over_shear_wave": plain(_speed_ratio(fault, mode, density)),
-                **{name: plain(value) for name, value in _stability(fault).items()},
+                "loading": loading,
+                **{name: plain(value) for name, value in _stability(fault, loading).items()},
             },
             "lengths": [
                 {"key": length.key, "length": plain(lengths[length.key]), **length.words()}
@@ -106,9 +120,13 @@ def _as_json(
 
 
 def _as_text(
-    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None
-) -> str:
-    lines = [*_theory_lines(fault, mode, density), *_patch_lines(fault, float(mode.length))]
+    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None,
+    loading: str,
+) -> str:  # fmt: skip
+    lines = [
+        *_theory_lines(fault, mode, density),
+        *_patch_lines(fault, float(mode.length), loading),
+    ]
     one_material = (fault.shear_modulus, fault.poisson_ratio) == (
         fault.second_shear_modulus, fault.second_poisson_ratio,
     )  # fmt: skip
@@ -152,15 +170,16 @@ def _theory_lines(fault: Fault, mode: CriticalMode, density: float | None) -> li
     return lines
 
 
-def _stability(fault: Fault) -> dict[str, float]:
+def _stability(fault: Fault, loading: str) -> dict[str, float]:
     """L_s with constant a and b, its frequency and error, and L_s as simulations have friction."""
-    length, frequency, error = (float(value) for value in stability_values(fault))
+    length, frequency, error = (float(value) for value in stability_values(fault, None, loading))
     found = {
         "stability_length": length,
         "stability_frequency_over_rate": frequency,
         "stability_length_error": error,
     }
-    if fault.velocity is not None and fault.friction is not None and np.isfinite(length):
+    given = fault.velocity is not None and fault.friction is not None
+    if given and loading == "edge" and np.isfinite(length):
         try:
             simulated = float(stability_values(fault, Friction())[0])
             found["stability_length_as_simulated"] = simulated
@@ -169,12 +188,12 @@ def _stability(fault: Fault) -> dict[str, float]:
     return found
 
 
-def _patch_lines(fault: Fault, critical: float) -> list[str]:
+def _patch_lines(fault: Fault, critical: float, loading: str) -> list[str]:
     """L_s, what it means, and what friction's own scales make of it."""
     if not np.isfinite(critical):
         return []
-    found, flat = _stability(fault), dataclasses.asdict(Friction())
-    head = ["", "The creeping patch itself, pushed at its edge (docs/patch_theory.md):"]
+    found, flat = _stability(fault, loading), dataclasses.asdict(Friction())
+    head = ["", f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"]
     length = found["stability_length"]
     if not np.isfinite(length):
         return [
@@ -184,7 +203,8 @@ def _patch_lines(fault: Fault, critical: float) -> list[str]:
     lines = [
         *head,
         f"  L_s    {_metres(length):<11} {f'{length / critical:.3g} L_c':<10} "
-        "it turns unstable; an event follows later, docs/drop.md",
+        "it turns unstable; an event follows later"
+        + (", docs/drop.md" if loading == "edge" else ""),
     ]
     own = found.get("stability_length_as_simulated", length)
     if not abs(own / length - 1.0) < NOTEWORTHY:

@@ -267,7 +267,5 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
     geometry = replace(parameters.geometry, length=float(length))
     parameters = replace(parameters, geometry=geometry)
     parameters.require_consistent()
-    if settings.measure != "lengths":
-        parameters.require_edge(f"measure = {settings.measure}")
     run = Run("", study, parameters, critical, interface, values, role=settings.role)
     return replace(run, id=identifier(study, run.labels, varied))

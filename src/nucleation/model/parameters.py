@@ -134,7 +134,8 @@ class Parameters:
             if value != needed:
                 raise ParameterError(
                     f"{key} = {value} is not allowed with {what}, which is known of a uniform "
-                    f"fault that is pushed at its edge alone: it must be {needed}"
+                    f"fault that is pushed at its edge alone: it must be {needed}; measure = "
+                    "stability gives L_s of other faults, docs/loading.md"
                 )
 
     @property

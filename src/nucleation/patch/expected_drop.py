@@ -79,6 +79,7 @@ def expected_drop(
         Nothing is perturbed, or the patch has no oscillating mode that begins to grow, within the
         quiet run or at all.
     """
+    parameters.require_edge("the law of the drop")
     declared = parameters.perturbation
     if not declared.acts:
         raise NoDrop("nothing is perturbed: without a strength the drop depends on round-off")
@@ -169,7 +170,6 @@ def quick_run(
 
     However long it is asked to run: it ends when it should have been there for long.
     """
-    parameters.require_edge("the law of the drop")
     expected = growth_time(parameters, longest)
     wanted = expected / (QUICK_STEPS * parameters.memory_time)
     longest_step = min(max(QUICK_STEP, wanted), LONGEST_STEP)

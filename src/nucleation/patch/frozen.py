@@ -15,6 +15,8 @@ of :mod:`nucleation.theory.creep.linearised`, of twice the number of slipping no
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,16 +37,28 @@ def frozen_patch(
     Parameters
     ----------
     operator : the static stiffness of the body or bodies (``s = 0``).
-    law : friction law.
+    law : friction law, whose parameters may vary along the interface.
     slip_rate, state, normal_force : at the nodes 0..n_x (m/s, s, N/m; positive in compression).
     slowest : nodes that slip more slowly (m/s) are taken as stuck.
     """
     grid = operator.body.grid
-    slipping = (slip_rate > slowest) & (grid.x <= SEARCHED * grid.length)
-    nodes = np.flatnonzero(slipping[1:]) + 1
-    v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
+    first = grid.n_x + 1 - operator.body.free_nodes  # node 0 is driven, repeats another, or is free
+    slipping = slip_rate > slowest
+    if first and not grid.periodic:
+        slipping &= grid.x <= SEARCHED * grid.length
+    nodes = np.flatnonzero(slipping[first:]) + first
+    v, phi, force, law = slip_rate[nodes], state[nodes], normal_force[nodes], _at(law, nodes)
     f = law.coefficient(v, phi)
     f_v, f_phi = law.derivatives(v, phi)
-    stiffness, coupling = operator.tangent(nodes)
+    stiffness, coupling = operator.tangent(nodes + 1 - first)
     by_w = -(stiffness + f[:, None] * coupling) / (f_v * force)[:, None]
     return FrozenPatch(nodes, by_w, -f_phi * phi / f_v, *log_state_derivatives(law, v, phi))
+
+
+def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
+    """The law with its parameters at some nodes."""
+    own = copy.copy(law)
+    for name, value in vars(law).items():
+        if np.ndim(value):
+            object.__setattr__(own, name, value[nodes])  # frozen, and checked for all nodes
+    return own

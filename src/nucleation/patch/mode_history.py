@@ -134,6 +134,7 @@ def follow_mode(
     """
     record = Record(simulation, settings)
     parameters, grid = record.parameters, record.grid
+    parameters.require_edge("the law of the drop")
     operator = body_of(parameters).operator(0.0)
     creep, threshold = record.simulation.isel(time=record.creep), record.threshold
     time, length = record.time[record.creep], record.lengths[record.creep]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -114,7 +115,7 @@ def _row(run: dict[str, Any], measured: float) -> dict[str, Any]:
                         math.nan),
     }  # fmt: skip
     try:
-        row["creep_length"] = stability_point(Patches(patches.one), critical).length
+        row["creep_length"] = stability_point(replace(patches, law=None), critical).length
         row["front_length"] = first_growing(patches, critical, *start)
         made = advance(patches, [row["front_length"]], *start)
         row["front_frequency"] = float(oscillating(made)[0].imag) / parameters.memory_time

@@ -174,6 +174,7 @@ def follow_twins(
     -------
     Dataset on ``twin``: :data:`MEASURED`, times in s, lengths in m, rates in 1/s.
     """
+    parameters.require_edge("role = twins")
     patches, dynamics = Patches(parameters, settings), composed(parameters)
     lengths = deque(share * theory_length for share in sorted(shares))
     active: list[Twin] = []

@@ -84,14 +84,20 @@ def _time_to_strength(parameters: Parameters) -> float:
 
     That of sliding at V, and what the interface is older at the start than it is then.
     """
-    loading, below = parameters.loading, parameters.below
+    loading = parameters.loading
     sliding = linearised(parameters.friction, loading)
     older = np.log1p(loading.initial_state * loading.velocity / sliding.slip_length)
     peak = sliding.friction + (sliding.a + sliding.zeta) * older
     missing = max(peak * loading.normal_stress - loading.initial_shear_stress, 0.0)
+    return missing / loading_rate(parameters)
+
+
+def loading_rate(parameters: Parameters) -> float:
+    """Rise (Pa/s) of the shear stress on an interface that a top, or a far stress, loads."""
+    loading, below = parameters.loading, parameters.below
     if loading.kind == "remote":
-        return missing / loading.stress_rate
+        return loading.stress_rate
     compliance = parameters.geometry.height / parameters.material.shear_modulus
     if below is not None:
         compliance += below.geometry.height / below.material.shear_modulus
-    return missing * compliance / loading.velocity
+    return loading.velocity / compliance

@@ -8,7 +8,13 @@ import pytest
 import xarray as xr
 from configurations import CONFIG
 
-from nucleation.api import Friction, ParameterError, critical_length, stability_length
+from nucleation.api import (
+    Friction,
+    ParameterError,
+    critical_length,
+    lengths_in_use,
+    stability_length,
+)
 from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Parameters
 from nucleation.theory.arrays import fault_of
@@ -122,5 +128,39 @@ def test_no_patch():
     assert np.isnan(stability_length(**FAULT, height=0.1, zeta=-0.001))
     with pytest.raises(NoPatch, match="stable"):
         stability_point(Patches.of(Parameters()), np.nan)
-    with pytest.raises(ParameterError, match="loading = 'top'"):
-        stability_length(**FAULT, height=0.1, zeta=0.01, loading="top")
+    with pytest.raises(ParameterError, match="loading = 'side' is not allowed: one of edge, top"):
+        stability_length(**FAULT, height=0.1, zeta=0.01, loading="side")
+    with pytest.raises(ParameterError, match="friction law is not allowed with loading = remote"):
+        stability_length(**FAULT, zeta=0.01, friction_law=Friction(), loading="remote")
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.288, 6.0])
+def test_a_patch_in_the_interior_of_a_full_space(ratio):
+    """It is the pinned patch under a rising load, solved otherwise in theory/finite_patch.py."""
+    fault = FAULT | {"second_shear_modulus": None, "zeta": ratio * FAULT["a"]}
+    expected = float(lengths_in_use(**fault)["loaded_patch"])
+    assert stability_length(**fault, loading="remote") == pytest.approx(expected, rel=1e-5)
+    # and half of it, a free side's, as far as antisymmetric stress there goes
+    assert stability_length(**fault, loading="top") == pytest.approx(0.5 * expected, rel=1e-5)
+
+
+def test_where_a_patch_begins():
+    """From the loading and the place of the heterogeneity; its slip rate from the load's rise."""
+    weak = {"heterogeneity.varies": "f", "heterogeneity.change": -0.5}
+    for loading, centre, expected in (
+        ({}, 0.5, "edge"), ({"loading.kind": "top"}, 0.05, "top"),
+        ({"loading.kind": "top"}, 0.5, "remote"),
+        ({"loading.kind": "remote", "loading.stress_rate": 1e5}, 0.05, "remote"),
+    ):  # fmt: skip
+        run = Parameters(geometry=Geometry(height=0.1, length=1.0)).replaced(
+            {**weak, **loading, "heterogeneity.centre": centre}
+        )
+        patches = Patches.of(run)
+        assert patches.loading == expected
+    # a crack of half-spaces has v(0) = L (dtau/dt)/mu*
+    half_spaces = run.replaced({
+        "geometry.height": 100.0, "second_body.kind": "deformable", "mesh.n_x": 101,
+    })  # fmt: skip
+    star = run.material.shear_modulus / (1.0 - run.material.poisson_ratio)
+    fastest = Patches.of(half_spaces).creep(0.4).fastest * run.loading.velocity
+    assert fastest == pytest.approx(0.4 * 1e5 / star, rel=3e-3)

@@ -7,7 +7,7 @@ from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.creep import modes as module
 from nucleation.theory.creep.modes import response
-from nucleation.theory.creep.profile import edge
+from nucleation.theory.creep.profile import creep
 from nucleation.theory.critical import systems_of
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
@@ -20,18 +20,22 @@ def pair(height, below=RIGID):
     return Body(MATERIAL, height, "free"), below
 
 
-def in_a_box(bodies, length, slip, x):
-    """Stresses over sigma0 of a slip (m) that vanishes at 0 and beyond L, by quarter waves."""
+def in_a_box(bodies, length, slip, x, even):
+    """Stresses over sigma0 of a slip (m) that vanishes at the ends of the box, by quarter waves.
+
+    It is even about 0, or odd; in both, an upper block's ``S2`` is a derivative along x.
+    """
     size = BOX * length
     k = (np.arange(WAVES) + 0.5) * np.pi / size
     points = (np.arange(1000) + 0.5) / 1000 * length
     weights = slip(points) * (points[1] - points[0])
-    amplitude = 2.0 / size * np.sin(np.outer(k, points)) @ weights
+    wave, slope = (np.cos, lambda at: -np.sin(at)) if even else (np.sin, np.cos)
+    amplitude = 2.0 / size * wave(np.outer(k, points)) @ weights
     shear, normal = transfer_functions(k, *bodies)
     scale = amplitude * MATERIAL.shear_modulus * k / FAULT.normal_stress
     return (
-        np.array([np.sin(k * at) @ (scale * shear) for at in x]),
-        np.array([np.cos(k * at) @ (scale * normal) for at in x]),
+        np.array([wave(k * at) @ (scale * shear) for at in x]),
+        np.array([slope(k * at) @ (scale * normal) for at in x]),
     )
 
 
@@ -44,20 +48,33 @@ def in_a_box(bodies, length, slip, x):
         (Body(Material(shear_modulus=3.1e9, poisson_ratio=0.1), 0.1), Body(MATERIAL)),
     ],
 )
-def test_stress_of_slip(bodies):
+@pytest.mark.parametrize("loading", ["edge", "top", "remote"])
+def test_stress_of_slip(bodies, loading):
+    """Slip of a pushed edge is odd, that of a free side even, and in the interior it is both."""
     length = 0.3
     one = systems_of([(*bodies, FAULT)])
-    made = response(one, length, 24)
+    made = response(one, 2.0 * length if loading == "remote" else length, 24, loading)
     own = made.modes
+    x = length * np.cos(own.theta)
+    share = {"edge": (1.0, 0.0), "top": (0.0, 1.0), "remote": (0.4, 1.0)}[loading]
 
-    def slip(x):
-        return (x / length) * (1.0 - (x / length) ** 2) ** 3 * FAULT.slip_length
+    def part(x, even):
+        slip = share[even] * (1.0 - (x / length) ** 2) ** 3 * FAULT.slip_length
+        return slip if even else slip * x / length
 
-    known = np.append(0.0, own.inverse @ slip(length * np.cos(own.theta)) / FAULT.slip_length)
-    inner = slice(4, 22, 4)
-    shear, normal = in_a_box(bodies, length, slip, length * np.cos(own.theta[inner]))
+    slip = (part(x, False) + part(x, True)) / FAULT.slip_length
+    known = np.append(0.0, own.inverse @ slip)
+    inner = np.append(np.arange(4, 22, 4), np.arange(28, 46, 4) if loading == "remote" else [])
+    inner = inner.astype(int)
+    both = [
+        in_a_box(bodies, length, lambda x, e=even: part(x, e), x[inner], even)
+        for even in (False, True)
+    ]
+    shear, normal = np.sum(both, axis=0)
     # the upper body's modulus, by which transfer functions are normalised, is the same in all
-    assert (made.shear @ known)[inner] == pytest.approx(shear, rel=2e-3, abs=2e-3 * shear.max())
+    assert (made.shear @ known)[inner] == pytest.approx(
+        shear, rel=2e-3, abs=2e-3 * np.abs(shear).max()
+    )
     largest = np.abs(normal).max()
     assert (made.normal @ known)[inner] == pytest.approx(normal, rel=5e-3, abs=5e-3 * largest)
 
@@ -65,22 +82,22 @@ def test_stress_of_slip(bodies):
 def test_half_spaces_creep_as_a_crack_does():
     """Their slip rate is ``(2/pi) arccos(x/L)``, and no stress normal to them changes."""
     one = systems_of([(Body(MATERIAL), Body(MATERIAL), FAULT)])
-    creep = edge(response(one, 0.5), FAULT.friction)
-    theta = creep.response.modes.theta
-    assert creep.slip_rate == pytest.approx(2.0 * theta / np.pi, rel=1e-9)
-    assert creep.normal_stress == pytest.approx(np.ones_like(theta))
+    made = creep(response(one, 0.5), FAULT.friction)
+    theta = made.response.modes.theta
+    assert made.slip_rate == pytest.approx(2.0 * theta / np.pi, rel=1e-9)
+    assert made.normal_stress == pytest.approx(np.ones_like(theta))
 
 
 def test_thin_layers_are_compressed_evenly():
     """Their slip rate is ``1 - x/L``, and the edge moves ``(1 - nu) f sigma0 L^2/(4 mu H)``."""
     length, height = 0.5, 2e-3
     one = systems_of([(*pair(height), FAULT)])
-    creep = edge(response(one, length), FAULT.friction)
-    x = np.cos(creep.response.modes.theta)
-    assert creep.slip_rate == pytest.approx(1.0 - x, abs=0.01)
+    made = creep(response(one, length), FAULT.friction)
+    x = np.cos(made.response.modes.theta)
+    assert made.slip_rate == pytest.approx(1.0 - x, abs=0.01)
     moved = (1.0 - 1 / 3) * FAULT.friction * FAULT.normal_stress * length**2 / (4 * 3.1e9 * height)
     # the front's own resistance is some heights long
-    assert creep.loaded * FAULT.slip_length == pytest.approx(moved, rel=0.03)
+    assert made.loaded * FAULT.slip_length == pytest.approx(moved, rel=0.03)
 
 
 def test_the_push_takes_compression_off_a_softer_upper_block():
@@ -88,7 +105,7 @@ def test_the_push_takes_compression_off_a_softer_upper_block():
     softer = systems_of([(Body(MATERIAL), RIGID, FAULT)])
     stiffer = systems_of([(RIGID, Body(MATERIAL), FAULT)])
     means = [
-        edge(response(one, 0.5, 32), FAULT.friction).normal_stress.mean()
+        creep(response(one, 0.5, 32), FAULT.friction).normal_stress.mean()
         for one in (softer, stiffer)
     ]
     assert means[0] < 1.0 < means[1]

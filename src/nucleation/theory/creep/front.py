@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...model.friction.law import Friction
 from .lengths import OSCILLATING, NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import MORE_MODES, Modes, modes, response
+from .modes import MORE_MODES, Half, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
 
 Array = NDArray[np.float64]
@@ -88,8 +88,10 @@ def advance(
     Raises
     ------
     NoPatch
-        If the creep takes all of the compression somewhere.
+        If the creep takes all of the compression somewhere, or no edge is pushed.
     """
+    if patches.loading != "edge":
+        raise NoPatch("a front that advances is known of a patch that is pushed at its edge alone")
     law, velocity, number = patches.law, patches.velocity, number or MORE_MODES
     own = modes(number)
     assert law is not None
@@ -126,7 +128,7 @@ def _slips(row: list, friction: Array, initial_stress: float) -> list[EdgeSlip]:
     return [edge_slip(one, f, f - initial_stress) for one, f in zip(row, friction, strict=True)]
 
 
-def _rates(own: Modes, length: Array, slips: list[list[EdgeSlip]], by_length: Array) -> Array:
+def _rates(own: Half, length: Array, slips: list[list[EdgeSlip]], by_length: Array) -> Array:
     """Modes' coefficients of ``(du/dL)/(dU/dL)`` at fixed x: with theta fixed, less ``x/L u'``."""
     before, at, after = (np.array([slip.slip for slip in row]) for row in slips)
     growing = (after - before) / (2.0 * STEP) @ own.values.T
@@ -137,7 +139,7 @@ def _rates(own: Modes, length: Array, slips: list[list[EdgeSlip]], by_length: Ar
 
 
 def _behind(
-    law: Friction, velocity: float, own: Modes, length: Array, time: Array, speed: Array,
+    law: Friction, velocity: float, own: Half, length: Array, time: Array, speed: Array,
     rates: Array, initial_state: float,
 ) -> tuple[Array, Array]:  # fmt: skip
     """log(phi) and friction behind the front, at the modes' angles, (n, N)."""

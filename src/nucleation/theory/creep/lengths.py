@@ -18,11 +18,13 @@ from scipy.optimize import brentq
 from ...model.friction.constants import full_law
 from ...model.friction.law import Friction
 from ...model.linearised import interface_state
+from ...model.loading import LOADINGS
 from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
 from ..arrays import fault_of, named
 from ..critical import systems_of
 from ..crossings import largest_crossings
+from ..estimates import loading_rate
 from ..fault import Fault, Values
 from ..spectrum import Systems
 from ..transfer import bodies_of
@@ -33,7 +35,7 @@ from .linearised import (
     local_coefficients,
 )
 from .modes import modes_for, response
-from .profile import LOADINGS, Creep
+from .profile import Creep, creep
 
 Array = NDArray[np.float64]
 
@@ -85,20 +87,37 @@ class Patches:
         With whose local a(v) and b(v); constant a and b by default.
     velocity : float, optional
         V (m/s), which a law needs.
-    loading : str
-        One of :data:`~.profile.LOADINGS`.
+    loading : {"edge", "top", "remote"}
+        Where the patch begins: at an edge that is pushed, at a side that is free, or in between.
+    load_rate : float
+        Rise of the shear stress that loads the patch, over ``sigma0 V/D``, without an edge; with
+        constant a and b nothing depends on it.
     """
 
     one: Systems
     law: Friction | None = None
     velocity: float = 1.0
     loading: str = "edge"
+    load_rate: float = 1.0
 
     @classmethod
     def of(cls, parameters: Parameters) -> Patches:
-        """Those of a run, with its own friction law."""
+        """Those of a run, with its own friction law.
+
+        Without an edge that is pushed a patch begins where the declared heterogeneity is: at a free
+        side where that is nearer than the block is high, else in the interior, as friction has no
+        shear stress to bear at the side itself.
+        """
         one = systems_of([(*bodies_of(parameters), interface_state(parameters))])
-        return cls(one, parameters.friction, parameters.loading.velocity)
+        loading, block = parameters.loading, parameters.geometry
+        own = cls(one, parameters.friction, loading.velocity)
+        if loading.kind == "edge":
+            return own
+        centre = parameters.heterogeneity.centre
+        away = 0.5 * block.length if centre is None else min(centre, block.length - centre)
+        begins = "top" if loading.kind == "top" and away < block.height else "remote"
+        rate = loading_rate(parameters) * parameters.memory_time / loading.normal_stress
+        return dataclasses.replace(own, loading=begins, load_rate=rate)
 
     @cached_property
     def number(self) -> int:
@@ -107,8 +126,9 @@ class Patches:
 
     def creep(self, length: float, number: int | None = None) -> Creep:
         """How a patch of a length (m) creeps."""
-        friction = float(self.one.friction[0])
-        return LOADINGS[self.loading](response(self.one, length, number or self.number), friction)
+        held = response(self.one, length, number or self.number, self.loading)
+        load_rate = None if self.loading == "edge" else self.load_rate
+        return creep(held, float(self.one.friction[0]), load_rate)
 
     def at(self, length: float, number: int | None = None) -> FrozenPatch:
         """The linearised patch of a length (m); slip in D, time in D/V.
@@ -122,7 +142,7 @@ class Patches:
         if creep.normal_stress.min() <= 0.0:
             raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")
         if self.law is not None:
-            friction = local_coefficients(self.law, self.velocity, creep.slip_rate)
+            friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
         else:
             values = (float(x[0]) for x in (one.friction, one.a, one.zeta))
             friction = constant_coefficients(creep.slip_rate, *values)
@@ -186,8 +206,10 @@ def stability_length(
     friction_law : Friction, optional
         The full law, of which each fault has its own with the fault's f, a, zeta and D, and local
         a(v), b(v) along the patch; needs `velocity`. By default a and b are constant.
-    loading : {"edge"}
-        What drives the patch.
+    loading : {"edge", "top", "remote"}
+        Where the patch begins: at an edge that is pushed, at a side that is free under a top that
+        moves, or in the interior under whatever loads it from afar, a top that moves among it.
+        That is said by the bodies' `far_side`: a top that moves has ``velocity``.
     **fault
         The parameters of :class:`~nucleation.theory.fault.Fault`.
 
@@ -201,7 +223,8 @@ def stability_length(
     Raises
     ------
     ParameterError
-        If a parameter is missing, unknown or outside its range, or no law has a fault's constants.
+        If a parameter is missing, unknown or outside its range, no law has a fault's constants, or
+        there is one without an edge: a slip rate on which its a(v) and b(v) depend is not V then.
     """
     own = fault_of(fault)
     length, _, _ = stability_values(own, friction_law, loading)
@@ -214,6 +237,11 @@ def stability_values(
     """L_s (m), the mode's frequency over V/D and the relative error of L_s; plain, in SI units."""
     if loading not in LOADINGS:
         raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
+    if friction_law is not None and loading != "edge":
+        raise ParameterError(
+            f"a friction law is not allowed with loading = {loading}, whose slip rate is not V: a "
+            "and b are constant there"
+        )
     if friction_law is not None and (fault.velocity is None or fault.friction is None):
         raise ParameterError("a friction law needs the fault's velocity and friction")
 

@@ -1,21 +1,24 @@
 """The stress that slip of a patch makes, in modes that know the patch's two ends.
 
-With ``x = L cos(theta)`` slip is expanded as
+With ``x = L cos(theta)`` and U the displacement of an edge that is pushed, slip is expanded as
 
-    u(x) = U phi_0 + sum_n c_n sin(2 n theta),      phi_0 = 2 theta/pi,    n = 1 ... N .
+    edge      u(x) = U phi_0 + sum_n c_n sin(2 n theta),    phi_0 = 2 theta/pi,    u - U odd in x,
+    top       u(x) = sum_n c_n sin((2 n - 1) theta),                               u even in x,
 
-Each vanishes at the front (theta = 0), as its square root, and the sines at the driven edge, where
-phi_0 is one. The edge has no shear stress: fields go on beyond it as their mirror image, so that
-``u - U`` is odd in x and beyond the front ``u = 0``. The Fourier transform of ``u'`` is then, with
-``w_0 = 2/pi`` and ``w_n = 2 n``, a sum of ``-pi (-1)^n w_n J_2n(k L)`` (DLMF 10.9), and with the
-transfer functions of :mod:`nucleation.theory.transfer`
+n = 1 ... N, and of a remote load as the sum of both without U, with L half the patch. Each mode
+vanishes at the front (theta = 0), as its square root. At x = 0 is the edge that is pushed and has
+no shear stress, or a side that is free; beyond it fields go on as their mirror image, and beyond
+the front ``u = 0``. The Fourier transform of ``sin(m theta)'`` is then a sum of
+``-pi m (-i)^m J_m(k L)`` (DLMF 10.9), that of ``phi_0'`` has ``2/pi`` for m and J_0. With the
+transfer functions of :mod:`nucleation.theory.transfer` and ``kappa = k L > 0``
 
-    shear stress lost:     mu int G1 (-1)^(n+1) w_n J_2n(kappa) sin(kappa x/L) dkappa/L ,
-    compression gained:    mu int G2 (-1)^(n+1) w_n J_2n(kappa) cos(kappa x/L) dkappa/L
+    shear stress lost:     mu int G1 s_m m J_m(kappa) sin(kappa x/L) dkappa/L ,    m even,
+    compression gained:    mu int G2 s_m m J_m(kappa) cos(kappa x/L) dkappa/L ,
 
-with ``kappa = k L > 0``. For half-spaces G1 and G2 are constant and the integrals known, ``mu G1
-2 n sin(2 n theta)/(L sin theta)`` and ``mu G2 u'``; what layers differ from half-spaces is
-integrated up to ``kH = CUT``, where nothing is left of it. No box and no mesh is involved.
+``s_m = -(-1)^(m/2)``; for odd m with cos and -sin, ``s_m = (-1)^((m-1)/2)``. For half-spaces G1 and
+G2 are constant and the integrals known, ``mu G1 m sin(m theta)/(L sin theta)`` and ``mu G2 u'``;
+what layers differ from half-spaces is integrated up to ``kH = CUT``, where nothing is left of it.
+No box and no mesh is involved.
 """
 
 from __future__ import annotations
@@ -53,22 +56,11 @@ FINEST = 1e-3  # the first panel, of thick layers
 
 @dataclasses.dataclass(frozen=True)
 class Modes:
-    """What of the modes does not depend on the fault: at `theta` and on a grid of `kappa`."""
+    """What of the modes does not depend on the fault, at `theta`; column 0 is what is imposed."""
 
-    theta: Array  # (N,), from the front to the edge
-    values: Array  # phi_0 and the sines at theta, (N, N + 1)
-    gradients: Array  # L u', (N, N + 1)
-    half_space: Array  # L/(mu G1) times the shear stress lost in half-spaces, (N, N + 1)
-    kappa: Array
-    shear: Array  # sin(kappa x/L) at theta, (kappa, N)
-    normal: Array  # cos(kappa x/L)
-    slip: Array  # weight of the quadrature times (-1)^(n+1) w_n J_2n(kappa), (kappa, N + 1)
-
-    @property
-    def smoothing(self) -> Array:
-        """Factors of phi_0 and the sines that leave out the last ones, (N + 1,)."""
-        part = np.arange(self.theta.size + 1) / (self.theta.size + 1)
-        return np.exp(-36.0 * part**6)
+    theta: Array  # (N,), from the front to the edge, or on to the other front
+    values: Array  # phi_0, or zero, and the sines at theta, (N, N + 1)
+    smoothing: Array  # factors that leave out the last sines, (N + 1,)
 
     @property
     def inverse(self) -> Array:
@@ -76,32 +68,47 @@ class Modes:
         return np.linalg.inv(self.values[:, 1:])
 
     def at(self, theta: Array) -> Array:
-        """phi_0 and the sines at other angles, (angle, N + 1)."""
+        """phi_0 and the sines of a pushed edge at other angles, (angle, N + 1)."""
         values = np.sin(2.0 * np.outer(theta, np.arange(self.theta.size + 1)))
         values[:, 0] = 2.0 * theta / np.pi
         return values
 
 
+@dataclasses.dataclass(frozen=True)
+class Half(Modes):
+    """Modes of which x = 0 is a mirror, and their tables on a grid of `kappa`."""
+
+    gradients: Array  # L u', (N, N + 1)
+    half_space: Array  # L/(mu G1) times the shear stress lost in half-spaces, (N, N + 1)
+    kappa: Array
+    shear: Array  # sin(kappa x/L) at theta, or cos, (kappa, N)
+    normal: Array  # cos(kappa x/L), or -sin
+    slip: Array  # weight of the quadrature times s_m m J_m(kappa), (kappa, N + 1)
+
+
 @lru_cache(maxsize=16)
-def modes(number: int, slimmest: float = 0.0) -> Modes:
-    """The modes, and their tables for patches up to `slimmest` times as long as a layer is high."""
+def modes(number: int, slimmest: float = 0.0, even: bool = False) -> Half:
+    """The modes, u - U odd or u even, for patches up to `slimmest` times as long as high layers."""
     n = np.arange(number + 1)
-    weights = np.where(n == 0, 2.0 / np.pi, 2.0 * n)
+    orders = np.abs(2 * n - 1) if even else 2 * n
+    weights = np.where(n == 0, 0.0 if even else 2.0 / np.pi, orders)
     theta = 0.5 * np.pi * (np.arange(number) + 0.5) / number
-    angles = 2.0 * np.outer(theta, n)
+    angles = np.outer(theta, orders) if even else 2.0 * np.outer(theta, n)
     values = np.sin(angles)
-    values[:, 0] = 2.0 * theta / np.pi
+    values[:, 0] = 0.0 if even else 2.0 * theta / np.pi
     edges = np.append(0.0, np.geomspace(FINEST, WIDTH, 14))
     edges = np.append(edges, np.arange(edges[-1] + WIDTH, CUT * slimmest + WIDTH, WIDTH))
     points, shares = np.polynomial.legendre.leggauss(POINTS)
     half = 0.5 * np.diff(edges)[:, None]
     kappa = (edges[:-1, None] + half * (1.0 + points)).ravel()
-    bessel = jv(2 * n, kappa[:, None]) * (half * shares).reshape(-1, 1)
-    x = np.cos(theta)
-    return Modes(
-        theta, values, -weights * np.cos(angles) / np.sin(theta)[:, None],
-        2.0 * n * np.sin(angles) / np.sin(theta)[:, None], kappa, np.sin(np.outer(kappa, x)),
-        np.cos(np.outer(kappa, x)), -bessel * weights * (-1.0) ** n,
+    bessel = jv(orders, kappa[:, None]) * (half * shares).reshape(-1, 1)
+    phase = np.outer(kappa, np.cos(theta))
+    sine, cosine = np.sin(phase), np.cos(phase)
+    return Half(
+        theta, values, np.exp(-36.0 * (n / (number + 1)) ** 6),
+        -weights * np.cos(angles) / np.sin(theta)[:, None],
+        orders * (n > 0) * np.sin(angles) / np.sin(theta)[:, None], kappa,
+        *((cosine, -sine) if even else (sine, cosine)), -bessel * weights * (-1.0) ** n,
     )  # fmt: skip
 
 
@@ -137,7 +144,7 @@ def modes_for(one: Systems) -> int:
     return MORE_MODES if above else MODES
 
 
-def response(one: Systems, length: float, number: int = MODES) -> Response:
+def response(one: Systems, length: float, number: int = MODES, loading: str = "edge") -> Response:
     """The response of one fault's bodies to slip of a patch.
 
     Parameters
@@ -145,14 +152,44 @@ def response(one: Systems, length: float, number: int = MODES) -> Response:
     one : Systems
         Of a single fault, all fields of shape (1,).
     length : float
-        L (m).
+        L (m) of the patch, from end to end.
     number : int
-        Of modes.
+        Of modes; of a remote load as many of either symmetry.
+    loading : {"edge", "top", "remote"}
+        Which modes there are. Column 0 has what is imposed: the edge's displacement, or for the
+        others a shear stress of sigma0 on all of the interface.
     """
+    if loading == "edge":
+        return _half_response(one, length, number, False)
+    if loading == "top":
+        even = _half_response(one, length, number, True)
+        even.shear[:, 0] = -1.0
+        return even
+    odd, even = (_half_response(one, 0.5 * length, number, kind) for kind in (False, True))
+
+    def whole(first: Array, second: Array, sign: float, imposed: float = 0.0) -> Array:
+        """From x > 0 to both sides: what is even of `first` is odd of `second`."""
+        inner = np.block([[first, second], [-sign * first, sign * second]])
+        return np.insert(inner, 0, imposed, axis=1)
+
+    one_side = odd.modes.theta
+    both = Modes(
+        np.append(one_side, np.pi - one_side),
+        whole(odd.modes.values[:, 1:], even.modes.values[:, 1:], 1.0),
+        np.append(odd.modes.smoothing, even.modes.smoothing[1:]),
+    )
+    return Response(
+        both, length, whole(odd.shear[:, 1:], even.shear[:, 1:], 1.0, -1.0),
+        whole(odd.normal[:, 1:], even.normal[:, 1:], -1.0),
+    )  # fmt: skip
+
+
+def _half_response(one: Systems, length: float, number: int, even: bool) -> Response:
+    """That of the modes of one symmetry about x = 0, at x > 0."""
     one, by_shear, by_normal = _thickened(one, length)
     far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
     slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
-    own = modes(number, min(reach for reach in REACHES if slim <= reach * (1.0 + 1e-9)))
+    own = modes(number, min(reach for reach in REACHES if slim <= reach * (1.0 + 1e-9)), even)
     used = np.searchsorted(own.kappa, CUT * slim)
     found = one.pair.stiffness(own.kappa[:used] / length, whole=False)
     slip = own.slip[:used]

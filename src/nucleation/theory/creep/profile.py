@@ -5,7 +5,6 @@ Lengths along the fault in m, slip in D, slip rates in V, stresses in sigma0, ti
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -31,43 +30,55 @@ class Creep(NamedTuple):
     response : Response
         Of the bodies, and L.
     slip_rate : ndarray
-        Over V, (N,).
+        Over `fastest`, (N,).
     normal_stress : ndarray
         Compression over sigma0, (N,).
     loaded : float
-        Displacement of the driven edge over D at which the patch has come to L.
+        What is imposed when the patch has come to L: displacement of the edge over D, or shear
+        stress over sigma0.
+    fastest : float
+        Slip rate over V in which `slip_rate` counts: 1 at an edge that is pushed, else that of the
+        fastest place.
     """
 
     response: Response
     slip_rate: Array
     normal_stress: Array
     loaded: float
+    fastest: float = 1.0
 
 
-def edge(response: Response, friction: float, strength: Array | float | None = None) -> Creep:
-    """The creep of a patch that is pushed at its edge.
+def creep(response: Response, friction: float, load_rate: float | None = None) -> Creep:
+    """The creep of a patch under the loading of a response.
 
     Parameters
     ----------
     response : Response
     friction : float
-        f, by which a change of normal stress changes the strength.
-    strength : array_like, optional
-        Shear stress over sigma0 that the patch is loaded by, (N,); f by default.
+        f, the strength over the normal stress.
+    load_rate : float, optional
+        Rise of the shear stress that loads the patch, over ``sigma0 V/D``; by default it is an
+        edge that is pushed at V.
 
     Notes
     -----
-    Slip rate: the stress does not change, ``(K1 + f S2) v = 0``, ``v(0) = V``. Slip: the patch is
-    loaded to its strength, ``-(K1 + f S2) u = f sigma0``, and the edge has moved as far as it takes
-    for a front without a singularity. That slip has changed the normal stress by ``S2 u``.
+    Slip rate: the strength does not change. So ``(K1 + f S2) v = 0`` with ``v(0) = V``, or ``(K1 +
+    f S2) v`` is the rate of the stress. Slip: the patch is loaded to its strength, ``-(K1 + f S2) u
+    = f sigma0``, and the edge has moved as far as it takes for a front without a singularity. That
+    slip has changed the normal stress by ``S2 u``. A stress that loads all of a uniform interface
+    has reached the strength everywhere when it does so in the patch, and u = 0.
     """
-    slip = edge_slip(response, friction, friction if strength is None else strength)
-    rates = slip.rates
+    slip, fastest = edge_slip(response, friction, friction), 1.0
+    rates, scale = response.modes.values @ slip.rates, 1.0
+    if load_rate is not None:
+        scale = float(rates.max())
+        fastest = scale * load_rate
     return Creep(
         response,
-        np.maximum(response.modes.values @ rates, SLOWEST),
+        np.maximum(rates / scale, SLOWEST),
         1.0 + response.normal @ slip.slip,
         slip.loaded,
+        fastest,
     )
 
 
@@ -96,7 +107,3 @@ def edge_slip(response: Response, friction: float, strength: Array | float) -> E
     loaded = -float(np.polyfit(squares, ratio, NEAR - 1)[-1])
     smoothing = response.modes.smoothing
     return EdgeSlip(smoothing * rates, smoothing * (loaded * rates + held), loaded)
-
-
-LOADINGS: dict[str, Callable[..., Creep]] = {"edge": edge}
-"""How a patch may be loaded; each gives its creep, of which all else follows."""
