@@ -19,11 +19,9 @@ class Law:
     answer = ExpectedDrop(DROP, CLOSED, "")
     parameters = None
     theory_length = None
-    quiet_run = None
 
-    def __call__(self, parameters, theory_length, quiet_run=False):
+    def __call__(self, parameters, theory_length):
         self.parameters, self.theory_length = parameters, theory_length
-        self.quiet_run = quiet_run
         if isinstance(self.answer, Exception):
             raise self.answer
         return self.answer
@@ -47,13 +45,6 @@ def test_it_asks_for_the_fault_that_is_given(nucleation, law):
     assert (law.parameters.perturbation.kind, law.parameters.perturbation.strength) == (
         "normal_load", 1e-3
     )  # fmt: skip
-
-
-def test_a_simulation_is_made_where_it_is_asked_for(nucleation, law):
-    nucleation(*WORDS)
-    assert law.quiet_run is False
-    nucleation(*WORDS, "--quiet-run")
-    assert law.quiet_run is True
 
 
 def test_scales_near_the_velocity_are_warned_of(nucleation, law):

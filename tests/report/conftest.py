@@ -17,10 +17,9 @@ from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
-from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.model.parameters import Geometry, Parameters
 from nucleation.patch import map_table
-from nucleation.patch.expected_drop import quick_run
-from nucleation.patch.mode_history import follow_mode
+from nucleation.patch.theory_history import theory_history
 from nucleation.report import page
 from nucleation.report.player import player_dataset
 from nucleation.theory.curves import Curves, theory_dataset
@@ -46,10 +45,8 @@ CLAIMS = [
 
 @pytest.fixture(scope="session")
 def modes():
-    """The mode of a quiet run, once as it is and once as if it were another fault's."""
-    fault = Parameters(geometry=Geometry(height=0.02, length=1.35))
-    run = quick_run(fault, 0.31, mesh=Mesh(n_x=240, n_y=4, grading=10.0))
-    own = follow_mode(run)
+    """The mode of a fault by theory, once as it is and once as if it were another fault's."""
+    own = theory_history(Parameters(geometry=Geometry(height=0.02, length=1.35)), 0.4509)
     return [own, dataclasses.replace(own, parameters=own.parameters.replaced({"height": 0.03}))]
 
 

@@ -46,12 +46,8 @@ def _chosen() -> list[str]:
 
 @click.command("drop", epilog=EXIT_CODES)
 @parameter_options(_chosen(), USUAL)
-@click.option(
-    "--quiet-run", is_flag=True,
-    help="take the patch from a quick simulation of the block instead of its theory",
-)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
-def command(as_json: bool, quiet_run: bool, **options: Any) -> int:
+def command(as_json: bool, **options: Any) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 
     A block is pushed from its side, as by `simulate`. Its creeping patch becomes unstable at L_s.
@@ -72,7 +68,7 @@ def command(as_json: bool, quiet_run: bool, **options: Any) -> int:
     from ..patch.expected_drop import NoDrop, expected_drop  # with the solver, which takes seconds
 
     try:
-        found, reason = expected_drop(run.parameters, run.theory_length, quiet_run), ""
+        found, reason = expected_drop(run.parameters, run.theory_length), ""
     except NoDrop as error:
         found, reason = None, str(error)
     for topic, _, text in changing_friction(run):
