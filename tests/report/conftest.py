@@ -17,11 +17,12 @@ from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
-from nucleation.model.parameters import Geometry, Parameters
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import map_table
-from nucleation.patch.theory_history import theory_history
+from nucleation.patch.mode_history import follow_mode
 from nucleation.report import page
 from nucleation.report.player import player_dataset
+from nucleation.simulation.run import simulate
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
@@ -45,8 +46,12 @@ CLAIMS = [
 
 @pytest.fixture(scope="session")
 def modes():
-    """The mode of a fault by theory, once as it is and once as if it were another fault's."""
-    own = theory_history(Parameters(geometry=Geometry(height=0.02, length=1.35)), 0.4509)
+    """The mode of a quiet run, once as it is and once as if it were another fault's."""
+    fault = Parameters(
+        geometry=Geometry(height=0.02, length=1.35), mesh=Mesh(n_x=240, n_y=4, grading=10.0),
+        stepping=Stepping(end_time=11.0, longest_step=0.1),
+    )  # fmt: skip
+    own = follow_mode(simulate(fault))
     return [own, dataclasses.replace(own, parameters=own.parameters.replaced({"height": 0.03}))]
 
 

@@ -55,7 +55,7 @@ def test_conventional_length_makes_a_slider_marginal(eta):
 def test_closed_forms_of_the_paper():
     """Eqs. (6) and (11) as the theory has them, for one fault at a time."""
     material, interface = Material(3.1e9, 1 / 3), InterfaceState()
-    expected = closed_forms.half_spaces_length(material, interface)
+    expected = closed_forms.bimaterial_length(material, material, interface)
     assert one("homogeneous_sliding") == pytest.approx(expected, rel=1e-14)
     height = np.array([1e-4, 1e-3])
     expected = closed_forms.thin_limit_length(height, material, interface)

@@ -16,8 +16,6 @@ from nucleation.theory.stiffness import FAR_SIDES, Pair
 from nucleation.theory.transfer import (
     RIGID,
     Body,
-    interface_matrix,
-    reference_modulus,
     response_matrix,
     transfer_functions,
 )
@@ -110,21 +108,6 @@ def test_transfer_functions_solve_the_layer_problem(upper, lower, k):
     g1, g2 = transfer_functions(k, or_rigid(upper), or_rigid(lower))
     assert g1 == pytest.approx(expected[0], rel=2e-14, abs=0.0)
     assert g2 == pytest.approx(expected[1], rel=1e-12, abs=1e-14 * abs(g1))
-
-
-@pytest.mark.parametrize(("upper", "lower"), PAIRS)
-def test_interface_matrix_inverts_the_response(upper, lower):
-    k = np.array([[3.0, 40.0], [-70.0, 500.0]])
-    upper, lower = or_rigid(upper), or_rigid(lower)
-    matrix = interface_matrix(k, upper, lower)
-    jump = response_matrix(k, upper, "upper") - response_matrix(k, lower, "lower")
-    assert matrix.shape == (2, 2, 2, 2)
-    identity = np.broadcast_to(np.eye(2), (2, 2, 2, 2))
-    np.testing.assert_allclose(matrix @ jump, identity, atol=1e-9)
-    g1, g2 = transfer_functions(k, upper, lower)
-    mu = reference_modulus(upper, lower)
-    np.testing.assert_allclose(matrix[..., 0, 0], -mu * k * g1, rtol=1e-14)
-    np.testing.assert_allclose(matrix[..., 1, 0], 1j * mu * k * g2, rtol=1e-14)
 
 
 @pytest.mark.parametrize(("upper", "lower"), PAIRS)

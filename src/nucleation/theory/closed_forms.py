@@ -1,4 +1,4 @@
-"""Closed forms of the paper: transfer functions and critical lengths of special systems."""
+"""Closed forms of the paper: critical lengths of special systems."""
 
 from __future__ import annotations
 
@@ -12,13 +12,6 @@ from ..model.material import Material
 from .critical import NoInstability
 from .crossings import marginal_stiffness
 from .stiffness import Array
-from .transfer import RIGID, Body, as_wavenumber, transfer_functions
-
-
-def identical_half_spaces(wavenumber: ArrayLike, poisson_ratio: float) -> tuple[Array, Array]:
-    """G1 and G2 of two identical half-spaces, ``sign(k)/[2(1 - nu)]`` and 0 (Eq. S-G_gen)."""
-    k = as_wavenumber(wavenumber)
-    return np.sign(k) / (2.0 * (1.0 - poisson_ratio)), np.zeros_like(k)
 
 
 def bimaterial_contrast(upper: Material, lower: Material) -> float:
@@ -43,38 +36,6 @@ def bimaterial_modulus(upper: Material, lower: Material) -> float:
     beta = bimaterial_contrast(upper, lower)
     sum_ = psi * (1.0 - nu1) + (1.0 - nu2)
     return 2.0 * lower.shear_modulus / (1.0 - beta**2) / sum_
-
-
-def bimaterial_half_spaces(
-    wavenumber: ArrayLike, upper: Material, lower: Material
-) -> tuple[Array, Array]:
-    """G1 and G2 of two half-spaces, ``M sign(k)/(2 mu1)`` and ``beta M/(2 mu1)`` (Eq. 7)."""
-    k = as_wavenumber(wavenumber)
-    g1 = bimaterial_modulus(upper, lower) / (2.0 * upper.shear_modulus)
-    return g1 * np.sign(k), np.full_like(k, bimaterial_contrast(upper, lower) * g1)
-
-
-def block_on_rigid_base(
-    wavenumber: ArrayLike, height: float, poisson_ratio: float
-) -> tuple[Array, Array]:
-    """G1 and G2 of a block of a height (m) on a rigid base, constant stress on top (Eq. 10).
-
-    Free of overflow and cancellation for every ``Hk``.
-    """
-    block = Body(Material(poisson_ratio=poisson_ratio), height, "traction")
-    return transfer_functions(wavenumber, block, RIGID)
-
-
-def half_spaces_length(material: Material, interface: InterfaceState) -> float:
-    """L_c (m) of two identical half-spaces, ``pi mu ell / [zeta (1 - nu) sigma0]`` (Eq. 6).
-
-    Raises
-    ------
-    NoInstability
-        Unless ``zeta > 0``.
-    """
-    modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
-    return math.pi * modulus * _weakening_length(interface)
 
 
 def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
@@ -114,7 +75,7 @@ def bimaterial_length(upper: Material, lower: Material, interface: InterfaceStat
     Raises
     ------
     NoInstability
-        For ``zeta <= 0`` below :func:`velocity_strengthening_threshold`.
+        For ``zeta <= 0`` unless ``|f beta|`` is at least ``2 sqrt(-a zeta)/(a + zeta)`` (Sec. 4).
     """
     f_beta = interface.friction * bimaterial_contrast(upper, lower)
     h_plus = float(marginal_stiffness(f_beta, interface.a, interface.zeta)[1])
@@ -135,40 +96,12 @@ def thin_limit_length(height: ArrayLike, material: Material, interface: Interfac
     NoInstability
         Unless ``zeta > 0``.
     """
-    modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
-    height = np.asarray(height, dtype=float)
-    return 2.0 * math.pi * np.sqrt(2.0 * height * modulus * _weakening_length(interface))
-
-
-def uncoupled_angular_frequency(interface: InterfaceState) -> float:
-    """``omega = sqrt(zeta/a) V/ell`` (rad/s) of the marginal mode if ``G2 = 0`` (Text S1.4).
-
-    Raises
-    ------
-    NoInstability
-        Unless ``zeta > 0``.
-    """
-    _weakening_length(interface)
-    rate = interface.velocity / interface.slip_length
-    return math.sqrt(interface.zeta / interface.a) * rate
-
-
-def velocity_strengthening_threshold(a: ArrayLike, zeta: ArrayLike) -> Array:
-    """Least ``|f beta|`` of instability, ``2 sqrt(-a zeta)/(a + zeta)`` for ``zeta < 0`` (Sec. 4).
-
-    Zero for ``zeta >= 0`` (any contrast will do) and infinite for ``a + zeta <= 0``.
-    """
-    a, zeta = np.broadcast_arrays(np.asarray(a, dtype=float), np.asarray(zeta, dtype=float))
-    b = a + zeta
-    bounded = 2.0 * np.sqrt(a * np.maximum(-zeta, 0.0)) / np.where(b > 0.0, b, 1.0)
-    return np.where(b > 0.0, bounded, np.inf)
-
-
-def _weakening_length(interface: InterfaceState) -> float:
-    """``ell / (zeta sigma0)`` (m/Pa), raising NoInstability unless ``zeta > 0``."""
     if interface.zeta <= 0.0:
         raise NoInstability(
-            f"zeta = {interface.zeta:g} is not positive: without velocity weakening this system "
+            f"zeta = {interface.zeta:g} is not positive: without velocity weakening a thin layer "
             "slides stably"
         )
-    return interface.slip_length / (interface.zeta * interface.normal_stress)
+    modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
+    weakening_length = interface.slip_length / (interface.zeta * interface.normal_stress)
+    height = np.asarray(height, dtype=float)
+    return 2.0 * math.pi * np.sqrt(2.0 * height * modulus * weakening_length)

@@ -85,19 +85,6 @@ def as_wavenumber(wavenumber: ArrayLike) -> Array:
     return k
 
 
-def reference_modulus(upper: Body | RigidBody, lower: Body | RigidBody) -> float:
-    """Shear modulus mu (Pa) by which G1 and G2 are normalised.
-
-    That of the upper body (Eq. S-sig_G); of the lower body if the upper one is rigid.
-
-    Raises
-    ------
-    ValueError
-        If both bodies are rigid: nothing can slip non-uniformly then.
-    """
-    return Pair(upper.layers, lower.layers).modulus
-
-
 def transfer_functions(
     wavenumber: ArrayLike, upper: Body | RigidBody, lower: Body | RigidBody
 ) -> tuple[Array, Array]:
@@ -118,23 +105,12 @@ def transfer_functions(
     Notes
     -----
     ``G1 = -G_xx/(mu k)`` and ``G2 = -i G_yx/(mu k)`` with ``G = (M1 - M2)^-1`` (Eqs. S-defG and
-    S-sig_G) and mu of :func:`reference_modulus`.
+    S-sig_G) and mu of the upper body, or of the lower one if the upper one is rigid.
     """
-    k = as_wavenumber(wavenumber)
-    reference_modulus(upper, lower)
-    return Pair(upper.layers, lower.layers).transfer_functions(k)
-
-
-def interface_matrix(
-    wavenumber: ArrayLike, upper: Body | RigidBody, lower: Body | RigidBody
-) -> NDArray[np.complex128]:
-    """``G = (M1 - M2)^-1`` (Pa/m, shape ``k.shape + (2, 2)``) of Eq. (S-defG)."""
-    k = as_wavenumber(wavenumber)
-    modulus = reference_modulus(upper, lower)
-    pair = Pair(upper.layers, lower.layers).stiffness(k)
-    cross = 1j * np.sign(k) * pair.xy
-    rows = [[-pair.xx, -cross], [cross, -pair.yy]]
-    return _matrix(rows) * (modulus * np.abs(k))[..., None, None]
+    k, pair = as_wavenumber(wavenumber), Pair(upper.layers, lower.layers)
+    if pair.upper is pair.lower is None:
+        raise ValueError("at least one of the two bodies must be deformable")
+    return pair.transfer_functions(k)
 
 
 def response_matrix(
@@ -174,9 +150,5 @@ def response_matrix(
     cross = 1j * np.sign(k) * (terms.xy - terms.xy_less) / terms.det
     sign = -1.0 if side == "upper" else 1.0
     rows = [[sign * terms.yy / terms.det, cross], [-cross, sign * terms.xx / terms.det]]
-    return _matrix(rows) / (layer.shear_modulus * np.abs(k))[..., None, None]
-
-
-def _matrix(rows: list[list[NDArray]]) -> NDArray[np.complex128]:
-    entries = [np.stack([np.asarray(entry, dtype=complex) for entry in row], -1) for row in rows]
-    return np.stack(entries, -2)
+    entries = [np.stack([np.asarray(x, dtype=complex) for x in row], -1) for row in rows]
+    return np.stack(entries, -2) / (layer.shear_modulus * np.abs(k))[..., None, None]
