@@ -5,7 +5,7 @@ import pytest
 
 from nucleation.model.material import Material
 from nucleation.theory.fields import block_displacement
-from nucleation.theory.transfer import RIGID, Body, response_matrix, transfer_functions
+from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
 MU, NU, HEIGHT = 3.1e9, 0.29, 0.2
 
@@ -25,65 +25,22 @@ def stresses(field, k, y, step):
     return 2 * MU * strain_xy, modulus * ((1 - NU) * strain_yy + NU * strain_xx)
 
 
-def layer_displacement(k, y, height, nu, amplitudes):
-    """A layer held at its far side, ``u_x = sigma_yy = 0`` at y = H, as printed (Eq. S-sol_BC).
-
-    The amplitudes are B1 and B2 of the paper times ``exp(|H k|)``, so that nothing overflows.
-    """
-    b1, b2 = amplitudes
-    q, t = height * k, np.asarray(y, dtype=float) / height
-    depth = q * (1 - t)
-    grow, decay = np.exp(depth - abs(q)), np.exp(-depth - abs(q))
-    sinh, cosh = 0.5 * (grow - decay), 0.5 * (grow + decay)
-    u_x = b1 * sinh - b2 * q * (decay - t * cosh)
-    u_y = -1j * b1 * cosh - 1j * b2 * ((3 - 4 * nu) * cosh + q * (decay + t * sinh))
-    return np.stack([u_x, u_y])
-
-
-def layer(k):
-    return lambda y: layer_displacement(k, y, HEIGHT, NU, (0.7 - 0.2j, 0.4 + 1.1j))
-
-
 def block(k):
     return lambda y: block_displacement(k, y, HEIGHT, NU, 0.3 + 0.5j)
 
 
-CASES = [(layer, 2.0), (layer, -2.0), (layer, 14.0), (layer, -14.0), (block, 2.0), (block, 14.0)]
-
-
-@pytest.mark.parametrize(("family", "k"), CASES)
-def test_fields_are_in_equilibrium(family, k):
-    """The Navier equation by finite differences."""
-    field, y = family(k), np.linspace(0.1, 0.9, 7) * HEIGHT
-    u, du, ddu = field(y), *(derivative(field, y, 1e-3 / abs(k), order) for order in (1, 2))
+@pytest.mark.parametrize("k", [2.0, 14.0])
+def test_field_is_in_equilibrium_and_meets_the_far_side_conditions(k):
+    """The Navier equation by finite differences; no stress at y = H, no u_y at y = 0."""
+    field, y, step = block(k), np.linspace(0.1, 0.9, 7) * HEIGHT, 1e-3 / k
+    u, du, ddu = field(y), *(derivative(field, y, step, order) for order in (1, 2))
     divergence, gradient = -1j * k * u[0] + du[1], -1j * k * du[0] + ddu[1]
     c = 1 / (1 - 2 * NU)
-    residual_x = c * -1j * k * divergence + ddu[0] - k**2 * u[0]
-    residual_y = c * gradient + ddu[1] - k**2 * u[1]
-    scale = k**2 * np.abs(u).max()
-    assert np.abs(residual_x).max() < 1e-8 * scale
-    assert np.abs(residual_y).max() < 1e-8 * scale
-
-
-@pytest.mark.parametrize(("family", "k"), CASES)
-def test_fields_meet_the_far_side_conditions(family, k):
-    field = family(k)
-    shear, normal = stresses(field, k, HEIGHT, 1e-3 / abs(k))
-    scale = MU * abs(k) * np.abs(field(np.linspace(0, HEIGHT, 9))).max()
-    assert abs(normal) < 1e-9 * scale
-    if family is layer:
-        assert abs(field(HEIGHT)[0]) < 1e-14 * scale / (MU * abs(k))
-    else:
-        assert abs(shear) < 1e-9 * scale
-        assert abs(field(0.0)[1]) < 1e-14 * scale / (MU * abs(k))
-
-
-@pytest.mark.parametrize("k", [2.0, -2.0, 14.0])
-def test_layer_field_gives_the_response_matrix(k):
-    field = layer(k)
-    traction = np.array(stresses(field, k, 0.0, 1e-3 / abs(k)))
-    matrix = response_matrix(k, Body(Material(MU, NU), HEIGHT))
-    np.testing.assert_allclose(matrix @ traction, field(0.0), rtol=1e-9)
+    residuals = c * -1j * k * divergence + ddu[0] - k**2 * u[0], c * gradient + ddu[1] - k**2 * u[1]
+    scale = np.abs(u).max()
+    assert np.abs(residuals).max() < 1e-8 * k**2 * scale
+    assert np.abs(stresses(field, k, HEIGHT, step)).max() < 1e-9 * MU * k * scale
+    assert abs(field(0.0)[1]) < 1e-14 * scale
 
 
 @pytest.mark.parametrize("k", [2.0, 14.0, 60.0])
@@ -97,13 +54,12 @@ def test_block_field_gives_the_transfer_functions(k):
 
 
 @pytest.mark.parametrize("k", [1e-8, 1e6])
-def test_fields_stay_finite(k):
+def test_field_stays_finite(k):
     y = np.linspace(0, 1, 50)
     with warnings.catch_warnings(), np.errstate(over="raise", invalid="raise"):
         warnings.simplefilter("error")
         u = block_displacement(k, y, 1.0, NU)
-        v = layer_displacement(-k, y, 1.0, NU, (1.0, 0.5))
-    assert np.all(np.isfinite(u)) and np.all(np.isfinite(v))
+    assert np.all(np.isfinite(u))
     # slip of a half-space: -(3 - 4 nu) [1 - q] and of a thin block: -16 (1 - nu)^2 / [4 (1 - nu)]
     assert u[0, 0] == pytest.approx(-(3 - 4 * NU) if k > 1 else -4 * (1 - NU), rel=1e-6)
 
