@@ -72,10 +72,12 @@ def reference_compliance(k, body, side):
     )
 
 
-def reference_matrix(k, body, side):
-    """The complex M with ``u_i = M_ij sigma_yj``."""
-    (xx, xy), (yx, yy) = reference_compliance(k, body, side)
-    return np.array([[float(xx), -1j * float(xy)], [1j * float(yx), float(yy)]])
+def reference_stiffness(k, body):
+    """``A_xx, A_xy, A_yy, det A``, ``(T, N) = -mu k A (U, W)``: the inverse of the compliance."""
+    (xx, xy), (_, yy) = reference_compliance(k, body, "upper")
+    det, scale = xx * yy - xy * xy, -1 / (Decimal(body.material.shear_modulus) * Decimal(k))
+    entries = scale * yy / det, scale * xy / det, scale * xx / det, scale * scale / det
+    return tuple(float(x) for x in entries)
 
 
 def reference_transfer(k, upper, lower, mu):

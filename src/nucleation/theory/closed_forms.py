@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from .critical import NoInstability
-from .crossings import marginal_stiffness
 from .stiffness import Array
 
 
@@ -27,15 +26,6 @@ def bimaterial_contrast(upper: Material, lower: Material) -> float:
     nu1, nu2 = upper.in_plane_ratio, lower.in_plane_ratio
     difference = psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)
     return difference / (2.0 * (psi * (1.0 - nu1) + (1.0 - nu2)))
-
-
-def bimaterial_modulus(upper: Material, lower: Material) -> float:
-    """The effective modulus ``M`` (Pa) of two half-spaces (Eq. 8), ``mu/(1 - nu)`` if identical."""
-    psi = lower.shear_modulus / upper.shear_modulus
-    nu1, nu2 = upper.in_plane_ratio, lower.in_plane_ratio
-    beta = bimaterial_contrast(upper, lower)
-    sum_ = psi * (1.0 - nu1) + (1.0 - nu2)
-    return 2.0 * lower.shear_modulus / (1.0 - beta**2) / sum_
 
 
 def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
@@ -67,25 +57,6 @@ def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
     root = np.sqrt(np.where(unstable, square, np.nan))
     twice_h_plus = (2.0 * z + rho**2 * b + rho * root) / (1.0 + rho**2)
     return 2.0 * z / twice_h_plus
-
-
-def bimaterial_length(upper: Material, lower: Material, interface: InterfaceState) -> float:
-    """L_c (m) of two half-spaces of different materials (Eq. 9), for either sign of zeta.
-
-    Raises
-    ------
-    NoInstability
-        For ``zeta <= 0`` unless ``|f beta|`` is at least ``2 sqrt(-a zeta)/(a + zeta)`` (Sec. 4).
-    """
-    f_beta = interface.friction * bimaterial_contrast(upper, lower)
-    h_plus = float(marginal_stiffness(f_beta, interface.a, interface.zeta)[1])
-    if not h_plus > 0.0:
-        raise NoInstability(
-            f"two half-spaces with f beta = {f_beta:g} slide stably for a = {interface.a:g}, "
-            f"zeta = {interface.zeta:g}"
-        )
-    modulus = bimaterial_modulus(upper, lower)
-    return math.pi * modulus * interface.slip_length / (h_plus * interface.normal_stress)
 
 
 def thin_limit_length(height: ArrayLike, material: Material, interface: InterfaceState) -> Array:

@@ -135,28 +135,9 @@ def stability_reason(one: Systems) -> str:
 
 
 def critical_length(height: ArrayLike, material: Material, interface: InterfaceState) -> Array:
-    """Critical nucleation length of a block on a rigid base (the solid line of Fig. 3).
+    """``L_c = 2 pi/k_c`` (m) of a block on a rigid base (Fig. 3), Eq. (5) with Eq. (10).
 
-    Parameters
-    ----------
-    height : array_like
-        Block height H (m), any shape; inf for a half-space.
-    material : Material
-    interface : InterfaceState
-
-    Returns
-    -------
-    length : ndarray
-        ``L_c = 2 pi / k_c`` (m), shape of the height.
-
-    Raises
-    ------
-    NoInstability
-        If sliding is stable.
-
-    Notes
-    -----
-    Eq. (5) with the transfer functions of Eq. (10): constant stress on the block's far side.
+    For heights (m) of any shape, inf for a half-space; raises NoInstability if sliding is stable.
     """
     height = np.asarray(height, dtype=float)
     cases: list[_Case] = [

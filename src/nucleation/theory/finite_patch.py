@@ -69,12 +69,6 @@ def softest(answer: NDArray) -> complex:
     return complex(values[np.argmax(values.real)])
 
 
-def asperity_factor() -> float:
-    """``L zeta sigma0/(mu* D)`` of an asperity in creeping surroundings, twice 0.579."""
-    _, sine, _ = _basis()
-    return 1.0 / softest(sine).real
-
-
 def marginal_loaded_patch(a_over_b: float) -> tuple[float, float]:
     """The patch under a steadily rising load where it loses stability.
 

@@ -22,13 +22,12 @@ import dataclasses
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..model.material import Material
 from ..model.parameters import Parameters
 from ..model.quantities import Checked, quantity
 from .stiffness import FAR_SIDES, Array, Layers, Pair
-from .waves import Waves
 
 
 @dataclasses.dataclass(frozen=True)
@@ -111,44 +110,3 @@ def transfer_functions(
     if pair.upper is pair.lower is None:
         raise ValueError("at least one of the two bodies must be deformable")
     return pair.transfer_functions(k)
-
-
-def response_matrix(
-    wavenumber: ArrayLike, body: Body | RigidBody, side: str = "upper"
-) -> NDArray[np.complex128]:
-    """Response ``M`` of one body, ``du_i = M_ij dsigma_yj`` at the interface.
-
-    Parameters
-    ----------
-    wavenumber : array_like
-        k (1/m), any shape, not zero.
-    body : Body or RigidBody
-    side : {"upper", "lower"}
-        The side of the interface on which the body lies.
-
-    Returns
-    -------
-    M : ndarray
-        Complex, m/Pa, shape ``k.shape + (2, 2)``.
-
-    Raises
-    ------
-    ValueError
-        For another side, or a wavenumber that is zero or not finite.
-
-    Notes
-    -----
-    Far side "velocity": Eq. (S-general_M); half-space: Eq. (S-M_inf).
-    """
-    if side not in ("upper", "lower"):
-        raise ValueError(f"side = {side!r} is not allowed: it must be one of upper, lower")
-    k = as_wavenumber(wavenumber)
-    layer = body.layers
-    if layer is None:
-        return np.zeros((*k.shape, 2, 2), dtype=complex)
-    terms = layer.terms(Waves(layer.layer_number(k)))
-    cross = 1j * np.sign(k) * (terms.xy - terms.xy_less) / terms.det
-    sign = -1.0 if side == "upper" else 1.0
-    rows = [[sign * terms.yy / terms.det, cross], [-cross, sign * terms.xx / terms.det]]
-    entries = [np.stack([np.asarray(x, dtype=complex) for x in row], -1) for row in rows]
-    return np.stack(entries, -2) / (layer.shear_modulus * np.abs(k))[..., None, None]
