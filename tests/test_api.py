@@ -3,6 +3,7 @@
 import doctest
 import inspect
 import math
+import signal
 import subprocess
 import sys
 import warnings
@@ -137,6 +138,35 @@ def test_implausible_magnitudes_are_warned_of():
         arrays.critical_length(**FAULT, height=[1e-3, np.inf])
 
 
+def test_texts_have_units_as_on_the_command_line():
+    texts = {"shear_modulus": "30GPa", "normal_stress": ["50 MPa", 50e6], "slip_distance": "5um"}
+    assert_allclose(arrays.critical_length(**FAULT | texts), arrays.critical_length(**FAULT))
+    given = api.Friction(characteristic_slip_distance="0.5um"), api.Mesh(n_x="100")
+    assert given == (api.Friction(characteristic_slip_distance=5e-7), api.Mesh(n_x=100))
+    assert api.Parameters().replaced({"height": "5 cm"}).geometry.height == 0.05
+    with pytest.raises(ParameterError, match=r"Geometry.height = '5 s' .*unit of time, but m"):
+        api.Geometry(height="5 s")
+
+
+def test_parameters_are_shown_for_completion():
+    """By name, with what may be left out; a law shows its own."""
+    for name in ("critical_length", "spectrum", "stability_length", "specimen_fit",
+                 "lengths_in_use", "plot_length"):  # fmt: skip
+        shown = inspect.signature(getattr(api, name)).parameters
+        assert set(inspect.signature(api.Fault).parameters) <= shown.keys()
+        assert shown["height"].default == math.inf and "fault" not in shown
+    friction = inspect.signature(api.Friction).parameters
+    assert {"law", "evolution", "aging_coefficient", "log_rate_coefficient"} <= friction.keys()
+    assert api.Friction(**{n: p.default for n, p in friction.items() if n in vars(api.Friction())})
+    law = inspect.signature(type(api.Friction())).parameters
+    assert "aging_coefficient" in law and "log_rate_coefficient" not in law
+
+
+def test_arrays_that_do_not_broadcast_are_named():
+    with pytest.raises(ParameterError, match=r"a \(3,\), wavenumber \(2,\)"):
+        arrays.spectrum([1.0, 2.0], **FAULT | {"a": [0.01] * 3}, velocity=1e-6)
+
+
 def test_stable_sliding_is_nan():
     found = arrays.critical_length(**ROCK, slip_distance=5e-6, a=[0.01, 0.02], b=0.015)
     assert np.isfinite(found).tolist() == [True, False]
@@ -205,7 +235,11 @@ def test_named_arrays_keep_their_names():
         ({"shear_modulus": -1.0}, r"shear_modulus = -1.0 Pa is not allowed: .*\(0, 1e\+13\) Pa"),
         ({"poisson_ratio": [0.2, 0.6]}, r"poisson_ratio\[1\] = 0.6 is not allowed"),
         ({"height": [[1.0], [np.nan]]}, r"height\[1, 0\] = nan m is not allowed"),
-        ({"normal_stress": "50e6"}, r"normal_stress = '50e6' Pa is not allowed"),
+        ({"normal_stress": "50 mm"}, r"normal_stress = '50 mm' .*unit of length, but Pa is needed"),
+        (
+            {"height": [1.0, 2.0], "a": [0.01] * 3},
+            r"a \(3,\), height \(2,\)",
+        ),
         ({"a": True}, "a = True is not allowed"),
         ({"a": 1j}, "a = 1j is not allowed"),
         ({"zeta": 0.005}, "zeta or b"),
@@ -277,3 +311,46 @@ def test_states_of_a_run():
     record = api.simulate(parameters)
     assert_allclose(record["step_time"], times)
     assert math.isnan(api.extract(record)["length"])  # no event so early
+
+
+SHORT = {"height": 0.005, "geometry.length": 0.9, "n_x": 16, "mesh.n_y": 2, "end_time": 0.02}
+
+
+def test_an_interrupted_run_keeps_its_record(capsys):
+    """Ctrl-C ends a run after its step; what follows is not interrupted."""
+    parameters, steps = api.Parameters().replaced(SHORT), []
+
+    def interrupt(instant):
+        steps.append(instant)
+        if len(steps) == 5:
+            signal.raise_signal(signal.SIGINT)
+
+    record = api.simulate(parameters, progress=interrupt)
+    assert record.attrs["status"].startswith("interrupted") and not record.attrs["completed"]
+    assert record.sizes["step"] == 5
+    whole = api.simulate(parameters, progress=True)
+    assert whole.attrs["completed"] and "of the way" in capsys.readouterr().err
+    assert_allclose(record["driving_force"], whole["driving_force"][:5], rtol=0.0)
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.slow
+def test_pictures_in_one_call(tmp_path):
+    heights = [0.1, 1.0, 10.0]
+    figure = api.plot_length("height", **FAULT, height=heights)
+    theory, patch = figure.axes[0].get_lines()
+    assert_allclose(theory.get_ydata(), arrays.critical_length(**FAULT, height=heights))
+    assert_allclose(patch.get_ydata(), api.stability_length(**FAULT, height=heights))
+    assert figure.axes[0].get_xlabel() == "Height (m)"
+    with pytest.raises(ParameterError, match="height needs several values"):
+        api.plot_length("height", **FAULT, height=1.0)
+    growth, frequency = api.plot_spectrum(**FAULT, velocity="1um/s").axes
+    k = growth.get_lines()[0].get_xdata()
+    rates = arrays.spectrum(k, **FAULT, velocity=1e-6)
+    assert_allclose(growth.get_lines()[0].get_ydata(), rates[0].real)
+    assert_allclose(frequency.get_lines()[1].get_ydata(), rates[1].imag)
+    record = api.simulate(api.Parameters().replaced(SHORT))
+    assert len(api.plot_run(record).axes) == 5
+    api.film(record, tmp_path / "film.gif")
+    assert (tmp_path / "film.gif").read_bytes().startswith(b"GIF")

@@ -13,10 +13,11 @@ broadcast as NumPy's do, DataArrays by the names of their dimensions, and what c
 DataArray goes out as one. Where homogeneous sliding is stable, lengths are NaN.
 
 What carries a unit is converted to SI units: a DataArray by its attribute ``units``, and pint
-quantities, of which the results are quantities too.
+quantities, of which the results are quantities too. A text is read as the command line reads it,
+``slip_distance="0.5um"``, in simulations as in the theory.
 
 Simulations, extraction and datasets are imported when first used, since that takes a while; they
-need the extra ``solver``.
+need the extra ``solver``, pictures and films (``plot_...``, ``film``) the extra ``figures``.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ from .model.material import Material
 from .model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from .model.perturbation import Perturbation
 from .model.quantities import ParameterError
+from .model.recording import Recording
+from .model.second_body import SecondBody
 from .theory.arrays import (
     CriticalMode,
     critical_length,
@@ -42,16 +45,20 @@ from .theory.fault import Fault
 from .theory.literature_table import lengths_in_use
 
 if TYPE_CHECKING:
+    from .analysis.definitions import ExtractionSettings
     from .analysis.extraction import extract
     from .analysis.laboratory import laboratory_faults
+    from .analysis.watched import simulate
     from .datasets.netcdf import read, write
-    from .patch.expected_drop import expected_drop
-    from .simulation.run import run, simulate
+    from .figures.overview import film, plot_length, plot_run, plot_spectrum
+    from .patch.expected_drop import NoDrop, expected_drop
+    from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.specimen import specimen_fit
 
 __all__ = [
     "CriticalMode",
+    "ExtractionSettings",
     "Fault",
     "Friction",
     "Geometry",
@@ -59,16 +66,23 @@ __all__ = [
     "Loading",
     "Material",
     "Mesh",
+    "NoDrop",
     "ParameterError",
     "Parameters",
     "Perturbation",
+    "Recording",
+    "SecondBody",
     "Stepping",
     "critical_length",
     "critical_mode",
     "expected_drop",
     "extract",
+    "film",
     "laboratory_faults",
     "lengths_in_use",
+    "plot_length",
+    "plot_run",
+    "plot_spectrum",
     "read",
     "run",
     "simulate",
@@ -83,21 +97,30 @@ __all__ = [
 require_own()
 
 _LATER = {
-    "extract": ".analysis.extraction", "read": ".datasets.netcdf", "write": ".datasets.netcdf",
-    "run": ".simulation.run", "simulate": ".simulation.run",
-    "expected_drop": ".patch.expected_drop", "stability_length": ".theory.creep.lengths",
-    "specimen_fit": ".theory.specimen", "laboratory_faults": ".analysis.laboratory",
-}  # fmt: skip
+    ".analysis.definitions": ("ExtractionSettings",),
+    ".analysis.extraction": ("extract",),
+    ".analysis.laboratory": ("laboratory_faults",),
+    ".analysis.watched": ("simulate",),
+    ".datasets.netcdf": ("read", "write"),
+    ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
+    ".patch.expected_drop": ("NoDrop", "expected_drop"),
+    ".simulation.run": ("run",),
+    ".theory.creep.lengths": ("stability_length",),
+    ".theory.specimen": ("specimen_fit",),
+}
+_MODULES = {name: module for module, names in _LATER.items() for name in names}
 
 _LIGHT = {"stability_length", "specimen_fit", "laboratory_faults"}
 """Those that need no extra."""
 
 
 def __getattr__(name: str) -> Any:
-    if name in _LATER:
+    if name in _MODULES:
         if name not in _LIGHT:
             require("solver")
-        return getattr(importlib.import_module(_LATER[name], __package__), name)
+        if _MODULES[name].startswith(".figures"):
+            require("figures")
+        return getattr(importlib.import_module(_MODULES[name], __package__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -63,6 +63,21 @@ def test_header_is_that_of_the_benchmarks(nucleation, record):
     assert all(len(line.split()) == 6 for line in lines[names + 2 :])
 
 
+def test_fields_as_csv(nucleation, record):
+    """The first column is the time, the first row x, the rest the record to nine digits."""
+    folder, dataset = record.parent / "fields", netcdf.read(record)
+    assert nucleation("export", record, folder).code == 0
+    names = {path.stem.removeprefix("run_") for path in folder.iterdir()}
+    assert {"slip", "slip_rate", "shear_stress", "normal_stress", "state"} <= names
+    for name in names:
+        head, *rows = (folder / f"run_{name}.csv").read_text().splitlines()
+        assert head.startswith(f"{name} ({dataset[name].attrs['units']})")
+        np.testing.assert_allclose(np.array(head.split(",")[1:], float), dataset["x"])
+        values = np.array([row.split(",") for row in rows], float)
+        np.testing.assert_allclose(values[:, 0], dataset["time"], 1e-8)
+        np.testing.assert_allclose(values[:, 1:], dataset[name], 1e-8)
+
+
 def test_mistakes_leave_no_file(nucleation, record):
     folder = record.parent / "series"
     ended = nucleation("export", record, folder, "--at", "10cm", "--at", "2m")

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from declared import VARIABLES
 from matplotlib.image import imread
+from PIL import Image
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import gather
@@ -123,6 +124,16 @@ def test_plot_as_pdf(nucleation, files, tmp_path):
     assert (tmp_path / "plot.pdf").read_bytes().startswith(b"%PDF")
     assert nucleation(*words).code == 2
     assert nucleation(*words, "--force").code == 0
+
+
+@pytest.mark.slow
+def test_film(nucleation, files, tmp_path):
+    film = tmp_path / "film.gif"
+    assert nucleation("show", files["short"], "--plot", film).code == 0
+    with Image.open(film) as image:
+        assert image.n_frames > 1
+    ended = nucleation("show", files["patch"], "--plot", film, "--force")
+    assert ended.code == 2 and "must end in .png or .pdf" in ended.err
 
 
 def test_damaged_file(nucleation, files, tmp_path):

@@ -91,7 +91,7 @@ def test_logarithmic_law_touches_the_full_one():
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("characteristic_slip_distance", 0.0), ("evolution", "ageing"), ("base_friction", "0.3"),
+    [("characteristic_slip_distance", 0.0), ("evolution", "ageing"), ("base_friction", "0.3m"),
      ("state_scale", float("nan")), ("rate_coefficient", True)],
 )  # fmt: skip
 def test_bad_values_are_named(key, value):

@@ -160,7 +160,7 @@ EDITS = {
         {
             "src/nucleation/simulation/run.py": "\n# a remark\n",
             "src/nucleation/stepping/bdf.py": '\n"""More words."""\n',
-            "src/nucleation/pipeline/progress.py": SPARE,
+            "src/nucleation/analysis/progress.py": SPARE,
             "workflow/scripts/simulate.py": "\n# a remark\n",
             "workflow/rules/simulations.smk": "\n# a remark\n",
         },

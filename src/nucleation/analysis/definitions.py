@@ -13,8 +13,9 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.checked import Checked
 from ..model.parameters import EVENT_DROP
-from ..model.quantities import Checked, quantity
+from ..model.quantities import quantity
 from ..simulation.event import DropWatch
 from ..types import Array
 

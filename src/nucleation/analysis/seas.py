@@ -1,4 +1,4 @@
-"""Time series at points of the fault as text, in the format of the SEAS community's benchmarks.
+"""Fields of the fault as CSV; series at points of it in the format of the SEAS benchmarks.
 
 On-fault files of the benchmark BP3, plane strain with inertia and a normal stress that changes
 (Erickson and others, 2023, Bull. Seismol. Soc. Am. 113, 499-523, doi:10.1785/0120220066; those of
@@ -10,6 +10,7 @@ shear stress (MPa), normal stress (MPa, positive in compression) and the logarit
 
 from __future__ import annotations
 
+import io
 import json
 import re
 
@@ -89,3 +90,18 @@ def _version(simulation: xr.Dataset) -> str:
     """The version that made a record."""
     versions = json.loads(simulation.attrs.get("versions", "{}"))
     return str(versions.get("nucleation", "not given"))
+
+
+def field_tables(simulation: xr.Dataset) -> dict[str, str]:
+    """Every field on (time, x) as CSV, by name: SI units, times (s) down and x (m) across."""
+    x = ",".join(f"{value:.12g}" for value in simulation["x"].values)
+    time = simulation["time"].values
+    tables = {}
+    for name, field in simulation.data_vars.items():
+        if set(field.dims) == {"time", "x"}:
+            head = f"{name} ({field.attrs['units']}): time (s) down / x (m) across,{x}\n"
+            text = io.StringIO()
+            rows = np.column_stack([time, field.transpose("time", "x").values])
+            np.savetxt(text, rows, fmt="%.9g", delimiter=",")
+            tables[str(name)] = head + text.getvalue()
+    return tables

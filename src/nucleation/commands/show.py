@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.extraction import extract
-from ..analysis.record import Record, parameters_of
+from ..analysis.record import parameters_of
 from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.output import require_writable
@@ -40,7 +40,7 @@ class Kind(NamedTuple):
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option(
     "--plot", type=click.Path(dir_okay=False, path_type=Path), metavar="OUT.png",
-    help="draw it; PNG or PDF by the name",
+    help="draw it; PNG or PDF by the name, or GIF: a film of a simulation, which is run once more",
 )  # fmt: skip
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
@@ -61,7 +61,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
         lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
         click.echo("\n".join(lines))
     if plot and kind.figure:
-        _save(kind.figure(dataset), plot)
+        _save(dataset, kind, plot)
         click.echo(f"plot: {plot}", err=as_json)
     return DONE
 
@@ -101,18 +101,25 @@ def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
         raise ParameterError(
             f"there is no plot of this kind of dataset, {kind.name}; of these there is: {known}"
         )
-    if plot.suffix not in (".png", ".pdf"):
-        raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in .png or .pdf")
+    allowed = (".png", ".pdf", ".gif") if kind.name == SIMULATION else (".png", ".pdf")
+    if plot.suffix not in allowed:
+        ends = f"{', '.join(allowed[:-1])} or {allowed[-1]}"
+        raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in {ends}")
     require_writable(plot, force)
 
 
-def _save(figure: Any, plot: Path) -> None:
-    """Write the figure as the project's are written, keeping the format asked for."""
+def _save(dataset: xr.Dataset, kind: Kind, plot: Path) -> None:
+    """Write the figure as the project's are written, keeping the format asked for; or a film."""
     import matplotlib as mpl
 
     from ..datasets.files import replacing
-    from ..figures import style
+    from ..figures import overview, style
 
+    if plot.suffix == ".gif":
+        overview.film(dataset, plot)
+        return
+    assert kind.figure is not None
+    figure = kind.figure(dataset)
     with mpl.rc_context(style.STYLE), replacing(plot) as temporary:
         figure.savefig(temporary, format=plot.suffix[1:])
 
@@ -186,10 +193,9 @@ def _variable_lines(dataset: xr.Dataset) -> list[str]:
 
 
 def _draw_simulation(dataset: xr.Dataset) -> Any:
-    from ..figures.paper import figure_s2
+    from ..figures import overview
 
-    Record(dataset).require("slip", "shear_stress")
-    return figure_s2.draw(dataset, xr.Dataset(extract(dataset)))
+    return overview.plot_run(dataset)
 
 
 def _draw_theory(dataset: xr.Dataset) -> Any:

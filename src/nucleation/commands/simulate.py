@@ -161,8 +161,8 @@ def _planned(run: Run) -> dict[str, Any]:
 
 def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
+    from ..analysis.progress import Progress
     from ..datasets import netcdf, provenance
-    from ..pipeline.progress import Progress
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
     from ..simulation.run import simulate

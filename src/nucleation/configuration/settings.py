@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 
+from ..model.checked import Checked
 from ..model.parameters import Parameters
-from ..model.quantities import Checked, quantity
+from ..model.quantities import quantity
 
 
 @dataclasses.dataclass(frozen=True)

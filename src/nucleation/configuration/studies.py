@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..model.checked import Checked
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import (
     InterfaceState,
@@ -19,7 +20,7 @@ from ..model.linearised import (
     loaded,
 )
 from ..model.parameters import Parameters
-from ..model.quantities import Checked, ParameterError, quantity
+from ..model.quantities import ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
 from ..theory.transfer import bodies_of
 from .grids import expand

@@ -16,8 +16,9 @@ import dataclasses
 import numpy as np
 
 from ..types import Array
+from .checked import Checked
 from .friction.law import Friction
-from .quantities import Checked, ParameterError, quantity
+from .quantities import ParameterError, quantity
 
 PROPERTIES = ("none", "normal_stress", "f", "a", "b", "zeta", "slip_distance")
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses
 from functools import lru_cache
 
+from .checked import Checked
 from .friction.law import Friction
 from .parameters import Loading, Parameters
-from .quantities import Checked, quantity
+from .quantities import quantity
 
 
 @dataclasses.dataclass(frozen=True)

@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import dataclasses
 
-from .quantities import Checked, ParameterError, quantity
+from .checked import Checked
+from .quantities import ParameterError, quantity
 
 LOADINGS = ("edge", "top", "remote")
 """Kinds of loading: docs/loading.md."""

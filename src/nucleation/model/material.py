@@ -6,7 +6,8 @@ import dataclasses
 import math
 from typing import Any
 
-from .quantities import Checked, quantity
+from .checked import Checked
+from .quantities import quantity
 
 PLANES = ("strain", "stress")
 

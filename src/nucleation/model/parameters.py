@@ -7,6 +7,7 @@ import json
 from functools import cache
 from typing import Any, NamedTuple
 
+from .checked import Checked
 from .friction.law import Friction
 from .friction.registry import LAWS, law_declarations
 from .heterogeneity import Heterogeneity
@@ -14,7 +15,7 @@ from .loading import Loading
 from .material import Material
 from .names import Names
 from .perturbation import Perturbation
-from .quantities import Checked, ParameterError, Quantity, declarations, plain, quantity
+from .quantities import ParameterError, Quantity, declarations, plain, quantity
 from .recording import Recording
 from .second_body import SecondBody
 

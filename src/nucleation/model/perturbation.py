@@ -16,7 +16,8 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from .quantities import Checked, quantity
+from .checked import Checked
+from .quantities import quantity
 
 KINDS = ("none", "drive_velocity", "normal_load", "strength", "state")
 IN_TIME = ("drive_velocity", "normal_load", "state")

@@ -34,6 +34,11 @@ class Quantity:
     optional: bool = False  # whether it may be left out, None, for what its description says
 
     @property
+    def worded(self) -> bool:
+        """Whether the parameter is a word, no number."""
+        return bool(self.choices) or self.kind == "str"
+
+    @property
     def many(self) -> bool:
         """Whether the parameter is a non-empty tuple of numbers, each in the range."""
         return self.kind.startswith("tuple")
@@ -92,25 +97,6 @@ def _declarations(cls: Any) -> dict[str, Quantity]:
     return found
 
 
-class Checked:
-    """Mixin: a dataclass whose declared quantities are checked when it is made.
-
-    Raises
-    ------
-    ParameterError
-        Naming the class and key, the value, its unit and the allowed range.
-    """
-
-    def __post_init__(self) -> None:
-        for name, entry in declarations(type(self)).items():
-            check(self._key(name), getattr(self, name), entry)
-
-    @classmethod
-    def _key(cls, name: str) -> str:
-        """What an error calls a field."""
-        return f"{cls.__name__}.{name}"
-
-
 def plain(group: Any) -> dict[str, Any]:
     """The fields of a dataclass of plain values, which need none of ``asdict`` and its copies."""
     return {field.name: getattr(group, field.name) for field in dataclasses.fields(group)}
@@ -124,9 +110,8 @@ def check(key: str, value: Any, entry: Quantity) -> None:
 
 def refusal(key: str, value: Any, entry: Quantity) -> str:
     """The message that refuses a value: key, value, unit, meaning, allowed range and a hint."""
-    worded = bool(entry.choices) or entry.kind == "str"
-    unit = "" if entry.unit == "1" or worded else f" {entry.unit}"
-    if worded:
+    unit = "" if entry.unit == "1" or entry.worded else f" {entry.unit}"
+    if entry.worded:
         rule = f"must be {entry.range_text()}"
     else:
         number = "be an integer in" if entry.kind == "int" else "lie in"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 
-from .quantities import Checked, quantity
+from .checked import Checked
+from .quantities import quantity
 
 LEVELS = ("everything", "interface", "lengths")
 """Levels of recording, each a part of the one before it."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 
-from .quantities import Checked, ParameterError, declarations, quantity
+from .checked import Checked
+from .quantities import ParameterError, declarations, quantity
 
 BOTTOMS = ("free", "clamped", "roller")
 

@@ -112,10 +112,10 @@ def magnitude(key: str, value: Any, entry: Quantity) -> Any:
     ----------
     key : str
         Name of the parameter, for messages.
-    value : array_like, pint.Quantity or DataArray
-        A DataArray (or anything else with ``attrs``) states its unit as the attribute ``units``,
-        in the style of CF (``"MPa"``, ``"m s-1"``), or holds a pint quantity. Lists may hold
-        pint quantities.
+    value : array_like, text, pint.Quantity or DataArray
+        A text is read by :func:`parse`. A DataArray (or anything else with ``attrs``) states its
+        unit as the attribute ``units``, in the style of CF (``"MPa"``, ``"m s-1"``), or holds a
+        pint quantity. Lists may hold texts and pint quantities.
     entry : Quantity
         The declaration.
 
@@ -127,6 +127,8 @@ def magnitude(key: str, value: Any, entry: Quantity) -> Any:
     """
     if isinstance(value, (list, tuple)) and any(map(_carries_unit, value)):
         return [magnitude(f"{key}[{i}]", item, entry) for i, item in enumerate(value)]
+    if isinstance(value, str):
+        return parse(key, value, entry)
     if is_quantity(value):
         return _rescaled(key, value.magnitude, f"{value.units:D}", entry)
     attributes = getattr(value, "attrs", None)
@@ -149,7 +151,8 @@ def is_quantity(value: Any) -> bool:
 
 
 def _carries_unit(value: Any) -> bool:
-    return is_quantity(value) or (hasattr(value, "unit") and hasattr(value, "value"))
+    other = hasattr(value, "unit") and hasattr(value, "value")  # of another library
+    return isinstance(value, str) or is_quantity(value) or other
 
 
 def _rescaled(key: str, values: Any, unit: Any, entry: Quantity) -> Any:

@@ -9,12 +9,12 @@ from typing import Any
 
 import xarray as xr
 
+from ..analysis.progress import Progress
 from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
 from .job import Job, end, running
-from .progress import Progress
 from .steps import LINKS, Task
 from .store import path_in
 

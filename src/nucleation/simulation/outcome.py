@@ -14,6 +14,8 @@ class Outcome(enum.Enum):
     TENSION = "failed: the interface came under tension, where the friction law has no meaning"
     NOT_FINITE = "failed: a recorded value is not finite"
 
+    INTERRUPTED = "interrupted: what had been recorded until then"
+
     @property
     def completed(self) -> bool:
         """Whether the run reached its planned end."""

@@ -10,7 +10,7 @@ from ..model.quantities import ParameterError, Quantity
 from ..model.units import magnitude
 from .critical import stability_reason
 from .crossings import largest_crossings, marginal_frequencies
-from .fault import Fault, Values, labelled
+from .fault import Fault, Values, labelled, takes_fault
 from .spectrum import Systems
 from .transfer import as_wavenumber
 
@@ -36,6 +36,7 @@ class CriticalMode(NamedTuple):
     angular_frequency: Any
 
 
+@takes_fault
 def critical_length(**fault: Values) -> Any:
     """Critical nucleation length L_c of the linear theory.
 
@@ -63,6 +64,7 @@ def critical_length(**fault: Values) -> Any:
     return _critical(fault_of(fault)).length
 
 
+@takes_fault
 def critical_mode(**fault: Values) -> CriticalMode:
     """Critical length, wavenumber and angular frequency; needs `velocity`.
 
@@ -84,6 +86,7 @@ def critical_mode(**fault: Values) -> CriticalMode:
     return _critical(_with_velocity(fault_of(fault)))
 
 
+@takes_fault
 def spectrum(wavenumber: Values, **fault: Values) -> Any:
     """Growth rates of both modes of homogeneous sliding, the roots of Eq. (5); needs `velocity`.
 
@@ -113,12 +116,14 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
 
     own = _with_velocity(fault_of(fault))
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
+    own.broadcast(wavenumber=k)
     found = own.evaluate(rates, k, rows=2, dtype=complex)
     if labelled(found):
         found = found.rename(row="root")
     return named(found, "growth_rate", "1/s", "growth rate of the mode", own)
 
 
+@takes_fault
 def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     """Elastic transfer functions G1 and G2 of the pair of bodies.
 
@@ -152,6 +157,7 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
 
     own = fault_of(neutral | fault)
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
+    own.broadcast(wavenumber=k)
     shear, normal = own.evaluate(functions, k, rows=2)
     return (
         named(shear, "G1", "1", "shear response", own),

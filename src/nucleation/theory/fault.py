@@ -1,17 +1,18 @@
 """One or many faults: two elastic bodies and linearised friction, as arrays that broadcast.
 
 The array form of the linear theory's input. Every parameter may be a number, an array, a pint
-quantity or an :class:`xarray.DataArray`; they broadcast together as NumPy's or, by name, as
-xarray's do. What carries a unit is converted to SI units.
+quantity, an :class:`xarray.DataArray` or a text with a unit such as "0.5um"; they broadcast
+together as NumPy's or, by name, as xarray's do. What carries a unit is converted to SI units.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 import sys
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Values: TypeAlias = "ArrayLike | xr.DataArray"
+F = TypeVar("F", bound=Callable[..., Any])
 
 
 def _declared() -> dict[str, Quantity]:
@@ -146,6 +148,7 @@ class Fault:
             raise ParameterError("zeta or b = a + zeta is needed, one of them and not both")
         for name in self._given():
             object.__setattr__(self, name, checked(name, getattr(self, name), QUANTITIES[name]))
+        self.broadcast()
         if self.second_far_side is None:
             object.__setattr__(self, "second_far_side", self.far_side)
         for name in _WORDS:
@@ -187,6 +190,16 @@ class Fault:
             | (self.second_height != self.height)
             | (FAR_SIDES[self.far_side] is not FAR_SIDES[self.second_far_side])  # type: ignore[index]
         )
+
+    def broadcast(self, **others: Values) -> None:
+        """Raise a ParameterError, naming shapes, where arrays without names don't broadcast."""
+        arrays = {name: getattr(self, name) for name in self._given()} | others
+        shapes = {n: np.shape(x) for n, x in arrays.items() if np.ndim(x) and not labelled(x)}
+        try:
+            np.broadcast_shapes(*shapes.values())
+        except ValueError:
+            told = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+            raise ParameterError(f"the shapes of the parameters don't broadcast: {told}") from None
 
     def evaluate(
         self, function: Callable[..., Any], *arrays: Values, rows: int = 1, dtype: type = float
@@ -247,6 +260,16 @@ class Fault:
             lower = Layers(second_modulus, second_ratio, second_height, self.second_far_side)
         softness = modulus * slip_distance / normal_stress
         return Systems(Pair(upper, lower), friction, a, zeta, softness, velocity / slip_distance)
+
+
+def takes_fault(function: F) -> F:
+    """Decorator: completion shows the parameters of :class:`Fault` in place of ``**fault``."""
+    shown = inspect.signature(function)
+    own = [p for p in shown.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    taken = {p.name for p in own}
+    fault = [p for p in inspect.signature(Fault).parameters.values() if p.name not in taken]
+    function.__signature__ = shown.replace(parameters=own + fault)  # type: ignore[attr-defined]
+    return function
 
 
 _WORDS = ("far_side", "second_far_side", "plane")

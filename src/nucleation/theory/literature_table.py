@@ -14,7 +14,7 @@ import numpy as np
 
 from ..model.quantities import Quantity
 from ..theory import literature
-from .fault import Fault, Values, checked, labelled, where
+from .fault import Fault, Values, checked, labelled, takes_fault, where
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -183,6 +183,7 @@ LENGTHS = (
 """The lengths in use, in the order in which they are listed."""
 
 
+@takes_fault
 def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> xr.Dataset:
     """All lengths of :data:`LENGTHS` for a fault.
 

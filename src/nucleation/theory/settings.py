@@ -6,7 +6,8 @@ import dataclasses
 
 import numpy as np
 
-from ..model.quantities import Checked, quantity
+from ..model.checked import Checked
+from ..model.quantities import quantity
 
 
 def _spaced(low: float, high: float, number: int) -> tuple[float, ...]:

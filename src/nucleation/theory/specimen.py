@@ -14,7 +14,7 @@ from ..model.plausible import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
 from .arrays import critical_length
 from .creep.lengths import stability_length
-from .fault import QUANTITIES, Values, checked
+from .fault import QUANTITIES, Values, checked, takes_fault
 
 UNKNOWNS = Quantity(
     "what is looked for", choices=("normal_stress", "slip_distance", "shear_modulus"), kind="str"
@@ -61,6 +61,7 @@ class Fit(NamedTuple):
     monotonic: bool
 
 
+@takes_fault
 def specimen_fit(
     unknown: str, length: Values, criterion: str = "critical",
     within: tuple[float, float] | None = None, **fault: Any,

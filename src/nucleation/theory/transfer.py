@@ -24,9 +24,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..model.checked import Checked
 from ..model.material import Material
 from ..model.parameters import Parameters
-from ..model.quantities import Checked, quantity
+from ..model.quantities import quantity
 from .stiffness import FAR_SIDES, Array, Layers, Pair
 
 

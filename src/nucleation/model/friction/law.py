@@ -15,15 +15,25 @@ friction depends on ``log(phi)`` almost linearly.
 from __future__ import annotations
 
 import dataclasses
+import inspect
 from typing import Any, ClassVar, NamedTuple, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...types import Array
-from ..quantities import Checked, ParameterError, check, declarations, quantity
+from ..checked import Checked
+from ..quantities import ParameterError, check, declarations, quantity
 from .evolution import StateEvolution
-from .registry import EVOLUTIONS, LAWS, USUAL_EVOLUTION, USUAL_LAW, law_class, module
+from .registry import (
+    EVOLUTIONS,
+    LAWS,
+    USUAL_EVOLUTION,
+    USUAL_LAW,
+    law_class,
+    law_declarations,
+    module,
+)
 
 
 class Expansion(NamedTuple):
@@ -40,6 +50,25 @@ def law_name(name: str) -> Any:
         "friction law: how friction follows from slip rate and state", choices=LAWS,
         default=name.rpartition(".")[2],
     )  # fmt: skip
+
+
+class _Signature:
+    """What :class:`Friction` shows for completion: the parameters of all laws. Laws show theirs."""
+
+    def __get__(self, _: Any, owner: type) -> inspect.Signature:
+        if owner is not Friction:
+            raise AttributeError
+        defaults = {
+            field.name: field.default
+            for law in reversed(sorted(LAWS, key=lambda name: (name != USUAL_LAW, name)))
+            for field in dataclasses.fields(law_class(law))  # type: ignore[arg-type]
+        }
+        return inspect.Signature(
+            [
+                inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name])
+                for name in law_declarations()
+            ]
+        )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,6 +93,8 @@ class Friction(Checked):
         "regularisation slip rate",
         unit="m/s", low=1e-30, high=1.0, closed="low", symbol="v0", default=1.0e-9,
     )  # fmt: skip
+
+    __signature__ = _Signature()
 
     set_by_expansion: ClassVar[tuple[str, ...]] = ()
     """The parameters that :meth:`with_expansion` finds."""

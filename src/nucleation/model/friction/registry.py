@@ -22,7 +22,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..quantities import Checked, ParameterError, Quantity, declarations
+from ..checked import Checked
+from ..quantities import ParameterError, Quantity, declarations
 
 USUAL_LAW = "product"
 USUAL_EVOLUTION = "aging"

@@ -25,7 +25,7 @@ from ..arrays import fault_of, named
 from ..critical import systems_of
 from ..crossings import largest_crossings
 from ..estimates import loading_rate
-from ..fault import Fault, Values
+from ..fault import Fault, Values, takes_fault
 from ..spectrum import Systems
 from ..transfer import bodies_of
 from .linearised import (
@@ -196,6 +196,7 @@ def _guess(one: Systems) -> float:
     return min(0.5 * (1.0 + 0.25 * float(one.a[0]) / zeta), 1.0)
 
 
+@takes_fault
 def stability_length(
     *, friction_law: Friction | None = None, loading: str = "edge", **fault: Values
 ) -> Any:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import dataclasses
 
 from ...datasets.variables import Variable
+from ...model.checked import Checked
 from ...model.linearised import InterfaceState
 from ...model.material import Material
 from ...model.parameters import Parameters
 from ...model.perturbation import IN_TIME
-from ...model.quantities import Checked, quantity
+from ...model.quantities import quantity
 from ...model.second_body import BOTTOMS, SecondBody
 from ...theory.critical import run_length, theory_length
 

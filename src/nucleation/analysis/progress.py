@@ -8,12 +8,12 @@ from typing import TextIO
 import numpy as np
 from tqdm import tqdm
 
-from ..analysis.definitions import Extent, ExtractionSettings
 from ..fem.grid import Grid
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..simulation.control import Instant
 from ..theory.critical import NoInstability, run_length
+from .definitions import Extent, ExtractionSettings
 
 PAUSE = 10.0  # s of wall time between the lines of a log
 PAUSE_ON_TERMINAL = 0.2
@@ -32,9 +32,10 @@ class Progress:
     ----------
     parameters : of the run.
     stream : a terminal, which gets a bar, or a file, which gets lines.
+    terminal : whether there is a bar in any case, as in a notebook.
     """
 
-    def __init__(self, parameters: Parameters, stream: TextIO) -> None:
+    def __init__(self, parameters: Parameters, stream: TextIO, terminal: bool = False) -> None:
         threshold = ExtractionSettings().edge_threshold * parameters.loading.velocity
         x = Grid.of(parameters.geometry, parameters.mesh).x
         self._patch = Extent(x, threshold, parameters.loading.kind)
@@ -43,7 +44,7 @@ class Progress:
         self._stream = stream
         self._bar = (
             tqdm(total=100, file=stream, bar_format="{l_bar}{bar}|{postfix}", leave=False)
-            if stream.isatty()
+            if terminal or stream.isatty()
             else None
         )
         self._pause = PAUSE_ON_TERMINAL if self._bar is not None else PAUSE

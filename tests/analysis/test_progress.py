@@ -9,9 +9,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from nucleation.analysis import progress
+from nucleation.analysis.progress import Progress
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.pipeline import progress
-from nucleation.pipeline.progress import Progress
 from nucleation.simulation.run import simulate
 
 COARSE = Parameters(
