@@ -308,3 +308,10 @@ def test_a_sliding_pair_goes_on():
         state, report = dynamics.advance(state, -45)
     np.testing.assert_allclose(report.interface.slip_rate, 1e-5, rtol=1e-7)
     np.testing.assert_allclose(report.interface.normal[1:], 1e6 * dynamics.grid.dx, rtol=1e-9)
+
+
+def test_heights_of_a_fault_of_ones_own():
+    """The paper's for the paper's fault; with ten times D and so L_c, ten times as high."""
+    assert dispersion.heights_for(Parameters()) == [0.005, 0.02, 0.1, 0.5]
+    own = Parameters().replaced({"slip_distance": 5e-6})
+    assert dispersion.heights_for(own) == [0.05, 0.2, 1.0, 5.0]

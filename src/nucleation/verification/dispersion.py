@@ -25,7 +25,7 @@ from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
 from ..simulation.interface import Interface
 from ..simulation.periodic import sliding_period, sliding_state
-from ..theory.critical import critical_wavenumber
+from ..theory.critical import critical_length, critical_wavenumber
 from ..theory.curves import CURVES
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import RIGID, Body
@@ -33,7 +33,7 @@ from ..theory.transfer import RIGID, Body
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m
+HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
 MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c
 CURVE = np.linspace(0.4, 2.1, 171)  # k / k_c of the theory's curves
 NODES = 65  # per wavelength, odd
@@ -141,6 +141,15 @@ def by_direction(rates: ArrayLike) -> ComplexArray:
     return np.take_along_axis(rates, np.argsort(-rates.imag, axis=-1), axis=-1)
 
 
+def heights_for(parameters: Parameters) -> list[float]:
+    """:data:`HEIGHTS` (m), to three digits in the same ratio to L_c of a high block as there."""
+    own, papers = (
+        critical_length(math.inf, p.material, interface_state(p))
+        for p in (parameters, Parameters())
+    )
+    return [float(f"{height * float(own / papers):.3g}") for height in HEIGHTS]
+
+
 def dispersion_dataset(
     parameters: Parameters, heights: ArrayLike = HEIGHTS, modes: ArrayLike = MODES
 ) -> xr.Dataset:
@@ -214,5 +223,6 @@ def to_csv(dataset: xr.Dataset) -> str:
 
 def files(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
     """The step ``dispersion``: :func:`dispersion_dataset`, with its CSV."""
-    found = dispersion_dataset(Parameters(material=material, friction=friction, loading=loading))
+    parameters = Parameters(material=material, friction=friction, loading=loading)
+    found = dispersion_dataset(parameters, heights_for(parameters))
     return {".nc": found, ".csv": to_csv(found)}
