@@ -311,7 +311,7 @@ def test_a_sliding_pair_goes_on():
 
 
 def test_heights_of_a_fault_of_ones_own():
-    """The paper's for the paper's fault; with ten times D and so L_c, ten times as high."""
+    """The paper's for the paper's fault; with twice mu and so L_c, twice as high."""
     assert dispersion.heights_for(Parameters()) == [0.005, 0.02, 0.1, 0.5]
-    own = Parameters().replaced({"slip_distance": 5e-6})
-    assert dispersion.heights_for(own) == [0.05, 0.2, 1.0, 5.0]
+    own = Parameters().replaced({"shear_modulus": 6.2e9})
+    assert dispersion.heights_for(own) == [0.01, 0.04, 0.2, 1.0]
