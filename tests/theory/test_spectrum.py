@@ -5,7 +5,6 @@ import pytest
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.model.quantities import ParameterError
 from nucleation.theory.spectrum import growth_rates
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
 
@@ -70,32 +69,3 @@ def test_growth_rates_satisfy_the_spectrum_equation(upper, lower):
     size = np.abs(elastic) * (s.velocity + np.abs(rates) * s.slip_length)
     size += s.normal_stress * np.abs(rates) * (s.zeta + s.a * np.abs(rates) / rate)
     assert np.all(np.abs(residual) < 1e-14 * size)
-
-
-def test_limits_of_the_spectrum():
-    """Long waves: ``zeta V/(a ell)`` and ``Gamma V/(zeta ell)``; short: ``-V/ell`` and ``-inf``."""
-    s, (upper, lower) = INTERFACE, PAIRS[0]
-    rate = s.velocity / s.slip_length
-    fast, slow = growth_rates(1e-7, upper, lower, s)
-    g1, g2 = transfer_functions(1e-7, upper, lower)
-    gamma = SOFT.shear_modulus * 1e-7 * s.slip_length / s.normal_stress * (g1 - 0.6j * g2)
-    assert fast == pytest.approx(s.zeta / s.a * rate, rel=1e-9)
-    assert slow == pytest.approx(gamma / s.zeta * rate, rel=1e-9)
-    assert growth_rates(1e9, upper, lower, s)[0] == pytest.approx(-rate, rel=1e-6)
-
-
-@pytest.mark.parametrize(("upper", "lower"), PAIRS)
-def test_reversed_wavenumber_conjugates(upper, lower):
-    k = np.geomspace(1e-3, 1e4, 60)
-    forward, backward = (growth_rates(sign * k, upper, lower, INTERFACE) for sign in (1, -1))
-    assert np.all(distance(backward, forward.conj()) < 1e-13)
-
-
-@pytest.mark.parametrize(
-    "bad",
-    [{"a": 0.0}, {"slip_length": -1.0}, {"velocity": 0.0}, {"normal_stress": 0.0},
-     {"friction": -0.1}, {"zeta": np.nan}],
-)  # fmt: skip
-def test_interface_state_is_checked(bad):
-    with pytest.raises(ParameterError, match=next(iter(bad))):
-        InterfaceState(**bad)
