@@ -287,3 +287,7 @@ def test_bad_arguments():
         critical_length([0.1, -0.1], MATERIAL, MAIN_TEXT)
     with pytest.raises(ValueError, match="at least one"):
         critical_wavenumber(RIGID, RIGID, MAIN_TEXT)
+    bad = {"a": 0.0, "slip_length": -1.0, "velocity": 0.0, "normal_stress": 0.0, "friction": -0.1}
+    for name, value in (bad | {"zeta": np.nan}).items():
+        with pytest.raises(ParameterError, match=name):
+            InterfaceState(**{name: value})

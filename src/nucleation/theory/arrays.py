@@ -66,22 +66,9 @@ def critical_length(**fault: Values) -> Any:
 
 @takes_fault
 def critical_mode(**fault: Values) -> CriticalMode:
-    """Critical length, wavenumber and angular frequency; needs `velocity`.
+    """Critical length, wavenumber and angular frequency, as :func:`critical_length`.
 
-    Parameters
-    ----------
-    **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`.
-
-    Returns
-    -------
-    CriticalMode
-        NaN where homogeneous sliding is stable.
-
-    Raises
-    ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range.
+    The `velocity` is needed for the frequency. NaN where homogeneous sliding is stable.
     """
     return _critical(_with_velocity(fault_of(fault)))
 
@@ -105,10 +92,8 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
 
     Raises
     ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range.
-    ValueError
-        If a wavenumber is zero or not finite.
+    ParameterError, ValueError
+        If a parameter, or the wavenumber, is missing, unknown or outside its range.
     """
 
     def rates(systems: Systems, k: Any) -> Any:
@@ -143,10 +128,8 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
 
     Raises
     ------
-    ParameterError
-        If a parameter is missing, unknown or outside its range.
-    ValueError
-        If a wavenumber is zero or not finite.
+    ParameterError, ValueError
+        If a parameter, or the wavenumber, is missing, unknown or outside its range.
     """
     neutral = {"normal_stress": 1e6, "a": 0.01, "slip_distance": 1e-6, "friction": 0.0}
     if fault.keys().isdisjoint({"zeta", "b"}):

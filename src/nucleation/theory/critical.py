@@ -34,17 +34,12 @@ class NoInstability(ValueError):
 class CriticalPoint:
     """The largest wavenumber with ``Re Lambda = 0``.
 
-    Attributes
-    ----------
-    wavenumber : float
-        k_c > 0 (1/m).
-    angular_frequency : float
-        omega (rad/s) of the mode ``exp(i omega t - i k_c x)``, which travels along +x if
-        positive. If ``G2 = 0`` both signs are marginal; the positive one is given.
+    Its mode ``exp(i omega t - i k_c x)`` travels along +x if omega is positive. If ``G2 = 0`` both
+    signs are marginal; the positive one is given.
     """
 
-    wavenumber: float
-    angular_frequency: float
+    wavenumber: float  # k_c > 0 (1/m)
+    angular_frequency: float  # omega (rad/s)
 
     @property
     def length(self) -> float:
@@ -56,11 +51,6 @@ def critical_wavenumber(
     upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState
 ) -> CriticalPoint:
     """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5).
-
-    Parameters
-    ----------
-    upper, lower : Body or RigidBody
-    interface : InterfaceState
 
     Raises
     ------
@@ -92,17 +82,8 @@ def systems_of(cases: Sequence[_Case]) -> Systems:
 def theory_lengths(cases: Iterable[_Case]) -> Array:
     """The linear theory's critical lengths of many systems, in few vectorised calls.
 
-    Parameters
-    ----------
-    cases : iterable of (upper, lower, interface)
-        Each as for :func:`critical_wavenumber`, in any mixture of far sides and rigid bodies;
-        equal ones are computed once.
-
-    Returns
-    -------
-    length : ndarray
-        ``L_c = 2 pi / k_c`` (m) of each case in its order; NaN where sliding is stable
-        (:func:`critical_wavenumber` says why).
+    They may be in any mixture of far sides and rigid bodies; equal ones are computed once. NaN
+    where sliding is stable (:func:`critical_wavenumber` says why).
     """
     cases = list(cases)
     groups: dict[tuple[str, str], dict[_Case, None]] = {}
@@ -151,17 +132,11 @@ def critical_length(height: ArrayLike, material: Material, interface: InterfaceS
 
 @cache
 def run_length(parameters: Parameters, interface: InterfaceState) -> float:
-    """The critical length (m) of a run's own bodies and far sides, for friction linearised.
-
-    Raises
-    ------
-    NoInstability
-        If sliding is stable.
-    """
+    """L_c (m) of a run's own bodies and far sides; raises NoInstability if there is none."""
     return critical_wavenumber(*bodies_of(parameters), interface).length
 
 
 @cache
 def theory_length(height: float, material: Material, interface: InterfaceState) -> float:
-    """The linear theory's critical length (m); raises NoInstability if there is none."""
+    """L_c (m) of a block on a rigid base; raises NoInstability if there is none."""
     return float(critical_length(height, material, interface))

@@ -83,17 +83,9 @@ def certainly_stable(systems: Systems, k_low: Array, k_high: Array) -> NDArray[n
 
 
 def largest_crossings(systems: Systems) -> Array:
-    """The largest ``k > 0`` with ``Re Lambda = 0``, NaN where sliding is stable at every k.
+    """The largest ``k > 0`` (1/m) with ``Re Lambda = 0``, (n,), of systems with fields (n,).
 
-    Parameters
-    ----------
-    systems : Systems
-        Their fields have one dimension, of length n.
-
-    Returns
-    -------
-    wavenumber : ndarray
-        k_c (1/m), shape (n,).
+    NaN where sliding is stable at every k.
     """
     heights = [body.height for body in systems.pair if body is not None]
     k = half_space_crossings(systems)

@@ -35,30 +35,17 @@ FAR = 4.0
 class Fit(NamedTuple):
     """Where a nucleation length fits into a specimen.
 
-    Attributes
-    ----------
-    unknown : str
-        The parameter that was looked for.
-    unit : str
-        Its unit.
-    intervals : tuple of (float, float)
-        The values, low to high, at which the nucleation length exists and is at most the
-        specimen's. None: it does not nucleate. An end that is one of `searched` is none of the
-        specimen's.
-    searched : (float, float)
-        The values that were looked at.
-    exists : bool
-        Whether there is a nucleation length at any of them, of whatever length.
-    monotonic : bool
-        Whether the length rises or falls all along, wherever it exists.
+    `intervals` are the values, low to high, at which the nucleation length exists and is at most
+    the specimen's; none if it does not nucleate. An end that is one of `searched`, the values that
+    were looked at, is none of the specimen's.
     """
 
-    unknown: str
+    unknown: str  # the parameter that was looked for
     unit: str
     intervals: tuple[tuple[float, float], ...]
     searched: tuple[float, float]
-    exists: bool
-    monotonic: bool
+    exists: bool  # whether there is a nucleation length at any of them, of whatever length
+    monotonic: bool  # whether the length rises or falls all along, wherever it exists
 
 
 @takes_fault

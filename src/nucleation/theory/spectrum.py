@@ -51,7 +51,13 @@ class Systems(NamedTuple):
         return g, self.friction * found.xy / found.xx
 
     def growth_rates(self, wavenumber: Array) -> ComplexArray:
-        """Both roots of :func:`growth_rates`, for wavenumbers that broadcast with the systems."""
+        """Both roots Lambda (1/s) of Eq. (5), the faster one first, shape ``(2,) + broadcast``.
+
+        With ``lambda = Lambda ell/V`` and the elastic stiffness over the frictional one, ``Gamma =
+        mu k ell (G1 - i f G2)/sigma0``, Eq. (5) times ``1 + lambda`` is ``a lambda^2 + (Gamma -
+        zeta) lambda + Gamma = 0``. The larger root is formed by an addition, the other one from
+        their product, Gamma/a. ``Lambda(-k)`` is the complex conjugate of ``Lambda(k)``.
+        """
         g1, g2 = self.pair.transfer_functions(wavenumber)
         gamma = self.softness * wavenumber * (g1 - 1j * self.friction * g2)
         half = 0.5 * (gamma - self.zeta) / self.a
@@ -78,26 +84,8 @@ def growth_rates(
     lower: Body | RigidBody,
     interface: InterfaceState,
 ) -> ComplexArray:
-    """Both roots Lambda of Eq. (5) at each wavenumber.
+    """Both roots Lambda (1/s) of Eq. (5) at wavenumbers k (1/m), of either sign and not zero.
 
-    Parameters
-    ----------
-    wavenumber : array_like
-        k (1/m), any shape, not zero.
-    upper, lower : Body or RigidBody
-    interface : InterfaceState
-
-    Returns
-    -------
-    growth_rate : ndarray
-        Complex, 1/s, shape ``(2,) + k.shape``; the root that grows faster comes first.
-
-    Notes
-    -----
-    With ``lambda = Lambda ell / V`` and the elastic stiffness over the frictional one,
-    ``Gamma = mu k ell (G1 - i f G2) / sigma0``, Eq. (5) times ``1 + lambda`` is
-    ``a lambda^2 + (Gamma - zeta) lambda + Gamma = 0``. The larger root is formed by an addition and
-    the other one from the product of the roots, Gamma/a. Perturbations vary as
-    ``exp(Lambda t - i k x)``; ``Lambda(-k)`` is the complex conjugate of ``Lambda(k)``.
+    Shape ``(2,) + k.shape``; the root that grows faster comes first.
     """
     return system(upper, lower, interface).growth_rates(as_wavenumber(wavenumber))
