@@ -21,9 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.definitions import SEARCHED
-from ..fem.bodies import BodyOperator
+from ..analysis.record import Record
+from ..fem.bodies import BodyOperator, body_of
 from ..model.friction.law import Friction
-from ..theory.creep.linearised import FrozenPatch, log_state_derivatives
+from ..simulation.composition import interface_of
+from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 
 Array = NDArray[np.float64]
 
@@ -62,3 +64,38 @@ def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
         if np.ndim(value):
             object.__setattr__(own, name, value[nodes])  # frozen, and checked for all nodes
     return own
+
+
+class Frames:
+    """The frames of a recorded run up to its onset, and the frozen patch at each."""
+
+    def __init__(self, record: Record) -> None:
+        self.parameters, self.grid = record.parameters, record.grid
+        body = body_of(self.parameters)
+        self.operator = body.operator(0.0)
+        self._law = interface_of(self.parameters, body.grid).friction
+        self._threshold = record.threshold
+        self._fields = [
+            record.simulation[name].values[record.creep]
+            for name in ("slip_rate", "state", "normal_stress")
+        ]
+        self.time, self.length = record.time[record.creep], record.lengths[record.creep]
+
+    def fields(self, i: int) -> tuple[Array, Array, Array]:
+        """Slip rate (m/s), state (s) and nodal normal force (N/m) at a frame, at all nodes."""
+        rate, state, stress = (field[i] for field in self._fields)
+        return rate, state, -stress * self.grid.nodal_lengths
+
+    def patch(self, i: int) -> FrozenPatch:
+        """The frozen patch at a frame."""
+        return frozen_patch(self.operator, self._law, *self.fields(i), self._threshold)
+
+    def oscillating(self, patch: FrozenPatch, i: int) -> complex:
+        """Lambda (1/s) of its fastest growing oscillating mode, or NaN.
+
+        The frequency's scale is V/D; without an edge that moves at V it is the patch's own v/D.
+        """
+        own = 1.0
+        if self.parameters.loading.kind != "edge":
+            own = float(self._fields[0][i].max()) / self.parameters.loading.velocity
+        return patch.oscillating(own * OSCILLATING / self.parameters.memory_time)

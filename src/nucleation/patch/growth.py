@@ -17,11 +17,8 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record
 from ..datasets.variables import Variable, annotate
-from ..fem.bodies import body_of
-from ..simulation.composition import interface_of
 from ..simulation.recorded import RECORDED
-from ..theory.creep.linearised import OSCILLATING, FrozenPatch
-from .frozen import frozen_patch
+from .frozen import Frames
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -90,43 +87,23 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
     return found.assign_attrs(parameters=simulation.attrs["parameters"])
 
 
-class _Creep:
-    """A simulation's frames up to the onset, and the frozen patch at each."""
+class _Creep(Frames):
+    """The frames of a run whose spectra are known once asked for."""
 
     def __init__(self, record: Record) -> None:
-        self.parameters, self.grid = record.parameters, record.grid
-        body = body_of(self.parameters)
-        self._operator = body.operator(0.0)
-        self._law = interface_of(self.parameters, body.grid).friction
-        self._threshold = record.threshold
-        before = record.simulation.isel(time=record.creep)
-        self._fields = [before[name].values for name in ("slip_rate", "state", "normal_stress")]
-        self.time, self.length = record.time[record.creep], record.lengths[record.creep]
+        super().__init__(record)
         self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
 
     def usable_frames(self) -> NDArray[np.intp]:
         """Frames whose patch is resolved."""
         return np.flatnonzero(self.length >= FEWEST_NODES * self.grid.dx)
 
-    def patch(self, i: int) -> FrozenPatch:
-        """The frozen patch at a frame."""
-        rate, state, stress = (field[i] for field in self._fields)
-        force = -stress * self.grid.nodal_lengths
-        return frozen_patch(self._operator, self._law, rate, state, force, self._threshold)
-
-    def _slowest_oscillation(self, i: int) -> float:
-        """Least angular frequency (1/s): its scale is V/D, without an edge the patch's own v/D."""
-        own = 1.0
-        if self.parameters.loading.kind != "edge":
-            own = float(self._fields[0][i].max()) / self.parameters.loading.velocity
-        return own * OSCILLATING / self.parameters.memory_time
-
     def growth(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
         for i in set(frames) - set(self._known):
             patch = self.patch(i)
             fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
-            self._known[i] = (fastest, patch.oscillating(self._slowest_oscillation(i)))
+            self._known[i] = (fastest, self.oscillating(patch, i))
         return np.array([self._known[i][1] for i in frames], dtype=complex)
 
     def dataset(self, fit: dict[str, float], mode: ComplexArray) -> xr.Dataset:

@@ -29,11 +29,11 @@ from numpy.typing import NDArray
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record, parameters_of
 from ..datasets.variables import Variable, annotate
-from ..fem.bodies import BodyOperator, body_of
+from ..fem.bodies import BodyOperator
 from ..model.parameters import Parameters
 from ..simulation.recorded import RECORDED
-from ..theory.creep.linearised import OSCILLATING, FrozenPatch
-from .frozen import frozen_patch
+from ..theory.creep.linearised import FrozenPatch
+from .frozen import Frames
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -133,24 +133,18 @@ def follow_mode(
         If the patch has no oscillating mode at any instant.
     """
     record = Record(simulation, settings)
-    parameters, grid = record.parameters, record.grid
-    parameters.require_edge("the law of the drop")
-    operator = body_of(parameters).operator(0.0)
-    creep, threshold = record.simulation.isel(time=record.creep), record.threshold
-    time, length = record.time[record.creep], record.lengths[record.creep]
+    record.parameters.require_edge("the law of the drop")
+    run = Frames(record)
+    parameters, time, length = run.parameters, run.time, run.length
     wanted = np.linspace(FROM * length[-1], length[-1], INSTANTS)
     frames = np.unique(np.searchsorted(length, wanted).clip(0, length.size - 1))
-    loads = _loads(operator, parameters)
+    loads = _loads(run.operator, parameters)
     rows = []
     for i in frames:
-        rate, state, stress = (
-            creep[name].values[i] for name in ("slip_rate", "state", "normal_stress")
-        )
-        force = -stress * grid.nodal_lengths
-        patch = frozen_patch(operator, parameters.friction, rate, state, force, threshold)
-        pair = patch.oscillating(OSCILLATING / parameters.memory_time)
+        patch = run.patch(i)
+        pair = run.oscillating(patch, i)
         if np.isfinite(pair):
-            weights = _weights(patch, pair, parameters, (rate, state, force), loads)
+            weights = _weights(patch, pair, parameters, run.fields(i), loads)
             rows.append((time[i], length[i], pair, *weights))
     if not rows:
         raise ValueError("the creeping patch has no oscillating mode")
@@ -158,7 +152,7 @@ def follow_mode(
     if record.onset is not None:
         small = columns[0] <= time[-1] - np.median(2.0 * np.pi / columns[2].imag)
         columns = [column[small] for column in columns]
-    return ModeHistory(parameters, grid.x, *columns)
+    return ModeHistory(parameters, run.grid.x, *columns)
 
 
 def _loads(operator: BodyOperator, parameters: Parameters) -> _Loads:
