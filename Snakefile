@@ -5,8 +5,8 @@
 # Data flow: theory and simulate -> extract -> draw. Results lie below the configuration's
 # `results`, relative to the working directory.
 #
-# A rule names the function that makes its result (`call`); with its code, its other parameters and
-# its inputs this gives the result's key. `steps("RULE", "NAME")` is the path of a result: a file of
+# A rule (`make_rule`) names the function that makes its result; with its code, its other parameters
+# and its inputs this gives the result's key. `steps("RULE", "NAME")` is the path of a result: a file of
 # the store results/store, or the link .links/NAME.KEY.nc that a job makes (nucleation.pipeline.steps).
 import functools
 import gc
@@ -14,6 +14,7 @@ import os
 import runpy
 import sys
 from dataclasses import asdict
+from math import ceil
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -85,7 +86,6 @@ if FIRST:
         logger.warning(f"Warning: {warning}")
 
 RESULTS = settings.results
-STEP = str(Path(BASE, "workflow", "scripts", "step.py"))
 RUNS = {run.id: run for run in settings.runs}
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
 DEFAULT = default_target(settings)
@@ -130,6 +130,52 @@ def needed(files, what):
     return given
 
 
+def make_rule(
+    rule_name, call, shows, message, suffix="nc", inputs={}, constraint=r"[^/]+", priority=0,
+    local=False, megabytes=None, script_name="step", **params,
+):  # fmt: skip
+    """Define a rule that makes a result by a function.
+
+    Parameters
+    ----------
+    rule_name : its name.
+    call : the function, ``MODULE:NAME``. It is given the parameters, and the inputs by their role.
+    shows, suffix : name and suffix of the result.
+    message : what its jobs do, in words.
+    inputs : files, or functions that give them, by their role.
+    constraint : pattern of the wildcard ``name``.
+    priority, local : as Snakemake has them. Local jobs take seconds: on a cluster they run where
+        Snakemake does.
+    megabytes : memory of a job that simulates, of its wildcards and the attempt.
+    script_name : what runs the function.
+    params : all else that the result depends on.
+    """
+    simulates = {"mem_mb": megabytes, "runtime": ceil(settings.limits.runtime)}
+
+    rule:
+        name:
+            rule_name
+        input:
+            **inputs,
+        output:
+            link(shows, suffix),
+        log:
+            log(shows),
+        wildcard_constraints:
+            name=constraint,
+        priority: priority
+        localrule: local
+        resources:
+            **(simulates if megabytes else {}),
+        params:
+            **params,
+            call=call,
+        message:
+            message
+        script:
+            str(Path(BASE, "workflow", "scripts", f"{script_name}.py"))
+
+
 include: "workflow/rules/studies.smk"
 include: "workflow/rules/theory.smk"
 include: "workflow/rules/simulations.smk"
@@ -140,26 +186,6 @@ include: "workflow/rules/crosscheck.smk"
 include: "workflow/rules/claims.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/targets.smk"
-
-
-# Of seconds: on a cluster they run where Snakemake does, as figures do.
-localrules:
-    draw_animation,
-    draw_figure_crosscheck,
-    draw_study,
-    extract,
-    gather_drop,
-    gather_floors,
-    gather_lengths,
-    gather_map,
-    gather_pairs,
-    gather_patches,
-    gather_twins,
-    join_batches,
-    print_article,
-    write_article,
-    write_report,
-    write_table_s1,
 
 
 # Here, since `include` keeps the default target that was there before.

@@ -40,7 +40,7 @@ class Workflow:
         ]  # fmt: skip
 
     def start(self, *arguments: str) -> subprocess.Popen:
-        """Start snakemake as a program of its own; its whole output comes from ``stdout``."""
+        """Start snakemake, which leads a group of processes; its output comes from ``stdout``."""
         return subprocess.Popen(
             [sys.executable, "-m", "snakemake", *self.arguments(*arguments)],
             cwd=self.checkout,
@@ -48,6 +48,7 @@ class Workflow:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
+            start_new_session=True,
         )
 
     def __call__(self, *arguments: str) -> subprocess.CompletedProcess:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import os
+import signal
 import time
 from pathlib import Path
 
@@ -86,9 +87,7 @@ def test_half_a_file_of_a_killed_job_is_made_again(host):
     ):
         assert process.poll() is None, process.stdout.read()
         time.sleep(0.05)
-    children = [int(pid) for pid in os.popen(f"pgrep -P {process.pid}").read().split()]
-    for pid in (process.pid, *children):
-        os.kill(pid, 9)
+    os.killpg(process.pid, signal.SIGKILL)
     process.communicate()
     (host.directory / "wait").unlink()
     host("--unlock")

@@ -18,74 +18,49 @@ def crosschecks(solver):
     return lambda wildcards: steps.several(f"crosscheck_{solver}", CROSSCHECKS)
 
 
-rule crosscheck_own:
-    output:
-        link("crosscheck/own/{name}"),
-    log:
-        log("crosscheck/own/{name}"),
-    threads: 1
-    params:
-        call="nucleation.verification.crosscheck.timed:own",
-        loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
-        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-    message:
-        "Crosscheck {wildcards.name} with the project's solver"
-    script:
-        STEP
+make_rule(
+    "crosscheck_own",
+    call="nucleation.verification.crosscheck.timed:own",
+    shows="crosscheck/own/{name}",
+    loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
+    parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
+    message="Crosscheck {wildcards.name} with the project's solver",
+)
 
+make_rule(
+    "crosscheck_freefem",
+    call="nucleation.verification.crosscheck.freefem:of_run",
+    shows="crosscheck/freefem/{name}",
+    inputs={"scripts": freefem_scripts},
+    loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
+    parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
+    crosscheck=asdict(settings.crosscheck),
+    settings=asdict(settings.extraction),
+    message="Crosscheck {wildcards.name} with FreeFem++",
+)
 
-rule crosscheck_freefem:
-    input:
-        scripts=freefem_scripts,
-    output:
-        link("crosscheck/freefem/{name}"),
-    log:
-        log("crosscheck/freefem/{name}"),
-    threads: 1
-    params:
-        call="nucleation.verification.crosscheck.freefem:of_run",
-        loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
-        parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-        crosscheck=asdict(settings.crosscheck),
-        settings=asdict(settings.extraction),
-    message:
-        "Crosscheck {wildcards.name} with FreeFem++"
-    script:
-        STEP
+make_rule(
+    "compare_crosscheck",
+    call="nucleation.verification.crosscheck.compare:files",
+    shows="crosscheck",
+    inputs={"own": crosschecks("own"), "freefem": crosschecks("freefem")},
+    ids=list(CROSSCHECKS),
+    settings=asdict(settings.extraction),
+    message="Crosscheck: differences of the two solvers",
+)
 
-
-rule compare_crosscheck:
-    input:
-        own=crosschecks("own"),
-        freefem=crosschecks("freefem"),
-    output:
-        link("crosscheck"),
-    log:
-        log("crosscheck"),
-    params:
-        call="nucleation.verification.crosscheck.compare:files",
-        ids=list(CROSSCHECKS),
-        settings=asdict(settings.extraction),
-    message:
-        "Crosscheck: differences of the two solvers"
-    script:
-        STEP
-
-
-rule draw_figure_crosscheck:
-    input:
-        own=crosschecks("own"),
-        freefem=crosschecks("freefem"),
-        table=only("compare_crosscheck"),
-    output:
-        link("figures/figure_crosscheck", "png"),
-    log:
-        log("figures/figure_crosscheck"),
-    params:
-        call="nucleation.figures.checks.figure_crosscheck:draw_runs",
-        ids=list(CROSSCHECKS),
-        settings=asdict(settings.extraction),
-    message:
-        "Crosscheck: patch length and driving force by both solvers"
-    script:
-        STEP
+make_rule(
+    "draw_figure_crosscheck",
+    call="nucleation.figures.checks.figure_crosscheck:draw_runs",
+    shows="figures/figure_crosscheck",
+    suffix="png",
+    local=True,
+    inputs={
+        "own": crosschecks("own"),
+        "freefem": crosschecks("freefem"),
+        "table": only("compare_crosscheck"),
+    },
+    ids=list(CROSSCHECKS),
+    settings=asdict(settings.extraction),
+    message="Crosscheck: patch length and driving force by both solvers",
+)

@@ -50,24 +50,16 @@ SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": ins
 """The simulation of which a figure shows more than its lengths."""
 
 for _name, _inputs in DRAWN.items():
-
-    rule:
-        name:
-            f"draw_{_name}"
-        input:
-            **_inputs,
-        output:
-            link(f"figures/{_name}", "png"),
-        log:
-            log(f"figures/{_name}"),
-        localrule: True
-        params:
-            **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
-            call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
-        message:
-            FIGURES[_name].title
-        script:
-            STEP
+    make_rule(
+        f"draw_{_name}",
+        call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
+        shows=f"figures/{_name}",
+        suffix="png",
+        local=True,
+        inputs=_inputs,
+        message=FIGURES[_name].title,
+        **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
+    )
 
 
 def declarations(names):
@@ -77,75 +69,53 @@ def declarations(names):
 
 
 # Any study against the theory, by what it varies.
-rule draw_study:
-    input:
-        table=lambda wildcards: lengths_of(wildcards.name)[0],
-    output:
-        link("figures/study_{name}", "png"),
-    log:
-        log("figures/study_{name}"),
-    params:
-        call="nucleation.figures.beyond.figure_studies:draw_study",
-        varied=lambda wildcards: varied(settings.runs_of(wildcards.name)),
-        entries=lambda wildcards: declarations(varied(settings.runs_of(wildcards.name))),
-        theory=lambda wildcards: theory_curves(
-            settings.runs_of(wildcards.name),
-            settings.studies[wildcards.name],
-            settings.base,
-            settings.main_text_interface,
-        ),
-    message:
-        "Figure of the study {wildcards.name}: simulations and theory"
-    script:
-        STEP
+make_rule(
+    "draw_study",
+    call="nucleation.figures.beyond.figure_studies:draw_study",
+    shows="figures/study_{name}",
+    suffix="png",
+    local=True,
+    inputs={"table": lambda wildcards: lengths_of(wildcards.name)[0]},
+    varied=lambda wildcards: varied(settings.runs_of(wildcards.name)),
+    entries=lambda wildcards: declarations(varied(settings.runs_of(wildcards.name))),
+    theory=lambda wildcards: theory_curves(
+        settings.runs_of(wildcards.name),
+        settings.studies[wildcards.name],
+        settings.base,
+        settings.main_text_interface,
+    ),
+    message="Figure of the study {wildcards.name}: simulations and theory",
+)
 
+make_rule(
+    "film",
+    call="nucleation.analysis.film:of_run",
+    shows="film",
+    inputs={
+        "lengths": only("gather_lengths"),
+        "simulation": lambda wildcards: steps("simulate", inset_id(wildcards)),
+    },
+    id=inset_id,
+    message="Film: a run once more, for the stress in its block",
+)
 
-rule film:
-    input:
-        lengths=only("gather_lengths"),
-        simulation=lambda wildcards: steps("simulate", inset_id(wildcards)),
-    output:
-        link("film"),
-    log:
-        log("film"),
-    threads: 1
-    params:
-        call="nucleation.analysis.film:of_run",
-        id=inset_id,
-    message:
-        "Film: a run once more, for the stress in its block"
-    script:
-        STEP
+make_rule(
+    "draw_animation",
+    call="nucleation.figures.beyond.animation:of_run",
+    shows="figures/animation",
+    suffix="gif",
+    local=True,
+    inputs={"film": only("film"), "lengths": only("gather_lengths")},
+    id=inset_id,
+    message="Animation of creep, nucleation and rupture",
+)
 
-
-rule draw_animation:
-    input:
-        film=only("film"),
-        lengths=only("gather_lengths"),
-    output:
-        link("figures/animation", "gif"),
-    log:
-        log("figures/animation"),
-    params:
-        call="nucleation.figures.beyond.animation:of_run",
-        id=inset_id,
-    message:
-        "Animation of creep, nucleation and rupture"
-    script:
-        STEP
-
-
-rule draw_figure_laboratory:
-    input:
-        table=only("gather_laboratory"),
-    output:
-        link("figures/figure_laboratory", "png"),
-    log:
-        log("figures/figure_laboratory"),
-    localrule: True
-    params:
-        call="nucleation.figures.beyond.figure_laboratory:draw",
-    message:
-        "Laboratory faults: lengths observed and computed"
-    script:
-        STEP
+make_rule(
+    "draw_figure_laboratory",
+    call="nucleation.figures.beyond.figure_laboratory:draw",
+    shows="figures/figure_laboratory",
+    suffix="png",
+    local=True,
+    inputs={"table": only("gather_laboratory")},
+    message="Laboratory faults: lengths observed and computed",
+)

@@ -44,53 +44,51 @@ def caption_values(wildcards):
     return shown | {f"study_{study}": {"study": study} for study in OWN_STUDIES}
 
 
-rule write_report:
-    input:
-        figures=lambda wildcards: [pictured(name) for name in ENTRIES],
-        captions=[
+make_rule(
+    "write_report",
+    call="nucleation.report.writing:write",
+    shows="report",
+    suffix="html",
+    local=True,
+    inputs={
+        "figures": lambda wildcards: [pictured(name) for name in ENTRIES],
+        "captions": [
             str(BASE / f"workflow/report/{name if name in FIGURES else 'figure_studies'}.rst")
             for name in ENTRIES
         ],
-        datasets=lambda wildcards: [
+        "datasets": lambda wildcards: [
             dataset_behind(name) for name in catalogue.datasets_of(ENTRIES.values())
         ],
-        player=lambda wildcards: (
+        "player": lambda wildcards: (
             [steps("simulate", space_time_id(wildcards))] if "figure_s2" in REPORTED else []
         ),
-        modes=lambda wildcards: modes(),
-        claims=lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
-        page_files=sorted(
+        "modes": lambda wildcards: modes(),
+        "claims": lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
+        "page_files": sorted(
             str(path)
             for kind in ("html", "css", "js")
             for path in Path(SOURCE, "nucleation", "report").glob(f"*.{kind}")
         ),
-    output:
-        link("report", "html"),
-    log:
-        log("report"),
-    params:
-        call="nucleation.report.writing:write",
-        loads=[*plugins(settings.base), *laws_of(runs_for("quiet"))],
-        names=list(ENTRIES),
-        dataset_names=catalogue.datasets_of(ENTRIES.values()),
-        studies=OWN_STUDIES,
-        caption_values=caption_values,
-        material=asdict(explored()[0]),
-        friction=asdict(settings.base.friction),
-        interface=asdict(explored()[1]),
-        warnings=(
-            {}
-            if OF_THE_PAPER
-            else {
-                study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
-                for study in OWN_STUDIES
-            }
-        ),
-        leads=not OF_THE_PAPER,
-        settings=asdict(settings.extraction),
-        config=config,
-        player_id=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
-    message:
-        "Report"
-    script:
-        STEP
+    },
+    loads=[*plugins(settings.base), *laws_of(runs_for("quiet"))],
+    names=list(ENTRIES),
+    dataset_names=catalogue.datasets_of(ENTRIES.values()),
+    studies=OWN_STUDIES,
+    caption_values=caption_values,
+    material=asdict(explored()[0]),
+    friction=asdict(settings.base.friction),
+    interface=asdict(explored()[1]),
+    warnings=(
+        {}
+        if OF_THE_PAPER
+        else {
+            study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
+            for study in OWN_STUDIES
+        }
+    ),
+    leads=not OF_THE_PAPER,
+    settings=asdict(settings.extraction),
+    config=config,
+    player_id=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
+    message="Report",
+)
