@@ -10,7 +10,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..datasets.variables import Variable, annotate
 from ..fem.condensed import Body
@@ -19,11 +18,10 @@ from ..simulation.composition import composed
 from ..simulation.recorded import RECORDED
 from ..simulation.run import run
 from ..simulation.state import State
+from ..types import Array
 from .lengths import row
 from .moments import Indices, chosen_frames, event_interval, thinned
 from .record import parameters_of
-
-Array = NDArray[np.float64]
 
 MOST_FRAMES = (45, 70, 5)  # before, in and after the event
 MOST_COLUMNS, MOST_ROWS = 241, 31

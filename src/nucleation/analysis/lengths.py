@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some
@@ -17,11 +16,10 @@ from ..datasets.variables import table as table_of
 from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
 from ..theory.creep.lengths import NoPatch, Patches, stability_point
+from ..types import Array
 from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
 from .record import Record
-
-Array = NDArray[np.float64]
 
 OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
     "onset_time": np.mean, "onset_time_low": np.min, "onset_time_high": np.max,

@@ -26,8 +26,7 @@ from ..fem.bodies import BodyOperator, body_of
 from ..model.friction.law import Friction
 from ..simulation.composition import interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 
 def frozen_patch(

@@ -18,10 +18,8 @@ from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record
 from ..datasets.variables import Variable, annotate
 from ..simulation.recorded import RECORDED
+from ..types import Array, ComplexArray
 from .frozen import Frames
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 FEWEST_NODES = 8  # a shorter patch is not resolved
 SCANNED = 40  # instants that find the crossing,

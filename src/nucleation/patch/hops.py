@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
 from ..analysis.definitions import SEARCHED, ExtractionSettings
@@ -18,8 +17,7 @@ from ..analysis.record import Record
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, annotate
 from ..simulation.recorded import RECORDED
-
-Array = NDArray[np.float64]
+from ..types import Array
 
 INSIDE = 0.5  # position inside the patch at which its slip rate is shown, over its last length
 SPAN = 0.05  # length over which the frequency of hops is averaged, over the patch's last length

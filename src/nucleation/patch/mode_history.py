@@ -24,7 +24,6 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.record import Record, parameters_of
@@ -33,10 +32,8 @@ from ..fem.bodies import BodyOperator
 from ..model.parameters import Parameters
 from ..simulation.recorded import RECORDED
 from ..theory.creep.linearised import FrozenPatch
+from ..types import Array, ComplexArray
 from .frozen import Frames
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 INSTANTS = 80  # at which the patch is frozen, evenly in length
 FROM = 0.6  # they begin at this part of the length at the end of the creep

@@ -9,17 +9,14 @@ displacement U of the edge acts through the slip ``p U``, ``(K1 + f S2) p = 0``,
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
 from ..theory.creep.front import Advance, advance, first_growing, oscillating
 from ..theory.creep.lengths import NoPatch, Patches
 from ..theory.creep.linearised import local_coefficients
 from ..theory.creep.profile import edge_slip
+from ..types import Array, ComplexArray
 from .mode_history import ModeHistory
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 FIRST, LAST, INSTANTS = 0.8, 1.7, 24  # lengths over L_s that are followed, and how many
 SLOWED = 0.45  # frequency over that at L_s below which a patch leaves its oscillation behind

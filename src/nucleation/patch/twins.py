@@ -34,9 +34,8 @@ from ..simulation.run import run
 from ..simulation.state import State
 from ..simulation.step import Dynamics, StepReport
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from ..types import ComplexArray
 from .frozen import frozen_patch
-
-ComplexArray = NDArray[np.complex128]
 
 SHARES = (0.45, 0.5, 0.53, 0.56, 0.6, 0.65)  # patch lengths over the theory's critical length
 KICK = 1e-4  # of log(phi), largest over the patch

@@ -12,7 +12,6 @@ import numpy as np
 import plotly.offline
 import xarray as xr
 from markupsafe import Markup
-from numpy.typing import NDArray
 
 from ..analysis.record import parameters_of
 from ..datasets import netcdf
@@ -23,9 +22,8 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..patch.mode_history import ModeHistory
 from ..report import drop_law, encode, explorer, faults, length_map, own, stability, tables
+from ..types import Array
 from .captions import caption_html
-
-Array = NDArray[np.float64]
 
 HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 """Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""

@@ -15,13 +15,11 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..theory.arrays import critical_length
 from ..theory.creep.lengths import stability_length
+from ..types import Array
 from .encode import float32
-
-Array = NDArray[np.float64]
 
 HEIGHTS = (1e-3, 1e3)  # h
 CENTRE, POWER = 2.0, 0.7  # h at which the ratio changes most, and how fast t leaves it

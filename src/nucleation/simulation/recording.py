@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from ..datasets.variables import annotate
 from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
+from ..types import Array
 from .event import FAST, WINDOW, DropWatch
 from .recorded import RECORDED
 from .state import State
 from .step import Dynamics, StepReport
-
-Array = NDArray[np.float64]
 
 LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node

@@ -25,7 +25,6 @@ from .start import at_rest
 from .state import State
 from .step import Dynamics
 
-Array = NDArray[np.float64]
 Arrays = dict[str, NDArray]
 
 

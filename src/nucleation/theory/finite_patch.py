@@ -30,8 +30,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from ..types import Array
 
 TERMS = 24
 """Slip modes ``sin(n theta)``, n odd: the first instability is even in x."""

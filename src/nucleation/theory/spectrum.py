@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..model.linearised import InterfaceState
+from ..types import ComplexArray
 from .stiffness import Array, Pair
 from .transfer import Body, RigidBody, as_wavenumber
-
-ComplexArray = NDArray[np.complex128]
 
 
 class Systems(NamedTuple):

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from ..types import Array
 
 _ORDERS = np.arange(17.0, 3.0, -2.0)
 _COEFFICIENTS = (1.0 / ((_ORDERS - 1.0) * _ORDERS)).tolist()

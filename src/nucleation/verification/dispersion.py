@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, annotate
@@ -29,9 +29,7 @@ from ..theory.critical import critical_length, critical_wavenumber
 from ..theory.curves import CURVES
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import RIGID, Body
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
+from ..types import ComplexArray
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
 MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..datasets.variables import Variable, annotate
 from ..model.friction.law import Friction
@@ -22,10 +22,9 @@ from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
 from ..simulation.recorded import RECORDED
 from ..stepping.scheme import BDF
+from ..types import Array
 from .manufactured.dynamics import Manufactured, ManufacturedFriction
 from .manufactured.fields import Displacement, Factor, Power, Sine, Term
-
-Array = NDArray[np.float64]
 
 PROBLEMS = ("elastodynamics", "aging", "slip")
 REFINEMENTS = ("mesh", "step", "quasi_static_step")

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..datasets.shared import SHARED
 from ..datasets.variables import annotate
@@ -26,9 +25,8 @@ from ..theory.closed_forms import bimaterial_contrast
 from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import bodies_of
+from ..types import Array
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement, measured_rates
-
-Array = NDArray[np.float64]
 
 RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)
 """k over the critical one."""

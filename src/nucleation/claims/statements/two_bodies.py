@@ -14,15 +14,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...patch.pairs import chosen, of_role, over_realisations
+from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Claim, Result, claim
 from ..independent import printed
 from ..said import Missing, Ours, below, words
-
-Array = NDArray[np.float64]
 
 CLAIMS: list[Claim] = []
 

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from ...figures import style
 from ...model.quantities import Quantity
+from ...types import Array
 from ..beyond import figure_sensitivity
 
-Array = NDArray[np.float64]
 Values = dict[str, list[float] | list[str]]
 Look = tuple[str, str, str]
 Curves = Mapping[str, Mapping[str, Sequence[float]]]

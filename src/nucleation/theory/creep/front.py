@@ -22,12 +22,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
+from ...types import Array
 from .lengths import OSCILLATING, NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import MORE_MODES, Half, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
-
-Array = NDArray[np.float64]
 
 ROUNDS = 4
 """Of the three equations: each takes off more than nine tenths of the error."""

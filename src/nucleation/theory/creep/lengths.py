@@ -21,6 +21,7 @@ from ...model.linearised import interface_state
 from ...model.loading import LOADINGS
 from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
+from ...types import Array
 from ..arrays import fault_of, named
 from ..critical import systems_of
 from ..crossings import largest_crossings
@@ -36,8 +37,6 @@ from .linearised import (
 )
 from .modes import modes_for, response
 from .profile import Creep, creep
-
-Array = NDArray[np.float64]
 
 LONGEST = 3.0
 """Patches up to this multiple of L_c are tried."""

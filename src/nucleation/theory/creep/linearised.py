@@ -20,10 +20,8 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from ...model.friction.law import Friction
+from ...types import Array, ComplexArray
 from .profile import Creep
-
-Array = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 OSCILLATING = 0.1  # modes of a smaller angular frequency, over V/D, count as not oscillating
 INVERSE_ITERATIONS = 3  # towards the null vector of a matrix that is singular to round-off

@@ -27,12 +27,10 @@ import dataclasses
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import jv
 
+from ...types import Array
 from ..spectrum import Systems
-
-Array = NDArray[np.float64]
 
 MODES, MORE_MODES = 16, 32
 """Modes of slip: enough for an error of L_s of some 1e-4, and more where the stiffer body is

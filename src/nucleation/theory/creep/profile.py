@@ -8,11 +8,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...types import Array
 from .modes import Response
-
-Array = NDArray[np.float64]
 
 SLOWEST = 1e-6
 """Slip rates below this part of V do not count: friction's logarithm has no end."""

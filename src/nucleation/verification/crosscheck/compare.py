@@ -12,7 +12,6 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
@@ -20,8 +19,8 @@ from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.lengths import Files, with_csv
 from ...analysis.record import Record
 from ...datasets.variables import Variable, some, table
+from ...types import Array
 
-Array = NDArray[np.float64]
 SETTLED = 20.0  # start of the comparison, in units of D/V
 BEFORE_ONSET = 0.9  # end of the comparison, as a part of the earlier onset
 INSTANTS = 2000  # at which two records are compared
