@@ -128,7 +128,7 @@ def judge(said: Said, result: Result) -> tuple[Verdict, str]:
 
 def _compared(said: Said, ours: Ours, held: bool) -> str:
     """One sentence on our number and what the paper says."""
-    if said.kind == "formula":
+    if said.kind == "formula" and said.value is not None:
         difference = abs(ours.value - said.value) / (abs(said.value) or 1.0)
         return f"The difference is {difference:.1g}."
     if said.kind == "number":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -67,7 +68,8 @@ def mean(measures: Sequence[Measures]) -> Measures:
     """The mean of several simulations, number by number."""
     values = [dataclasses.astuple(one) for one in measures]
     columns = [np.mean(column, axis=0).tolist() for column in zip(*values, strict=True)]
-    return Measures(*(tuple(c) if isinstance(c, list) else c for c in columns))
+    plain: list[Any] = [tuple(c) if isinstance(c, list) else c for c in columns]
+    return Measures(*plain)
 
 
 def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
@@ -75,7 +77,7 @@ def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
     record = Record(simulation, settings)
     fastest = simulation["maximal_slip_rate"].values
     sizes = simulation["step_size"].values[1:]
-    always = {
+    always: dict[str, Any] = {
         "rupture_time": float(sizes[fastest[1:] > FAST].sum()),
         "largest_rate": float(fastest.max()),
         "usual_step": float(np.median(sizes)),
@@ -83,13 +85,13 @@ def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
     }
     if record.onset is None:
         names = {field.name for field in dataclasses.fields(Measures)} - set(always)
-        many = {"lengths": (NONE,) * 9, "patch_rates": (NONE,) * 3}
+        many: dict[str, Any] = {"lengths": (NONE,) * 9, "patch_rates": (NONE,) * 3}
         return Measures(**{**dict.fromkeys(names, NONE), **many, **always})
     start = record.onset.start
     return Measures(**always, **_drop(record, start, fastest, sizes), **_patch(record))
 
 
-def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str, float]:
+def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str, Any]:
     """How fast the event is that starts with a step."""
     velocity, steps = record.velocity, record.step_time
     _, steep, end = record.drop_times
@@ -107,7 +109,7 @@ def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str,
     }
 
 
-def _patch(record: Record) -> dict[str, float | tuple[float, ...]]:
+def _patch(record: Record) -> dict[str, Any]:
     """The creeping patch up to the onset, and its length by every definition."""
     instants, times, x = record.drop_times, record.time, record.x
     frames, friction = record.frames_at(instants), record.parameters.friction

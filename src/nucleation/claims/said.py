@@ -10,6 +10,7 @@ import dataclasses
 import math
 from collections.abc import Iterable
 from decimal import Decimal
+from typing import SupportsFloat
 
 FORMULA_TOLERANCE = 1e-6
 """A formula holds if it is met to this part of its value (of one, if the value is zero)."""
@@ -53,7 +54,7 @@ class Ours:
     high: float
 
     @classmethod
-    def exactly(cls, value: float) -> Ours:
+    def exactly(cls, value: SupportsFloat) -> Ours:
         """A number without uncertainty."""
         return cls(float(value), float(value), float(value))
 

@@ -6,7 +6,7 @@ import functools
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import ParamSpec
+from typing import Any, ParamSpec
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -48,7 +48,7 @@ RIGID_BODY = "#8C8C8C"
 SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
 SMALL = 7.5  # points: legends with many entries, panels inside panels
 
-STYLE: dict[str, object] = {
+STYLE: dict[Any, Any] = {
     "font.family": ["STIXGeneral"],  # comes with matplotlib: the same on every machine
     "mathtext.fontset": "stix",
     "font.size": 9.0,

@@ -57,7 +57,8 @@ def response_matrix(q: float, nu: float) -> NDArray[np.complex128]:
         [
             [-4.0 * (1.0 - nu) * math.sinh(q) ** 2, cross],
             [-cross, -4.0 * (1.0 - nu) * math.cosh(q) ** 2],
-        ]
+        ],
+        dtype=np.complex128,
     )
     return matrix / (2.0 * (math.sinh(2.0 * q) - 2.0 * q))
 
@@ -65,7 +66,7 @@ def response_matrix(q: float, nu: float) -> NDArray[np.complex128]:
 def half_space_response(nu: float) -> NDArray[np.complex128]:
     """The same for Hk -> infinity (Eq. S-M_inf)."""
     cross = 1j * (1.0 - 2.0 * nu)
-    return np.array([[-2.0 * (1.0 - nu), cross], [-cross, -2.0 * (1.0 - nu)]]) / 2.0
+    return np.array([[-2.0 * (1.0 - nu), cross], [-cross, -2.0 * (1.0 - nu)]], np.complex128) / 2.0
 
 
 def block_field(q: float, y: NDArray[np.float64], nu: float) -> NDArray[np.complex128]:

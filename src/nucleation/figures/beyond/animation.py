@@ -127,7 +127,7 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> Update
     first = int(np.searchsorted(y, 0.0, side="right")) - 1  # of the upper body: y = 0 is its last
     bodies = [slice(0, first), slice(first, None)] if first else [slice(None)]
 
-    def draw(i: int) -> object:
+    def draw(i: int) -> Any:
         while axes.collections:
             axes.collections[0].remove()
         for own in bodies:

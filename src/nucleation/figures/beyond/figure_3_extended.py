@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -166,7 +167,7 @@ def _finish_lengths(
     axes.set_xlim(0.0, highest)
     axes.set_ylim(0.0, 1.6 * float(top))
     axes.set_ylabel("Length $L$ (m)")
-    handles = [
+    handles: list[Artist] = [
         axes.plot([], [], dashes, color=style.THEORY, linewidth=1.2, label=label)[0]
         for dashes, label in (("-", "theory $L_c$"), ("--", "theory $L_c/2$"))
     ]

@@ -50,7 +50,7 @@ def draw(table: xr.Dataset) -> Figure:
 
 
 def _draw_ends(
-    axes: Axes, rows: Array, ends: tuple[Array, Array], colour: str, face: str, label: str
+    axes: Axes, rows: np.ndarray, ends: tuple[Array, Array], colour: str, face: str, label: str
 ) -> None:
     """Both ends of ranges (m) and a line between them, nothing if all are unknown."""
     if np.isfinite(ends).any():

@@ -117,7 +117,7 @@ def _draw_differences(axes: Axes, declared: xr.Dataset, name: str) -> None:
                 at = np.full(apart.size, place + 0.17 * (i - 1.5))
                 coarse = slice(0, -1) if refined == "n_x" else slice(0, 0)
                 rest = slice(-1, None) if refined == "n_x" else slice(None)
-                look = {"marker": marker, "color": colour, "markersize": 3.8, "linestyle": "none"}
+                look: dict[str, Any] = dict(marker=marker, color=colour, markersize=3.8, ls="none")
                 axes.plot(at[coarse], apart[coarse], markerfacecolor="white", **look)
                 axes.plot(at[rest], apart[rest], **look)
     for i, meaning in enumerate(REFINED.values()):

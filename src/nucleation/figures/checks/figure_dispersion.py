@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps
@@ -11,7 +13,8 @@ from matplotlib.lines import Line2D
 
 from ...figures import style
 
-BRANCHES = (("o", "-"), ("s", (0, (4, 1.5))))  # marker and line: along +x and -x
+# marker and line: along +x and -x
+BRANCHES: tuple[tuple[str, Any], ...] = (("o", "-"), ("s", (0, (4, 1.5))))
 
 
 @style.styled
@@ -30,7 +33,8 @@ def draw(dispersion: xr.Dataset) -> Figure:
         Two columns wide: growth rates on the left, frequencies on the right.
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 8.8 * style.CENTIMETRE)
-    figure.get_layout_engine().set(wspace=0.05)
+    layout: Any = figure.get_layout_engine()
+    layout.set(wspace=0.05)
     growth, frequency = figure.subplots(1, 2, sharex=True)
     heights = dispersion["height"].values
     shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.85, heights.size))
@@ -73,7 +77,7 @@ def _limit_to_lines(axes: Axes) -> None:
     left, right = axes.get_xlim()
     shown = []
     for line in axes.get_lines():
-        x, y = line.get_xdata(), line.get_ydata()
+        x, y = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
         if line.get_transform() == axes.transData:
             shown.append(y[(x >= left) & (x <= right)])
     low, high = np.concatenate(shown).min(), np.concatenate(shown).max()

@@ -73,7 +73,7 @@ def _draw_errors(axes: Axes, errors: xr.Dataset, spacing: np.ndarray) -> None:
 
 def _draw_slope(axes: Axes, spacing: np.ndarray, order: int) -> None:
     """A line of the expected order below the errors."""
-    lowest = min(line.get_ydata().min() for line in axes.get_lines())
+    lowest = min(np.min(np.asarray(line.get_ydata())) for line in axes.get_lines())
     ends = np.array([spacing.min(), 0.5 * spacing.max()])
     line = 0.35 * lowest * (ends / ends[0]) ** order
     axes.plot(ends, line, color=style.GUIDE, linewidth=1.0, linestyle=":")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
@@ -162,6 +164,6 @@ def _velocity(
     _text(axes, *at, "$V$", color=MOTION)
 
 
-def _text(axes: Axes, x: float, y: float, label: str, **options: object) -> None:
+def _text(axes: Axes, x: float, y: float, label: str, **options: Any) -> None:
     """A centred label."""
     axes.text(x, y, label, ha="center", va="center", fontsize=10.0, **options)
