@@ -24,6 +24,7 @@ from ..analysis.definitions import SEARCHED
 from ..analysis.record import Record
 from ..fem.bodies import BodyOperator, body_of
 from ..model.friction.law import Friction
+from ..model.parameters import Parameters
 from ..simulation.composition import interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array
@@ -65,19 +66,39 @@ def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
     return own
 
 
-class Frames:
+class Freezer:
+    """Freezes the patches of one run, which slip faster than a threshold (m/s)."""
+
+    def __init__(self, parameters: Parameters, threshold: float) -> None:
+        body = body_of(parameters)
+        self.parameters, self.grid, self.threshold = parameters, body.grid, threshold
+        self.operator = body.operator(0.0)
+        self._law = interface_of(parameters, body.grid).friction
+
+    def frozen(self, slip_rate: Array, state: Array, normal_force: Array) -> FrozenPatch:
+        """The patch of fields along the interface, as for :func:`frozen_patch`."""
+        return frozen_patch(
+            self.operator, self._law, slip_rate, state, normal_force, self.threshold
+        )
+
+    def oscillating(self, patch: FrozenPatch, slip_rate: Array) -> complex:
+        """Lambda (1/s) of its fastest growing oscillating mode, or NaN.
+
+        The frequency's scale is V/D; without an edge that moves at V it is the patch's own v/D.
+        """
+        own = 1.0
+        if self.parameters.loading.kind != "edge":
+            own = float(slip_rate.max()) / self.parameters.loading.velocity
+        return patch.oscillating(own * OSCILLATING / self.parameters.memory_time)
+
+
+class Frames(Freezer):
     """The frames of a recorded run up to its onset, and the frozen patch at each."""
 
     def __init__(self, record: Record) -> None:
-        self.parameters, self.grid = record.parameters, record.grid
-        body = body_of(self.parameters)
-        self.operator = body.operator(0.0)
-        self._law = interface_of(self.parameters, body.grid).friction
-        self._threshold = record.threshold
-        self._fields = [
-            record.simulation[name].values[record.creep]
-            for name in ("slip_rate", "state", "normal_stress")
-        ]
+        super().__init__(record.parameters, record.threshold)
+        names = ("slip_rate", "state", "normal_stress")
+        self._fields = [record.simulation[name].values[record.creep] for name in names]
         self.time, self.length = record.time[record.creep], record.lengths[record.creep]
 
     def fields(self, i: int) -> tuple[Array, Array, Array]:
@@ -85,16 +106,7 @@ class Frames:
         rate, state, stress = (field[i] for field in self._fields)
         return rate, state, -stress * self.grid.nodal_lengths
 
-    def patch(self, i: int) -> FrozenPatch:
-        """The frozen patch at a frame."""
-        return frozen_patch(self.operator, self._law, *self.fields(i), self._threshold)
-
-    def oscillating(self, patch: FrozenPatch, i: int) -> complex:
-        """Lambda (1/s) of its fastest growing oscillating mode, or NaN.
-
-        The frequency's scale is V/D; without an edge that moves at V it is the patch's own v/D.
-        """
-        own = 1.0
-        if self.parameters.loading.kind != "edge":
-            own = float(self._fields[0][i].max()) / self.parameters.loading.velocity
-        return patch.oscillating(own * OSCILLATING / self.parameters.memory_time)
+    def patch(self, i: int) -> tuple[FrozenPatch, complex]:
+        """The frozen patch at a frame, and its oscillating mode."""
+        patch = self.frozen(*self.fields(i))
+        return patch, self.oscillating(patch, self._fields[0][i])

@@ -79,7 +79,7 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
             crossing = fit["stability_length"]
     if np.isfinite(fit["stability_length"]):
         at = near[np.abs(record.length[near] - fit["stability_length"]).argmin()]
-        patch = record.patch(at)
+        patch, _ = record.patch(at)
         mode[patch.nodes], _ = patch.mode(record.growth([at])[0])
     found = record.dataset(fit, mode)
     return found.assign_attrs(parameters=simulation.attrs["parameters"])
@@ -99,9 +99,9 @@ class _Creep(Frames):
     def growth(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
         for i in set(frames) - set(self._known):
-            patch = self.patch(i)
+            patch, pair = self.patch(i)
             fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
-            self._known[i] = (fastest, self.oscillating(patch, i))
+            self._known[i] = (fastest, pair)
         return np.array([self._known[i][1] for i in frames], dtype=complex)
 
     def dataset(self, fit: dict[str, float], mode: ComplexArray) -> xr.Dataset:

@@ -138,8 +138,7 @@ def follow_mode(
     loads = _loads(run.operator, parameters)
     rows = []
     for i in frames:
-        patch = run.patch(i)
-        pair = run.oscillating(patch, i)
+        patch, pair = run.patch(i)
         if np.isfinite(pair):
             weights = _weights(patch, pair, parameters, run.fields(i), loads)
             rows.append((time[i], length[i], pair, *weights))

@@ -25,17 +25,15 @@ from numpy.typing import NDArray
 from ..analysis.definitions import Extent, ExtractionSettings
 from ..datasets.variables import Variable
 from ..datasets.variables import table as table_of
-from ..fem.bodies import body_of
-from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.composition import composed
 from ..simulation.control import Instant
 from ..simulation.run import run
 from ..simulation.state import State
 from ..simulation.step import Dynamics, StepReport
-from ..theory.creep.linearised import OSCILLATING, FrozenPatch
+from ..theory.creep.linearised import FrozenPatch
 from ..types import ComplexArray
-from .frozen import frozen_patch
+from .frozen import Freezer
 
 SHARES = (0.45, 0.5, 0.53, 0.56, 0.6, 0.65)  # patch lengths over the theory's critical length
 KICK = 1e-4  # of log(phi), largest over the patch
@@ -57,32 +55,22 @@ MEASURED = {
 """What is measured of a kick."""
 
 
-class Patches:
+class Patches(Freezer):
     """The frozen patches of one run, from its step reports."""
 
     def __init__(self, parameters: Parameters, settings: ExtractionSettings) -> None:
-        self.grid = Grid.of(parameters.geometry, parameters.mesh)
-        self._operator = body_of(parameters).operator(0.0)
-        self._law = parameters.friction
-        self._threshold = settings.edge_threshold * parameters.loading.velocity
-        self._extent = Extent(self.grid.x, self._threshold)
-        self._slowest_oscillation = OSCILLATING / parameters.memory_time
+        super().__init__(parameters, settings.edge_threshold * parameters.loading.velocity)
+        self._extent = Extent(self.grid.x, self.threshold)
 
     def length(self, report: StepReport) -> float:
         """The patch's length (m) at an instant, all of which are asked for in their order."""
         return self._extent.reach(report.interface.slip_rate)
 
-    def frozen(self, report: StepReport) -> FrozenPatch:
-        """The frozen patch at an instant."""
+    def at(self, report: StepReport) -> tuple[FrozenPatch, complex]:
+        """The frozen patch at an instant, and Lambda (1/s) of its oscillating mode."""
         at = report.interface
-        return frozen_patch(
-            self._operator, self._law, at.slip_rate, np.exp(at.log_state), at.normal,
-            self._threshold,
-        )  # fmt: skip
-
-    def rate(self, patch: FrozenPatch) -> complex:
-        """Lambda (1/s) of the oscillating mode, NaN where none oscillates."""
-        return patch.oscillating(self._slowest_oscillation)
+        patch = self.frozen(at.slip_rate, np.exp(at.log_state), at.normal)
+        return patch, self.oscillating(patch, at.slip_rate)
 
 
 class Twin:
@@ -90,8 +78,8 @@ class Twin:
 
     def __init__(self, patches: Patches, dynamics: Dynamics, instant: Instant) -> None:
         self._patches, self._dynamics = patches, dynamics
-        patch = patches.frozen(instant.report)
-        self._rate, self._nodes = patches.rate(patch), patch.nodes
+        patch, self._rate = patches.at(instant.report)
+        self._nodes = patch.nodes
         self._weights = patch.amplitude(self._rate)
         shape = np.zeros(patches.grid.n_x + 1)
         shape[patch.nodes] = patch.mode(self._rate)[1].real
@@ -117,7 +105,7 @@ class Twin:
         self._amplitude.append(complex(change @ self._weights))
         if since >= len(self._lengths) * self._duration / FROZEN:
             self._lengths.append(length)
-            self._frozen.append(self._patches.rate(self._patches.frozen(instant.report)))
+            self._frozen.append(self._patches.at(instant.report)[1])
         return since >= self._duration
 
     @property
