@@ -96,10 +96,7 @@ class Law:
 def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, for the runs of faults whose mode is known.
 
-    Parameters
-    ----------
-    drops : tables of runs with at least :data:`MEASURED`, and their ``fault``.
-    modes : of :func:`nucleation.patch.mode_history.to_dataset`.
+    `drops` are tables with :data:`MEASURED` and ``fault``, `modes` histories as datasets.
     """
     laws = {fault(parameters_of(mode)): Law(from_dataset(mode)) for mode in modes}
     rows = [run | laws[run["fault"]].row(run) for run in _runs(drops) if run["fault"] in laws]
@@ -107,13 +104,7 @@ def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Datas
 
 
 def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
-    """:data:`FLOORS` on ``run``: how noisy the meshes of quiet runs are with their steps.
-
-    Parameters
-    ----------
-    quiet : tables of lengths, of which the unperturbed runs count.
-    modes : of :func:`nucleation.patch.mode_history.to_dataset`.
-    """
+    """:data:`FLOORS` on ``run``: how noisy the meshes of quiet runs are with their steps."""
     found = gather(quiet, modes)
     return found[list(FLOORS)].isel(run=np.flatnonzero(found["kind"].values == "none"))
 

@@ -54,16 +54,8 @@ FOLLOWED = {
 def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
     """Growth of the frozen patch along a run up to its onset, and the length where it begins.
 
-    Returns
-    -------
-    Dataset
-        On ``instant``: ``instant_time`` (s), ``patch_length`` (m), ``growth_rate`` and
-        ``growth_frequency`` (1/s, angular) of the fastest growing mode, ``oscillation_growth`` and
-        ``oscillation_frequency`` of the fastest growing oscillating one, NaN without one. Where
-        growth begins: ``stability_length`` (m), its ends ``_low`` and ``_high`` between which the
-        front's hops take the growth to and fro, ``stability_length_error``, its standard error,
-        and ``stability_frequency`` (1/s), NaN where it does not begin. On ``x``: real and
-        imaginary part of the displacement in that mode, ``mode_real`` and ``mode_imaginary``.
+    The dataset has :data:`FOLLOWED`: patches on ``instant``, the mode where growth begins on ``x``.
+    NaN where no mode oscillates, and where growth does not begin.
     """
     record = _Creep(Record(simulation, settings))
     frames = record.usable_frames()

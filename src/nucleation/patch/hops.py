@@ -56,21 +56,8 @@ def follow_hops(
 ) -> xr.Dataset:
     """The front's hops up to the onset, and the slip rate inside the patch.
 
-    Parameters
-    ----------
-    simulation : Dataset
-        The record of a run with an event.
-    settings : ExtractionSettings
-        Definitions of the patch's edge and of the drop.
-
-    Returns
-    -------
-    Dataset
-        On ``hop``: ``hop_time`` (s), ``hop_length`` (m), the position of the node that begins to
-        slip, and ``hop_frequency`` (1/s), an angular frequency. On ``time`` (s):
-        ``inner_slip_rate`` (m/s). On ``sample``: ``sample_time`` (s) and
-        ``oscillation_amplitude`` (m/s) of that slip rate. Also ``onset_time`` (s), ``velocity``
-        (m/s) and ``n_x``.
+    The dataset has :data:`FOLLOWED`: each node that begins to slip on ``hop``, the slip rate inside
+    the patch on ``time``, the amplitude of its oscillation on ``sample``.
 
     Raises
     ------

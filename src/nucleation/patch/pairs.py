@@ -52,10 +52,7 @@ COLUMNS = {
 def pair_description(parameters: Parameters) -> dict[str, Any]:
     """The columns that say which bodies and which perturbation a run has.
 
-    Raises
-    ------
-    ValueError
-        If the run has one body only.
+    Raises ValueError if it has one body only.
     """
     below = parameters.below
     if below is None:

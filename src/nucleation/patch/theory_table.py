@@ -53,17 +53,12 @@ PROFILES = 4  # faults whose creep is shown: evenly over the contrasts
 def gather(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> xr.Dataset:
     """The table, the thin limit's curve and the creep of some faults.
 
+    :data:`COLUMNS` are on ``run``, :data:`DRAWN` on ``curve``, ``case`` and ``place``.
+
     Parameters
     ----------
     runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
     tables : on ``run``, with ``id`` and ``stability_length`` (m); runs without one are left out.
-
-    Returns
-    -------
-    Dataset
-        :data:`COLUMNS` on ``run``; ``curve_ratio`` and ``curve_length`` (L_s/L_c) on ``curve``;
-        ``shown_beta`` on ``case``, and ``shown_x`` (over L_s), ``shown_rate`` (over V) and
-        ``shown_stress`` (over sigma0) on ``case`` and ``place``.
     """
     known = {
         str(id): float(length)

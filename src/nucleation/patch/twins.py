@@ -148,7 +148,7 @@ def follow_twins(
     parameters: Parameters, theory_length: float, settings: ExtractionSettings,
     shares: Iterable[float] = SHARES,
 ) -> xr.Dataset:  # fmt: skip
-    """Twins of one run, started at several lengths of its patch.
+    """Twins of one run, started at several lengths of its patch: :data:`MEASURED` on ``twin``.
 
     Parameters
     ----------
@@ -156,10 +156,6 @@ def follow_twins(
     theory_length : the theory's critical length (m).
     settings : definition of the patch's edge.
     shares : patch lengths at which twins start, over `theory_length`.
-
-    Returns
-    -------
-    Dataset on ``twin``: :data:`MEASURED`, times in s, lengths in m, rates in 1/s.
     """
     parameters.require_edge("role = twins")
     patches, dynamics = Patches(parameters, settings), composed(parameters)

@@ -14,25 +14,14 @@ from .transfer import Body, RigidBody, as_wavenumber
 
 
 class Systems(NamedTuple):
-    """Pairs of bodies that slide upon each other, one or many, as the linear theory sees them.
-
-    Attributes
-    ----------
-    pair : Pair
-    friction, a, zeta : float or ndarray
-        f, direct effect and velocity weakening.
-    softness : float or ndarray
-        ``mu ell/sigma0`` (m) with mu of :attr:`Pair.modulus`.
-    rate : float or ndarray
-        ``V/ell`` (1/s).
-    """
+    """Pairs of bodies that slide upon each other, one or many, as the linear theory sees them."""
 
     pair: Pair
     friction: Array
-    a: Array
-    zeta: Array
-    softness: Array
-    rate: Array
+    a: Array  # direct effect
+    zeta: Array  # velocity weakening
+    softness: Array  # mu ell/sigma0 (m), mu of Pair.modulus
+    rate: Array  # V/ell (1/s)
 
     @property
     def b(self) -> Array:

@@ -132,23 +132,12 @@ FAR_SIDES: dict[str, Callable[[Waves, ArrayLike, bool], StiffnessTerms]] = {
 
 
 class Layers(NamedTuple):
-    """Elastic layers: one, or as many as the arrays have entries; they broadcast with k.
+    """Elastic layers: one, or as many as the arrays have entries; they broadcast with k."""
 
-    Attributes
-    ----------
-    shear_modulus : float or ndarray
-        mu (Pa).
-    poisson_ratio : float or ndarray
-    height : float or ndarray
-        H (m), inf for a half-space.
-    far_side : str
-        One of :data:`FAR_SIDES`, of all of them.
-    """
-
-    shear_modulus: Array
+    shear_modulus: Array  # mu (Pa)
     poisson_ratio: Array
-    height: Array
-    far_side: str
+    height: Array  # H (m), inf for a half-space
+    far_side: str  # one of FAR_SIDES, of all of them
 
     def at(self, index: NDArray) -> Layers:
         """The layers of an index; the fields have to be arrays."""

@@ -40,29 +40,14 @@ NEAR = np.array([-0.05, 0.0, 0.05])  # and those through which Re Lambda is laid
 
 
 class Advance(NamedTuple):
-    """A patch at some lengths as its front moves on; all in SI units but the patches.
+    """A patch at some lengths as its front moves on; all in SI units but the patches."""
 
-    Attributes
-    ----------
-    length : ndarray
-        L (m), (n,).
-    time : ndarray
-        Since the edge began to move (s).
-    speed : ndarray
-        dL/dt (m/s).
-    patches : list of FrozenPatch
-        Linearised; slip in D, time in D/V.
-    creeps : list of Creep
-    log_states : ndarray
-        log(phi), phi in s, at the angles of the modes, (n, N).
-    """
-
-    length: Array
-    time: Array
-    speed: Array
-    patches: list[FrozenPatch]
+    length: Array  # L (m), (n,)
+    time: Array  # since the edge began to move (s)
+    speed: Array  # dL/dt (m/s)
+    patches: list[FrozenPatch]  # linearised; slip in D, time in D/V
     creeps: list[Creep]
-    log_states: Array
+    log_states: Array  # log(phi), phi in s, at the angles of the modes, (n, N)
 
 
 def advance(
@@ -176,12 +161,7 @@ def oscillating(found: Advance) -> NDArray[np.complex128]:
 def first_growing(
     patches: Patches, critical: float, initial_state: float, initial_stress: float = 0.0
 ) -> float:
-    """L_s (m) of a patch with its advancing front.
-
-    Parameters
-    ----------
-    critical : float
-        L_c (m), up to ``LONGEST`` times which patches are tried.
+    """L_s (m) of a patch with its advancing front; `critical` is L_c (m).
 
     Raises
     ------

@@ -54,24 +54,12 @@ class NoPatch(ValueError):
 
 
 class StabilityPoint(NamedTuple):
-    """Where the creeping patch turns unstable.
+    """Where the creeping patch turns unstable; V is the slip rate of its fastest place."""
 
-    Attributes
-    ----------
-    length : float
-        L_s (m).
-    frequency : float
-        Angular frequency of its mode there, over V/D.
-    growth : float
-        ``d Re Lambda/d log L`` over V/D.
-    error : float
-        Relative error of the length, by what three quarters of the modes would give.
-    """
-
-    length: float
-    frequency: float
-    growth: float
-    error: float
+    length: float  # L_s (m)
+    frequency: float  # angular frequency of its mode there, over V/D
+    growth: float  # d Re Lambda/d log L, over V/D
+    error: float  # relative, of the length, by what three quarters of the modes would give
 
 
 @dataclasses.dataclass(frozen=True)
@@ -153,13 +141,7 @@ class Patches:
 
 
 def stability_point(patches: Patches, critical: float) -> StabilityPoint:
-    """L_s of one fault.
-
-    Parameters
-    ----------
-    patches : Patches
-    critical : float
-        L_c (m), NaN where homogeneous sliding is stable.
+    """L_s of one fault whose L_c (m) is `critical`, NaN where homogeneous sliding is stable.
 
     Raises
     ------

@@ -112,23 +112,12 @@ def modes(number: int, slimmest: float = 0.0, even: bool = False) -> Half:
 
 @dataclasses.dataclass(frozen=True)
 class Response:
-    """Stress over sigma0 at theta by slip over D in each mode, (N, N + 1).
-
-    Attributes
-    ----------
-    modes : Modes
-    length : float
-        L (m).
-    shear : ndarray
-        Shear stress that the interface loses.
-    normal : ndarray
-        Compression that it gains.
-    """
+    """Stress over sigma0 at theta by slip over D in each mode, (N, N + 1)."""
 
     modes: Modes
-    length: float
-    shear: Array
-    normal: Array
+    length: float  # L (m)
+    shear: Array  # shear stress that the interface loses
+    normal: Array  # compression that it gains
 
     def coupled(self, friction: Array | float) -> Array:
         """Shear stress lost plus friction that is gained: ``K1 + f S2``."""

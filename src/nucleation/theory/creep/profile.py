@@ -23,27 +23,14 @@ NEAR = 2
 class Creep(NamedTuple):
     """A patch that creeps, at the angles of its modes.
 
-    Attributes
-    ----------
-    response : Response
-        Of the bodies, and L.
-    slip_rate : ndarray
-        Over `fastest`, (N,).
-    normal_stress : ndarray
-        Compression over sigma0, (N,).
-    loaded : float
-        What is imposed when the patch has come to L: displacement of the edge over D, or shear
-        stress over sigma0.
-    fastest : float
-        Slip rate over V in which `slip_rate` counts: 1 at an edge that is pushed, else that of the
-        fastest place.
+    Slip rates count in `fastest`: V at an edge that is pushed, else that of the fastest place.
     """
 
-    response: Response
-    slip_rate: Array
-    normal_stress: Array
-    loaded: float
-    fastest: float = 1.0
+    response: Response  # of the bodies, and L
+    slip_rate: Array  # over `fastest`, (N,)
+    normal_stress: Array  # compression over sigma0, (N,)
+    loaded: float  # imposed at L: displacement of the edge over D, or shear stress over sigma0
+    fastest: float = 1.0  # over V
 
 
 def creep(response: Response, friction: float, load_rate: float | None = None) -> Creep:

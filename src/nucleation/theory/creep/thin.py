@@ -25,18 +25,10 @@ DEGREE = 48
 
 
 class ThinLimit(NamedTuple):
-    """The patch of a thin layer where it turns unstable.
+    """The patch of a thin layer where it turns unstable."""
 
-    Attributes
-    ----------
-    length_ratio : float
-        L_s over L_c of Eq. (11).
-    frequency : float
-        Angular frequency of its mode over V/D.
-    """
-
-    length_ratio: float
-    frequency: float
+    length_ratio: float  # L_s over L_c of Eq. (11)
+    frequency: float  # angular frequency of its mode over V/D
 
 
 @lru_cache(maxsize=4)
