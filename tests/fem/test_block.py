@@ -123,48 +123,6 @@ def test_transforms_are_inverse_and_dual(grid):
     np.testing.assert_allclose(normal, cosines @ modal, atol=1e-12 * abs(modal).max())
 
 
-def test_uniform_extension_is_exact(grid):
-    """With no friction it is free of stress but sigma_xx: only the left edge holds it back."""
-    operator = BlockOperator(Block(grid, MATERIAL), STATIC)
-    body = operator.body
-    strain, nu = 1e-5, MATERIAL.poisson_ratio
-    u_x = np.tile(strain * grid.x, (grid.n_y + 1, 1))
-    u_y = np.tile((-nu / (1 - nu) * strain * grid.y)[:, None], (1, grid.n_x + 1))
-    stress = 2 * MATERIAL.shear_modulus / (1 - nu) * strain  # plane strain, sigma_yy = 0
-    block = AssembledBlock(grid, MATERIAL)
-    values = np.zeros(block.stiffness.shape[0])
-    values[block.x], values[block.y] = u_x, u_y
-    forces = block.stiffness @ values
-    load = body.zero_field()
-    load.modes[:, 0] = _sine_load(body, forces[block.x[:, 1:]])
-    load.modes[0, 0] = 0.0
-    field, tangential, normal = balanced(operator, load, u_x[0, 1:])
-    ours_x, ours_y = body.nodal_values(field)
-    assert relative(ours_x, u_x) < 1e-10
-    assert relative(ours_y, u_y) < 1e-10
-    assert np.abs(normal).max() < 1e-9 * stress * grid.dx
-    assert np.abs(tangential[:-1]).max() < 1e-9 * stress * grid.dx
-
-
-def _sine_load(body, forces):
-    """Generalised forces per mode, times 2/n_x, of nodal forces at i = 1..n_x."""
-    n = body.grid.n_x
-    i, theta = np.arange(1, n + 1), (np.arange(n) + 0.5) * np.pi / n
-    return 2.0 / n * forces @ np.sin(np.outer(i, theta))
-
-
-def test_uniaxial_strain_is_exact():
-    """Under sigma0 without slip the block is in uniaxial strain away from the right edge."""
-    grid = Grid(1.0, 0.02, 60, 7, grading=2.0)
-    body = Block(grid, MATERIAL)
-    field, _, normal = balanced(BlockOperator(body, STATIC), body.top_load(1e6), np.zeros(60))
-    u_x, u_y = body.nodal_values(field)
-    expected = -1e6 / MATERIAL.p_wave_modulus * grid.y
-    assert np.abs(u_y[:, :20] - expected[:, None]).max() < 1e-12 * np.abs(expected).max()
-    assert np.abs(u_x[:, :20]).max() < 1e-12 * np.abs(u_y).max()
-    np.testing.assert_allclose(normal[:20], 1e6 * grid.nodal_lengths[:20], rtol=1e-12)
-
-
 @pytest.mark.parametrize("off", [0.0, 1e-3], ids=["as foreseen", "otherwise"])
 def test_edge_that_moves_as_foreseen_saves_a_solve(off):
     """The first response serves if the edge does what it was foreseen to do; the last one always.

@@ -4,9 +4,13 @@ import dataclasses
 import io
 import os
 import signal
+import string
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as shaped
 
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
@@ -197,3 +201,24 @@ def test_compressed_checkpoint_is_not_unpacked(tmp_path):
     one, log = checkpoint(path)
     assert one.load() is None
     assert "it is compressed" in log.getvalue()
+
+
+names = st.text(string.ascii_letters + "_", min_size=1, max_size=12).filter(
+    lambda name: name not in ("fingerprint", "content", "file", "args", "kwds")
+)
+types = st.sampled_from(["f8", "f4", "i8", "c16", "?"]).map(np.dtype)
+shapes = shaped.array_shapes(min_dims=0, min_side=0)
+kept = st.dictionaries(names, types.flatmap(lambda kind: shaped.arrays(kind, shapes)), max_size=5)
+
+
+@settings(max_examples=60)
+@given(kept)
+def test_round_trip(tmp_path_factory, stored):
+    path = tmp_path_factory.getbasetemp() / "round_trip.npz"
+    checkpoint(path)[0].keep(lambda: stored)
+    loaded = checkpoint(path)[0].load()
+    assert loaded.keys() == stored.keys()
+    for name, values in stored.items():
+        assert loaded[name].dtype == values.dtype
+        np.testing.assert_array_equal(loaded[name], values)
+    assert checkpoint(path, "another run")[0].load() is None

@@ -7,10 +7,9 @@ import pytest
 
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS, Perturbation
-from nucleation.model.quantities import ParameterError
 from nucleation.simulation.composition import composed
 from nucleation.simulation.realisation import profile
-from nucleation.simulation.run import run, simulate
+from nucleation.simulation.run import simulate
 
 QUIET = Parameters(
     geometry=Geometry(height=0.005, length=0.9),
@@ -186,23 +185,7 @@ def test_inertia_of_the_drive_is_that_of_the_mass():
     assert (nodal @ weights).sum() == pytest.approx(-2.0 * mass * (1.0 - first), rel=1e-9)
 
 
-def test_bad_declarations_are_refused():
-    with pytest.raises(ParameterError, match="one of none, drive_velocity"):
-        Perturbation(kind="noise")
-    with pytest.raises(ParameterError, match=r"Perturbation\.strength"):
-        Perturbation(strength=0.5)
-    with pytest.raises(ParameterError, match=r"Perturbation\.seed"):
-        Perturbation(seed=-1)
-
-
 def test_records_without_a_perturbation_are_quiet():
     values = QUIET.to_dict()
     del values["perturbation"]
     assert Parameters.from_dict(values) == QUIET
-
-
-def test_run_yields_perturbed_rates_at_the_driven_edge():
-    for instant, _ in zip(run(perturbed("drive_velocity")), range(5), strict=False):
-        rate = instant.report.interface.slip_rate[0]
-        assert rate != 1e-5
-        assert rate == pytest.approx(1e-5, rel=0.1)

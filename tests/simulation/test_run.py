@@ -80,14 +80,6 @@ def test_bulk_snapshots_meet_the_boundary_conditions(coarse_run):
     assert (coarse_run["displacement_y"].isel(y=0) == 0).all()
 
 
-def test_runs_repeat_to_the_last_bit():
-    short = dataclasses.replace(COARSE, stepping=Stepping(end_time=0.2))
-    first, second = simulate(short), simulate(short)
-    for name in first.variables:
-        np.testing.assert_array_equal(first[name], second[name], err_msg=name)
-    assert first.attrs["status"] == Outcome.END_TIME.value
-
-
 @pytest.mark.slow
 def test_block_length_plays_no_role():
     """L >> L_c: the same nodes near the loaded edge slip the same (Text S2)."""
@@ -130,6 +122,7 @@ def test_progress_sees_every_step():
         progress=lambda instant: seen.append(instant.state.time),
     )
     np.testing.assert_array_equal(seen, dataset["step_time"])
+    assert dataset.attrs["status"] == Outcome.END_TIME.value
 
 
 def test_tension_is_a_named_failure(monkeypatch):

@@ -37,7 +37,3 @@ def test_the_patch_nucleates(run):
     close = np.abs(np.abs(stress) - np.abs(strength)) < 1e-3 * np.abs(normal)
     assert close.mean() > 0.99
     assert np.abs(rate).min() < 1e-30 < np.abs(rate).max()  # stuck and slipping
-
-
-def test_identifiers_say_what_varies():
-    assert [run.id for run in RUNS] == ["s-aging-H0.02-phi1", "s-slip-H0.02-phi1"]

@@ -13,7 +13,7 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.composition import composed
-from nucleation.simulation.interface import Past
+from nucleation.simulation.interface import NewtonFailure, Past
 from nucleation.simulation.start import at_rest
 from nucleation.stepping.bdf import Formula
 from nucleation.stepping.ladder import rung_value
@@ -265,6 +265,15 @@ def test_newton_converges_quadratically():
     assert len(errors) >= 3
     rates = [np.log(b) / np.log(a) for a, b in zip(errors[-3:-1], errors[-2:], strict=True)]
     assert max(rates) > 1.8, errors
+
+
+def test_a_residual_that_is_undefined_at_one_node_is_a_failure():
+    dynamics = composed(small())
+    state, _ = at_rest(dynamics, small().loading)
+    states = state.past_log_states.copy()
+    states[0, 9] = np.nan
+    with pytest.raises(NewtonFailure, match="not finite"):
+        dynamics.advance(dataclasses.replace(state, past_log_states=states), -80)
 
 
 def test_first_step_from_rest_on_a_fine_mesh():

@@ -1,80 +1,93 @@
-"""The step formula, its ladder and its error estimate."""
+"""The step formulas for any steps: exact for polynomials of their order, and their error."""
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from nucleation.stepping.bdf import Formula, beta_of_step, error_factor, extrapolation_weights
-from nucleation.stepping.ladder import rung_below, rung_nearest, rung_value
+from nucleation.stepping.bdf import (
+    LARGEST_GROWTH,
+    LARGEST_GROWTH_OF_BDF3,
+    Formula,
+    beta_of_step,
+    error_factor,
+    extrapolation_weights,
+)
+from nucleation.stepping.ladder import RUNGS_PER_OCTAVE, rung_below, rung_nearest, rung_value
+
+steps = st.floats(-9.0, 2.0).map(lambda exponent: 10.0**exponent)  # s
+ratios = st.floats(0.05, LARGEST_GROWTH)
+gentle = st.floats(0.2, LARGEST_GROWTH_OF_BDF3)
+coefficients = st.lists(st.floats(-1.0, 1.0), min_size=4, max_size=4)
 
 
-@pytest.mark.parametrize("ratio", [0.3, 1.0, 1.9])
-def test_bdf2_is_exact_for_quadratics(ratio):
-    previous = 0.7
+def polynomial(coefficients, degree, scale):
+    """Of order one over times of some length, and its derivative."""
+    values = np.polynomial.Polynomial(np.array(coefficients[: degree + 1]), [0, scale], [0, 1])
+    return values, values.deriv()
+
+
+def past_times(previous, *growths):
+    """Now (zero) and before, newest first, each step so many times the one before it."""
+    lengths = previous / np.cumprod([1.0, *growths])
+    return -np.cumsum([0.0, *lengths])
+
+
+@given(steps, ratios, coefficients)
+def test_bdf2_is_exact_for_quadratics(previous, ratio, c):
     formula = Formula.bdf2(beta_of_step(ratio * previous, previous), previous)
-    assert formula.step == pytest.approx(ratio * previous)
-    for power in range(3):
-        values = [t**power for t in (formula.step, 0.0, -previous)]
-        rate = power * formula.step ** max(power - 1, 0)
-        assert formula.from_past(np.array(values[1:])) + formula.beta * rate == (
-            pytest.approx(values[0])
-        )
+    y, rate = polynomial(c, 2, previous)
+    assert formula.step == pytest.approx(ratio * previous, rel=1e-9)
+    found = formula.from_past(y(past_times(previous))) + formula.beta * rate(formula.step)
+    assert found == pytest.approx(y(formula.step), rel=1e-9, abs=1e-9)
 
 
-@pytest.mark.parametrize("steps", [(0.4, 0.4, 0.4), (0.5, 0.4, 0.3), (0.1, 0.4, 0.7)])
-def test_bdf3_is_exact_for_cubics(steps):
-    past = 13.0 - np.array([0.0, steps[1], steps[1] + steps[2]])
-    formula = Formula.bdf3(steps[0], past)
-    new = past[0] + steps[0]
-    for power in range(4):
-        rate = power * new ** max(power - 1, 0)
-        assert formula.from_past(past**power) + formula.beta * rate == pytest.approx(new**power)
+@given(steps, gentle, gentle, gentle, coefficients)
+def test_bdf3_is_exact_for_cubics(previous, ratio, growth, earlier, c):
+    past = past_times(previous, growth)
+    formula = Formula.bdf3(ratio * previous, past)
+    y, rate = polynomial(c, 3, previous)
+    found = formula.from_past(y(past)) + formula.beta * rate(formula.step)
+    scale = np.abs(y(past)).max() + abs(y(formula.step))
+    assert found == pytest.approx(y(formula.step), rel=1e-8, abs=1e-8 * scale)
 
 
-def test_backward_euler():
-    formula = Formula.backward_euler(0.2)
-    assert (formula.step, formula.past) == (0.2, (1.0, 0.0))
+@given(steps, ratios, ratios, coefficients)
+def test_extrapolation_is_exact_for_quadratics_and_the_error_is_that_of_a_cubic(
+    previous, ratio, growth, c
+):
+    past = past_times(previous, growth)
+    formula = Formula.bdf2(beta_of_step(ratio * previous, previous), previous)
+    weights = extrapolation_weights(formula.step, past)
+    y, _ = polynomial(c, 2, previous)
+    scale = 1e-9 * (np.abs(weights) @ np.abs(y(past)) + 1.0)
+    assert weights @ y(past) == pytest.approx(y(formula.step), abs=scale)
+    y, rate = polynomial([0.0, 0.0, 0.0, 1.0], 3, previous)
+    stepped = formula.from_past(y(past)) + formula.beta * rate(formula.step)
+    estimate = error_factor(formula, past) * abs(stepped - weights @ y(past))
+    error = abs(y(formula.step) - stepped)
+    assert estimate == pytest.approx(error, rel=1e-6, abs=1e-12 * np.abs(weights).max())
 
 
-@pytest.mark.parametrize("beta", [1e-9, 3.3e-4, 0.5, 1.0])
-def test_ladder(beta):
+@given(st.floats(1e-12, 1e6))
+def test_a_rung_is_below_and_near(beta):
     rung = rung_below(beta)
-    assert rung_value(rung) <= beta * (1 + 1e-9) < rung_value(rung + 1) * (1 + 1e-9)
+    assert rung_value(rung) <= beta * (1 + 1e-8) <= rung_value(rung + 1) * (1 + 1e-8)
+    assert abs(np.log2(rung_value(rung_nearest(beta)) / beta)) <= (0.5 + 1e-9) / RUNGS_PER_OCTAVE
     assert rung_below(rung_value(rung)) == rung_nearest(rung_value(rung)) == rung
-
-
-def test_extrapolation_is_exact_for_quadratics():
-    past = np.array([1.0, 0.6, -0.3])
-    weights = extrapolation_weights(1.7, past)
-    assert weights @ (2 - past + 3 * past**2) == pytest.approx(2 - 1.7 + 3 * 1.7**2)
-
-
-@pytest.mark.parametrize("ratio", [0.5, 1.0, 1.8])
-def test_error_factor_recovers_the_local_error_of_a_cubic(ratio):
-    """For y = t^3, the step's own error follows exactly from its distance to the extrapolation."""
-    previous, before = 0.4, 0.3
-    step = ratio * previous
-    formula = Formula.bdf2(beta_of_step(step, previous), previous)
-    past = np.array([0.0, -previous, -previous - before])
-    stepped = formula.from_past(past**3) + formula.beta * 3 * step**2
-    extrapolated = extrapolation_weights(step, past) @ past**3
-    estimate = error_factor(formula, past) * abs(stepped - extrapolated)
-    assert estimate == pytest.approx(abs(step**3 - stepped), rel=1e-10)
 
 
 def test_second_order_on_an_oscillator_with_changing_steps():
     """Global error of y' = i y falls as the square of the step, growing and shrinking steps."""
 
     def error(n):
-        previous, t, y = None, [0.0], [1.0 + 0j]
         steps = (1.0 + 0.5 * np.sin(np.arange(n) * 2 * np.pi * 3 / n)) / n
-        for h in steps:
-            if previous is None:
-                y.append(np.exp(1j * h))  # exact start
-            else:
-                f = Formula.bdf2(beta_of_step(h, previous), previous)
-                y.append(f.from_past(np.array(y[:-3:-1])) / (1 - 1j * f.beta))
-            t.append(t[-1] + h)
-            previous = h
-        return abs(y[-1] - np.exp(1j * t[-1]))
+        y = [1.0 + 0j, np.exp(1j * steps[0])]  # exact start
+        for previous, h in pairwise(steps):
+            f = Formula.bdf2(beta_of_step(h, previous), previous)
+            y.append(f.from_past(np.array(y[:-3:-1])) / (1 - 1j * f.beta))
+        return abs(y[-1] - np.exp(1j * steps.sum()))
 
     assert np.log2(error(100) / error(200)) == pytest.approx(2.0, abs=0.1)
