@@ -75,6 +75,17 @@ def test_numbers_off_a_grid_and_single_runs_are_points():
         assert figure.axes[0].get_xlabel() == "Theory's critical length (m)"
 
 
+def test_two_faults_never_share_a_marker():
+    """Few faults of several numbers are told apart, and nine evolution laws."""
+    varied = {"height": [0.004, 0.01, 0.01], "phi0": [1, 1, 2], "n_x": [8, 9, 9]}
+    axes = draw([1, 2, 3], [0.9, 1.6, 2.5], **varied).axes[0]
+    labels = axes.get_legend_handles_labels()[1]
+    assert "simulation, $H=0.004$ m, $\\phi_0=1$ s" in labels and len(labels) == 4
+    axes = draw(range(1, 10), range(1, 10), height=[1] * 9, law=list("abcdefghi")).axes[0]
+    looks = {(c[0].get_marker(), c[0].get_color()) for c in axes.containers}
+    assert len(looks) == 9
+
+
 def test_study_in_which_nothing_happens():
     figure = draw([1, 2], [np.nan, np.nan], height=[1, 2])
     axes, strip = figure.axes
@@ -90,7 +101,8 @@ def test_runs_without_an_event_have_no_length(numbers):
     curves = ("theory", "equality")
     shown = [line for line in axes.lines if line.get_label() not in curves]
     assert 2.0 not in np.concatenate([line.get_xdata() for line in shown])
-    np.testing.assert_array_equal(strip.lines[0].get_xdata(), [2.0])
+    lost = np.concatenate([line.get_xdata() for line in strip.lines])
+    np.testing.assert_array_equal(lost, [2.0])
 
 
 def test_theory_is_a_smooth_curve_where_it_is_given():

@@ -8,7 +8,7 @@ import xarray as xr
 from nucleation.figures import style
 from nucleation.figures.beyond import figure_sensitivity
 from nucleation.figures.beyond.figure_sensitivity import label
-from nucleation.figures.checks import figure_convergence
+from nucleation.figures.checks import figure_convergence, figure_hops
 
 HEIGHTS = (0.005, 0.02, 0.1)
 
@@ -102,10 +102,12 @@ def sensitivity():
     )
 
 
-@pytest.fixture(params=["convergence", "sensitivity"])
+@pytest.fixture(params=["convergence", "hops", "sensitivity"])
 def drawn(request, table, hops, patch, sensitivity):
     if request.param == "convergence":
-        return figure_convergence.draw(table, hops, patch)
+        return figure_convergence.draw(table)
+    if request.param == "hops":
+        return figure_hops.draw(hops, patch)
     return figure_sensitivity.draw(sensitivity)
 
 
@@ -135,10 +137,8 @@ def drawn_at(axes):
 
 
 @pytest.mark.parametrize(("panel", "name"), [(0, "onset_difference"), (1, "length_difference")])
-def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault_or_kind(
-    table, hops, patch, panel, name
-):
-    axes = figure_convergence.draw(table, hops, patch).axes[panel]
+def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault_or_kind(table, panel, name):
+    axes = figure_convergence.draw(table).axes[panel]
     labels = ["0.005", "0.02", "0.1", "0.1 older", "0.02 slip", "all, state"]
     words = [text.get_text() for text in axes.get_xticklabels()]
     assert panel == 0 or words == labels  # the upper panel has none of its own
@@ -153,15 +153,15 @@ def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault_or_kind(
         np.testing.assert_allclose(sorted(near), sorted(own[own > 0.0]))
 
 
-def test_runs_that_agree_are_drawn_at_the_edge(table, hops, patch):
+def test_runs_that_agree_are_drawn_at_the_edge(table):
     same = table.assign(onset_difference=0.0 * table["onset_difference"])
-    axes = figure_convergence.draw(same, hops, patch).axes[0]
+    axes = figure_convergence.draw(same).axes[0]
     assert {y for _, y in drawn_at(axes)} == {figure_convergence.LEAST}
 
 
 @pytest.mark.parametrize(("panel", "refined"), [(2, "n_x"), (3, "longest_step")])
-def test_quiet_runs_are_dashed_beside_perturbed_ones(table, hops, patch, panel, refined):
-    axes = figure_convergence.draw(table, hops, patch).axes[panel]
+def test_quiet_runs_are_dashed_beside_perturbed_ones(table, panel, refined):
+    axes = figure_convergence.draw(table).axes[panel]
     for dash, calm in (("--", True), ("-", False)):
         lines = [line for line in axes.get_lines() if line.get_linestyle() == dash]
         drawn = {tuple(point) for line in lines for point in line.get_xydata()}

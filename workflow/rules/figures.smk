@@ -35,8 +35,8 @@ DRAWN = {
     "figure_patch_theory": {"table": only("gather_patch_theory")},
     "figure_dispersion": {"dispersion": only("dispersion")},
     "figure_verification": {"convergence": only("verification")},
-    "figure_convergence": {
-        "table": only("convergence"),
+    "figure_convergence": {"table": only("convergence")},
+    "figure_hops": {
         "hops": lambda wildcards: steps.several("hops", [run.id for run in hopping()]),
         "patch": lambda wildcards: steps("patch", hopping()[0].id),
     },

@@ -24,9 +24,6 @@ SHOWN_WAVENUMBERS = np.linspace(0.02, 2.0, 200)  # over k_c
 MOST_PATCHES = 40  # L_s of more faults takes longer than one waits for a picture
 WIDE = 10.0  # ratio of a parameter's values from which axes are logarithmic
 
-COLOURS = (style.BLUE, style.VERMILLION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY_BLUE)
-MARKERS = "os^vDP"
-
 
 @style.styled
 def draw_theory(theory: xr.Dataset) -> Figure:
@@ -53,12 +50,13 @@ def draw_lengths(table: xr.Dataset) -> Figure:
     axes = figure.add_subplot()
     names = table["study"].values.astype(str)
     for number, name in enumerate(dict.fromkeys(names)):
+        marker, colour = style.look(number)
         rows = table.isel(run=np.flatnonzero(names == name))
         length = rows["length"].values
         bars = [length - rows["length_low"].values, rows["length_high"].values - length]
         axes.errorbar(
             rows["theory_length"].values, length, yerr=np.clip(bars, 0.0, None), linestyle="none",
-            marker=MARKERS[number % 6], color=COLOURS[number % 6], elinewidth=0.9, label=name,
+            marker=marker, color=colour, elinewidth=0.9, label=name,
         )  # fmt: skip
     top = 1.08 * float(max(table["theory_length"].max(), table["length_high"].max()))
     axes.plot([0.0, top], [0.0, top], color=style.GUIDE, linewidth=0.9, zorder=0)

@@ -12,6 +12,7 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.transforms import ScaledTranslation, Transform
 
 from ..datasets.files import replacing
@@ -44,6 +45,9 @@ DRIVE = BLUE
 UPPER_BODY = SKY_BLUE
 LOWER_BODY = ORANGE
 RIGID_BODY = "#8C8C8C"
+
+MARKERS = "osD^vP*X"
+COLOURS = (VERMILLION, BLUE, BLACK, GREEN, PURPLE, ORANGE, SKY_BLUE)
 
 SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
 SMALL = 7.5  # points: legends with many entries, panels inside panels
@@ -86,6 +90,18 @@ STYLE: dict[Any, Any] = {
 }
 
 
+BOXED = {
+    "fontsize": SMALL,
+    "frameon": True,
+    "framealpha": 1.0,
+    "edgecolor": "0.8",
+    "fancybox": False,
+    "labelspacing": 0.3,
+}
+"""A legend among scattered points, whose marks could be taken for data."""
+
+OPEN = {"markerfacecolor": "white"}
+
 KEY = "Key"
 """Entry of a PNG that holds the key of what it was made from."""
 
@@ -106,6 +122,27 @@ def new_figure(width: float, height: float) -> Figure:
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+def look(number: int) -> tuple[str, str]:
+    """Marker and colour of one of several kinds; none of 56 has another's."""
+    return MARKERS[number % len(MARKERS)], COLOURS[number % len(COLOURS)]
+
+
+def shades(number: int, lightest: float = 0.85) -> list[tuple[float, ...]]:
+    """Colours of an ordered family, from dark to light."""
+    return [mpl.colormaps[SEQUENCE](lightest * i / max(number - 1, 1)) for i in range(number)]
+
+
+def key(label: str, marker: str = "", line: str = "", colour: str = GUIDE, **look: Any) -> Line2D:
+    """An entry of a legend that stands for more than one set of data."""
+    return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **look)
+
+
+def letters(*panels: Axes) -> None:
+    """Letters panels, (a) first."""
+    for axes, letter in zip(panels, "abcdefghijklmnopqrstuvwxyz", strict=False):
+        axes.set_title(f"({letter})", loc="left")
 
 
 def aside(axes: Axes, points: float) -> Transform:

@@ -46,8 +46,10 @@ def draw(table: xr.Dataset) -> Figure:
                        fontsize=style.SMALL)  # fmt: skip
     axes[0].set_ylim(bottom=0.0)
     axes[0].set_ylabel(r"Length over $L_c^{\mathcal{M}}$")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=max(len(handles) // 2, 1))
+    handles = axes[0].get_legend_handles_labels()[0]
+    half = len(handles) // 2  # curves, then points: a column has both of one zeta/a
+    pairs = [handle for pair in zip(handles[:half], handles[half:], strict=True) for handle in pair]
+    figure.legend(handles=pairs, loc="outside lower center", ncols=max(half, 1))
     return figure
 
 

@@ -88,8 +88,8 @@ def draw(
         axes.set_xlabel("Height $H$ (m)")
     _finish_lengths(left, theory, lengths, (*DROPS[::-1], stability), isinstance(noisy, xr.Dataset))
     _finish_ratios(right, lengths)
-    for axes, letter in ((left, "(a)"), (right, "(b)")):
-        axes.set_title(letter, loc="left")
+    style.letters(left, right)
+    for axes in (left, right):
         axes.minorticks_on()
     return figure
 
@@ -128,12 +128,8 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
     for runs in (noisy, quiet):
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
         scale = runs["theory_length"].values[order] if relative else 1.0
-        ends.append([runs[f"length{end}"].values[order] / scale for end in ("", "_low", "_high")])
-    (strong, low, high), (usual_length, _, _) = ends
-    axes.fill_between(
-        heights, strong, usual_length, color=style.AGING, alpha=0.2, linewidth=0.0
-    )  # fmt: skip
-    axes.vlines(heights, low, high, color=style.AGING, linewidth=0.8, alpha=0.6)
+        ends.append(runs["length"].values[order] / scale)
+    axes.fill_between(heights, *ends, color=style.AGING, alpha=0.2, linewidth=0.0)
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:

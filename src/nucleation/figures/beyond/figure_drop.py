@@ -20,8 +20,8 @@ KINDS = {
     "strength": ("D", style.BLACK, "roughness"),
 }
 STRENGTHS = (3e-13, 3e-1)
-RATIOS = (0.45, 1.06)
-MEAN = "simulated: mean, range"
+RATIOS = (0.45, 0.87)
+MEAN = "simulated: mean and range of realisations"
 FEWEST = 8  # realisations of which a distribution is shown
 GOAL = 0.03  # of the law's mean
 CLOSE = 30.0  # strengths whose ratio is less have one label
@@ -51,8 +51,22 @@ def draw(table: xr.Dataset) -> Figure:
     load.set_ylabel("Length over theory $L/L_c$")
     _draw_ratios(ratio, table)
     _draw_distributions(spread, table)
-    for axes, letter in zip((load, state, ratio, spread), "abcd", strict=True):
-        axes.set_title(f"({letter})", loc="left")
+    style.letters(load, state, ratio, spread)
+    entries = {
+        h[1]: h[0]
+        for axes in (load, state)
+        for h in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    entries[MEAN] = style.key(MEAN, "o", "-", **style.OPEN)
+    figure.legend(
+        entries.values(),
+        entries,
+        loc="outside upper center",
+        ncols=3,
+        title="In (a, b)",
+        fontsize=style.SMALL,
+        title_fontsize=style.SMALL,
+    )
     return figure
 
 
@@ -107,11 +121,9 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         lengths = runs["length"].values / theory
         mean = lengths.mean()
         bars = [[mean - lengths.min()], [lengths.max() - mean]]
-        named = axes.get_legend_handles_labels()[1]
         axes.errorbar(
             runs["strength"].values[0], mean, yerr=bars, linestyle="none", marker=marker,
             markersize=4.0, color=colour, markerfacecolor="white", elinewidth=0.9,
-            label=None if MEAN in named else MEAN,
         )  # fmt: skip
     _draw_floors(axes, fault, kind, theory)
     axes.axhline(float(fault["stability_length"].values[0]) / theory, color=style.GUIDE,
@@ -121,9 +133,6 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     axes.set_xlim(*STRENGTHS)
     axes.set_ylim(*RATIOS)
     axes.set_xlabel(r"Relative strength $\epsilon$")
-    handles, labels = axes.get_legend_handles_labels()
-    if own.sizes["run"]:
-        axes.legend(handles, labels, loc="upper right", fontsize=style.SMALL, labelspacing=0.25)
 
 
 def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
@@ -138,7 +147,7 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> Non
     )
     axes.plot(
         [one[0] for one in found], [one[1] for one in found], "x", color=style.BLACK,
-        markersize=4.0, markeredgewidth=0.8, label="quiet, by elements along $x$",
+        markersize=4.0, markeredgewidth=0.8, label="nothing perturbed, with its elements along $x$",
     )  # fmt: skip
     while found:
         strength = found[0][0]
@@ -166,14 +175,22 @@ def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
         )  # fmt: skip
         seen.add(kind)
     if (table["law"].values == "slip").any():
-        axes.plot([], [], "o", color=style.GUIDE, markersize=4.0, markerfacecolor="white",
-                  label="open: slip law")  # fmt: skip
-    axes.axhspan(1.0 - GOAL, 1.0 + GOAL, color=style.GUIDE, alpha=0.25, linewidth=0.0)
+        axes.plot(
+            [], [], "o", color=style.GUIDE, markersize=4.0, label="open: slip law", **style.OPEN
+        )
+    axes.axhspan(
+        1.0 - GOAL,
+        1.0 + GOAL,
+        color=style.GUIDE,
+        alpha=0.25,
+        linewidth=0.0,
+        label=f"within {100 * GOAL:g} %",
+    )
     axes.set_xscale("log")
     axes.set_xlim(*STRENGTHS)
     axes.set_xlabel(r"Relative strength $\epsilon$")
     axes.set_ylabel("Simulated mean over the law")
-    axes.legend(loc="upper left", fontsize=style.SMALL)
+    axes.legend(loc="upper left", **style.BOXED)
 
 
 def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
@@ -199,8 +216,9 @@ def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
     axes.set_xlabel("Length over theory $L/L_c$")
     axes.set_ylabel("Part that has dropped")
     if axes.get_legend_handles_labels()[0]:
-        axes.plot([], [], "o", color=style.GUIDE, markersize=3.5, markerfacecolor="white",
-                  label="law: 16, 50, 84 %")  # fmt: skip
+        axes.plot(
+            [], [], "o", color=style.GUIDE, markersize=3.5, label="law: 16, 50, 84 %", **style.OPEN
+        )
         low, high = axes.get_xlim()
         axes.set_xlim(low - ROOM * (high - low), high)  # for the legend
-        axes.legend(loc="upper left", fontsize=style.SMALL)
+        axes.legend(loc="upper left", **style.BOXED)

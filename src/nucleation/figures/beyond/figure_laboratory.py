@@ -35,7 +35,7 @@ def draw(table: xr.Dataset) -> Figure:
     assumed = shown["assumed"].values.astype(str) != ""
     for of, face, label in (
         (~assumed, style.BLUE, ""),
-        (assumed, "white", ", of\nassumed numbers"),
+        (assumed, "white", " of assumed numbers"),
     ):
         theory = shown["creep_length"].values[of], shown["theory_length"].values[of]
         _draw_ends(axes, rows[of], theory, style.BLUE, face, f"$L_s$, $L_c${label}")
@@ -45,7 +45,7 @@ def draw(table: xr.Dataset) -> Figure:
     axes.set_yticks(rows, shown["title"].values.astype(str))
     axes.set_ylim(rows.size - 0.5, -0.5)
     axes.set_xlabel("Length (m)")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    figure.legend(loc="outside lower center", ncols=4)
     return figure
 
 

@@ -47,7 +47,9 @@ def draw(grid: xr.Dataset) -> Figure:
     for (axes, ratio, title), letter in zip(shown, "abc", strict=True):
         image = _draw_ratio(axes, ratio)
         axes.set_title(f"({letter}) {title}", loc="left")
-    figure.colorbar(image, ax=[stable, quiet], label="Length over theory", extend="both")
+    figure.colorbar(
+        image, ax=[quiet, slices], label="(a) to (c): length over theory", extend="both"
+    )
     _draw_slices(slices, grid, stability, drop.isel(strength=0))
     slices.set_title("(d) lengths over height", loc="left")
     return figure
@@ -96,9 +98,9 @@ def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr
                 height, ratio.isel(zeta_over_a=i).values * theory, marker, color=colour,
                 markerfacecolor=face, markersize=3.5, linestyle="none",
             )  # fmt: skip
+    axes.plot([], [], color=style.GUIDE, label="theory $L_c$")
     axes.plot([], [], "o", color=style.GUIDE, markersize=3.5, label="drop")
-    axes.plot([], [], "o", color=style.GUIDE, markerfacecolor="white", markersize=3.5,
-              label="patch unstable")  # fmt: skip
+    axes.plot([], [], "o", color=style.GUIDE, markersize=3.5, label="patch unstable", **style.OPEN)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("Block height $H$ (m)")

@@ -81,15 +81,15 @@ def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
             axes.plot(
                 thickness[of_side], rows[name].values[of_side], marker, color=colour,
                 markersize=4.2, markerfacecolor=colour if filled else "none",
-                label=f"{side}" if filled else None,
+                label=f"bottom {side}" if filled else None,
             )  # fmt: skip
         low, high = (rows[f"length_ratio_{end}"].values[of_side] for end in ("low", "high"))
         axes.vlines(thickness[of_side], low, high, color=colour, linewidth=0.9)
-    axes.axhline(0.5, color=style.GUIDE, linewidth=0.8, linestyle=":")
-    axes.axhline(1.0, color=style.GUIDE, linewidth=0.8, linestyle="--")
+    axes.axhline(0.5, color=style.GUIDE, linewidth=0.8, linestyle=":", label="half of it")
+    axes.axhline(1.0, color=style.GUIDE, linewidth=0.8, linestyle="--", label="theory")
     axes.set(
-        xscale="log", ylim=(0.0, 1.25), xlabel="Second height over theory $H_2/L_c$",
+        xscale="log", ylim=(0.4, 1.1), xlabel="Second height over theory $H_2/L_c$",
         ylabel="Length / theory for the same pair",
     )  # fmt: skip
     axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)", loc="left")
-    axes.legend(title="bottom", fontsize=style.SMALL, title_fontsize=style.SMALL)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85), **style.BOXED)

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import style
 
 BAND = 0.03  # relative error within which theory and simulation agree
-MARKERS = "osD^vp*X"
-COLOURS = (
-    style.BLUE, style.ORANGE, style.GREEN, style.VERMILLION, style.PURPLE, style.BLACK,
-    style.SKY_BLUE, style.OLD_AGE,
-)  # fmt: skip
 
 
 @style.styled
@@ -37,8 +31,8 @@ def draw(table: xr.Dataset) -> Figure:
     _draw_ratio(ratio, table)
     _draw_parity(parity, table)
     _draw_creep(creep, table)
-    for axes, letter in ((ratio, "(a)"), (parity, "(b)"), (creep, "(c)")):
-        axes.set_title(letter, loc="left")
+    style.letters(ratio, parity, creep)
+    for axes in (ratio, parity, creep):
         axes.minorticks_on()
     return figure
 
@@ -68,17 +62,24 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
     studies = list(dict.fromkeys(table["study"].values))
     for n, study in enumerate(studies):
         chosen = table["study"].values == study
+        marker, colour = style.look(n)
         off = (table["front_length"] / table["stability_length"] - 1.0).values[chosen]
         axes.plot(
-            measured[chosen], 100.0 * off, MARKERS[n % len(MARKERS)], markersize=2.8,
-            color=COLOURS[n % len(COLOURS)],
+            measured[chosen], 100.0 * off, marker, color=colour, markersize=2.8,
             label=str(study).replace("_", " "),
         )  # fmt: skip
-    axes.axhspan(-100.0 * BAND, 100.0 * BAND, color=style.GUIDE, alpha=0.12, linewidth=0.0)
+    axes.axhspan(
+        -100.0 * BAND,
+        100.0 * BAND,
+        color=style.GUIDE,
+        alpha=0.12,
+        linewidth=0.0,
+        label=f"within {100 * BAND:g} %",
+    )
     axes.set_xlabel("$L_s/L_c$, simulated")
     axes.set_ylabel(r"$L_s$: theory / simulation $-$ 1 (%)")
     axes.figure.legend(
-        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=min(len(studies), 8),
+        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=5,
         fontsize=style.SMALL, handletextpad=0.2, columnspacing=1.0, title="Studies in (b)",
     )  # fmt: skip
 
@@ -87,9 +88,7 @@ def _draw_creep(axes: Axes, table: xr.Dataset) -> None:
     """Slip rate (dashed) and normal stress along patches at their L_s, by the contrast."""
     if "shown_beta" not in table:
         return
-    number = table.sizes["case"]
-    for i in range(number):
-        colour = colormaps[style.SEQUENCE](0.85 * i / max(number - 1, 1))
+    for i, colour in enumerate(style.shades(table.sizes["case"])):
         case = table.isel(case=i)
         label = rf"$f\beta = {float(case['shown_beta']):.2g}$"
         axes.plot(case["shown_x"], case["shown_stress"], color=colour, label=label)

@@ -13,7 +13,6 @@ from ...figures import style
 
 PERCENT = 1e2
 BASE = "base"
-LOOKS = (("o", style.VERMILLION), ("s", style.BLUE), ("D", style.BLACK), ("^", style.GREEN))
 SPREAD = 0.5  # of the markers of one row, over the distance of rows
 ROW = 0.47 * style.CENTIMETRE
 
@@ -76,7 +75,7 @@ def _draw_changes(axes: Axes, shown: xr.Dataset, rows: list[str], name: str) -> 
     for i in range(0, len(rows), 2):
         axes.axhspan(i - 0.5, i + 0.5, color="0.95", zorder=0)
     for i, (height, shift) in enumerate(zip(heights, shifts, strict=True)):
-        marker, colour = LOOKS[i % len(LOOKS)]
+        marker, colour = style.look(i)
         of_height = shown.isel(run=np.flatnonzero(shown["height"].values == height))
         at = np.array([place[row] for row in of_height["variation"].values.tolist()])
         axes.plot(

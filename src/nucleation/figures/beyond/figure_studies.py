@@ -19,14 +19,13 @@ from ...types import Array
 from ..beyond import figure_sensitivity
 
 Values = dict[str, list[float] | list[str]]
-Look = tuple[str, str, str]
 Curves = Mapping[str, Mapping[str, Sequence[float]]]
 
-LOOKS = (
-    ("o", style.AGING, "-"), ("s", style.SLIP, "--"), ("D", style.OLD_AGE, "-."),
-    ("^", style.GREEN, ":"),
-)  # fmt: skip
-"""Marker and colour of simulations, and dashes of their theory, by the words of a study."""
+DASHES = ("-", "--", "-.", ":")
+"""Of the theory's curves, by the words of a study."""
+
+FEW = 6
+"""Faults of which each has its own marker where no number is an axis."""
 
 WIDE = 4.0
 """Ratio of the largest to the smallest value from which an axis is logarithmic."""
@@ -90,13 +89,14 @@ def draw(
         across = np.asarray(varied[numbers[0]], dtype=float)
     else:
         across = table["theory_length"].values
-    kinds = _kinds(varied, words, table.sizes["run"])
+    told = words if len(numbers) == 1 else [*words, *_telling(varied, words, numbers)]
+    kinds = _kinds(varied, told, entries, table.sizes["run"])
     if len(numbers) == 1:
         given = theory or {}
         _curves(axes, {kind: given.get(kind, _between(table.isel(run=chosen), across[chosen]))
                        for kind, chosen in kinds})  # fmt: skip
     for i, (kind, chosen) in enumerate(kinds):
-        look = LOOKS[i % len(LOOKS)]
+        look = style.look(i)
         part, x = table.isel(run=chosen), across[chosen]
         _points(axes, part, x, kind, look)
         if strip is not None:
@@ -144,9 +144,32 @@ def label(name: str, entry: Quantity) -> str:
     return text if entry.unit == "1" else f"{text} ({entry.unit})"
 
 
-def _kinds(varied: Values, words: list[str], runs: int) -> list[tuple[str, NDArray[np.intp]]]:
-    """Runs by the words they have: a label and the runs' indices."""
-    marks = [", ".join(str(varied[word][i]) for word in words) for i in range(runs)]
+def _telling(varied: Values, words: list[str], numbers: list[str]) -> list[str]:
+    """The first numbers that tell faults apart, none if there are more than :data:`FEW`."""
+
+    def faults(names: list[str]) -> int:
+        return len(set(zip(*(varied[name] for name in (*words, *names)), strict=True)))
+
+    if not numbers or faults(numbers) > FEW:
+        return []
+    enough = (n for n in range(len(numbers)) if faults(numbers[:n]) == faults(numbers))
+    return numbers[: next(enough, len(numbers))]
+
+
+def _kinds(
+    varied: Values, names: list[str], entries: dict[str, Quantity], runs: int
+) -> list[tuple[str, NDArray[np.intp]]]:
+    """Runs by some of what is varied: a label and the runs' indices."""
+
+    def said(name: str, value: float | str) -> str:
+        entry = entries[name]
+        if isinstance(value, str):
+            return value
+        symbol = SYMBOLS.get(entry.symbol, entry.symbol)
+        text = f"${symbol}={value:.4g}$" if symbol else f"{named(name)} {value:.4g}"
+        return text if entry.unit == "1" else f"{text} {entry.unit}"
+
+    marks = [", ".join(said(name, varied[name][i]) for name in names) for i in range(runs)]
     return [
         (mark, np.array([i for i in range(runs) if marks[i] == mark]))
         for mark in dict.fromkeys(marks)
@@ -189,14 +212,14 @@ def _curves(axes: Axes, theory: Mapping[str, Mapping[str, Sequence[float] | Arra
         theory = {"": first}
     for i, (kind, curve) in enumerate(theory.items()):
         axes.plot(
-            curve["x"], curve["length"], LOOKS[i % len(LOOKS)][2], color=style.THEORY,
+            curve["x"], curve["length"], DASHES[i % len(DASHES)], color=style.THEORY,
             label=f"theory, {kind}" if kind else "theory",
         )  # fmt: skip
 
 
-def _points(axes: Axes, part: xr.Dataset, x: Array, kind: str, look: Look) -> None:
+def _points(axes: Axes, part: xr.Dataset, x: Array, kind: str, look: tuple[str, str]) -> None:
     """Simulations with their error bars."""
-    marker, colour, _ = look
+    marker, colour = look
     length = part["length"].values
     event = np.isfinite(length)
     bars = np.abs(np.stack([part["length_low"].values, part["length_high"].values]) - length)

@@ -1,13 +1,12 @@
-"""Refinement of mesh and steps, with a declared perturbation and without, and why they differ."""
+"""Refinement of mesh and steps, with a declared perturbation and without."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
@@ -19,16 +18,12 @@ PERCENT = 100.0
 GOALS = {"onset_difference": 0.3, "length_difference": 0.5}  # per cent
 LABELS = {"onset_difference": "Onset apart (%)", "length_difference": "$L_c$ apart (%)"}
 LEAST = 1e-3  # per cent: smaller differences are drawn there
-LOOKS = (("o", style.VERMILLION), ("s", style.BLUE), ("D", style.BLACK), ("^", style.GREEN))
 KINDS = {
     "normal_load": "load",
     "drive_velocity": "drive",
     "state": "state",
     "strength": "roughness",
 }
-SHOWN_TIME = (-5.0, 0.12)  # s about the onset
-SHOWN_RATE = 1.25  # largest slip rate shown over V, above which curves would cross
-SHIFT = 1.1  # between the curves of slip rate, over V
 REFINED = {
     "n_x": "elements along $x$",
     "n_y": "elements along $y$",
@@ -41,28 +36,23 @@ EVERY_FAULT = "normal_load"  # the kind whose faults are told apart
 
 
 @style.styled
-def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Figure:
-    """Draw how far refinement moves the drop, with and without a perturbation, and the hops.
+def draw(table: xr.Dataset) -> Figure:
+    """Draw how far refinement moves the drop, with and without a perturbation.
 
     Parameters
     ----------
     table : Dataset
         From :func:`nucleation.analysis.convergence.refinement_table`, of perturbed runs and of
         quiet ones.
-    hops : sequence of Dataset
-        From :func:`nucleation.patch.hops.follow_hops`, of one height, from coarse to fine along x.
-    patch : Dataset
-        The stability of that height's patch: ``patch_length`` (m), ``oscillation_frequency``
-        (1/s) on ``instant``, and ``stability_length`` (m).
 
     Returns
     -------
     Figure
-        Two columns wide: onset and length of every perturbed run, lengths of quiet runs beside
-        them, and two rows on what makes the difference.
+        Two columns wide: onset and length of every perturbed run, and lengths of quiet runs beside
+        them.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 24.0 * style.CENTIMETRE)
-    grid = figure.add_gridspec(5, 2, height_ratios=(1.0, 1.0, 1.1, 1.1, 1.0))
+    figure = style.new_figure(style.DOUBLE_COLUMN, 14.5 * style.CENTIMETRE)
+    grid = figure.add_gridspec(3, 2, height_ratios=(1.0, 1.0, 1.1))
     declared = table.isel(run=np.flatnonzero(table["kind"].values != "none"))
     onset = figure.add_subplot(grid[0, :])
     length = figure.add_subplot(grid[1, :], sharex=onset)
@@ -77,13 +67,12 @@ def draw(table: xr.Dataset, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Fi
     meshes.set_ylabel("$L_c$ over the theory's")
     steps.tick_params(labelleft=False)
     steps.invert_xaxis()  # finer to the right, as in the other panel
-    _draw_slip_rates(figure.add_subplot(grid[3, :]), hops)
-    _draw_amplitudes(figure.add_subplot(grid[4, 0]), hops)
-    _draw_frequencies(figure.add_subplot(grid[4, 1]), hops, patch)
-    for axes, letter in zip(figure.axes, "abcdefg", strict=True):
-        axes.set_title(f"({letter})", loc="left")
-    handles, labels = onset.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper center", ncols=len(handles))
+    style.letters(onset, length, meshes, steps)
+    handles = onset.get_legend_handles_labels()[0]
+    open_marks = style.key(
+        "open: coarsest mesh", "o", colour=style.VERMILLION, markersize=3.8, **style.OPEN
+    )
+    figure.legend(handles=[*handles, open_marks], loc="outside upper center", ncols=6)
     return figure
 
 
@@ -108,10 +97,10 @@ def _draw_differences(axes: Axes, declared: xr.Dataset, name: str) -> None:
     """How far each run but the finest of its sequence is from that one."""
     found = places(declared)
     usual_age = min(declared["phi0"].values.tolist(), default=0.0)
-    axes.axhspan(LEAST / 2.0, GOALS[name], color="0.93", zorder=0)
+    axes.axhspan(LEAST / 2.0, GOALS[name], color="0.93", zorder=0, label="goal")
     for place, rows in enumerate(found.values()):
         for i, refined in enumerate(REFINED):
-            marker, colour = LOOKS[i]
+            marker, colour = style.look(i)
             for sequence in _sequences(rows, refined):
                 apart = np.maximum(PERCENT * np.abs(sequence[name].values[:-1]), LEAST)
                 at = np.full(apart.size, place + 0.17 * (i - 1.5))
@@ -121,10 +110,11 @@ def _draw_differences(axes: Axes, declared: xr.Dataset, name: str) -> None:
                 axes.plot(at[coarse], apart[coarse], markerfacecolor="white", **look)
                 axes.plot(at[rest], apart[rest], **look)
     for i, meaning in enumerate(REFINED.values()):
-        marker, colour = LOOKS[i]
+        marker, colour = style.look(i)
         axes.plot([], [], marker, color=colour, markersize=3.8, label=meaning)
     axes.set_yscale("log")
     axes.set_ylim(LEAST / 2.0, 30.0)
+    axes.set_yticks([LEAST, 0.1, 10.0], [r"$\leq 10^{-3}$", "$0.1$", "$10$"])
     axes.set_ylabel(LABELS[name])
     axes.set_xlim(-0.6, len(found) - 0.4)
     names = [_name(key, usual_age) for key in found]
@@ -152,7 +142,7 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
         alike = first["law"] == USUAL_EVOLUTION and first["kind"] in ("none", "normal_load")
         if first["height"] not in heights or not alike:
             continue
-        marker, colour = LOOKS[heights.index(first["height"])]
+        marker, colour = style.look(heights.index(first["height"]))
         calm = first["kind"] == "none"
         size = sequence[refined].values
         sizes.update(size.tolist())
@@ -170,7 +160,7 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     axes.set_xlabel(ALONG[refined])
     if refined == "n_x":
         for height in heights:
-            marker, colour = LOOKS[heights.index(height)]
+            marker, colour = style.look(heights.index(height))
             axes.plot([], [], marker=marker, color=colour, markersize=3.8, linewidth=1.0,
                       label=f"$H={height:g}$ m")  # fmt: skip
         axes.plot([], [], "--o", color=style.GUIDE, markersize=3.8, linewidth=1.0,
@@ -192,63 +182,3 @@ def _label_other(axes: Axes, sequence: xr.Dataset, refined: str, colour: str) ->
         mesh = f"$N_x={int(sequence['n_x'][0])}$"
         place = (sequence["longest_step"].values[0], ratio[0])
         axes.annotate(mesh, place, xytext=(3, -10), **look)
-
-
-def _draw_slip_rates(axes: Axes, hops: Sequence[xr.Dataset]) -> None:
-    """Slip rate half-way along the last patch, curves of different meshes one above another."""
-    for i, (run, colour) in enumerate(zip(hops, _shades(len(hops)), strict=True)):
-        onset = float(run["onset_time"])
-        time, rate = run["time"].values - onset, run["inner_slip_rate"].values
-        scaled = rate / float(run["velocity"])
-        shown = (time > SHOWN_TIME[0]) & (time < SHOWN_TIME[1]) & (scaled < SHOWN_RATE)
-        axes.plot(time[shown], scaled[shown] + i * SHIFT, color=colour, linewidth=1.0)
-        hop = run["hop_time"].values - onset
-        hop = hop[hop > SHOWN_TIME[0]]
-        axes.plot(
-            hop, np.full(hop.size, i * SHIFT - 0.02), "|", color=colour, markersize=4.5,
-            markeredgewidth=0.7,
-        )  # fmt: skip
-        axes.text(
-            SHOWN_TIME[0] + 0.1, i * SHIFT + 0.72, f"$N_x={int(run['n_x'])}$", color=colour,
-            fontsize=style.SMALL,
-        )  # fmt: skip
-    axes.set_xlim(*SHOWN_TIME)
-    axes.set_ylim(-0.2, (len(hops) - 1) * SHIFT + SHOWN_RATE + 0.1)
-    axes.set_xlabel("Time from the onset (s)")
-    axes.set_ylabel("Slip rate $v/V$, shifted")
-
-
-def _draw_amplitudes(axes: Axes, hops: Sequence[xr.Dataset]) -> None:
-    """Amplitude of the slip rate's oscillation against time."""
-    for run, colour in zip(hops, _shades(len(hops)), strict=True):
-        amplitude = run["oscillation_amplitude"].values / float(run["velocity"])
-        axes.plot(run["sample_time"].values, amplitude, color=colour, linewidth=1.0)
-    axes.set_yscale("log")
-    axes.set_xlabel("Time $t$ (s)")
-    axes.set_ylabel("Oscillation of $v/V$")
-
-
-def _draw_frequencies(axes: Axes, hops: Sequence[xr.Dataset], patch: xr.Dataset) -> None:
-    """Frequency of the hops on each mesh, and the patch's own, against the patch's length."""
-    for run, colour in zip(hops, _shades(len(hops)), strict=True):
-        axes.plot(
-            run["hop_length"].values, run["hop_frequency"].values, color=colour,
-        )  # fmt: skip
-    own = patch["oscillation_frequency"].values
-    seen = own > 0.0  # a short patch has no oscillating mode
-    axes.plot(
-        patch["patch_length"].values[seen], own[seen], ".", color=style.BLACK, markersize=2.0,
-        rasterized=True,
-    )  # fmt: skip
-    axes.axvline(float(patch["stability_length"]), color=style.GUIDE, linewidth=0.8, linestyle=":")
-    axes.text(0.03, 0.05, "the patch's own", transform=axes.transAxes, fontsize=style.SMALL)
-    axes.set_yscale("log")
-    axes.set_ylim(5.0, 300.0)
-    axes.set_yticks([10.0, 100.0], ["10", "100"])
-    axes.set_xlabel("Patch length $L$ (m)")
-    axes.set_ylabel("Angular frequency (1/s)")
-
-
-def _shades(number: int) -> list[tuple[float, ...]]:
-    """Colours of meshes, from coarse to fine."""
-    return [colormaps[style.SEQUENCE](0.85 * i / max(number - 1, 1)) for i in range(number)]

@@ -6,10 +6,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from ...figures import style
 
@@ -32,19 +30,19 @@ def draw(dispersion: xr.Dataset) -> Figure:
     Figure
         Two columns wide: growth rates on the left, frequencies on the right.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 8.8 * style.CENTIMETRE)
+    figure = style.new_figure(style.DOUBLE_COLUMN, 9.6 * style.CENTIMETRE)
     layout: Any = figure.get_layout_engine()
     layout.set(wspace=0.05)
     growth, frequency = figure.subplots(1, 2, sharex=True)
     heights = dispersion["height"].values
-    shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.85, heights.size))
+    shades = style.shades(heights.size)
     for i, shade in enumerate(shades):
         one = dispersion.isel(height=i)
         for axes, name in ((growth, "growth"), (frequency, "frequency")):
             _draw_height(axes, one, name, shade)
     growth.axhline(0.0, color=style.GUIDE, linewidth=0.7)
-    for axes, letter in ((growth, "(a)"), (frequency, "(b)")):
-        axes.set_title(letter, loc="left")
+    style.letters(growth, frequency)
+    for axes in (growth, frequency):
         axes.axvline(1.0, color=style.GUIDE, linestyle="--", linewidth=0.9)
         axes.set_xlabel(r"Wavenumber $k/k_c$")
         axes.minorticks_on()
@@ -55,11 +53,11 @@ def draw(dispersion: xr.Dataset) -> Figure:
     growth.set_xlim(modes.min() - margin, modes.max() + margin)
     for axes in (growth, frequency):
         _limit_to_lines(axes)
-    _legends(growth, frequency, heights, shades)
+    _legend(figure, heights, shades)
     return figure
 
 
-def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: np.ndarray) -> None:
+def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: tuple[float, ...]) -> None:
     critical, unit = float(one["critical_wavenumber"]), float(one["memory_time"])
     curve, modes = one["curve_wavenumber"] / critical, one["mode_wavenumber"] / critical
     lines = (one[f"curve_{name}"] * unit).transpose("curve", "branch").values
@@ -84,21 +82,14 @@ def _limit_to_lines(axes: Axes) -> None:
     axes.set_ylim(low - 0.04 * (high - low), high + 0.04 * (high - low))
 
 
-def _legends(growth: Axes, frequency: Axes, heights: np.ndarray, shades: np.ndarray) -> None:
-    colours = [Line2D([], [], color=shade) for shade in shades]
-    growth.legend(
-        colours, [f"${h:g}$" for h in heights], title="$H$ (m)", loc="lower left",
-        title_fontsize=9.0, labelspacing=0.3,
-    )  # fmt: skip
-    entries = {
-        f"mode along {direction}": Line2D(
-            [], [], color=style.GUIDE, linestyle=dash, marker=marker, linewidth=1.0,
-            markersize=3.6, markerfacecolor="white",
-        )
+def _legend(figure: Figure, heights: np.ndarray, shades: list[tuple[float, ...]]) -> None:
+    keys = [
+        style.key(f"$H={height:.3g}$ m", "", "-", shade)
+        for height, shade in zip(heights, shades, strict=True)
+    ]
+    keys += [
+        style.key(f"mode along {direction}", marker, dash, markersize=3.6, **style.OPEN)
         for direction, (marker, dash) in zip(("$+x$", "$-x$"), BRANCHES, strict=True)
-    }  # fmt: skip
-    frequency.legend(
-        list(entries.values()), list(entries), title="lines: Eq. (5)\nsymbols: time integration",
-        title_fontsize=style.SMALL, fontsize=style.SMALL, loc="center left",
-        bbox_to_anchor=(1.03, 0.2), bbox_transform=frequency.transData, alignment="left",
-    )  # fmt: skip
+    ]
+    keys += [style.key("lines: Eq. (5)"), style.key("symbols: time integration")]
+    figure.legend(handles=keys, loc="outside lower center", ncols=4)
