@@ -90,7 +90,7 @@ STYLE: dict[Any, Any] = {
 }
 
 
-BOXED = {
+BOXED: dict[str, Any] = {
     "fontsize": SMALL,
     "frameon": True,
     "framealpha": 1.0,
@@ -100,7 +100,7 @@ BOXED = {
 }
 """A legend among scattered points, whose marks could be taken for data."""
 
-OPEN = {"markerfacecolor": "white"}
+OPEN: dict[str, Any] = {"markerfacecolor": "white"}
 
 KEY = "Key"
 """Entry of a PNG that holds the key of what it was made from."""
@@ -134,7 +134,7 @@ def shades(number: int, lightest: float = 0.85) -> list[tuple[float, ...]]:
     return [mpl.colormaps[SEQUENCE](lightest * i / max(number - 1, 1)) for i in range(number)]
 
 
-def key(label: str, marker: str = "", line: str = "", colour: str = GUIDE, **look: Any) -> Line2D:
+def key(label: str, marker: str = "", line: Any = "", colour: Any = GUIDE, **look: Any) -> Line2D:
     """An entry of a legend that stands for more than one set of data."""
     return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **look)
 

@@ -129,7 +129,8 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
         scale = runs["theory_length"].values[order] if relative else 1.0
         ends.append(runs["length"].values[order] / scale)
-    axes.fill_between(heights, *ends, color=style.AGING, alpha=0.2, linewidth=0.0)
+    strong, weak = ends
+    axes.fill_between(heights, strong, weak, color=style.AGING, alpha=0.2, linewidth=0.0)
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
