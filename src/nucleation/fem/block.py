@@ -7,18 +7,12 @@ between its nodes is in :mod:`.condensed_nodes`.
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Iterator
-
-import numpy as np
-
 from ..types import Array
 from .block_modes import BlockModes
-from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
 from .field import Field
-from .right_edge import RightEdge, predicted, relative_error
-from .separable import LoadedResponse, SeparableOperator
+from .right_edge import RightEdge
+from .separable import SeparableOperator
 
 
 class Block(BlockModes):
@@ -27,18 +21,6 @@ class Block(BlockModes):
     def operator(self, s: float) -> BlockOperator:
         """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
         return BlockOperator(self, s)
-
-
-@dataclasses.dataclass(frozen=True)
-class BlockResponse(LoadedResponse):
-    """A block's response to a load, with the edge values (m) in balance at the levels 0..n_y.
-
-    Where the edge values were given and not found, `swept` holds the sweep down to the interface
-    with them, (n_y + 1, 2, n_x): :meth:`BlockOperator.balance` goes on from there.
-    """
-
-    edge: Array
-    swept: Array | None = None
 
 
 class BlockOperator(SeparableOperator, CondensedOnNodes):
@@ -63,64 +45,23 @@ class BlockOperator(SeparableOperator, CondensedOnNodes):
         """What given edge values do to the modes, as profiles along y."""
         return self.edge.profiles(edge)
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> BlockResponse:
-        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
+    def swept_down(self, load: Field, edge: Array) -> Array:
+        """The forward sweep of a load to the interface, with given edge values (m)."""
+        return self.swept(load, edge)
 
-        Given edge values (m) are taken to be in balance, which saves half of the work.
-        """
-        amplitudes = self.body.sine_amplitudes(w)
-        if edge is not None:
-            swept = self.swept(load, edge)
-            tangential, normal = self.interface_forces(amplitudes, swept[0])
-            lowest = swept[:2].copy()
-            lowest[0, 0], lowest[0, 1] = amplitudes, 0.0
-            self.substitute(lowest)
-            corner = self.edge.corner_reaction(load, lowest, edge)
-            return BlockResponse(w, tangential, np.append(normal, corner), load, edge, swept)
-        held = np.zeros_like(load.edge)
-        modes, reduced = self.solve(load, amplitudes, held)
-        residual = self.edge.residual(load, modes, held)
-        edge = self.edge.correction(residual)
-        tangential, normal = self.interface_forces(amplitudes, reduced)
-        near, edge_tangential, edge_normal = self.edge.felt
-        tangential[near:] += edge @ edge_tangential
-        normal[near:] += edge @ edge_normal
-        corner = self.edge.schur[0] @ edge - residual[0]
-        return BlockResponse(w, tangential, np.append(normal, corner), load, edge)
+    def reduced(self, swept: Array) -> tuple[Array, None]:
+        """The reduced load; without a load an interface at w = 0 is where it was."""
+        return swept[0].copy(), None
 
-    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[BlockResponse]:
-        """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
+    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
+        """The backward sweep from amplitudes of w at the interface, in place."""
+        swept[0, 0], swept[0, 1] = amplitudes, 0.0
+        self.substitute(swept)
 
-        Far from slip and waves the right edge moves as predicted, to round-off. Where it has done
-        so in the last step, the first response takes it for granted.
-        """
-        edge = predicted(expected)
-        if float(expected.memory) < self.edge.round_off:
-            yield self.respond(load, w, edge)
-        yield self.respond(load, w)
-
-    def balance(
-        self, response: BlockResponse, w: Array, expected: Expectation | None = None
-    ) -> Balance:
-        """The block at nodal `w` (m) under the load of a response, which is used up by it.
-
-        Edge values that had been given to the response are corrected to the balance they are found
-        in. The memory is the relative error of their prediction, which tells whether it served.
-        """
-        edge, modes = response.edge, response.swept
-        if w is not response.w:
-            edge = edge + self.edge.change(w - response.w)
-        amplitudes = self.body.sine_amplitudes(w)
-        if modes is None:
-            displacement = Field(self.solve(response.load, amplitudes, edge)[0], edge)
-        else:
-            modes[0, 0], modes[0, 1] = amplitudes, 0.0
-            self.substitute(modes)
-            residual = self.edge.residual(response.load, modes, response.edge)
-            displacement = Field(modes, response.edge + self.edge.correction(residual))
-        if expected is None:
-            return Balance(displacement, self.body.no_memory, True)
-        foreseen = predicted(expected) if modes is None else response.edge
-        error = relative_error(displacement.edge, foreseen, edge)
-        holds = modes is None or error < self.edge.round_off
-        return Balance(displacement, np.array(error), holds)
+    def corner_reaction(
+        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+    ) -> float:
+        """Normal force (N/m) on the corner's node, from the lowest levels alone."""
+        lowest = swept[:2].copy()
+        self.substitute_up(lowest, amplitudes, start)
+        return self.edge.corner_reaction(load, lowest, edge)

@@ -7,13 +7,17 @@ tangential ``p`` (nodes 1..n_x) and normal ``R`` (nodes 0..n_x):
     p = p0 + D w,    R = R0 + N w
 
 with D symmetric positive definite. Without the right edge D and N are diagonal between modes;
-the edge adds a term of low rank. One block and a pair of them differ in neither.
+the edge adds a term of low rank. One block and a pair of them differ in neither, nor in how they
+follow the edge through a step.
 """
 
 from __future__ import annotations
 
+import dataclasses
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,14 +25,31 @@ from numpy.typing import NDArray
 from ..types import Array
 from . import kernels
 from .block_modes import BlockModes
-from .right_edge import EdgeValues
+from .condensed import Balance, Expectation
+from .field import Field
+from .right_edge import EdgeValues, predicted, relative_error
+from .separable import LoadedResponse
 
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
 
 
-class CondensedOnNodes(ABC):
-    """D and N of what has the nodes and the modes of a block (:mod:`.block_modes`)."""
+@dataclasses.dataclass(frozen=True)
+class EdgedResponse(LoadedResponse):
+    """A response to a load, with the edge values (m) in balance, of all levels.
 
+    Where the edge values were given and not found, `swept` holds the sweep down to the interface
+    with them, (levels, 2, n_x): :meth:`CondensedOnNodes.balance` goes on from there.
+    """
+
+    edge: Array
+    start: Array | None  # of a pair, see :meth:`CondensedOnNodes.reduced`
+    swept: Array | None = None
+
+
+class CondensedOnNodes(ABC):
+    """``K + s M`` of what has the nodes and the modes of a block (:mod:`.block_modes`)."""
+
+    body: Any
     edge: EdgeValues
 
     @property
@@ -46,6 +67,85 @@ class CondensedOnNodes(ABC):
         self, amplitudes: Array, reduced: Array | float = 0.0
     ) -> tuple[Array, Array]:
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
+
+    @abstractmethod
+    def swept_down(self, load: Field, edge: Array) -> Array:
+        """The forward sweep of a load to the interface, with given edge values (m)."""
+
+    @abstractmethod
+    def reduced(self, swept: Array) -> tuple[Array, Array | None]:
+        """What a sweep takes from the modal forces at w = 0; where it moves a pair's interface."""
+
+    @abstractmethod
+    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
+        """The backward sweep from amplitudes of w at the interface, in place."""
+
+    @abstractmethod
+    def corner_reaction(
+        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+    ) -> float:
+        """Normal force (N/m) on the corner's node, from the lowest levels alone."""
+
+    def respond(self, load: Field, w: Array, edge: Array | None = None) -> EdgedResponse:
+        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
+
+        Given edge values (m) are taken to be in balance, which saves half of the work.
+        """
+        amplitudes = self.along_x.sine_amplitudes(w)
+        given = np.zeros_like(load.edge) if edge is None else edge
+        swept = self.swept_down(load, given)
+        reduced, start = self.reduced(swept)
+        tangential, normal = self.interface_forces(amplitudes, reduced)
+        if edge is not None:
+            corner = self.corner_reaction(load, swept, edge, amplitudes, start)
+            normal = np.append(normal, corner)
+            return EdgedResponse(w, tangential, normal, load, edge, start, swept)
+        self.substitute_up(swept, amplitudes, start)
+        residual = self.edge.residual(load, swept, given)
+        found = self.edge.correction(residual)
+        near, edge_tangential, edge_normal = self.edge.felt
+        tangential[near:] += found @ edge_tangential
+        normal[near:] += found @ edge_normal
+        corner = self.edge.schur[0] @ found - residual[0]
+        return EdgedResponse(w, tangential, np.append(normal, corner), load, found, start)
+
+    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[EdgedResponse]:
+        """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
+
+        Far from slip and waves the right edge moves as predicted, to round-off. Where it has done
+        so in the last step, the first response takes it for granted.
+        """
+        if float(expected.memory) < self.edge.round_off:
+            yield self.respond(load, w, predicted(expected))
+        yield self.respond(load, w)
+
+    def balance(
+        self, response: EdgedResponse, w: Array, expected: Expectation | None = None
+    ) -> Balance:
+        """The body at nodal `w` (m) under the load of a response, which is used up by it.
+
+        Edge values that had been given to the response are corrected to the balance they are found
+        in. The memory is the relative error of their prediction, which tells whether it served.
+        """
+        edge, modes, start = response.edge, response.swept, response.start
+        if w is not response.w:
+            edge = edge + self.edge.change(w - response.w)
+        amplitudes = self.along_x.sine_amplitudes(w)
+        found = modes is None
+        if modes is None:
+            modes = self.swept_down(response.load, edge)
+            start = self.reduced(modes)[1]
+        self.substitute_up(modes, amplitudes, start)
+        own = edge
+        if not found:
+            residual = self.edge.residual(response.load, modes, response.edge)
+            own = response.edge + self.edge.correction(residual)
+        displacement = Field(modes, own)
+        if expected is None:
+            return Balance(displacement, self.body.no_memory, True)
+        foreseen = predicted(expected) if found else response.edge
+        error = relative_error(own, foreseen, edge)
+        return Balance(displacement, np.array(error), found or error < self.edge.round_off)
 
     def apply(self, w: Array) -> tuple[Array, Array]:
         """``D w``, shape (n_x,), and ``N w``, (n_x + 1,), for nodal w at nodes 1..n_x (m)."""

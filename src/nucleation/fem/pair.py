@@ -9,19 +9,15 @@ where no force acts on it, the corner stays.
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
 
 from ..types import Array
 from .block import Block
-from .condensed import Balance, Expectation
 from .condensed_nodes import CondensedOnNodes
 from .field import Field
-from .right_edge import EdgeValues, inverse_within, predicted, relative_error
-from .separable import LoadedResponse
+from .right_edge import EdgeValues, inverse_within
 from .series import Series, TwoBodies
 
 
@@ -38,18 +34,6 @@ class Pair(TwoBodies[Block]):
         if self.lower.far_side != "free":
             below = self.lower.zero_field()
         return self.joined(self.upper.top_load(normal_stress), below)
-
-
-@dataclasses.dataclass(frozen=True)
-class PairResponse(LoadedResponse):
-    """A pair's response to a load, with the edge values (m) in balance of both blocks.
-
-    Where the edge values were given and not found, `swept` holds the sweep down to the interface.
-    """
-
-    edge: Array
-    reduced: Array  # T^-1 (r1 + r2) of the sweep, (2, n_x): the interface at w = 0
-    swept: Array | None = None
 
 
 class PairOperator(CondensedOnNodes):
@@ -84,70 +68,8 @@ class PairOperator(CondensedOnNodes):
         """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
         return self.along_x.interface_forces(self.modal * amplitudes - reduced)
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> PairResponse:
-        """The forces that hold the interface at nodal `w` (m) under a load, the edge in balance.
-
-        Given edge values (m) are taken to be in balance, which saves half of the work.
-        """
-        body, amplitudes = self.body, self.body.sine_amplitudes(w)
-        given = np.zeros_like(load.edge) if edge is None else edge
-        swept = self._swept(load, given)
-        loads, modes = body.parts(load), body.parts(Field(swept, given))
-        held, start = self.series.loaded(modes.upper.modes[0], modes.lower.modes[0])
-        tangential, normal = self.interface_forces(amplitudes, held)
-        if edge is not None:
-            lowest = modes.upper.modes[:2].copy()
-            self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
-            self.upper.substitute(lowest)
-            corner = self.upper.edge.corner_reaction(loads.upper, lowest, modes.upper.edge)
-            return PairResponse(w, tangential, np.append(normal, corner), load, given, start, swept)
-        self._substitute(swept, amplitudes, start)
-        residual = self.edge.residual(load, swept, given)
-        found = self.edge.correction(residual)
-        near, edge_tangential, edge_normal = self.edge.felt
-        tangential[near:] += found @ edge_tangential
-        normal[near:] += found @ edge_normal
-        corner = self.edge.schur[0] @ found - residual[0]
-        return PairResponse(w, tangential, np.append(normal, corner), load, found, start)
-
-    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[PairResponse]:
-        """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
-
-        As of a block: where the right edge has moved as predicted in the last step, to round-off,
-        the first response takes that for granted.
-        """
-        if float(expected.memory) < self.edge.round_off:
-            yield self.respond(load, w, predicted(expected))
-        yield self.respond(load, w)
-
-    def balance(
-        self, response: PairResponse, w: Array, expected: Expectation | None = None
-    ) -> Balance:
-        """The pair at nodal `w` (m) under the load of a response, which is used up by it."""
-        edge, modes, start = response.edge, response.swept, response.reduced
-        if w is not response.w:
-            edge = edge + self.edge.change(w - response.w)
-        amplitudes = self.body.sine_amplitudes(w)
-        if modes is None:
-            modes = self._swept(response.load, edge)
-            first = self.body.parts(Field(modes, edge))
-            _, start = self.series.loaded(first.upper.modes[0], first.lower.modes[0])
-            self._substitute(modes, amplitudes, start)
-            displacement, foreseen = Field(modes, edge), None
-        else:
-            self._substitute(modes, amplitudes, start)
-            foreseen = response.edge
-            residual = self.edge.residual(response.load, modes, foreseen)
-            displacement = Field(modes, foreseen + self.edge.correction(residual))
-        if expected is None:
-            return Balance(displacement, self.body.no_memory, True)
-        assumed = predicted(expected) if foreseen is None else foreseen
-        error = relative_error(displacement.edge, assumed, edge)
-        holds = foreseen is None or error < self.edge.round_off
-        return Balance(displacement, np.array(error), holds)
-
-    def _swept(self, load: Field, edge: Array) -> Array:
-        """Both blocks swept down to the interface, stacked."""
+    def swept_down(self, load: Field, edge: Array) -> Array:
+        """The forward sweep of a load to the interface in both blocks, with given edge values."""
         modes = np.empty_like(load.modes)
         into = self.body.parts(Field(modes, edge))
         for operator, own, to in zip(
@@ -156,12 +78,29 @@ class PairOperator(CondensedOnNodes):
             operator.swept(own, to.edge, to.modes)
         return modes
 
-    def _substitute(self, modes: Array, amplitudes: Array, start: Array) -> None:
-        """Both blocks back from the interface, in place."""
-        upper, lower = (part.modes for part in self.body.parts(Field(modes, np.empty(0))))
-        self.series.set_interface(upper, lower, amplitudes, start)
-        self.upper.substitute(upper)
-        self.lower.substitute(lower)
+    def reduced(self, swept: Array) -> tuple[Array, Array]:
+        """What a sweep takes from the modal forces at w = 0, and where it moves the interface."""
+        n = self.body.grid.n_y + 1
+        return self.series.loaded(swept[0], swept[n])
+
+    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
+        """The backward sweep of both blocks from amplitudes of w at the interface, in place."""
+        assert start is not None
+        n = self.body.grid.n_y + 1
+        self.series.set_interface(swept[:n], swept[n:], amplitudes, start)
+        self.upper.substitute(swept[:n])
+        self.lower.substitute(swept[n:])
+
+    def corner_reaction(
+        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+    ) -> float:
+        """Normal force (N/m) on the upper corner's node, from the lowest levels alone."""
+        assert start is not None
+        lowest = swept[:2].copy()
+        self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
+        self.upper.substitute(lowest)
+        above = self.body.parts(Field(swept, edge)).upper.edge
+        return self.upper.edge.corner_reaction(self.body.parts(load).upper, lowest, above)
 
 
 class PairEdge(EdgeValues):

@@ -50,6 +50,15 @@ class EdgeValues(ABC):
         value per unit of w, and normal at nodes 0..n_x - 1 (N/m per m).
         """
 
+    @property
+    @abstractmethod
+    def round_off(self) -> float:
+        """Relative error of the edge values in any solve."""
+
+    @abstractmethod
+    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+        """Unbalanced force on the edge values (N/m)."""
+
     def change(self, w: Array) -> Array:
         """Change of the edge values (m) in balance, for a change of w at the nodes 1..n_x (m)."""
         near = self.felt[0]

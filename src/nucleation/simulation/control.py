@@ -8,7 +8,7 @@ import numpy as np
 
 from ..model.parameters import Stepping
 from ..stepping.ladder import rung_below, rung_value
-from ..stepping.scheme import Scheme
+from ..stepping.scheme import BDF
 from .interface import NewtonFailure, Tension
 from .outcome import Outcome
 from .state import State
@@ -72,7 +72,7 @@ def accepted_step(
         return Instant(new, report, Control(wanted, control.steps + 1, rejected))
 
 
-def _step_factor(error: float, scheme: Scheme) -> float:
+def _step_factor(error: float, scheme: BDF) -> float:
     """Factor on the step size for a local error given over the tolerance."""
     if not np.isfinite(error):
         return 1.0  # the first step has no estimate

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..fem.condensed import Body, Expectation, Operator
 from ..fem.field import Field, Motion
-from ..stepping.scheme import Scheme, Step
+from ..stepping.scheme import BDF, Step
 from ..types import Array
 from .drive import Drive, Imposed
 from .interface import Friction, InterfaceSolution, Past, Solver
@@ -55,7 +55,7 @@ class Dynamics:
     acts as a body force ``-rho U''`` along x.
     """
 
-    def __init__(self, body: Body, interface: Solver, drive: Drive, scheme: Scheme) -> None:
+    def __init__(self, body: Body, interface: Solver, drive: Drive, scheme: BDF) -> None:
         self.body, self.interface, self.drive, self.scheme = body, interface, drive, scheme
         self.grid = body.grid
         self._operators: OrderedDict[float, Operator] = OrderedDict()

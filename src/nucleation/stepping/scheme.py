@@ -1,14 +1,13 @@
-"""Schemes of time integration: what a step makes of the past, behind one small door.
+"""The scheme of time integration: what a step makes of the past, behind one small door.
 
 A step solves ``y = sum_i past_i y_{n-i} + beta dy/dt`` for the body, twice for its second time
 derivative, and for slip and state at the interface. A scheme says with which coefficients; another
-linear multistep formula is another class with the attributes and methods of :class:`Scheme`.
+linear multistep formula is another class with the attributes and methods of :class:`BDF`.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Protocol
 
 import numpy as np
 
@@ -51,30 +50,6 @@ class Step:
         return 1.0 / self.body.beta**2
 
 
-class Scheme(Protocol):
-    """A time integrator with steps of adaptive length."""
-
-    levels: int  # motions of the body that a step takes from the past,
-    instants: int  # and values of the interface's fields
-    error_order: int  # power of the step's length in its local error
-    largest_growth: float  # of the length from one step to the next
-
-    def step(self, rung: int, past_times: Array) -> Step:
-        """The step with the leading coefficient of a rung, after past times (s), newest first."""
-
-    def coefficient(self, step: float, previous_step: float) -> float:
-        """The leading coefficient (s) of a step after a previous one (both in s)."""
-
-    def rung(self, step: float, previous_step: float) -> int:
-        """The rung of a step that has been taken, from its length and the previous one's (s)."""
-
-    def steady_rung(self, step: float) -> int:
-        """The largest rung on which steps of one length are no longer than `step` (s)."""
-
-    def steady_step(self, rung: int) -> float:
-        """The length (s) of the steps that stay on a rung."""
-
-
 @dataclasses.dataclass(frozen=True)
 class BDF:
     """BDF2 for the body, and BDF3 for slip and state while the body is quasi-static.
@@ -88,10 +63,10 @@ class BDF:
 
     crossing_time: float = np.inf  # s, of the body by shear waves
 
-    levels = 2
-    instants = 3
-    error_order = 3
-    largest_growth = LARGEST_GROWTH
+    levels = 2  # motions of the body that a step takes from the past,
+    instants = 3  # and values of the interface's fields
+    error_order = 3  # power of the step's length in its local error
+    largest_growth = LARGEST_GROWTH  # of the length from one step to the next
 
     def step(self, rung: int, past_times: Array) -> Step:
         """The step with the leading coefficient of a rung, after past times (s), newest first."""
