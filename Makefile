@@ -20,7 +20,7 @@ CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
-	targets check prune bundle restore release torture
+	targets check prune bundle restore release torture weight
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -44,6 +44,9 @@ test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	PYTHONPATH=src:tests $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
+
+weight: ## Count lines and words against their budgets
+	@python3 .ci/weight.py
 
 lint: $(STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .
