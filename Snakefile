@@ -57,7 +57,6 @@ from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.elsewhere import others
 from nucleation.pipeline.steps import LINKS, Steps
 from nucleation.pipeline.store import StoreError
-from nucleation.pipeline.targets import default_target
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
 
@@ -88,7 +87,7 @@ if FIRST:
 RESULTS = settings.results
 RUNS = {run.id: run for run in settings.runs}
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
-DEFAULT = default_target(settings)
+DEFAULT = "paper" if settings.studies_for("paper") else "studies"
 EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
 """Code of the paper's law with either evolution, for what computes with both."""
 

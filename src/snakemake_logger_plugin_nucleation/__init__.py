@@ -37,7 +37,7 @@ class Runs:
 
     def __init__(self, results: str, jobs: Mapping[str, Mapping[str, str]]) -> None:
         self._store, self._unfinished = Path(results, "store"), Path(results, "unfinished")
-        self._jobs, self._start, self._at_once, self._seconds = jobs, time.time(), 1, 0.0
+        self._jobs, self._start = jobs, time.time()
         self.names = {key: name for runs in jobs.values() for key, name in runs.items()}
         self.total, self.running, self.quiet = len(self.names), 0, 0
         self.done: set[str] = set()
@@ -48,8 +48,6 @@ class Runs:
         there = {path.name for path in self._store.glob("*")}
         for key in self.names.keys() & there - self.done:
             known = _attributes(self._store / key / "result.nc")
-            passed = time.time() - self._start  # less than the run took if it was taken
-            self._seconds += min(float(known.get("wall_seconds", 0.0)), passed)
             self.quiet += known.get("status") == QUIET
             self.failed.pop(key, None)
             self.done.add(key)
@@ -60,7 +58,6 @@ class Runs:
         over = self.done | self.failed.keys()
         logs = [log for log, runs in self._jobs.items() if runs.keys() - over]
         self.running = sum(map(self._is_new, logs))
-        self._at_once = max(self._at_once, self.running)
 
     def job_failed(self, log: str) -> None:
         """A job ended with an error: the run it was at failed, if no record names another."""
@@ -77,14 +74,11 @@ class Runs:
 
     def text(self) -> str:
         """All of it in one line."""
-        done, rest = len(self.done), self.total - len(self.done) - len(self.failed)
+        done = len(self.done)
         said = [f"{done} of {self.total} simulations done ({100 * done // self.total} %)"]
         counts = (self.running, len(self.failed), self.quiet)
         what = ("running", "failed", "without an event")
         said += [f"{n} {what}" for n, what in zip(counts, what, strict=True) if n]
-        if rest and self._seconds:  # those at work are half done
-            left = (rest - self.running / 2) * self._seconds / done / self._at_once
-            said.append(f"{in_words(left)} left")
         return ", ".join(said)
 
 
@@ -149,13 +143,6 @@ class LogHandler(LogHandlerBase):
             lines = sorted(f"{names[key]}: {why}\n" for key, why in failed.items())
             self._write("".join(["Simulations that failed:\n"] * bool(lines) + lines))
         super().close()
-
-
-def in_words(seconds: float) -> str:
-    """A time as people say it: 40 s, 12 min, 3 h 20 min."""
-    hours, minutes = divmod(round(seconds / 60.0), 60)
-    words = f"{hours} h {minutes} min" if hours else f"{minutes} min"
-    return words if seconds >= 90.0 else f"{seconds:.0f} s"
 
 
 def _attributes(path: Path) -> dict[str, Any]:

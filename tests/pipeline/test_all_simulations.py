@@ -36,13 +36,12 @@ class Results:
             log.write(text)
         os.utime(self.logs[job], (time.time() - earlier,) * 2)
 
-    def end(self, run, outcome, seconds=0.0):
+    def end(self, run, outcome):
         path = self.directory / f"store/k{run}/result.nc"
         if not outcome.completed:
             path = self.directory / f"unfinished/run{run}.k{run}.failed.nc"
         path.parent.mkdir(exist_ok=True)
-        attributes = {"status": outcome.value, "wall_seconds": seconds}
-        netcdf.write(xr.Dataset(attrs=attributes), path)
+        netcdf.write(xr.Dataset(attrs={"status": outcome.value}), path)
 
 
 @pytest.fixture
@@ -50,42 +49,31 @@ def results(tmp_path):
     return Results(tmp_path)
 
 
-def test_runs_from_beginning_to_end(results, monkeypatch):
+def test_runs_from_beginning_to_end(results):
     results.begin(1, earlier=50.0)  # a log of an earlier workflow
     runs = plugin.Runs(**results.told())
     runs.look()
     assert runs.text() == "0 of 6 simulations done (0 %)"
     for job in range(3):
         results.begin(job)
-    later = time.time() + 1000.0
-    monkeypatch.setattr(plugin.time, "time", lambda: later)
     runs.look()
     assert runs.text() == "0 of 6 simulations done (0 %), 3 running"
-    results.end(0, Outcome.AFTER_EVENT, 100.0)
-    results.end(2, Outcome.END_TIME, 200.0)
-    runs.look()  # four more, of which two are at work, of 150 s each, three at once
-    expected = "2 of 6 simulations done (33 %), 2 running, 1 without an event, 2 min left"
-    assert runs.text() == expected
+    results.end(0, Outcome.AFTER_EVENT)
+    results.end(2, Outcome.END_TIME)
+    runs.look()
+    assert runs.text() == "2 of 6 simulations done (33 %), 2 running, 1 without an event"
     results.end(3, Outcome.TENSION)  # its batch goes on
     results.begin(1, "a step\nKilled\n\n")
     runs.job_failed(results.logs[1])
     assert runs.failed == {"k3": Outcome.TENSION.value, "k1": "Killed"}
-    results.end(1, Outcome.AFTER_EVENT, 1e9)  # in another attempt
+    results.end(1, Outcome.AFTER_EVENT)  # in another attempt
     runs.look()
     assert runs.failed.keys() == {"k3"} and runs.running == 1
-    assert "1 failed" in runs.text() and runs.text().endswith(" left")
+    assert "1 failed" in runs.text()
     for run in (3, 4, 5):
         results.end(run, Outcome.AFTER_EVENT)
     runs.look()
     assert runs.text() == "6 of 6 simulations done (100 %), 1 without an event"
-
-
-@pytest.mark.parametrize(
-    ("seconds", "words"),
-    [(3, "3 s"), (100, "2 min"), (3599.9, "1 h 0 min"), (4320, "1 h 12 min"), (2e5, "55 h 33 min")],
-)
-def test_times_in_words(seconds, words):
-    assert plugin.in_words(seconds) == words
 
 
 class Terminal(io.StringIO):

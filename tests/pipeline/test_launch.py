@@ -1,14 +1,10 @@
-"""A configuration is looked at before Snakemake sees it; targets are what it can make."""
+"""A configuration is looked at before Snakemake sees it."""
 
-import subprocess
 import sys
 
 import pytest
-from configurations import CONFIG, changed, study
 
-from nucleation.configuration.load import configure, load
 from nucleation.pipeline import launch
-from nucleation.pipeline.targets import default_target
 
 GOOD = "studies: {s: {runs: [{height: 0.01}]}}\n"
 
@@ -31,9 +27,6 @@ BAD = {
     "binary": (b"\x80\xff", "is not valid YAML"),
     "code": (f"__use_yte__: true\n{GOOD}".encode(), "__use_yte__ = True is not allowed"),
     "twice": (b"results: a\nresults: b\n", "the key results stands twice, in lines 1 and 2"),
-    "octal": (GOOD.replace("0.01", "0010").encode(), "YAML takes 0010 for 8"),
-    "nested": (b"[" * 5000, "is not valid YAML"),
-    "list": (b"[1, 2]", "must be a mapping"),
 }
 
 
@@ -59,15 +52,6 @@ def test_no_cores_are_refused(arguments, refused):
     assert (launch.problem(arguments.split()) == "--cores must be 1 or more") == refused
 
 
-@pytest.mark.system
-def test_bad_file_ends_the_program(tmp_path):
-    command = [sys.executable, "-m", "nucleation.pipeline.launch", "--configfile", "a.yaml"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 1 and done.stdout == ""
-    assert BAD["missing"][1] in done.stderr and "Traceback" not in done.stderr
-    assert not (tmp_path / ".snakemake").exists()
-
-
 def test_good_file_is_handed_on(tmp_path, monkeypatch):
     (tmp_path / "a.yaml").write_text(GOOD)
     arguments = ["-n", "--configfile", str(tmp_path / "a.yaml")]
@@ -76,10 +60,3 @@ def test_good_file_is_handed_on(tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "argv", ["launch", *arguments])
     launch.main()
     assert started == [[sys.executable, "-m", "snakemake", *arguments]]
-
-
-def test_default_target_is_what_the_configuration_can_make():
-    for name in ("config.yaml", "quick.yaml"):
-        assert default_target(load(CONFIG / name)) == "paper"
-    assert default_target(configure(study({"height": 0.01}))) == "studies"
-    assert default_target(configure(changed("studies.paper.role", "own"))) == "studies"

@@ -16,7 +16,6 @@ import yaml
 from warm_snakemake import warm
 
 from nucleation.configuration.load import load
-from nucleation.pipeline.targets import default_target
 from nucleation.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
@@ -64,7 +63,8 @@ class Workflow:
         assert table, done.stdout
         counts = {rule: int(count) for rule, count in map(str.split, table[1].splitlines())}
         asked = [*itertools.takewhile(lambda one: not one.startswith("-"), arguments)]
-        for target in asked or [default_target(load(self.config))]:
+        default = "paper" if load(self.config).studies_for("paper") else "studies"
+        for target in asked or [default]:
             assert counts.pop(target) == 1, "a target's own job always runs"
         return counts
 

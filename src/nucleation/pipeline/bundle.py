@@ -25,20 +25,18 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-import click
-
 from ..configuration.load import load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .crate import CRATE, Packed, crate, manifest
+from .crate import CRATE, Packed, crate
 from .keys import PATTERN
 from .store import BAD, NOTE, STEM, Store, StoreError, read_note
 from .view import records
 
-CHECKSUMS, MANIFEST, CONFIGURATION = "manifest-sha256.txt", "codecheck.yml", "config.yaml"
+CHECKSUMS, CONFIGURATION = "manifest-sha256.txt", "config.yaml"
 KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
 """Endings of results; none that Python, a shell or git would run."""
-DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION, MANIFEST, CRATE)))
+DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION, CRATE)))
 IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
 COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
 PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
@@ -76,7 +74,6 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     copies = [_text(path.relative_to(results).as_posix(), path.read_bytes()) for path in paths]
     copies = [copy for copy in copies if copy.digest in digests]  # and no file of the user's own
     files = [_text(CONFIGURATION, configuration.read_bytes()), *copies, *entries]
-    files = [_text(MANIFEST, manifest(copies)), *files]
     files = [_text(CRATE, crate(files)), *files]
     checksums = "".join(f"{file.digest}  {file.name}\n" for file in files)
     files = [_text(CHECKSUMS, checksums.encode()), *files]
@@ -171,10 +168,6 @@ def _refuse_foreign(members: Iterable[tarfile.TarInfo], size: float = math.inf) 
         # neither links and devices, nor sparse files, whose size in the archive says nothing
         if member.type not in (tarfile.REGTYPE, tarfile.AREGTYPE) or member.issparse():
             problem = "only plain files are taken, no directories, links and devices"
-        elif member.name.startswith(".snakemake/metadata/"):
-            raise BundleError(
-                "the archive is of an earlier version: its results are of another code"
-            )
         elif not (member.name.isprintable() and PLACE.fullmatch(member.name)):
             problem = "it is neither a result in a store nor a table, figure or text under its name"
         elif member.name.endswith((CHECKSUMS, NOTE)) and member.size > LARGEST_TEXT:
@@ -191,21 +184,17 @@ def _refuse_foreign(members: Iterable[tarfile.TarInfo], size: float = math.inf) 
         raise BundleError(f"nothing is written, as this is foreign:{''.join(problems[:5])}{more}")
 
 
-@click.command()
-@click.argument("what", type=click.Choice(["write", "restore"]))
-@click.argument("archive", type=click.Path(path_type=Path))
-@click.argument("configuration", type=click.Path(path_type=Path), default="config/config.yaml")
-def main(what: str, archive: Path, configuration: Path) -> None:
-    """Write the results of CONFIGURATION to ARCHIVE, or put those in ARCHIVE into its store."""
+def main(what: str, archive: str, configuration: str = "config/config.yaml") -> None:
+    """``write`` results of a configuration to an archive, or ``restore`` those of one."""
     if what == "write":
-        click.echo(f"{write(archive, configuration)} files are in {archive}")
+        print(f"{write(Path(archive), Path(configuration))} files are in {archive}")
     else:
-        count = restore(archive, load(configuration).results)
-        click.echo(f"{count} results are new here. Make what you want to see: it takes them")
+        count = restore(Path(archive), load(configuration).results)
+        print(f"{count} results are new here. Make what you want to see: it takes them")
 
 
 if __name__ == "__main__":
     try:
-        main.main(standalone_mode=True)
+        main(*sys.argv[1:])
     except (BundleError, ValueError, OSError) as error:
         sys.exit(str(error))

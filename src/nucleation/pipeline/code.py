@@ -153,20 +153,11 @@ def _keep_parsed() -> None:
 
 @cache
 def _kept() -> dict[str, Any]:
-    """What is on the disk, as far as it has the form of :class:`Source`."""
+    """What is on the disk; it is replaced as a whole, so it is right or not there."""
     try:
-        found = dict(json.loads(PARSED.read_text()))
+        return dict(json.loads(PARSED.read_text()))
     except (OSError, ValueError, TypeError):
         return {}
-    return {name: value for name, value in found.items() if _is_source(value)}
-
-
-def _is_source(value: Any) -> bool:
-    match value:
-        case [str(), list(uses), list(libraries)]:
-            three = all(isinstance(use, list) and len(use) == 3 for use in uses)
-            return three and all(isinstance(name, str) for name in libraries)
-    return False
 
 
 @cache

@@ -1,8 +1,7 @@
-"""What an archive of results says of itself to machines: RO-Crate 1.1 and CODECHECK.
+"""What an archive of results says of itself to machines: RO-Crate 1.1.
 
 https://w3id.org/ro/crate/1.1: a flat list of entities that refer to each other. Here: the archive,
 its files, the code that made them, its authors and licence, and the paper.
-https://codecheck.org.uk/spec: the paper, and the files that a codechecker compares.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from urllib.parse import quote
 
 import yaml
 
-from ..datasets.provenance import moment, versions
+from ..datasets.provenance import moment
 from .code import ROOT
 
 CRATE = "ro-crate-metadata.json"
@@ -34,24 +33,6 @@ class Packed(NamedTuple):
     source: Path | bytes
     size: int
     digest: str
-
-
-def manifest(files: Iterable[Packed]) -> bytes:
-    """The content of ``codecheck.yml``, with files in its list."""
-    paper = _citation()["references"][0]
-    about = {
-        "version": "https://codecheck.org.uk/spec/config/1.0/",
-        "paper": {
-            "title": paper["title"],
-            "authors": [{"name": _agent(author)["name"]} for author in paper["authors"]],
-            "reference": f"https://doi.org/{paper['doi']}",
-        },
-        "manifest": [{"file": file.name, "sha256": file.digest} for file in files],
-        "summary": "Results of the replication; `make restore FILE=...` puts them in place",
-        "created": moment().isoformat(timespec="seconds"),
-        "versions": versions(),
-    }
-    return yaml.safe_dump(about, sort_keys=False, allow_unicode=True, encoding="utf-8")
 
 
 def crate(files: Iterable[Packed]) -> bytes:

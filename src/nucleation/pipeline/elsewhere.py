@@ -17,8 +17,8 @@ from typing import Any
 
 from .store import BAD, NOTE, Other, Store, StoreError, files_of, in_a_line, read_note
 
-VARIABLES = ("NUCLEATION_STORES", "SNAKEMAKE_OUTPUT_CACHE")
-"""Environment variables that name further stores, separated by commas; the first that is set."""
+VARIABLE = "NUCLEATION_STORES"
+"""The environment variable that names further stores, separated by commas."""
 
 PATIENCE = {"connect_timeout": 3, "read_timeout": 10, "retries": {"total_max_attempts": 2}}
 """Times (s) and attempts after which a bucket of S3 is out of reach (botocore's)."""
@@ -126,8 +126,7 @@ def others(strict: bool = True) -> list[Other]:
         If one is no directory, can't be read, or is of a kind that nothing here can read.
     """
     found: list[Other] = []
-    text = next(filter(None, map(os.environ.get, VARIABLES)), "")
-    for name in filter(None, map(str.strip, text.split(","))):
+    for name in filter(None, map(str.strip, os.environ.get(VARIABLE, "").split(","))):
         if (problem := _problem(name)) is None:
             found.append(Bucket(name) if "://" in name else SharedDirectory(Path(name).absolute()))
         elif strict:

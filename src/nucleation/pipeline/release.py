@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 import tomllib
 from pathlib import Path
-
-import click
 
 from ..configuration.load import load
 from . import bundle
@@ -60,20 +57,15 @@ def missing(checkout: Path = CHECKOUT) -> list[str]:
     return found
 
 
-@click.command()
-@click.argument("directory", type=click.Path(path_type=Path))
-@click.argument("configuration", type=click.Path(path_type=Path), default="config/config.yaml")
-def main(directory: Path, configuration: Path) -> None:
-    """Write a release with the results of CONFIGURATION to DIRECTORY, and say what to upload."""
-    build(directory, configuration)
-    told = (CHECKOUT / "CONTRIBUTING.md").read_text("utf-8")
-    click.echo(re.findall(r"^## A release\n.*?(?=^## |\Z)", told, re.M | re.S)[0].strip())
-    for line in missing():
-        click.echo(f"Before uploading: {line}", err=True)
+def main(directory: str, configuration: str = "config/config.yaml") -> None:
+    """Write a release with the results of a configuration, and say what is to be done."""
+    build(Path(directory), Path(configuration))
+    for line in [*missing(), "see CONTRIBUTING.md, A release"]:
+        print(f"Before uploading: {line}", file=sys.stderr)
 
 
 if __name__ == "__main__":
     try:
-        main.main(standalone_mode=True)
+        main(*sys.argv[1:])
     except (bundle.BundleError, ValueError, OSError, subprocess.CalledProcessError) as error:
         sys.exit(str(error))
