@@ -21,7 +21,7 @@ from nucleation.analysis.record import parameters_of
 from nucleation.api import critical_length, stability_length
 from nucleation.figures import catalogue, laws
 from nucleation.model.quantities import declarations
-from nucleation.report import encode, explorer, page, player, stability, tables
+from nucleation.report import answer, encode, explorer, page, player, stability, tables
 from nucleation.report.captions import caption_html
 
 ROOT = encode.HERE.parents[2]
@@ -61,6 +61,25 @@ def test_run_of_the_player_can_be_downloaded(html, content, tmp_path):
     with xr.open_dataset(path, decode_times=False) as stored:
         assert stored["slip_rate"].attrs["units"] == "m/s"
         np.testing.assert_allclose(stored["state"], content.player.run["state"], rtol=1e-6)
+
+
+def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(table):
+    quiet = {"length": 0.156, "length_low": 0.138, "length_high": 0.162, "theory_length": 0.235,
+             "creep_length": 0.131}  # fmt: skip
+    noisy = {"role": "converged", "kind": "normal_load", "strength": 1e-5, "length": 0.162}
+
+    def run(**values):
+        return table.assign({name: ("run", [value]) for name, value in values.items()})
+
+    runs = [run(**quiet), run(**quiet | noisy), run(**quiet | {"height": 0.1, "length": 0.2})]
+    runs = [run.assign(ensemble=("run", [str(i)])) for i, run in enumerate(runs)]
+    runs[2]["fault"] = "run", ["another"]
+    shown = answer.answer(xr.concat(runs, "run"))
+    assert [shown[name] for name in ("length", "low", "high")] == ["0.156", "0.138", "0.162"]
+    assert shown["ratios"] == {"paper": "0.66 to 0.85", "converged": "0.69"}
+    assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
+    assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "10⁻⁵"
+    assert answer.answer(run(role="own")) is None
 
 
 def test_csv_has_only_the_datasets_own_columns():

@@ -72,8 +72,9 @@ def test_pairs_are_told_apart_by_their_second_body(two_faults):
         assert len(faults.faults(pair.assign({name: ("run", values)}))) == 2
 
 
-def test_letters_go_on():
+def test_letters_go_on_and_no_two_faults_look_alike():
     assert [faults._letter(n) for n in (0, 25, 26, 27)] == ["A", "Z", "AA", "AB"]
+    assert len({faults.look(n) for n in range(84)}) == 84
 
 
 def test_points_have_the_marker_of_their_fault(two_faults):

@@ -39,12 +39,21 @@ Runs of other heights, laws and ages are of the same one here: they lie about on
 BELOW = ("below", "far_side", "second_shear_modulus", "second_poisson_ratio", "plane")
 """And what lies below, and the plane of both."""
 
-LOOKS = (
-    ("circle", "●", style.VERMILLION), ("square", "■", style.BLACK), ("diamond", "◆", style.PURPLE),
-    ("triangle-up", "▲", style.GREEN), ("triangle-down", "▼", style.OLD_AGE),
-    ("star", "★", style.SKY_BLUE),
+SYMBOLS = dict(zip(
+    ("circle", "square", "diamond", "triangle-up", "triangle-down", "star", "cross", "x",
+     "triangle-left", "triangle-right", "pentagon", "hourglass", "bowtie", "hexagram"),
+    "●■◆▲▼★✚✖◀▶⬟⧗⋈✶", strict=True,
+))  # fmt: skip
+COLOURS = (
+    style.VERMILLION, style.BLACK, style.PURPLE, style.GREEN, style.OLD_AGE, style.SKY_BLUE,
 )  # fmt: skip
-"""Markers and colours of faults, in turn: of the page's plot, and as text."""
+"""Markers of faults in the page's plot, and as text, and their colours."""
+
+
+def look(number: int) -> tuple[str, str, str]:
+    """Marker, sign and colour of a fault; no two of the first 84 have the same of both."""
+    turn, place = divmod(number, len(SYMBOLS))
+    return *list(SYMBOLS.items())[place], COLOURS[(place + turn) % len(COLOURS)]
 
 
 class Fault(NamedTuple):
@@ -80,7 +89,7 @@ def faults(lengths: xr.Dataset) -> list[Fault]:
     names = [column.variable for column in FAULT]
     return [
         Fault(
-            _letter(n), *LOOKS[n % len(LOOKS)], dict(zip(names, mark, strict=False)), runs,
+            _letter(n), *look(n), dict(zip(names, mark, strict=False)), runs,
             mark[len(FAULT)] == "rigid", mark[-1],
         )
         for n, (mark, runs) in enumerate(found.items())

@@ -22,7 +22,7 @@ def in_page(grid: xr.Dataset | None) -> dict[str, Any] | None:
     fields = [{"label": "the patch turns unstable", "length": _rows(stability)}]
     drops = mean_over_seeds(grid, "length")
     for i, strength in enumerate(grid["strength"].values):
-        label = f"the force drops, load fluctuating by {_power(float(strength))}"
+        label = f"the force drops, load fluctuating by {power(float(strength))}"
         fields.append({"label": label, "length": _rows(drops.isel(strength=i))})
     return {
         "height": grid["height"].values.tolist(),
@@ -34,7 +34,7 @@ def in_page(grid: xr.Dataset | None) -> dict[str, Any] | None:
     }
 
 
-def _power(strength: float) -> str:
+def power(strength: float) -> str:
     """A strength with a power of ten, as it is written by hand: 10⁻⁵, 3 × 10⁻⁴."""
     digits, exponent = f"{strength:.1e}".split("e")
     power = "10" + str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

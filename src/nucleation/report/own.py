@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from markupsafe import Markup
 
 from ..analysis.events import without_event
 from ..analysis.rows import rows_of
@@ -26,17 +27,22 @@ class OwnStudies(NamedTuple):
     warnings: dict[str, list[str]]
 
 
-def fault_rows(lengths: xr.Dataset) -> list[dict[str, Any]]:
-    """The faults as rows of a table: look, letter, cells of :data:`FAULT`, number of runs."""
+FAULT_COLUMNS = (
+    "Fault", *(f"{c.label} ({c.unit})" if c.unit else c.label for c in FAULT), "Runs",
+)  # fmt: skip
+
+
+def fault_rows(lengths: xr.Dataset) -> list[list[Cell]]:
+    """The faults as rows of :data:`FAULT_COLUMNS`, of several each with its marker."""
+    known = faults(lengths)
+    mark = '<span class="mark" style="color: {}" aria-hidden="true">{}</span> '
     return [
-        {
-            "sign": fault.sign,
-            "colour": fault.colour,
-            "letter": fault.letter,
-            "cells": [number(fault.values[c.variable] / c.factor) for c in FAULT],
-            "runs": len(fault.runs),
-        }
-        for fault in faults(lengths)
+        [
+            Cell(Markup(mark).format(f.colour, f.sign) * (len(known) > 1) + f.letter, f.letter),
+            *(number(f.values[c.variable] / c.factor) for c in FAULT),
+            Cell(str(len(f.runs)), len(f.runs)),
+        ]
+        for f in known
     ]
 
 

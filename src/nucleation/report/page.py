@@ -21,7 +21,7 @@ from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..patch.mode_history import ModeHistory
-from ..report import drop_law, encode, explorer, faults, length_map, own, stability, tables
+from ..report import answer, drop_law, encode, explorer, faults, length_map, own, stability, tables
 from ..types import Array
 from .captions import caption_html
 
@@ -86,9 +86,18 @@ def build(content: Content) -> str:
     lengths = content.results.get("lengths")
     groups, data = _groups(content), _data(content, lengths)
     pictures = {p["name"]: p for group in groups.values() for p in group}
+    first = answer.answer(lengths) if content.own is None and lengths is not None else None
     if content.own is not None:
         groups.pop(catalogue.OWN, None)
+    shown_above = {"figure_3"} if first else set()
+    groups = {
+        category: [picture for picture in group if picture["name"] not in shown_above]
+        for category, group in groups.items()
+    }
+    printed = {claim["id"]: claim["paper"] for claim in content.claims or []}.get("length-shown")
     return encode.template("template.html").render(
+        answer=first,
+        printed=printed,
         styles=encode.source("page.css"),
         scripts=[Markup(plotly.offline.get_plotlyjs()), *map(encode.source, SCRIPTS)],
         data=encode.script_json(data),
@@ -99,11 +108,10 @@ def build(content: Content) -> str:
         studies=own.sections(content.own, lengths) if content.own and lengths is not None else [],
         ends=data["heights"][:: len(data["heights"]) - 1],
         run_columns=own.RUN_COLUMNS,
-        fault_columns=faults.FAULT,
+        fault_columns=own.FAULT_COLUMNS,
         faults=own.fault_rows(lengths) if content.own and lengths is not None else [],
         pictures=pictures,
-        table_s1=table_s1.rows(content.friction),
-        value_text=table_s1.value_text,
+        table_s1=_parameters(content.friction),
         length_columns=tables.LENGTH_COLUMNS,
         lengths=tables.length_rows(lengths) if lengths is not None else [],
         drop=data["drop"],
@@ -247,8 +255,7 @@ def _origin(content: Content) -> dict[str, Any]:
         "created": content.provenance["created"],
         "digest": content.provenance["code_digest"],
         "datasets": [
-            {"name": name, **{key: dataset.attrs.get(key, "") for key in ("code_digest", "created",
-                                                                         "command")}}
+            [tables.Cell(text, text) for text in (name, *_origin_of(dataset))]
             for name, dataset in made.items()
         ],
         "config": configuration,
@@ -256,4 +263,22 @@ def _origin(content: Content) -> dict[str, Any]:
             "name": "configuration.json",
             "address": encode.data_address(configuration.encode(), "configuration.json"),
         },
-    }  # fmt: skip
+    }
+
+
+def _origin_of(dataset: xr.Dataset) -> tuple[str, ...]:
+    digest, made, command = (
+        dataset.attrs.get(key, "") for key in ("code_digest", "created", "command")
+    )
+    return digest[:16], made, command
+
+
+def _parameters(friction: Friction) -> list[list[tables.Cell]]:
+    """Table S1."""
+    return [
+        [tables.Cell(text, "") for text in (
+            Markup("<i>{}</i>").format(row.symbol), table_s1.value_text(row.value), row.unit,
+            row.description,
+        )]
+        for row in table_s1.rows(friction)
+    ]  # fmt: skip
