@@ -42,7 +42,10 @@ def one(key, **changes):
 def test_conventional_length_makes_a_slider_marginal(eta):
     """Its stiffness ``eta mu/L`` is that of a spring (Pa/m) at which steady sliding is neutral."""
     s, mu = InterfaceState(), 3.1e9
-    length = literature.conventional_length(eta, mu, s.normal_stress, s.zeta, s.slip_length)
+    setting = literature.Setting(
+        mu, 0.3, s.normal_stress, s.a, s.a + s.zeta, s.zeta, s.slip_length, math.inf, 0.0
+    )
+    length = setting.conventional(eta)
     by_rate = s.normal_stress * s.a / s.velocity
     steady_state = s.slip_length / s.velocity
     by_state = s.normal_stress * (s.a + s.zeta) / steady_state

@@ -1,20 +1,23 @@
 """The nucleation lengths in use, each with formula, source and validity in words.
 
-The functions are those of :mod:`nucleation.theory.literature`.
+What they are made of, and what holds for all of them, is :mod:`nucleation.theory.literature`.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import inspect
+import math
 from collections.abc import Callable
+from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..model.quantities import Quantity
-from ..theory import literature
+from . import literature
 from .fault import Fault, Values, checked, labelled, takes_fault, where
+from .finite_patch import NEAREST, loaded_patch_factor
+from .literature import Setting, nan0, valid
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,10 +27,8 @@ HALF_SPACES = "two identical half-spaces of the first body's material"
 THIS_FAULT = "this fault, both bodies as they are"
 RIGID_BASE = "a layer of the first body's material and height on a rigid body"
 
-WEAKENING_RATE = Quantity(
-    "rate of linear slip weakening of the shear strength", unit="Pa/m", low=0.0, high=1e25,
-    symbol="W",
-)  # fmt: skip
+_FALL = "rate of linear slip weakening of the shear strength"
+WEAKENING_RATE = Quantity(_FALL, unit="Pa/m", low=0.0, high=1e25, symbol="W")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,22 +40,22 @@ class Length:
     formula: str
     source: str
     validity: str
-    system: str
-    compute: Callable[..., Any]
-    needs: str  # the condition on this fault's parameters, outside which it is NaN
+    compute: Callable[[Any], Any]  # of a Setting, of the Fault itself where that is the system
+    needs: str = "zeta > 0"  # the condition on this fault's parameters, outside which it is NaN
+    system: str = HALF_SPACES
 
     def evaluate(self, fault: Fault, weakening_rate: Values) -> Any:
         """The length (m) of a fault, NaN outside its validity."""
         if self.system == THIS_FAULT:
             return self.compute(fault)
-        names = inspect.signature(self.compute).parameters
+        names = [field.name for field in dataclasses.fields(Setting)]
         own = {"weakening_rate": weakening_rate, "poisson_ratio": fault.in_plane_ratios[0]}
         if self.system == TWO_MATERIALS:
             modulus, coupling = of_two_materials(fault)
             own |= {"shear_modulus": modulus, "poisson_ratio": 0.0}  # of which mu* = M
-        value = self.compute(**{n: own[n] if n in own else getattr(fault, n) for n in names})
+        value = self.compute(Setting(*(own[n] if n in own else getattr(fault, n) for n in names)))
         if self.system == TWO_MATERIALS:
-            return where(coupling < literature.NEGLIGIBLE, value, np.nan)
+            return valid(coupling < literature.NEGLIGIBLE, value)
         return value
 
     def of_two(self) -> Length:
@@ -84,101 +85,148 @@ def of_two_materials(fault: Fault) -> tuple[Any, Any]:
     return modulus, abs(beta) * (0.0 if fault.friction is None else fault.friction)
 
 
-_WEAKENING = "velocity weakening, near steady sliding, either law"
-
-
 def _stability_length(fault: Fault) -> Any:
     from .creep.lengths import stability_values  # with SciPy, which takes a while
 
     return stability_values(fault)[0]
 
 
-_OF_FAULT = Length(
-    "creeping_patch", "creeping patch, pushed", "its own eigenproblem, docs/patch_theory.md",
-    "this project", "a patch that creeps as it is pushed at its edge, constant a and b, either law",
-    THIS_FAULT, _stability_length, "zeta > 0 and L_s < 3 L_c",
-)  # fmt: skip
+def _crack(s: Setting) -> Any:
+    length = 2.0 / math.pi * nan0((s.b - s.a) / s.b) ** -2 * s.state_evolution()
+    return valid((s.a > 0.5 * s.b) & (s.a < s.b), length)
 
+
+def _loaded_patch(s: Setting) -> Any:
+    within = (s.a > 0.0) & (s.a < NEAREST * s.b)
+    part = where(within, s.a / nan0(s.b), 0.5)
+    return valid(within, loaded_patch_factor(part) / (1.0 - part) * s.state_evolution())
+
+
+_STEADY = "velocity weakening, near steady sliding, either law"
+
+_OF_FAULT = Length(
+    key="creeping_patch",
+    title="creeping patch, pushed",
+    formula="its own eigenproblem, docs/patch_theory.md",
+    source="this project",
+    validity="a patch that creeps as it is pushed at its edge, constant a and b, either law",
+    system=THIS_FAULT,
+    needs="zeta > 0 and L_s < 3 L_c",
+    compute=_stability_length,
+)
 _OF_ONE_MATERIAL = (
     Length(
-        "homogeneous_sliding", "homogeneous sliding", "pi mu* D/(zeta sigma0)",
-        "Rice and Ruina (1983); Aldam et al. (2017), Eq. (6)", _WEAKENING, HALF_SPACES,
-        literature.homogeneous_sliding_length, "zeta > 0",
+        key="homogeneous_sliding",
+        title="homogeneous sliding",
+        formula="pi mu* D/(zeta sigma0)",
+        source="Rice and Ruina (1983); Aldam et al. (2017), Eq. (6)",
+        validity=_STEADY,
+        compute=lambda s: s.plane(math.pi),
     ),
     Length(
-        "rice_ruina", "Rice-Ruina h*", "(pi/4) mu* D/(zeta sigma0)",
-        "Rice and Ruina (1983); Lapusta and Liu (2009)",
-        f"{_WEAKENING}; a spring block at K_c", HALF_SPACES, literature.rice_ruina_length,
-        "zeta > 0",
+        key="rice_ruina",
+        title="Rice-Ruina h*",
+        formula="(pi/4) mu* D/(zeta sigma0)",
+        source="Rice and Ruina (1983); Lapusta and Liu (2009)",
+        validity=f"{_STEADY}; a spring block at K_c",
+        compute=lambda s: s.plane(0.25 * math.pi),
+    ),
+    *(
+        Length(
+            key=f"dieterich_{end}",
+            title=f"conventional, eta = {words}",
+            formula="eta mu D/(zeta sigma0)",
+            source="Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
+            validity=f"{_STEADY}; {end} of the crack models",
+            compute=methodcaller("conventional", eta),
+        )
+        for end, words, eta in zip(
+            ("shortest", "longest"), ("2/pi", "4/3"), literature.CONVENTIONAL_ETA, strict=True
+        )
     ),
     Length(
-        "dieterich_shortest", "conventional, eta = 2/pi", "eta mu D/(zeta sigma0)",
-        "Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
-        f"{_WEAKENING}; shortest of the crack models", HALF_SPACES,
-        literature.dieterich_shortest_length, "zeta > 0",
+        key="state_evolution",
+        title="state evolution L_b",
+        formula="mu* D/(b sigma0)",
+        source="Dieterich (1992); Rubin and Ampuero (2005)",
+        validity="far above steady state; a mesh has to resolve it",
+        needs="b > 0",
+        compute=Setting.state_evolution,
     ),
     Length(
-        "dieterich_longest", "conventional, eta = 4/3", "eta mu D/(zeta sigma0)",
-        "Dieterich (1992), Table 1; Aldam et al. (2017), Eqs. (1)-(3)",
-        f"{_WEAKENING}; longest of the crack models", HALF_SPACES,
-        literature.dieterich_longest_length, "zeta > 0",
+        key="rubin_ampuero_localised",
+        title="Rubin-Ampuero, fixed length",
+        formula="2 x 1.3774 mu* D/(b sigma0)",
+        source="Rubin and Ampuero (2005), 2 L_nu",
+        validity="aging law, far above steady state; a/b < 0.3781",
+        needs=f"a/b < {literature.LOCALISED_LIMIT}",
+        compute=lambda s: valid(
+            s.a < literature.LOCALISED_LIMIT * s.b, 2.0 * 1.3774 * s.state_evolution()
+        ),
     ),
     Length(
-        "state_evolution", "state evolution L_b", "mu* D/(b sigma0)",
-        "Dieterich (1992); Rubin and Ampuero (2005)",
-        "far above steady state; a mesh has to resolve it", HALF_SPACES,
-        literature.state_evolution_length, "b > 0",
+        key="rubin_ampuero_crack",
+        title="Rubin-Ampuero, expanding",
+        formula="(2/pi) mu* b D/[(b - a)^2 sigma0]",
+        source="Rubin and Ampuero (2005), 2 L_infinity",
+        validity="aging law, crack-like expansion; 1/2 < a/b < 1",
+        needs="1/2 < a/b < 1",
+        compute=_crack,
     ),
     Length(
-        "rubin_ampuero_localised", "Rubin-Ampuero, fixed length", "2 x 1.3774 mu* D/(b sigma0)",
-        "Rubin and Ampuero (2005), 2 L_nu", "aging law, far above steady state; a/b < 0.3781",
-        HALF_SPACES, literature.rubin_ampuero_localised_length,
-        f"a/b < {literature.LOCALISED_LIMIT}",
+        key="uenishi_rice",
+        title="Uenishi-Rice",
+        formula="1.158 mu*/W, W = b sigma0/D unless given",
+        source="Uenishi and Rice (2003)",
+        validity="strength falls linearly with slip, without direct effect",
+        needs=f"a/b < {literature.NEGLIGIBLE} unless W is given",
+        compute=lambda s: valid(
+            s.weakening_rate > 0.0, literature.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
+        ),
     ),
     Length(
-        "rubin_ampuero_crack", "Rubin-Ampuero, expanding", "(2/pi) mu* b D/[(b - a)^2 sigma0]",
-        "Rubin and Ampuero (2005), 2 L_infinity",
-        "aging law, crack-like expansion; 1/2 < a/b < 1", HALF_SPACES,
-        literature.rubin_ampuero_crack_length, "1/2 < a/b < 1",
+        key="creeping_asperity",
+        title="asperity, creep around it",
+        formula="1.158 mu* D/(zeta sigma0)",
+        source="Viesca and Garagash (2025), first scenario, by our derivation; "
+        "Uenishi and Rice (2003)",
+        validity="velocity weakening, patch of fixed length in steady creep, either law",
+        compute=lambda s: s.plane(literature.FINITE_PATCH),
     ),
     Length(
-        "uenishi_rice", "Uenishi-Rice", "1.158 mu*/W, W = b sigma0/D unless given",
-        "Uenishi and Rice (2003)", "strength falls linearly with slip, without direct effect",
-        HALF_SPACES, literature.uenishi_rice_length,
-        f"a/b < {literature.NEGLIGIBLE} unless W is given",
+        key="loaded_patch",
+        title="pinned patch, steady load",
+        formula="C(a/b) mu* D/(zeta sigma0)",
+        source="Viesca and Garagash (2025), second scenario, by our computation of C",
+        validity="velocity weakening, patch of fixed length under a rising load, either law",
+        needs=f"0 < a/b < {NEAREST}",
+        compute=_loaded_patch,
     ),
     Length(
-        "creeping_asperity", "asperity, creep around it", "1.158 mu* D/(zeta sigma0)",
-        "Viesca and Garagash (2025), first scenario, by our derivation; Uenishi and Rice (2003)",
-        "velocity weakening, patch of fixed length in steady creep, either law", HALF_SPACES,
-        literature.creeping_asperity_length, "zeta > 0",
+        key="thin_limit",
+        title="thin layer, Hk -> 0",
+        formula="2 pi sqrt[2 mu* H D/(zeta sigma0)]",
+        source="Aldam et al. (2017), Eq. (11)",
+        validity=f"{_STEADY}; 2 pi H/L << 1",
+        system=RIGID_BASE,
+        needs=f"zeta > 0 and 2 pi H/L < {literature.THIN}",
+        compute=lambda s: s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi),
     ),
     Length(
-        "loaded_patch", "pinned patch, steady load", "C(a/b) mu* D/(zeta sigma0)",
-        "Viesca and Garagash (2025), second scenario, by our computation of C",
-        "velocity weakening, patch of fixed length under a rising load, either law", HALF_SPACES,
-        literature.loaded_patch_length, f"0 < a/b < {literature.NEAREST}",
+        key="thin_layer",
+        title="thin layer, aging law",
+        formula="2 pi sqrt[2 mu* H D/(b sigma0)]",
+        source="Viesca (2016)",
+        validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
+        system=RIGID_BASE,
+        needs=f"a/b < 1/2 and 2 pi H/L < {literature.THIN}",
+        compute=lambda s: s.thin(2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution())),
     ),
-    Length(
-        "thin_limit", "thin layer, Hk -> 0", "2 pi sqrt[2 mu* H D/(zeta sigma0)]",
-        "Aldam et al. (2017), Eq. (11)", f"{_WEAKENING}; 2 pi H/L << 1", RIGID_BASE,
-        literature.thin_limit_length, f"zeta > 0 and 2 pi H/L < {literature.THIN}",
-    ),
-    Length(
-        "thin_layer", "thin layer, aging law", "2 pi sqrt[2 mu* H D/(b sigma0)]", "Viesca (2016)",
-        "aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1", RIGID_BASE,
-        literature.thin_layer_length, f"a/b < 1/2 and 2 pi H/L < {literature.THIN}",
-    ),
-)  # fmt: skip
-_OF_TWO = (
-    "homogeneous_sliding", "rice_ruina", "state_evolution", "rubin_ampuero_localised",
-    "rubin_ampuero_crack", "uenishi_rice", "creeping_asperity", "loaded_patch",
-)  # fmt: skip
-
+)
 LENGTHS = (
     _OF_FAULT,
     *_OF_ONE_MATERIAL,
-    *(x.of_two() for x in _OF_ONE_MATERIAL if x.key in _OF_TWO),
+    *(x.of_two() for x in _OF_ONE_MATERIAL if x.system == HALF_SPACES and "mu*" in x.formula),
 )
 """The lengths in use, in the order in which they are listed."""
 
