@@ -46,6 +46,16 @@ def evidence(**changes):
     return dataclasses.replace(_evidence(), **changes)
 
 
+STATED = table_of_claims.stated()
+PAIRED = {subject: STATED.pop(subject) for subject in ["two bodies, simulated"]}
+CLAIMS = [claim for s, entries in STATED.items() for claim in table_of_claims.claims_on(s, entries)]
+
+
+def evaluate(evidence):
+    """The claims that need no pairs, on some evidence."""
+    return table_of_claims.evaluate(STATED, evidence)
+
+
 def evaluated():
     """All claims on it."""
     return copy.deepcopy(_evaluated())
@@ -53,7 +63,7 @@ def evaluated():
 
 @functools.cache
 def _evaluated():
-    return table_of_claims.evaluate(_evidence())
+    return evaluate(_evidence())
 
 
 @functools.cache

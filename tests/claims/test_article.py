@@ -5,9 +5,8 @@ import re
 
 import jinja2
 import pytest
-from reference_evidence import ROOT, evaluated, evidence
+from reference_evidence import ROOT, evaluate, evaluated, evidence
 
-from nucleation.claims import table
 from nucleation.claims.article import digits, paired, percent, render, rounded
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
@@ -48,7 +47,7 @@ def test_template_states_no_result_of_its_own():
 
 @pytest.mark.slow
 def test_article_without_runs():
-    bare = table.evaluate(evidence(lengths=(), patches={}))
+    bare = evaluate(evidence(lengths=(), patches={}))
     text = render(TEMPLATE, bare, [])
     assert "not computed" in text and "no such run" in text
     assert len(text) > 3000
@@ -75,7 +74,8 @@ def test_our_numbers_are_rounded_to_their_range():
     row = {"ours": -0.00342, "uncertainty": (-0.0067, 0.0755), "unit": "1"}
     assert rounded(row) == "-0.0034 (-0.0067 to 0.0755)"
     row = {"ours": 0.16201, "uncertainty": (0.16201, 0.16201), "unit": "m"}
-    assert rounded(row) == "0.162 m" and digits(1e-5, 1) == "1e-5" and digits(25342, 2) == "2.5e4"
+    assert rounded(row) == "0.162 m" and digits(1e-5, 1) == "$10^{-5}$"
+    assert digits(25342, 2) == r"$2.5\times 10^{4}$"
 
 
 def test_what_is_cited_is_listed_and_what_is_listed_cited():

@@ -11,19 +11,17 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from reference_evidence import REFERENCE, ROOT, evaluated, evidence
+from reference_evidence import CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
 
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
 from nucleation.claims.measure import Measures
 from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 from nucleation.claims.statements import bimaterial
-from nucleation.claims.symbols import as_markdown
 from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
 
-CLAIMS = [claim for claims in table.SUBJECTS.values() for claim in claims]
 FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
 LENGTHS = pd.read_csv(REFERENCE / "lengths.csv")
@@ -51,7 +49,7 @@ def test_claims_are_many_and_told_apart():
     assert len(CLAIMS) >= 30
     assert len({claim.id for claim in CLAIMS}) == len(CLAIMS)
     assert len({claim.statement for claim in CLAIMS}) == len(CLAIMS)
-    assert all(table.SUBJECTS.values())
+    assert all(STATED.values())
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
@@ -73,7 +71,7 @@ def test_rows_are_valid_by_the_schema(rows):
     assert not validator.is_valid([broken])
     assert not validator.is_valid([{**rows["eta"], "ours": None}])
     subjects = schema["items"]["properties"]["subject"]["enum"]
-    assert subjects == list(table.SUBJECTS)
+    assert subjects == list(STATED)
     assert schema["items"]["properties"]["verdict"]["enum"] == [str(v) for v in Verdict]
 
 
@@ -252,7 +250,9 @@ def test_tables_hold_every_row(rows):
     assert len(body) == len(rows) + 1
     assert {len(re.findall(r"(?<!\\)\|", line)) for line in body} == {8}
     methods = [claim.method for claim in CLAIMS]
-    assert all(as_markdown(method) in text for method, text in zip(methods, body[1:], strict=True))
+    assert all(
+        table.escaped(method) in text for method, text in zip(methods, body[1:], strict=True)
+    )
     assert sum(table.counts(listed).values()) == len(rows)
 
 

@@ -141,7 +141,7 @@ def test_words_whose_reading_is_ours_are_not_supported_where_others_are_not_repl
 
 
 def made_up(compute, said=SAID):
-    return Claim("made-up", "Sect. 1", "It is 13.", "$13$", "by hand", "s", said, compute)
+    return Claim("made-up", "Sect. 1", "It is 13.", "$13$", "by hand", compute, said, "s")
 
 
 def test_missing_result_gives_no_number():
@@ -167,8 +167,8 @@ def test_row_holds_number_range_and_what_the_function_says():
 
 def test_inputs_have_a_verdict_of_their_own():
     def judged(value):
-        claim = Claim("mesh", "Text", "It has 400.", "400", "given", "1", number("400"),
-                      lambda evidence: Ours.exactly(value), input=True)  # fmt: skip
+        claim = Claim("mesh", "Text", "It has 400.", "400", "given",
+                      lambda evidence: Ours.exactly(value), number("400"), input=True)  # fmt: skip
         return claim.evaluate(None)
 
     assert judged(400.0)["verdict"] == Verdict.GIVEN

@@ -7,11 +7,14 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from reference_evidence import PAIRED
 
+from nucleation.claims import table as table_of_claims
 from nucleation.claims.independent import printed
-from nucleation.claims.statements.two_bodies import CLAIMS, PairEvidence, evaluate
+from nucleation.claims.statements.two_bodies import PairEvidence
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
+CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
 FOUND = {claim.id: claim for claim in CLAIMS}
 
 
@@ -153,7 +156,8 @@ def test_both_senses_are_needed():
 
 def test_without_runs_nothing_is_judged():
     empty = table().isel(run=slice(0, 1))
-    rows = evaluate(empty, modes(name="stiff above, clamped"))
+    evidence = PairEvidence(empty, modes(name="stiff above, clamped"))
+    rows = table_of_claims.evaluate(PAIRED, evidence)
     assert {row["verdict"] for row in rows} == {"cannot be checked"}
 
 
@@ -172,7 +176,7 @@ def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     both = both.assign(
         {n: (("run", "branch"), np.stack([along[n], back[n]], axis=1)) for n in measured}
     )
-    for row in evaluate(found, both):
+    for row in table_of_claims.evaluate(PAIRED, PairEvidence(found, both)):
         assert row["verdict"] == rows[row["id"]]["verdict"]
         assert row["ours"] == pytest.approx(float(rows[row["id"]]["ours"]), rel=1e-4)
 

@@ -1,3 +1,7 @@
+STATED = read_yaml(Path(SOURCE, "nucleation", "claims", "claims.yaml"))
+PAIRED = "two bodies, simulated"
+
+
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
 # article that tells of them. Both stand on the paper's runs and the converged ones; claims about
 # runs that the configuration does not have can't be checked, and say so.
@@ -15,6 +19,7 @@ make_rule(
         "patches": lambda wildcards: patches(*in_role(JUDGED)),
     },
     loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
+    statements={k: v for k, v in STATED.items() if k != PAIRED},
     interface=asdict(settings.main_text_interface),
     settings=asdict(settings.extraction),
     ids=[run.id for run in runs_in(*CLAIMED)],
@@ -32,6 +37,7 @@ make_rule(
     shows="tables/claims_pairs",
     suffix="md",
     inputs={"pairs": only("gather_pairs"), "modes": only("pair_modes")},
+    statements={PAIRED: STATED[PAIRED]},
     message="Claims on two bodies, by simulations",
 )
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -12,8 +11,7 @@ import xarray as xr
 
 from ..analysis.lengths import over_realisations
 from .claim import Verdict
-from .symbols import as_markdown
-from .table import counts
+from .table import counts, escaped
 
 
 def render(
@@ -48,7 +46,7 @@ def render(
         undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
         keep_trailing_newline=True,
     )  # fmt: skip
-    environment.filters |= {"digits": digits, "percent": percent, "typeset": as_markdown}
+    environment.filters |= {"digits": digits, "percent": percent, "typeset": escaped}
     by_id = {row["id"]: row for row in claims}
     records = [
         row
@@ -83,8 +81,11 @@ def paired(
 
 def digits(value: float | None, number: int) -> str:
     """A number to some significant digits, a dash for none."""
-    text = "–" if value is None else f"{value:.{number}g}"
-    return re.sub(r"e([+-])0*", lambda sign: "e" + sign[1].strip("+"), text)
+    if value is None:
+        return "–"
+    mantissa, _, power = f"{value:.{number}g}".partition("e")
+    factor = "" if mantissa == "1" else rf"{mantissa}\times "
+    return f"${factor}10^{{{int(power)}}}$" if power else mantissa
 
 
 def rounded(row: dict[str, Any]) -> str:

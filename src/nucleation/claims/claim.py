@@ -56,17 +56,30 @@ class Result:
 
 @dataclasses.dataclass(frozen=True)
 class Claim:
-    """One statement of the paper and how our number for it is computed."""
+    """One statement of the paper and how our number for it is computed; texts are Markdown.
+
+    Attributes
+    ----------
+    id : unique name.
+    where : section, equation, figure or table of the paper.
+    statement : what it says, in our words.
+    quotation : the paper's own words, LaTeX without spacing commands.
+    method : how ours is computed.
+    compute : gives ours.
+    said : what is compared with; may be left to the function.
+    unit : SI unit of the numbers.
+    input : whether ours is what the configuration was given, and so no result.
+    """
 
     id: str
     where: str
     statement: str
     quotation: str
     method: str
-    unit: str
-    said: Said | None
     compute: Callable[[Any], Ours | Result]
-    input: bool = False  # of ours as of the paper's: nothing is computed
+    said: Said | None = None
+    unit: str = "1"
+    input: bool = False
 
     def evaluate(self, evidence: Any) -> dict[str, Any]:
         """The claim's row: what the paper says, ours, the verdict and its reason."""
@@ -165,47 +178,3 @@ def _width(ours: Ours) -> float:
 
 def _end(value: float) -> float | None:
     return value if math.isfinite(value) else None
-
-
-def claim(
-    register: list[Claim],
-    *,
-    id: str,
-    where: str,
-    statement: str,
-    quotation: str,
-    method: str,
-    unit: str = "1",
-    said: Said | None = None,
-    input: bool = False,
-) -> Callable[[Callable[[Any], Ours | Result]], Callable[[Any], Ours | Result]]:
-    """Decorator that enters a claim with the function that computes our number.
-
-    Parameters
-    ----------
-    register : list of Claim
-        Where it is entered.
-    id : str
-        Unique name.
-    where : str
-        Section, equation, figure or table of the paper.
-    statement : str
-        What it says, in our words.
-    quotation : str
-        The paper's own words, LaTeX without spacing commands.
-    method : str
-        How ours is computed.
-    unit : str
-        SI unit of the numbers.
-    said : Said, optional
-        What is compared with; may be left to the function.
-    input : bool
-        Whether ours is what the configuration was given, and so no result.
-    """
-
-    def enter(compute: Callable[[Any], Ours | Result]) -> Callable[[Any], Ours | Result]:
-        entry = Claim(id, where, statement, quotation, method, unit, said, compute, input)
-        register.append(entry)
-        return compute
-
-    return enter

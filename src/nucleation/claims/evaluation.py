@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,13 +19,14 @@ from ..model.parameters import Loading
 from . import article, table
 from .evidence import Evidence
 from .measure import measure
-from .statements import two_bodies
+from .statements.two_bodies import PairEvidence
 
 Rows = list[dict[str, Any]]
 
 
 def of_paper(
-    material: Material, friction: Friction, loading: Loading, interface: InterfaceState,
+    statements: Mapping[str, Any], material: Material, friction: Friction, loading: Loading,
+    interface: InterfaceState,
     settings: ExtractionSettings, theory: xr.Dataset, dispersion: xr.Dataset,
     lengths: Iterable[xr.Dataset], simulations: Iterable[xr.Dataset], ids: Sequence[str],
     longer: Sequence[xr.Dataset], longer_runs: Rows,
@@ -35,6 +36,7 @@ def of_paper(
 
     Parameters
     ----------
+    statements : the claims, by subject.
     material, friction, loading, interface, theory, dispersion : as of :class:`.Evidence`.
     settings : how lengths are read.
     lengths : tables of the studies judged.
@@ -54,13 +56,13 @@ def of_paper(
         measures={id: measure(dataset, settings) for id, dataset in named},
         patches=dict(zip(patch_ids, patches, strict=True)),
     )  # fmt: skip
-    rows = table.evaluate(evidence)
+    rows = table.evaluate(statements, evidence)
     return _files(rows) | {".json": table.to_json(rows)}
 
 
-def of_pairs(pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
+def of_pairs(statements: Mapping[str, Any], pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
     """The step ``claims_pairs``: what the theory says of two bodies, by simulations of them."""
-    return _files(two_bodies.evaluate(pairs, modes))
+    return _files(table.evaluate(statements, PairEvidence(pairs, modes)))
 
 
 def _files(rows: Rows) -> dict[str, str]:

@@ -1,13 +1,12 @@
 """The article on paper: its Markdown as LaTeX, and as PDF by pandoc and Typst, without a TeX.
 
 Pandoc reads the Markdown and writes LaTeX for journals and Typst for the PDF. In between, pictures
-and tables take the paragraph beside them, **Figure 1.** or **Table 1.**, as their caption, plain
-symbols become mathematics, and links to pages of this project become text.
+and tables take the paragraph beside them, **Figure 1.** or **Table 1.**, as their caption, and
+links to pages of this project become text.
 """
 
 from __future__ import annotations
 
-import itertools
 import json
 import re
 import shutil
@@ -22,7 +21,6 @@ import xarray as xr
 import yaml
 
 from . import article
-from .symbols import as_parts
 
 FORMAT = "markdown-implicit_figures"
 STYLE = """
@@ -46,8 +44,6 @@ PAGE = {"papersize": "a4", "fontsize": "10pt", "page-numbering": "1", "lang": "e
 MARGINS = {"x": "25mm", "y": "22mm"}
 TEX = r"\usepackage[labelformat=empty,justification=raggedright]{caption}"
 TEX_PAGE = {"papersize": "a4", "geometry": "margin=25mm", "lang": "en-GB", "colorlinks": "true"}
-
-WORDS = ("Str", "Space", "SoftBreak")
 
 Blocks = list[dict[str, Any]]
 
@@ -103,7 +99,7 @@ def _written(source: dict[str, Any], to: str, header: str, variables: Mapping[st
 
 
 def parsed(text: str, authors: list[str]) -> dict[str, Any]:
-    """The article as pandoc has it: title and abstract apart, captions in place, symbols set."""
+    """The article as pandoc has it: title and abstract apart, captions in place."""
     title, _, body = text.partition("\n")
     source = json.loads(pypandoc.convert_text(body, "json", FORMAT))
     sections: dict[str, Blocks] = {"": []}
@@ -111,9 +107,8 @@ def parsed(text: str, authors: list[str]) -> dict[str, Any]:
         if block["t"] == "Header" and block["c"][0] == 2:
             sections[block["c"][1][0]] = []
         next(reversed(sections.values())).append(block)
-    for name, blocks in sections.items():
-        if name not in ("", "references"):  # initials are no symbols
-            blocks[1:] = list(_captioned(_typeset(blocks[1:])))
+    for blocks in sections.values():
+        blocks[1:] = list(_captioned(_unlinked(blocks[1:])))
     abstract = sections.pop("abstract")[1:]
     margins = {side: _text(width) for side, width in MARGINS.items()}
     source["meta"] = {
@@ -145,32 +140,15 @@ def _captioned(blocks: Blocks) -> Iterator[dict[str, Any]]:
             yield block
 
 
-def _typeset(part: Any) -> Any:
-    """A part of the document with its symbols as mathematics and without links to pages here."""
-    if isinstance(part, dict) and part.get("t") not in ("Code", "Math"):
-        return {name: _typeset(value) for name, value in part.items()}
+def _unlinked(part: Any) -> Any:
+    """A part of the document without its links to pages of this project."""
+    if isinstance(part, dict):
+        return {name: _unlinked(value) for name, value in part.items()}
     if not isinstance(part, list):
         return part
     found: list[Any] = []
-    for words, items in itertools.groupby(part, lambda item: _kind(item) in WORDS):
-        if words:
-            found += _inlines("".join(item.get("c", " ") for item in items))
-            continue
-        for item in items:
-            inside = _kind(item) == "Link" and not re.match("https?:", item["c"][2][0])
-            found += _typeset(item["c"][1]) if inside else [_typeset(item)]
+    for item in part:
+        kind = item.get("t") if isinstance(item, dict) else None
+        inside = kind == "Link" and not re.match("https?:", item["c"][2][0])
+        found += _unlinked(item["c"][1]) if inside else [_unlinked(item)]
     return found
-
-
-def _kind(item: Any) -> str:
-    return str(item.get("t")) if isinstance(item, dict) else ""
-
-
-def _inlines(words: str) -> Iterator[dict[str, Any]]:
-    """Words as pandoc has them, with formulas among them."""
-    for number, text in enumerate(as_parts(words)):
-        if number % 2:
-            yield {"t": "Math", "c": [{"t": "InlineMath"}, text]}
-        else:
-            for piece in filter(None, re.split("( )", text)):
-                yield {"t": "Space"} if piece == " " else {"t": "Str", "c": piece}

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
-from typing import SupportsFloat
+from typing import Any, SupportsFloat
 
 FORMULA_TOLERANCE = 1e-6
 """A formula holds if it is met to this part of its value (of one, if the value is zero)."""
@@ -126,6 +126,15 @@ def words(expression: str) -> Said:
     """Words, read by the table :data:`WORDS`."""
     low, high, reading = WORDS[expression]
     return Said("words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED)
+
+
+KINDS = {"number": number, "formula": formula, "below": below, "above": above, "words": words}
+
+
+def read(entry: Mapping[str, Any]) -> Said:
+    """What an entry such as ``{number: "0.15"}`` or ``{formula: [1, Eq. (10)]}`` says."""
+    ((kind, values),) = entry.items()
+    return KINDS[kind](*values) if isinstance(values, list) else KINDS[kind](values)
 
 
 def holds(said: Said, ours: Ours) -> bool | None:

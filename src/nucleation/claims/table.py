@@ -5,24 +5,36 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from importlib import resources
 from typing import Any
 
-from .claim import Claim, Verdict
-from .evidence import Evidence
-from .statements import bimaterial, course, finite_height, friction_law, simulations, sliding
-from .symbols import as_markdown
+import yaml
 
-SUBJECTS: dict[str, list[Claim]] = {
-    "homogeneous sliding": sliding.CLAIMS,
-    "bimaterial interfaces": bimaterial.CLAIMS,
-    "finite height": finite_height.CLAIMS,
-    "friction law": friction_law.CLAIMS,
-    "critical lengths": simulations.CLAIMS,
-    "course of simulations": course.CLAIMS,
+from .claim import Claim, Verdict
+from .said import read
+from .statements import (
+    bimaterial,
+    course,
+    finite_height,
+    friction_law,
+    simulations,
+    sliding,
+    two_bodies,
+)
+
+SUBJECTS = {
+    "homogeneous sliding": sliding,
+    "bimaterial interfaces": bimaterial,
+    "finite height": finite_height,
+    "friction law": friction_law,
+    "critical lengths": simulations,
+    "course of simulations": course,
+    "two bodies, simulated": two_bodies,
 }
-"""All claims by subject, in the paper's order."""
+"""Where the functions of each subject are; the last one has evidence and a table of its own."""
 
 COLUMNS = (
     "id", "subject", "where", "statement", "paper", "ours", "ours_low", "ours_high",
@@ -30,12 +42,30 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def evaluate(evidence: Evidence) -> list[dict[str, Any]]:
-    """A row for each claim: what the paper says, our number and the verdict."""
+def stated() -> dict[str, Any]:
+    """The claims of ``claims.yaml``: subject, id, entry."""
+    text = resources.files(__package__).joinpath("claims.yaml").read_text(encoding="utf-8")
+    return dict(yaml.safe_load(text))
+
+
+def claims_on(subject: str, entries: Mapping[str, Mapping[str, Any]]) -> list[Claim]:
+    """The claims of one subject, each with the function that has its name."""
+    return [
+        Claim(
+            id=id,
+            compute=getattr(SUBJECTS[subject], id.replace("-", "_")),
+            **{**entry, "said": read(entry["said"]) if "said" in entry else None},
+        )
+        for id, entry in entries.items()
+    ]
+
+
+def evaluate(statements: Mapping[str, Any], evidence: Any) -> list[dict[str, Any]]:
+    """A row for each claim of some subjects: what the paper says, our number and the verdict."""
     return [
         {"subject": subject, **claim.evaluate(evidence)}
-        for subject, claims in SUBJECTS.items()
-        for claim in claims
+        for subject, entries in statements.items()
+        for claim in claims_on(subject, entries)
     ]
 
 
@@ -77,7 +107,7 @@ def to_markdown(rows: list[dict[str, Any]]) -> str:
             row["where"], row["statement"], row["paper"] or "", number_text(row), row["method"],
             row["verdict"], row["reason"],
         )  # fmt: skip
-        lines.append("| " + " | ".join(map(as_markdown, cells)) + " |")
+        lines.append("| " + " | ".join(map(escaped, cells)) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -90,6 +120,13 @@ def number_text(row: dict[str, Any]) -> str:
     if ends == [value, value]:
         return f"{value}{unit}"
     return f"{value} ({ends[0]} to {ends[1]}){unit}"
+
+
+def escaped(text: str) -> str:
+    """A text in a cell of a Markdown table: between dollars stands mathematics."""
+    parts = text.replace("\n", " ").split("$")
+    parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
+    return "$".join(parts)
 
 
 def _cell(value: Any) -> str:

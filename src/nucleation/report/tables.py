@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import math
 import re
 from collections import Counter
@@ -9,10 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from docutils.utils.math import MathError
+from docutils.utils.math.latex2mathml import tex2mathml
 from markupsafe import Markup
 
 from ..analysis.rows import rows_of
-from ..claims.symbols import as_html
 from ..figures.laws import USUAL_AGE, looks, usual_law
 from .faults import faults
 
@@ -63,10 +65,25 @@ def claim_rows(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
             shown["paper"] = f"{shown['paper']} {shown['unit']}".rstrip()
         shown["spread"] = _spread(claim["ours"], claim["uncertainty"])
         rank = list(VERDICTS).index(claim["verdict"])
-        typeset = {name: Markup(as_html({**claim, **shown}.get(name) or "")) for name in TYPESET}
+        typeset = {name: Markup(_typeset({**claim, **shown}.get(name) or "")) for name in TYPESET}
         judged = {"sign": sign, "kind": kind, "rank": rank, "typeset": typeset}
         rows.append({**claim, **shown, **judged})
     return rows
+
+
+def _typeset(text: str) -> str:
+    """HTML of a text with mathematics between dollars, which browsers show without any script."""
+    parts = re.split(r"\$([^$]+)\$", text)
+    parts[::2] = [html.escape(part, quote=False) for part in parts[::2]]
+    parts[1::2] = map(_mathml, parts[1::2])
+    return "".join(parts)
+
+
+def _mathml(tex: str) -> str:
+    try:
+        return tex2mathml(tex)
+    except MathError:
+        return html.escape(tex, quote=False)
 
 
 def _shown(value: float | str | None) -> str:

@@ -10,7 +10,7 @@ range theirs.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -18,19 +18,12 @@ import xarray as xr
 from ...patch.pairs import chosen, of_role, over_realisations
 from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
-from ..claim import Claim, Result, claim
+from ..claim import Result
 from ..independent import printed
-from ..said import Missing, Ours, below, words
-
-CLAIMS: list[Claim] = []
+from ..said import Missing, Ours
 
 HALF_SPACE = 1.0  # least height of a half-space over the theory's length
 SLIDING = f"Homogeneous sliding of two layers {DEEP:g} wavelengths high, integrated in time."
-BY_MODES = (
-    "that single modes between two sliding layers meet, from their growth and frequency in the "
-    "simulation and Eq. (5), over the formula; four pairs, k = 0.6 to 2 k_c, both directions; the "
-    "worst"
-)
 STRONG = 0.05  # f beta from which on two materials differ
 CAUSE = (
     "Whether it is below or above decides by the normal stress that the push builds under the "
@@ -80,7 +73,9 @@ def senses(rows: xr.Dataset) -> list[tuple[float, Array, Array, float]]:
         own = dict(zip(contrast[weakening == value], ratio[weakening == value], strict=True))
         differ = sorted(x for x in own if x > 0.0)
         if not differ or 0.0 not in own or not all(-x in own for x in differ):
-            raise Missing(f"zeta/a = {value:g} lacks a sense of a contrast, or identical bodies")
+            raise Missing(
+                rf"$\zeta/a = {value:g}$ lacks a sense of a contrast, or identical bodies"
+            )
         both = np.array([[own[x], own[-x]] for x in differ])
         found.append((float(value), np.array(differ), both, float(own[0.0])))
     return found
@@ -117,18 +112,11 @@ def _each_sense(rows: xr.Dataset, values: Array) -> str:
 def _over_weakenings(values: dict[float, Array], rows: xr.Dataset) -> Result:
     """The value furthest from one of all zeta/a, each zeta/a's own in the note."""
     own = {z: Ours.worst(found, 1.0).value for z, found in values.items()}
-    each = ", ".join(f"{worst:.3g} for zeta/a = {z:g}" for z, worst in own.items())
+    each = ", ".join(rf"{worst:.3g} for $\zeta/a = {z:g}$" for z, worst in own.items())
     ours = Ours.worst(np.concatenate(list(values.values())), 1.0)
     return Result(ours, note=f"{_note(rows)} The furthest: {each}.")
 
 
-@claim(
-    CLAIMS, id="pairs-half-spaces", where="Eq. (6)",
-    statement="L_c = pi mu ell/((1 - nu) zeta sigma0) for identical half-spaces.",
-    quotation=r"L_c",
-    method="length at the drop of identical blocks higher than L_c, over Eq. (6); the paper's "
-    "words for its simulations of finite height", said=words("reasonably good"),
-)  # fmt: skip
 def pairs_half_spaces(evidence: PairEvidence) -> Result:
     high = half_spaces(evidence.table)
     return Result(worst_length(high, 1.0), note=_note(high))
@@ -149,83 +137,42 @@ def response_over(modes: xr.Dataset, part: int) -> Ours:
     return Ours.worst(ratio.ravel(), 1.0)
 
 
-@claim(
-    CLAIMS, id="pairs-g1", where="Eqs. (7), (8)",
-    statement="Two different half-spaces have G1 = M/(2 mu).",
-    quotation=r"G_1=\frac{{\C M}}{2 \mu}\text{sign}(k)",
-    method=f"G1 {BY_MODES}", said=words("computed"),
-)  # fmt: skip
 def pairs_g1(evidence: PairEvidence) -> Result:
     return Result(response_over(evidence.modes, 0), note=SLIDING)
 
 
-@claim(
-    CLAIMS, id="pairs-g2", where="Eqs. (7), (8)",
-    statement="Two different half-spaces have G2 = beta M/(2 mu).",
-    quotation=r"G_2=\frac{\beta {\C M}}{2\mu}",
-    method=f"G2 {BY_MODES}", said=words("computed"),
-)  # fmt: skip
 def pairs_g2(evidence: PairEvidence) -> Result:
     return Result(response_over(evidence.modes, 1), note=SLIDING)
 
 
-@claim(
-    CLAIMS, id="pairs-modulus", where="Eq. (8)",
-    statement="M is the effective modulus of two different half-spaces.",
-    quotation=r"${\C M}$ plays the role of an effective bimaterial modulus",
-    method="length at the drop over M, mean of the two senses of a contrast, over that of "
-    "identical half-spaces with the same zeta/a; the contrast furthest from one",
-    said=words("reasonably good"),
-)  # fmt: skip
 def pairs_modulus(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
     scaled = {z: both.mean(axis=1) / identical for z, _, both, identical in senses(rows)}
     return _over_weakenings(scaled, rows)
 
 
-@claim(
-    CLAIMS, id="pairs-contrast", where="Eq. (8)",
-    statement="beta quantifies the bimaterial effect.",
-    quotation=r"hence it quantifies the bimaterial effect",
-    method="difference of the lengths at the drop in the two senses of a contrast over their sum, "
-    "for each unit of f beta, over that of the smallest contrast with the same zeta/a; the one "
-    "furthest from one", said=words("reasonably good"),
-)  # fmt: skip
 def pairs_contrast(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
     scaled = {}
     for z, contrast, both, _ in senses(rows):
         effect = (both[:, 0] - both[:, 1]) / both.sum(axis=1) / contrast
         if effect.size < 2:
-            raise Missing(f"zeta/a = {z:g} has no two contrasts")
+            raise Missing(rf"$\zeta/a = {z:g}$ has no two contrasts")
         scaled[z] = effect[1:] / effect[0]
     return _over_weakenings(scaled, rows)
 
 
-@claim(
-    CLAIMS, id="pairs-bimaterial", where="Eq. (9), Fig. 2",
-    statement="Eq. (9) is L_c of two different half-spaces.", quotation=r"L_c",
-    method="length at the drop over the theory of the same blocks, all contrasts and zeta/a in "
-    "either sense; the one furthest from one", said=words("reasonably good"),
-)  # fmt: skip
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
     over = rows["length"].values / rows["height"].values
     note = (
         f" {int((rows['height'] < rows['theory_length']).sum())} of {over.size} blocks are lower "
-        f"than L_c; {int((over > 1.0).sum())} patches are at the drop longer than their block is "
+        f"than $L_c$; {int((over > 1.0).sum())} patches are at the drop longer than their block is "
         f"high, at most by a factor of {over.max():.2g}."
     )
     return Result(worst_length(rows, 1.0), note=_note(rows) + note)
 
 
-@claim(
-    CLAIMS, id="pairs-smaller", where="Sect. 4 and Fig. 2",
-    statement="L_c of bimaterial interfaces is smaller than L_c^M.",
-    quotation=r"is generically {\em smaller} than the conventional estimate $L_c^{\cal M}$",
-    method="largest length at the drop over L_c^M, of all pairs with f beta > 0.05 in either sense",
-    said=below(1.0),
-)  # fmt: skip
 def pairs_smaller(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence.table, "figure_2_simulated")
     strong = chosen(rows, np.abs(rows["f_beta"].values) > STRONG)
@@ -233,13 +180,6 @@ def pairs_smaller(evidence: PairEvidence) -> Result:
     return Result(ours, note=_note(rows) + _each_sense(strong, over_effective_modulus(strong)))
 
 
-@claim(
-    CLAIMS, id="pairs-decreasing", where="Sect. 4 and Fig. 2",
-    statement="L_c decreases with increasing bimaterial contrast.",
-    quotation=r"one expects $L_c$ to decrease with increasing bimaterial contrast",
-    method="largest slope of the length at the drop over L_c^M against |f beta|, each zeta/a and "
-    "sense", said=below(0.0),
-)  # fmt: skip
 def pairs_decreasing(evidence: PairEvidence) -> Result:
     rows, slopes, at = rows_of(evidence.table, "figure_2_simulated"), [], []
     ratio = over_effective_modulus(rows)
@@ -254,9 +194,3 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
         raise Missing("The study has no two contrasts of one sense")
     ours = Ours.between(max(slopes), min(slopes), max(slopes))
     return Result(ours, note=_note(rows) + _each_sense(rows.isel(run=at), np.array(slopes)))
-
-
-def evaluate(table: xr.Dataset, modes: xr.Dataset) -> list[dict[str, Any]]:
-    """The rows of all claims on two bodies, by the table of pairs and the simulated modes."""
-    evidence = PairEvidence(table, modes)
-    return [{"subject": "two bodies, simulated", **claim.evaluate(evidence)} for claim in CLAIMS]
