@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from typing import Any, SupportsFloat
 
@@ -128,7 +128,13 @@ def words(expression: str) -> Said:
     return Said("words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED)
 
 
-KINDS = {"number": number, "formula": formula, "below": below, "above": above, "words": words}
+KINDS: dict[str, Callable[..., Said]] = {
+    "number": number,
+    "formula": formula,
+    "below": below,
+    "above": above,
+    "words": words,
+}
 
 
 def read(entry: Mapping[str, Any]) -> Said:
