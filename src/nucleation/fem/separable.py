@@ -79,7 +79,9 @@ class SeparableBody(ABC):
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
         """Values at the free nodes and that of the driven edge's own node, at the nodes 0..n_x."""
-        return np.append(driven, values)
+        nodal = np.empty(values.size + 1)
+        nodal[0], nodal[1:] = driven, values
+        return nodal
 
     @abstractmethod
     def sine_amplitudes(self, nodal: Array) -> Array:
