@@ -1,6 +1,9 @@
 """Variables are declared once, where they are made, and no dataset depends on another's."""
 
+import io
+
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from declared import VARIABLES, declarations
@@ -22,7 +25,8 @@ TEXTS = {
 def test_every_variable_is_described():
     assert len(VARIABLES) > 100
     for name, entry in VARIABLES.items():
-        assert entry.long_name, name
+        assert entry.long_name.strip() == entry.long_name != "", name
+        assert name.isidentifier(), "CF wants letters, digits and underscores"
         assert entry.units or name in TEXTS, name
 
 
@@ -78,3 +82,10 @@ def test_joined_tables_say_what_their_columns_are():
     first, second = (table([{"id": name, "length": 1.0}], COLUMNS) for name in "ab")
     joined = lengths.join([first.assign_attrs(key="1"), second])
     assert joined["length"].attrs == first["length"].attrs and joined.attrs == {}
+
+
+def test_columns_of_the_table_of_lengths_have_a_unit_and_a_meaning():
+    described = pd.read_csv(io.StringIO(lengths.columns_csv())).set_index("column")
+    assert list(described.index) == list(lengths.COLUMNS)
+    assert described.units["shear_modulus"] == "Pa" and described.units["length"] == "m"
+    assert described.meaning.notna().all()

@@ -18,7 +18,7 @@ from ..theory.arrays import critical_length, critical_mode, fault_of, spectrum
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES, takes_fault
 from .beyond import animation
-from .paper import figure_s2
+from .paper import figure_3, figure_s2
 
 SHOWN_WAVENUMBERS = np.linspace(0.02, 2.0, 200)  # over k_c
 MOST_PATCHES = 40  # L_s of more faults takes longer than one waits for a picture
@@ -30,12 +30,8 @@ def draw_theory(theory: xr.Dataset) -> Figure:
     """Draw ``critical_length`` and ``thin_limit_length`` (m) against ``height`` (m)."""
     figure = style.new_figure(style.SINGLE_COLUMN, 6.4 * style.CENTIMETRE)
     axes = figure.add_subplot()
+    figure_3.draw_theory(axes, theory)
     height, length = theory["height"].values, theory["critical_length"].values
-    axes.plot(height, length, color=style.THEORY, label="theory")
-    axes.plot(
-        height, theory["thin_limit_length"].values, color=style.THIN_LIMIT, linestyle="--",
-        linewidth=1.1, label=r"$Hk\to 0$",
-    )  # fmt: skip
     axes.set(xlabel="Height $H$ (m)", ylabel="Critical length $L_c$ (m)")
     axes.set_xlim(0.0, height.max())
     axes.set_ylim(0.0, 1.15 * length.max())

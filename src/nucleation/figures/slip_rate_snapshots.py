@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps
@@ -78,27 +80,21 @@ def draw(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None:
     axes.legend(
         title="time $t$",
         title_fontsize=style.SMALL,
+        fontsize=style.SMALL,
         loc="center left",
         bbox_to_anchor=(1.0, 0.5),
-        fontsize=style.SMALL,
         labelspacing=0.35,
         handlelength=1.8,
     )
 
 
 def _curve(
-    axes: Axes, simulation: xr.Dataset, index: int, colour: object, dashes: str, label: str
+    axes: Axes, simulation: xr.Dataset, index: int, colour: Any, dashes: str, label: str
 ) -> None:
     """The slip rate at one output time; where nothing slips the logarithm leaves a gap."""
     rate = simulation["slip_rate"].isel(time=index).values
-    axes.plot(
-        simulation["x"].values,
-        np.where(rate > 0.0, rate, np.nan),
-        color=colour,
-        linestyle=dashes,
-        linewidth=1.1,
-        label=label,
-    )
+    shown = np.where(rate > 0.0, rate, np.nan)
+    axes.plot(simulation["x"].values, shown, dashes, color=colour, linewidth=1.1, label=label)
 
 
 def _limits(axes: Axes, simulation: xr.Dataset, shown: NDArray, length: float) -> None:
@@ -116,19 +112,6 @@ def _mark_length(axes: Axes, length: float) -> None:
     """A vertical dashed line at the length, and a double-headed arrow from x = 0 to it."""
     axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9, zorder=1.0)
     across = axes.get_xaxis_transform()
-    axes.annotate(
-        "",
-        xy=(length, 0.12),
-        xytext=(0.0, 0.12),
-        xycoords=across,
-        textcoords=across,
-        arrowprops={
-            "arrowstyle": "<->,head_length=0.3,head_width=0.15",
-            "color": style.BLACK,
-            "linewidth": 0.9,
-            "shrinkA": 0.0,
-            "shrinkB": 0.0,
-        },
-    )
+    style.arrow(axes, (0.0, 0.12), (length, 0.12), kind="<->", xycoords=across, textcoords=across)
     # The creeping patch's first snapshots end right of this.
     axes.text(0.2 * length, 0.15, "$L_c$", transform=across, ha="center", fontsize=8.5)

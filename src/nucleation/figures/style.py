@@ -145,6 +145,15 @@ def letters(*panels: Axes) -> None:
         axes.set_title(f"({letter})", loc="left")
 
 
+def arrow(
+    axes: Axes, tail: Any, head: Any, colour: str = BLACK, kind: str = "-|>", **where: Any
+) -> None:
+    """An arrow between two points; `kind` is one of matplotlib's styles."""
+    look = {"arrowstyle": f"{kind},head_length=0.35,head_width=0.17", "linewidth": 1.0}
+    ends = {"color": colour, "shrinkA": 0.0, "shrinkB": 0.0}
+    axes.annotate("", head, tail, arrowprops=look | ends, **where)
+
+
 def aside(axes: Axes, points: float) -> Transform:
     """Where data are drawn, moved to the right by some points (1/72 inch)."""
     figure = axes.get_figure(root=True)

@@ -22,6 +22,7 @@ KINDS = {
 STRENGTHS = (3e-13, 3e-1)
 RATIOS = (0.45, 0.87)
 MEAN = "simulated: mean and range of realisations"
+PREDICTED = ("predicted_low", "predicted_length", "predicted_high")
 FEWEST = 8  # realisations of which a distribution is shown
 GOAL = 0.03  # of the law's mean
 CLOSE = 30.0  # strengths whose ratio is less have one label
@@ -102,13 +103,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         order = np.argsort(own["strength"].values)
         strength = own["strength"].values[order]
         low, middle, high, line = (
-            own[name].values[order] / theory
-            for name in (
-                "predicted_low",
-                "predicted_length",
-                "predicted_high",
-                "closed_form_length",
-            )
+            own[name].values[order] / theory for name in (*PREDICTED, "closed_form_length")
         )
         axes.fill_between(strength, low, high, color=style.GUIDE, alpha=0.35, linewidth=0.0)
         axes.plot(strength, middle, color=style.THEORY, label="law: median, 16 to 84 %")
@@ -208,8 +203,7 @@ def _draw_distributions(axes: Axes, table: xr.Dataset) -> None:
             lengths, parts, where="mid", color=colour, linestyle=dashes, linewidth=1.1,
             label=rf"{label}, $10^{{{np.log10(strength):.0f}}}$",
         )  # fmt: skip
-        points = [float(runs[f"predicted_{end}"].values[0]) / theory for end in
-                  ("low", "length", "high")]  # fmt: skip
+        points = [float(runs[name].values[0]) / theory for name in PREDICTED]
         axes.plot(points, [0.16, 0.5, 0.84], "o", color=colour, markersize=3.5,
                   markerfacecolor="white")  # fmt: skip
     axes.set_ylim(0.0, 1.0)

@@ -33,10 +33,7 @@ def draw(table: xr.Dataset) -> Figure:
     axes = figure.add_subplot()
     axes.plot(shown["fault_length"], rows, "|", color=style.BLACK, markersize=11.0, label="fault")
     assumed = shown["assumed"].values.astype(str) != ""
-    for of, face, label in (
-        (~assumed, style.BLUE, ""),
-        (assumed, "white", " of assumed numbers"),
-    ):
+    for of, face, label in ((~assumed, style.BLUE, ""), (assumed, "white", " of assumed numbers")):
         theory = shown["creep_length"].values[of], shown["theory_length"].values[of]
         _draw_ends(axes, rows[of], theory, style.BLUE, face, f"$L_s$, $L_c${label}")
     observed = shown["observed_low"].values, shown["observed_high"].values

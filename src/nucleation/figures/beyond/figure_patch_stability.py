@@ -56,8 +56,8 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
     _finish_growth(growth)
     _finish_frequency(frequency, np.unique(heights), colours, twins.sizes["twin"] > 0)
     _finish_shape(shape)
-    for axes, letter in ((growth, "(a)"), (frequency, "(b)"), (shape, "(c)")):
-        axes.set_title(letter, loc="left")
+    style.letters(growth, frequency, shape)
+    for axes in (growth, frequency, shape):
         axes.minorticks_on()
     return figure
 

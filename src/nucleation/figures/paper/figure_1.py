@@ -12,8 +12,9 @@ from matplotlib.patches import Rectangle
 
 from ...figures import style
 
-LOAD = style.BLACK
 MOTION = style.VERMILLION
+
+Pair = tuple[float, float]
 
 
 @style.styled
@@ -42,17 +43,18 @@ def _long_bodies(axes: Axes) -> None:
     half, upper, lower = 5.2, 2.3, 1.9
     _faded_body(axes, (-half, half), (0.0, upper), style.UPPER_BODY)
     _faded_body(axes, (-half, half), (-lower, 0.0), style.LOWER_BODY)
-    _pressure(axes, np.linspace(-3.6, 3.6, 7), upper, downward=True)
-    _pressure(axes, np.linspace(-3.6, 3.6, 7), -lower, downward=False)
+    _pressure(axes, np.linspace(-3.6, 3.6, 7), upper, 1.0)
+    _pressure(axes, np.linspace(-3.6, 3.6, 7), -lower, -1.0)
     _text(axes, 0.45, upper + 1.15, r"$\sigma_0$")
     _text(axes, 0.45, -lower - 1.15, r"$\sigma_0$")
     _text(axes, 0.9, upper / 2.0, r"$\mu^{(1)},\ \nu^{(1)}$")
     _text(axes, 0.9, -lower / 2.0, r"$\mu^{(2)},\ \nu^{(2)}$")
     _dimension(axes, (3.6, 0.0), (3.6, upper), r"$H^{(1)}$", (-0.55, 0.0))
     _dimension(axes, (3.6, -lower), (3.6, 0.0), r"$H^{(2)}$", (-0.55, 0.0))
-    _velocity(axes, (-1.9, 1.65), (-0.3, 1.65), (-1.1, 2.0))
-    _arrow(axes, (-3.3, 0.0), (-2.0, 0.0), style.BLACK)
-    _arrow(axes, (-3.3, 0.0), (-3.3, 1.3), style.BLACK)
+    style.arrow(axes, (-1.9, 1.65), (-0.3, 1.65), MOTION)
+    _text(axes, -1.1, 2.0, "$V$", color=MOTION)
+    style.arrow(axes, (-3.3, 0.0), (-2.0, 0.0), style.BLACK)
+    style.arrow(axes, (-3.3, 0.0), (-3.3, 1.3), style.BLACK)
     _text(axes, -2.0, 0.36, "$x$")
     _text(axes, -3.0, 1.2, "$y$")
     _text(axes, -5.2, 3.5, "(a)")
@@ -61,55 +63,44 @@ def _long_bodies(axes: Axes) -> None:
 def _block_on_rigid_base(axes: Axes) -> None:
     """The right panel: the finite block, pushed at its left edge over a rigid body."""
     start, end, height, depth = -3.7, 4.0, 2.3, 1.1
-    axes.add_patch(
-        Rectangle(
-            (start, 0.0),
-            end - start,
-            height,
-            facecolor=_tint(style.UPPER_BODY, 0.55),
-            edgecolor=style.BLACK,
-            linewidth=0.9,
-        )
-    )
+    look: dict[str, Any] = {
+        "facecolor": _tint(style.UPPER_BODY),
+        "edgecolor": style.BLACK,
+        "linewidth": 0.9,
+    }
+    axes.add_patch(Rectangle((start, 0.0), end - start, height, **look))
     _faded_body(axes, (-5.2, 5.2), (-depth, 0.0), style.RIGID_BODY)
-    _pressure(axes, np.linspace(start + 0.35, end - 0.35, 8), height, downward=True)
+    _pressure(axes, np.linspace(start + 0.35, end - 0.35, 8), height, 1.0)
     _text(axes, (start + end) / 2.0, height + 1.15, r"$\sigma_0$")
     _text(axes, 0.75, height / 2.0, r"$\mu,\ \nu$")
     _text(axes, 0.15, -depth / 2.0, r"rigid, $\mu^{(2)}\!\to\infty$")
     for y in np.linspace(0.35, height - 0.35, 4):
-        _arrow(axes, (start - 1.0, y), (start - 0.04, y), MOTION)
+        style.arrow(axes, (start - 1.0, y), (start - 0.04, y), MOTION)
     _text(axes, start - 1.35, height / 2.0, "$V$", color=MOTION)
     _dimension(axes, (end - 0.75, 0.0), (end - 0.75, height), "$H$", (-0.4, 0.0))
     _dimension(axes, (start, -depth - 0.45), (end, -depth - 0.45), "$L$", (0.0, -0.4))
     _text(axes, end + 0.35, height / 2.0, "free", rotation=90)
-    _arrow(axes, (end, 0.0), (end + 1.2, 0.0), style.BLACK)
-    _arrow(axes, (start, height), (start, height + 1.0), style.BLACK)
+    style.arrow(axes, (end, 0.0), (end + 1.2, 0.0), style.BLACK)
+    style.arrow(axes, (start, height), (start, height + 1.0), style.BLACK)
     _text(axes, end + 1.45, 0.0, "$x$")
     _text(axes, start - 0.3, height + 0.9, "$y$")
     _text(axes, -5.2, 3.5, "(b)")
 
 
-def _tint(colour: str, strength: float) -> tuple[float, float, float]:
-    """A colour mixed with white: `strength` one is the colour itself, zero is white."""
-    red, green, blue = (1.0 - strength * (1.0 - c) for c in to_rgb(colour))
-    return red, green, blue
+def _tint(colour: str) -> tuple[float, ...]:
+    """A body's colour, mixed with white."""
+    return tuple(1.0 - 0.55 * (1.0 - c) for c in to_rgb(colour))
 
 
-def _faded_body(axes: Axes, x: tuple[float, float], y: tuple[float, float], colour: str) -> None:
+def _faded_body(axes: Axes, x: Pair, y: Pair, colour: str) -> None:
     """A body without ends: its colour, and the lines along its edges, fade to either side."""
-    _faded_band(axes, x, y, _tint(colour, 0.55), order=0.0)
+    _faded_band(axes, x, y, _tint(colour), order=0.0)
     for edge in y:
         width = 0.06 if edge == 0.0 else 0.03  # the interface is the heavier line
         _faded_band(axes, x, (edge - width / 2.0, edge + width / 2.0), (0.0,) * 3, order=1.0)
 
 
-def _faded_band(
-    axes: Axes,
-    x: tuple[float, float],
-    y: tuple[float, float],
-    colour: tuple[float, ...],
-    order: float,
-) -> None:
+def _faded_band(axes: Axes, x: Pair, y: Pair, colour: tuple[float, ...], order: float) -> None:
     """A horizontal band that is opaque inside and transparent at its ends."""
     position = np.linspace(-1.0, 1.0, 512)
     image = np.empty((1, position.size, 4))
@@ -118,50 +109,17 @@ def _faded_band(
     axes.imshow(image, extent=(*x, *y), aspect="equal", interpolation="bilinear", zorder=order)
 
 
-def _arrow(
-    axes: Axes, tail: tuple[float, float], head: tuple[float, float], colour: str, kind: str = "-|>"
-) -> None:
-    """An arrow in data coordinates; `kind` is a matplotlib arrow style."""
-    axes.annotate(
-        "",
-        xy=head,
-        xytext=tail,
-        arrowprops={
-            "arrowstyle": f"{kind},head_length=0.35,head_width=0.17",
-            "color": colour,
-            "linewidth": 1.0,
-            "shrinkA": 0.0,
-            "shrinkB": 0.0,
-        },
-    )
-
-
-def _pressure(axes: Axes, positions: np.ndarray, edge: float, *, downward: bool) -> None:
+def _pressure(axes: Axes, positions: np.ndarray, edge: float, outwards: float) -> None:
     """A row of arrows that press on a horizontal edge from outside."""
-    outside = edge + (0.8 if downward else -0.8)
     for x in positions:
-        _arrow(axes, (x, outside), (x, edge), LOAD)
+        style.arrow(axes, (x, edge + 0.8 * outwards), (x, edge))
 
 
-def _dimension(
-    axes: Axes,
-    start: tuple[float, float],
-    end: tuple[float, float],
-    label: str,
-    offset: tuple[float, float],
-) -> None:
+def _dimension(axes: Axes, start: Pair, end: Pair, label: str, offset: Pair) -> None:
     """A double-headed arrow between two points, its label moved from its middle by `offset`."""
-    _arrow(axes, start, end, style.GUIDE, kind="<|-|>")
-    middle = ((start[0] + end[0]) / 2.0 + offset[0], (start[1] + end[1]) / 2.0 + offset[1])
-    _text(axes, *middle, label)
-
-
-def _velocity(
-    axes: Axes, tail: tuple[float, float], head: tuple[float, float], at: tuple[float, float]
-) -> None:
-    """The arrow of the relative sliding velocity V."""
-    _arrow(axes, tail, head, MOTION)
-    _text(axes, *at, "$V$", color=MOTION)
+    style.arrow(axes, start, end, style.GUIDE, "<|-|>")
+    x, y = np.mean([start, end], axis=0) + offset
+    _text(axes, x, y, label)
 
 
 def _text(axes: Axes, x: float, y: float, label: str, **options: Any) -> None:

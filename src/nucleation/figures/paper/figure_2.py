@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
+from itertools import cycle
+
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.figure import Figure
 
 from ...figures import style
@@ -29,15 +29,12 @@ def draw(theory: xr.Dataset) -> Figure:
     figure = style.new_figure(style.SINGLE_COLUMN, 6.6 * style.CENTIMETRE)
     axes = figure.add_subplot()
     ratio = theory["bimaterial_length_ratio"].sortby("zeta_over_a", ascending=False)
-    shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.82, ratio.sizes["zeta_over_a"]))
-    for i, value in enumerate(ratio["zeta_over_a"].values):
-        axes.plot(
-            ratio["f_beta"].values,
-            ratio.sel(zeta_over_a=value).transpose("f_beta").values,
-            color=shades[i],
-            linestyle=DASHES[i % len(DASHES)],
-            label=f"${value:.3g}$",
-        )
+    values = ratio["zeta_over_a"].values
+    for shade, dashes, value in zip(
+        style.shades(values.size, 0.82), cycle(DASHES), values, strict=False
+    ):
+        curve = ratio.sel(zeta_over_a=value).transpose("f_beta").values
+        axes.plot(ratio["f_beta"], curve, color=shade, linestyle=dashes, label=f"${value:.3g}$")
     axes.set_xlabel(r"Bimaterial contrast $f\beta$")
     axes.set_ylabel(r"Critical length $L_c/L_c^{\mathcal{M}}$")
     axes.set_xlim(float(ratio["f_beta"].min()), float(ratio["f_beta"].max()))

@@ -70,7 +70,7 @@ def draw(
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 12.4 * style.CENTIMETRE)
     axes = figure.add_subplot()
-    _draw_theory(axes, theory)
+    draw_theory(axes, theory)
     drawn = list(_series(over_realisations(lengths), studies))
     for series in drawn:
         _draw_points(axes, *series)
@@ -83,18 +83,13 @@ def draw(
     return figure
 
 
-def _draw_theory(axes: Axes, theory: xr.Dataset) -> None:
+def draw_theory(axes: Axes, theory: xr.Dataset) -> None:
     """The prediction, solid, and its limit for thin blocks, dashed."""
-    height = theory["height"].values
-    axes.plot(height, theory["critical_length"].values, color=style.THEORY, label="theory")
-    axes.plot(
-        height,
-        theory["thin_limit_length"].values,
-        color=style.THIN_LIMIT,
-        linestyle="--",
-        linewidth=1.1,
-        label=r"theory, $Hk\to 0$",
-    )
+    for name, look in (
+        ("critical_length", {"label": "theory"}),
+        ("thin_limit_length", {"label": r"theory, $Hk\to 0$", "linestyle": "--", "linewidth": 1.1}),
+    ):
+        axes.plot(theory["height"].values, theory[name].values, color=style.THEORY, **look)
 
 
 def _limits(axes: Axes, theory: xr.Dataset, drawn: list[Series]) -> None:

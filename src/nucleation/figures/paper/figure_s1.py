@@ -29,21 +29,13 @@ def draw(theory: xr.Dataset) -> Figure:
     full = theory["steady_friction"].values
     velocity = float(theory["velocity"] if "velocity" in theory else theory.attrs["velocity"])
     axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
+    logarithmic = theory["steady_friction_logarithmic"].values
     axes.semilogx(
-        rate,
-        theory["steady_friction_logarithmic"].values,
-        color=style.LOGARITHMIC_LAW,
-        linewidth=1.1,
-        label="logarithmic law",
+        rate, logarithmic, color=style.LOGARITHMIC_LAW, linewidth=1.1, label="logarithmic law"
     )
     axes.axvline(velocity, color=style.GUIDE, linestyle="--", linewidth=0.9)
-    axes.annotate(
-        "$V$",
-        xy=(velocity, 0.0),
-        xycoords=axes.get_xaxis_transform(),
-        xytext=(4.0, 5.0),
-        textcoords="offset points",
-    )
+    across = axes.get_xaxis_transform()
+    axes.annotate("$V$", (velocity, 0.0), (4.0, 5.0), across, "offset points")
     axes.set_xlabel(r"Slip rate $v$ (m/s)")
     axes.set_ylabel(r"Steady-state friction coefficient $f_{\mathrm{ss}}$")
     axes.set_xlim(rate.min(), rate.max())

@@ -92,11 +92,7 @@ def _normal_stress(simulation: xr.Dataset) -> float:
 
 
 def _draw_force(
-    axes: Axes,
-    simulation: xr.Dataset,
-    interval: tuple[float, float],
-    origin: float,
-    scale: float,
+    axes: Axes, simulation: xr.Dataset, interval: tuple[float, float], origin: float, scale: float
 ) -> None:
     """The compressive driving force at every step, counted positive; limits for `interval`."""
     time = simulation["step_time"].values
