@@ -70,3 +70,10 @@ def points_inside(axes: Axes, x: np.ndarray, y: np.ndarray, box: Bbox) -> int:
     """How many of the data points lie within a box given in pixels."""
     pixels = axes.transData.transform(np.column_stack([x, y]))
     return int(np.count_nonzero([box.contains(*point) for point in pixels]))
+
+
+def require_legible(figure: Figure) -> None:
+    """Fail unless all text of a figure is large enough, whole and free of other text."""
+    assert overlaps(figure) == []
+    assert cut_off(figure) == []
+    assert sizes(figure).min() >= 7.5  # points

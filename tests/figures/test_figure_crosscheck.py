@@ -74,6 +74,4 @@ def test_two_blocks_have_a_column_and_a_legend_of_their_own(drawn):
 
 @pytest.mark.slow
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(drawn):
-    assert drawn_layout.overlaps(drawn) == []
-    assert drawn_layout.cut_off(drawn) == []
-    assert drawn_layout.sizes(drawn).min() >= 7.5
+    drawn_layout.require_legible(drawn)

@@ -52,9 +52,7 @@ def test_files_are_reproducible_small_and_embed_their_fonts(draw, name, tmp_path
 @pytest.mark.parametrize("name", FIGURES)
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(draw, name):
     figure = draw(name)
-    assert drawn_layout.overlaps(figure) == []
-    assert drawn_layout.cut_off(figure) == []
-    assert drawn_layout.sizes(figure).min() >= 7.5
+    drawn_layout.require_legible(figure)
 
 
 @pytest.mark.parametrize("name", ["figure_2", "figure_3", "figure_s1", "figure_s2"])

@@ -138,9 +138,7 @@ def test_theory_and_its_half(extended, theory):
 @pytest.mark.parametrize("name", ["drawn", "extended"])
 def test_figures_are_legible_and_their_files_reproducible(name, request, tmp_path):
     figure = request.getfixturevalue(name)
-    assert drawn_layout.overlaps(figure) == []
-    assert drawn_layout.cut_off(figure) == []
-    assert drawn_layout.sizes(figure).min() >= style.SMALL
+    drawn_layout.require_legible(figure)
     for axes in figure.axes:
         assert axes.get_xlabel() and axes.get_ylabel()
     pdf, png = style.save(figure, tmp_path / "a")

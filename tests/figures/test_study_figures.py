@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import style
 from nucleation.figures.beyond import figure_sensitivity
 from nucleation.figures.beyond.figure_sensitivity import label
 from nucleation.figures.checks import figure_convergence, figure_hops
@@ -113,17 +112,7 @@ def drawn(request, table, hops, patch, sensitivity):
 
 @pytest.mark.slow
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(drawn):
-    assert drawn_layout.overlaps(drawn) == []
-    assert drawn_layout.cut_off(drawn) == []
-    assert drawn_layout.sizes(drawn).min() >= style.SMALL
-
-
-@pytest.mark.slow
-def test_files_embed_their_fonts(drawn, tmp_path):
-    pdf, png = style.save(drawn, tmp_path / "figure")
-    content = pdf.read_bytes()
-    assert b"/FontFile2" in content and b"/Type3" not in content
-    assert png.stat().st_size > 10_000
+    drawn_layout.require_legible(drawn)
 
 
 def drawn_at(axes):

@@ -5,7 +5,6 @@ import made_up_checks
 import numpy as np
 import pytest
 
-from nucleation.figures import style
 from nucleation.figures.checks import figure_dispersion, figure_verification
 from nucleation.verification.orders import ERRORS, REFINEMENTS
 
@@ -28,9 +27,7 @@ def drawn(request, convergence, dispersion):
 
 
 def test_text_is_legible_and_neither_overlaps_nor_is_cut(drawn):
-    assert drawn_layout.overlaps(drawn) == []
-    assert drawn_layout.cut_off(drawn) == []
-    assert drawn_layout.sizes(drawn).min() >= style.SMALL
+    drawn_layout.require_legible(drawn)
 
 
 def test_nothing_is_cut(drawn):
