@@ -1,12 +1,9 @@
 """The benchmarks run and measure what they say; times themselves are no test."""
 
-import sys
-
 import numpy as np
 import pytest
 
-from benchmarks import __main__, paired, solver, workflow
-from nucleation.configuration.load import configure
+from benchmarks import paired, solver, workflow
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS
 
@@ -31,25 +28,6 @@ def test_the_solver_is_measured(monkeypatch):
     numbers = [value for value in result.values() if isinstance(value, (int, float))]
     assert len(numbers) >= 17 and np.isfinite(numbers).all()
     assert len(solver.table(result).splitlines()) == len(result) + 2
-
-
-@pytest.mark.parametrize("per_job", [1, workflow.PER_JOB])
-def test_studies_have_so_many_runs(per_job):
-    found = configure(workflow.configuration(150, per_job)).runs
-    assert len(found) == 150
-    assert len({run.batch for run in found}) == (3 if per_job > 1 else 1)
-
-
-def test_numbers_of_runs_that_it_can_not_have_are_refused(monkeypatch, capsys):
-    monkeypatch.setattr(sys, "argv", ["bench", "config/config.yaml", "workflow", "--runs", "70"])
-    with pytest.raises(SystemExit):
-        __main__.main()
-    assert "multiples of 50" in capsys.readouterr().err
-
-
-def test_a_command_that_fails_is_said_with_its_output(tmp_path):
-    with pytest.raises(RuntimeError, match="no such thing"):
-        workflow.cost(["-c", "raise SystemExit('no such thing')"], tmp_path)
 
 
 def test_costs_are_those_of_all_processes(tmp_path):

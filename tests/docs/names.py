@@ -1,13 +1,16 @@
-"""What the source defines, by syntax trees and without importing it; what a text names."""
+"""What there is of the source, and what its texts name."""
 
 from __future__ import annotations
 
 import ast
+import contextlib
 import importlib
+import inspect
 import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 from docs.samples import ROOT
 
@@ -33,77 +36,44 @@ def tree(path: Path) -> ast.Module:
 
 
 @cache
-def defined() -> dict[str, str]:
-    """Every name of the package with its dots, and what it is.
-
-    That is ``module``, ``class``, ``other``, or for an imported one where it comes from.
-    """
-    found: dict[str, str] = {}
-    for path in FILES:
-        place = place_of(path)
-        found[place.removesuffix(".__init__")] = "module"
-        package = tuple(place.split(".")[:-1])
-        _define(tree(path).body, place.removesuffix(".__init__"), package, found)
-    return found
-
-
-def _define(body: list[ast.stmt], inside: str, package: tuple[str, ...], found: dict) -> None:
-    for node in body:
-        if isinstance(node, ast.ImportFrom):
-            base = list(package[: len(package) - node.level + 1]) if node.level else []
-            for alias in node.names:
-                origin = ".".join([*base, *filter(None, [node.module]), alias.name])
-                found.setdefault(f"{inside}.{alias.asname or alias.name}", origin)
-        elif isinstance(node, ast.Import):
-            for alias in node.names:
-                own = alias.asname or alias.name.partition(".")[0]
-                found.setdefault(f"{inside}.{own}", alias.name if alias.asname else own)
-        elif isinstance(node, ast.ClassDef):
-            found[f"{inside}.{node.name}"] = "class"
-            for i, base in enumerate(node.bases):
-                base = base.value if isinstance(base, ast.Subscript) else base
-                found[f"{inside}.{node.name}.<{i}>"] = f"{inside}.{ast.unparse(base)}"
-            _define(node.body, f"{inside}.{node.name}", package, found)
-        elif isinstance(node, ast.FunctionDef):
-            found[f"{inside}.{node.name}"] = "other"
-            for inner in ast.walk(node) if found[inside] == "class" else ():  # of its objects
-                if isinstance(inner, ast.Attribute) and isinstance(inner.ctx, ast.Store):
-                    found.setdefault(f"{inside}.{inner.attr}", "other")
-        elif isinstance(node, ast.Assign | ast.AnnAssign):
-            for target in node.targets if isinstance(node, ast.Assign) else [node.target]:
-                for name in ast.walk(target):
-                    if isinstance(name, ast.Name):
-                        found[f"{inside}.{name.id}"] = "other"
-        elif isinstance(node, ast.If | ast.Try):  # names for types
-            _define(node.body, inside, package, found)
-
-
 def kind(name: str) -> str | None:
     """What a name with its dots is: ``module``, ``class``, ``other``, or None if there is none."""
-    names = defined()
-    if name in names:
-        what = names[name]
-        return what if what in ("module", "class", "other") else kind(what)
-    before, _, last = name.rpartition(".")
-    if not before:
-        return None
-    if before.partition(".")[0] not in ("nucleation", *ROOTS):
-        return _elsewhere(name)
-    if (origin := names.get(before)) not in (None, "module", "class", "other"):
-        return kind(f"{origin}.{last}")
-    bases = [names[base] for i in range(9) if (base := f"{before}.<{i}>") in names]
-    return next((found for base in bases if (found := kind(f"{base}.{last}"))), None)
+    found, rest = _module(name)
+    for i, part in enumerate(rest):
+        if isinstance(found, type) and i == len(rest) - 1 and not hasattr(found, part):
+            return "other" if _is_of_objects(found, part) else None
+        if not hasattr(found, part):
+            return None
+        found = getattr(found, part)
+    return next((k for k, of in (("module", ModuleType), ("class", type)) if isinstance(found, of)),
+                "other" if found is not None or rest else None)  # fmt: skip
 
 
-@cache
-def _elsewhere(name: str) -> str | None:
-    """The same of another package's."""
-    module, _, last = name.rpartition(".")
-    try:
-        found = getattr(importlib.import_module(module), last)
-    except (ImportError, AttributeError):
-        return None
-    return "class" if isinstance(found, type) else "other"
+def _module(name: str) -> tuple[ModuleType | None, list[str]]:
+    """The module in which a name is, and the parts after it."""
+    parts = name.split(".")
+    for n in range(len(parts), 0, -1):
+        with contextlib.suppress(ImportError, TypeError, ValueError):  # a dot comes first
+            return importlib.import_module(".".join(parts[:n])), parts[n:]
+    return None, []
+
+
+def _is_of_objects(owner: type, name: str) -> bool:
+    """Whether the objects of a class have an attribute that the class itself has not."""
+    own = [base for base in owner.__mro__ if base.__module__.startswith("nucleation")]
+    return any(
+        name in vars(base).get("__annotations__", {})
+        or re.search(rf"self\.{name}\b[^=\n]*=", inspect.getsource(base))
+        for base in own
+    )
+
+
+def imported(name: str) -> bool:
+    """Whether a name goes by a module that has it from elsewhere."""
+    module, rest = _module(name)
+    if not rest or not name.startswith("nucleation."):
+        return False
+    return getattr(getattr(module, rest[0]), "__module__", module.__name__) != module.__name__
 
 
 def words(path: Path) -> Iterator[tuple[str, str]]:
@@ -133,13 +103,6 @@ def candidates(target: str, place: str) -> Iterator[str]:
     while place:
         yield f"{place}.{target.removeprefix('.')}"
         place = place.rpartition(".")[0]
-
-
-def imported(name: str) -> bool:
-    """Whether a name goes by a module that has it from elsewhere."""
-    parts, kinds = name.split("."), ("module", "class", "other")
-    steps = (".".join(parts[:n]) for n in range(1, len(parts) + 1))
-    return any(defined().get(step, "other") not in kinds for step in steps)
 
 
 ROLE = re.compile(r"[:{]([a-z]+)[:}]`(?:[^`<]*<)?([\w.~]+)>?`")

@@ -1,9 +1,7 @@
 """Running the workflow of this checkout, with results below a directory of the test's own."""
 
 import dataclasses
-import fcntl
 import itertools
-import os
 import re
 import shutil
 import subprocess
@@ -13,6 +11,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from once import once
 from warm_snakemake import warm
 
 from nucleation.configuration.load import load
@@ -97,23 +96,18 @@ def workflow(tmp_path: Path) -> Workflow:
 def quick(tmp_path_factory: pytest.TempPathFactory) -> Workflow:
     """The workflow after the quick configuration was run from nothing to all figures.
 
-    It is run once; a second worker gets a copy.
+    It is run once; each worker gets a copy.
     """
-    workers = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        workers = workers.parent
-    ran, made = Workflow(tmp_path_factory.mktemp("quick")), workers / "quick.made"
-    with (workers / "quick.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if made.exists():
-            shutil.copytree(made, ran.directory, symlinks=True, dirs_exist_ok=True)
-            return ran
-        done = ran()
+
+    def make(directory: Path) -> None:
+        directory.mkdir()
+        done = Workflow(directory)()
         assert done.returncode == 0, done.stdout
-        (ran.directory / "output.txt").write_text(done.stdout)
-        shutil.copytree(ran.directory, workers / "quick.half", symlinks=True)
-        (workers / "quick.half").rename(made)
-    return ran
+        (directory / "output.txt").write_text(done.stdout)
+
+    made, own = once(tmp_path_factory, "quick-workflow", make), tmp_path_factory.mktemp("quick")
+    shutil.copytree(made, own, symlinks=True, dirs_exist_ok=True)
+    return Workflow(own)
 
 
 @pytest.fixture

@@ -153,15 +153,18 @@ def test_a_run_of_two_studies_is_made_once(workflow):
     assert checked.returncode == 0, "both names of the run are the configuration's"
 
 
-def test_runs_that_fail_do_not_take_the_others_with_them(workflow):
-    failing = workflow.configured(with_one_that_fails("many"))
-    done = failing("lengths", "--cores", "1")
-    assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
-    assert len(datasets(failing)) == 2
+@pytest.mark.parametrize("study_name", ["many", READ_ONE_BY_ONE])
+def test_runs_that_fail_do_not_take_the_others_with_them(workflow, study_name):
+    failing = workflow.configured(with_one_that_fails(study_name))
+    for _ in range(2):
+        done = failing("lengths", "--cores", "1")
+        assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
+        assert len(datasets(failing)) == 2
+    (log,) = (failing.directory / "results/logs/batches").glob("*.log")
+    assert log.read_text().count("begun") == 1, "the one that failed"
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
-def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
+def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
     """And is, once run again, as one that nothing happened to (longer runs: tests/faults)."""
     slow = workflow.configured(configuration(5))
     process = slow.start("lengths", "--cores", "1")
@@ -169,7 +172,7 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched, number):
         time.sleep(0.02)
         assert process.poll() is None
     for child in os.popen(f"pgrep -f {slow.directory}/.snakemake/scripts").read().split():
-        os.kill(int(child), number)
+        os.kill(int(child), signal.SIGKILL)
     process.communicate(timeout=120)
     kept = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
     assert process.returncode != 0 and 1 <= len(kept) < 5
@@ -206,32 +209,3 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     assert begun(quiet) == 1
     other = workflow.configured(configuration(3, study_name=READ_ONE_BY_ONE), "other.yaml")
     assert other.planned("lengths") == {}
-
-
-def test_a_run_that_fails_costs_its_batch_nothing_that_was_finished(workflow):
-    failing = workflow.configured(with_one_that_fails(READ_ONE_BY_ONE))
-    done = failing("lengths", "--cores", "1")
-    assert done.returncode != 0 and "1 of 3 runs failed, the others are kept" in done.stdout
-    again = failing("lengths", "--cores", "1")
-    assert again.returncode != 0
-    log = next((failing.directory / "results/logs/batches").glob("quiet*.log")).read_text()
-    assert log.count("begun") == 1, "the one that failed"
-
-
-def test_a_killed_workflow_keeps_what_a_batch_of_datasets_has_finished(workflow, batched):
-    slow = workflow.configured(configuration(5, study_name=READ_ONE_BY_ONE))
-    process = slow.start("lengths", "--cores", "1")
-    while not datasets(slow):
-        time.sleep(0.02)
-        assert process.poll() is None
-    process.kill()
-    for child in os.popen(f"pgrep -f {slow.directory}/.snakemake/scripts").read().split():
-        os.kill(int(child), signal.SIGKILL)
-    process.communicate(timeout=120)
-    slow("--unlock")
-    shutil.rmtree(slow.directory / "results/logs")
-    done = slow("lengths", "--cores", "1")
-    assert done.returncode == 0, done.stdout
-    assert len(datasets(slow)) == 5 and 1 <= begun(slow) <= 4
-    _, single = batched
-    assert_same_datasets(slow, single)

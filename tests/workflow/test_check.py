@@ -171,14 +171,6 @@ def test_results_of_other_configurations_are_not_pruned(workflow, monkeypatch):
     }
 
 
-def test_moved_results_are_shown_once(workflow, monkeypatch):
-    """What the place of before has shown is not kept for ever."""
-    of_table_s1(workflow, 0.08, "results")
-    (workflow.directory / "results").rename(workflow.directory / "results-moved")
-    moved = of_table_s1(workflow, 0.09, "results-moved")
-    assert len(pruned(moved, monkeypatch, remove=False)) == 1
-
-
 @pytest.mark.parametrize("content", ["[]", "{", '{"keys": 1, "files": []}', "\udcff"])
 def test_nothing_is_pruned_beside_a_damaged_record(content, tmp_path):
     store = Store(tmp_path / "store")

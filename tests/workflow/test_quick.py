@@ -116,17 +116,6 @@ def test_lost_simulation_is_missed_by_its_figures(quick, results):
     assert quick.planned() == {}
 
 
-def test_lost_table_is_missed_by_what_is_made_from_it(quick, results):
-    path = (results / "lengths" / "paper.nc").resolve().parent
-    away = path.rename(path.with_suffix(".away"))
-    try:
-        for target in ("figure_3", "figure_s2", "lengths", "claims"):
-            assert quick.planned(target)["extract"] == 1
-    finally:
-        away.rename(path)
-    assert quick.planned() == {}
-
-
 @pytest.mark.parametrize(
     ("section", "values", "expected"),
     [

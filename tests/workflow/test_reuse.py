@@ -78,24 +78,9 @@ def rename(workflow, old, new):
             path.write_text(changed)
 
 
-@pytest.mark.parametrize(
-    ("old", "new"), [("fem/kernels", "fem/loops"), ("patch/mode_history", "patch/modes_in_time")]
-)
-def test_renamed_module_makes_nothing_stale(plain, old, new):
-    rename(plain, old, new)
+def test_renamed_module_makes_nothing_stale(plain):
+    rename(plain, "fem/kernels", "fem/loops")
     shutil.rmtree(plain.checkout / "src/nucleation/__pycache__", ignore_errors=True)
-    assert plain.planned() == {}
-
-
-def test_moved_wing_makes_nothing_stale(plain):
-    package = plain.checkout / "src/nucleation"
-    (package / "stepping").rename(package / "integration")
-    for path in plain.checkout.rglob("*.py"):
-        text = path.read_text()
-        changed = text.replace("..stepping.", "..integration.").replace(
-            "nucleation.stepping", "nucleation.integration"
-        )
-        path.write_text(changed)
     assert plain.planned() == {}
 
 

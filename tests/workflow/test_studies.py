@@ -36,25 +36,6 @@ def test_targets_leave_figures_and_tables_and_are_complete(studies):
     assert studies.planned(*TARGETS) == {}
 
 
-def test_lost_simulation_is_missed_by_its_figure(studies):
-    shown = (studies.directory / "results/quick/simulations").glob("convergence_step-*.nc")
-    path = next(path.resolve() for path in shown).parent
-    away = path.rename(path.with_suffix(".away"))
-    try:
-        assert studies.planned("figure_convergence")["simulate"] == 1
-        assert "simulate" not in studies.planned("figure_sensitivity")
-    finally:
-        away.rename(path)
-
-
-def test_convergence_without_its_studies_says_so(workflow):
-    other = workflow.configured({"studies": {"mine": {"runs": [{"height": 0.1}]}}})
-    done = other("figure_convergence", "--dry-run")
-    assert done.returncode != 0
-    assert "the configuration has no study with role: convergence" in done.stdout
-    assert "Traceback (most recent call last)" not in done.stdout
-
-
 def test_figure_of_any_study_and_its_simulations(workflow):
     """Two runs from a configuration of one's own; a lost simulation is missed by the target."""
     runs = [{"height": [0.1, 0.2], "zeta_over_a": 4.0}]

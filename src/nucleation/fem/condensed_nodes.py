@@ -42,7 +42,7 @@ class EdgedResponse(LoadedResponse):
     """
 
     edge: Array
-    start: Array | None  # of a pair, see :meth:`CondensedOnNodes.reduced`
+    start: Array | None  # of a pair, see `CondensedOnNodes.reduced`
     swept: Array | None = None
 
 

@@ -89,7 +89,7 @@ def plot_run(record: xr.Dataset) -> Figure:
     Parameters
     ----------
     record : Dataset
-        Of :func:`nucleation.api.simulate`, with slip and stresses.
+        Of :func:`nucleation.simulation.run.simulate`, with slip and stresses.
     """
     Record(record).require("slip", "shear_stress")
     return figure_s2.draw(record, xr.Dataset(extract(record)))
@@ -185,7 +185,7 @@ def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:
     Parameters
     ----------
     record : Dataset
-        Of :func:`nucleation.api.simulate`.
+        Of :func:`nucleation.simulation.run.simulate`.
     path : path
         Of the file, which is replaced.
     """

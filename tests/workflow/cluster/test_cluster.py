@@ -217,18 +217,3 @@ def test_refusal_by_slurm_is_shown(slurm, workflow_type, tmp_path):
     done = made("simulations", "--retries", "0", *wrong)
     assert done.returncode != 0
     assert "invalid partition specified: nowhere" in done.stdout
-
-
-def test_a_batch_that_makes_datasets_is_a_job(slurm, workflow_type, tmp_path):
-    short = {"n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0}
-    study = {"role": "quiet", "length_over_critical": 4.0, "runs_per_job": 2, "defaults": short,
-             "runs": [{"height": [0.02, 0.03, 0.04]}]}  # fmt: skip
-    made = workflow_type(tmp_path, profile="slurm").configured({"studies": {"quiet": study}})
-    process = made.start("lengths", *OFTEN)
-    try:
-        output, _ = process.communicate(timeout=600)
-        assert process.returncode == 0, output
-        assert [job["NumCPUs"] for job in slurm.jobs(made.directory)] == ["1", "1"]
-    finally:
-        slurm.end(process, made.directory)
-    assert len(list((tmp_path / "results/simulations").glob("quiet-*.nc"))) == 3
