@@ -37,6 +37,11 @@ def data_address(content: bytes, name: str) -> str:
     return f"data:{kind};base64,{base64.b64encode(content).decode('ascii')}"
 
 
+def download(name: str, content: bytes) -> dict[str, str]:
+    """A file that the page offers: its name and its address."""
+    return {"name": name, "address": data_address(content, name)}
+
+
 def float32(values: ArrayLike) -> str:
     """Values as little-endian 32-bit floats in base64, which the page reads as a Float32Array."""
     return base64.b64encode(np.asarray(values, dtype="<f4").tobytes()).decode("ascii")

@@ -56,19 +56,11 @@ def controls(material: Material, interface: InterfaceState) -> list[dict[str, An
     result = []
     for slider in SLIDERS:
         value = float(f"{given[slider.group][slider.parameter] / slider.factor:.12g}")
-        result.append(
-            {
-                "key": slider.key,
-                "label": slider.label,
-                "symbol": slider.symbol,
-                "unit": slider.unit,
-                "factor": slider.factor,
-                "low": min(slider.low, value),
-                "high": max(slider.high, value),
-                "log": slider.logarithmic,
-                "value": value,
-            }
-        )
+        shown = {
+            name: getattr(slider, name) for name in ("key", "label", "symbol", "unit", "factor")
+        }
+        ends = {"low": min(slider.low, value), "high": max(slider.high, value)}
+        result.append({**shown, **ends, "log": slider.logarithmic, "value": value})
     return result
 
 

@@ -13,13 +13,16 @@ function makeControl({ key, factor, low, high, log, value, label = "Height", uni
   const control = {
     key, current: value, refused: "", si: () => control.current * factor, set, reset: () => set(value),
   };
-  function set(v) {
+  function show(v) {
     control.current = v;
-    control.refused = "";
-    field.value = String(v);
     slider.value = String(Math.round(1000 * place(v)));
     slider.setAttribute("aria-valuetext", field.value);
+  }
+  function set(v) {
+    control.refused = "";
+    field.value = String(v);
     field.removeAttribute("aria-invalid");
+    show(v);
   }
   slider.addEventListener("input", () => {
     set(Number(at(slider.value / 1000).toPrecision(3)));
@@ -30,13 +33,7 @@ function makeControl({ key, factor, low, high, log, value, label = "Height", uni
     const good = v >= low && v <= high;
     field.setAttribute("aria-invalid", String(!good));
     control.refused = good ? "" : range;
-    if (!good) {
-      changed();
-      return;
-    }
-    control.current = v;
-    slider.value = String(Math.round(1000 * place(v)));
-    slider.setAttribute("aria-valuetext", field.value);
+    if (good) show(v);
     changed();
   });
   set(value);

@@ -190,7 +190,6 @@ def _run(content: Content) -> dict[str, Any] | None:
     if content.player is None:
         return None
     run, row = content.player
-    name = f"{row['id'].values}.nc"
     parameters = parameters_of(run)
     below = parameters.below
     return {
@@ -200,7 +199,7 @@ def _run(content: Content) -> dict[str, Any] | None:
         "onset": float(row["onset_time"]),
         "length": float(row["length"]),
         "frames": run.sizes["time"],
-        "data": {"name": name, "address": encode.data_address(_netcdf(run), name)},
+        "data": encode.download(f"{row['id'].values}.nc", _netcdf(run)),
     }
 
 
@@ -219,11 +218,7 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
     for picture in content.pictures:
         shown, *others = picture.files
         downloads = [
-            {
-                "name": f"{picture.name}{path.suffix}",
-                "address": encode.data_address(path.read_bytes(), path.name),
-            }
-            for path in others
+            encode.download(f"{picture.name}{path.suffix}", path.read_bytes()) for path in others
         ]
         downloads += [_table(content.results, data) for data in picture.data]
         groups.setdefault(picture.category, []).append(
@@ -241,7 +236,7 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
 
 def _table(results: Mapping[str, xr.Dataset], data: catalogue.Data) -> dict[str, str]:
     text = tables.csv_text(results[data.dataset], data.variables)
-    return {"name": data.name, "address": encode.data_address(text.encode(), data.name)}
+    return encode.download(data.name, text.encode())
 
 
 def _origin(content: Content) -> dict[str, Any]:
@@ -259,10 +254,7 @@ def _origin(content: Content) -> dict[str, Any]:
             for name, dataset in made.items()
         ],
         "config": configuration,
-        "download": {
-            "name": "configuration.json",
-            "address": encode.data_address(configuration.encode(), "configuration.json"),
-        },
+        "download": encode.download("configuration.json", configuration.encode()),
     }
 
 
