@@ -133,6 +133,7 @@ def test_parameters_of_an_earlier_dataset(nucleation, tmp_path):
     assert parameters_of(tmp_path / "second.nc") == PARAMETERS
 
 
+@pytest.mark.slow
 def test_a_run_of_the_configuration(nucleation, tmp_path):
     words = ["simulate", tmp_path / "run.nc", "--config", CONFIG, "--dry-run"]
     found = planned(nucleation(*words, "--run", "converged-slip-H0.05-phi1-seed2"))

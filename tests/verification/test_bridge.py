@@ -89,6 +89,7 @@ class WrappedBlock:
         return u, matrix @ u - load
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("s", [0.0, 1e8, 1e13])
 def test_periodic_body_equals_the_wrapped_assembled_matrix(s):
     rng = np.random.default_rng(1)

@@ -42,6 +42,7 @@ def slope_at_the_newest(times, values):
     return np.tensordot(weights, np.array(values), axes=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("grading", [1.0, 3.0])
 @pytest.mark.parametrize("law", ["aging", "slip"])
 def test_every_step_obeys_the_assembled_equation_of_motion(law, grading):

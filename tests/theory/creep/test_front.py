@@ -42,6 +42,7 @@ def test_growth_of_the_frozen_patch():
         assert rates.imag == pytest.approx(rows.frozen_frequency.to_numpy(), rel=0.025)
 
 
+@pytest.mark.slow
 def test_stability_lengths_of_the_converged_runs():
     table = pd.read_csv(REFERENCE / "patch_stability.csv")
     table = table[(table.study == "converged") & table.height.isin([0.005, 0.1])]
@@ -63,6 +64,7 @@ def test_pairs():
     assert np.sqrt(np.mean(off**2)) < 0.014
 
 
+@pytest.mark.slow
 def test_rounds_and_places_are_enough(monkeypatch):
     run = RUNS["converged-aging-H0.1-phi1000-seed1"]
     usual = found_of(run)
