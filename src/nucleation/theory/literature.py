@@ -43,10 +43,8 @@ class Setting:
         mu and sigma0 (Pa).
     poisson_ratio, a, b, zeta : array_like
         Dimensionless.
-    slip_distance, height : array_like
-        D and H (m).
-    weakening_rate : array_like
-        Fall of strength per slip, W (Pa/m).
+    slip_distance, height, weakening_rate : array_like
+        D and H (m), and the fall of strength per slip, W (Pa/m).
     """
 
     shear_modulus: Values

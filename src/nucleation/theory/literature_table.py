@@ -50,13 +50,12 @@ class Length:
             return self.compute(fault)
         names = [field.name for field in dataclasses.fields(Setting)]
         own = {"weakening_rate": weakening_rate, "poisson_ratio": fault.in_plane_ratios[0]}
-        if self.system == TWO_MATERIALS:
+        two = self.system == TWO_MATERIALS
+        if two:
             modulus, coupling = of_two_materials(fault)
             own |= {"shear_modulus": modulus, "poisson_ratio": 0.0}  # of which mu* = M
         value = self.compute(Setting(*(own[n] if n in own else getattr(fault, n) for n in names)))
-        if self.system == TWO_MATERIALS:
-            return valid(coupling < literature.NEGLIGIBLE, value)
-        return value
+        return valid(coupling < literature.NEGLIGIBLE, value) if two else value
 
     def of_two(self) -> Length:
         """The same for two materials, with M in the place of mu*."""
