@@ -65,37 +65,6 @@ def test_theory_in_the_page_is_that_of_the_library(web):
         assert point["frequency"] == pytest.approx(expected.angular_frequency, rel=1e-9)
 
 
-def test_two_bodies_in_the_page_are_those_of_the_library(web):
-    """Each far side below, other heights and materials, contrasts of either sense."""
-    random, cases = np.random.default_rng(6), []
-    for number, height in enumerate(np.geomspace(1e-3, 1e2, 40)):
-        case = {
-            "H": float(height), "mu": 3e9, "nu": random.uniform(0.0, 0.45), "sigma0": 1e6,
-            "f": random.uniform(0.0, 1.0), "a": 0.007, "zeta": random.uniform(0.005, 0.02),
-            "ell": 5e-7, "V": 1e-5,
-        }  # fmt: skip
-        case["second"] = {
-            "mu": 3e9 * 10.0 ** random.uniform(-1.5, 1.5), "nu": random.uniform(0.0, 0.45),
-            "heightRatio": 10.0 ** random.uniform(-1.0, 1.0),
-            "farSide": ("free", "clamped", "roller", "velocity")[number % 4],
-        }  # fmt: skip
-        cases.append(case)
-    found = web.evaluate("(cases) => cases.map((p) => Theory.solver(p)(p.H))", cases)
-    for case, point in zip(cases, found, strict=True):
-        second = case["second"]
-        upper = Body(Material(case["mu"], case["nu"]), case["H"], "free")
-        lower = Body(
-            Material(second["mu"], second["nu"]), case["H"] * second["heightRatio"],
-            second["farSide"],
-        )  # fmt: skip
-        interface = InterfaceState(
-            case["f"], case["a"], case["zeta"], case["ell"], case["V"], case["sigma0"]
-        )
-        expected = critical_wavenumber(upper, lower, interface)
-        assert point["length"] == pytest.approx(expected.length, rel=1e-9)
-        assert point["frequency"] == pytest.approx(expected.angular_frequency, rel=1e-9)
-
-
 def test_a_second_block_is_chosen(web):
     """The curve is that of identical blocks, and the rigid base's again after the reset."""
     rigid = drawn_curve(web)
@@ -291,11 +260,6 @@ def test_strength_moves_the_drop(web, modes, settings):
     web.select_option("#drop-fault", "0")
 
 
-def test_without_quiet_runs_there_is_no_section_of_the_drop(content):
-    text = page.build(content._replace(modes=()))
-    assert 'id="drop"' not in text and '"drop":null' in text
-
-
 # ---- The map
 
 
@@ -373,12 +337,6 @@ def test_map_tells_of_the_point_below_the_pointer_and_a_click_chooses_it(web):
 def test_places_without_a_length_are_grey(web):
     shown = web.evaluate("() => [element('map-image').layout.plot_bgcolor, colour('line')]")
     assert shown[0] == shown[1]
-
-
-def test_without_a_map_there_is_no_section_of_it(content):
-    results = {name: dataset for name, dataset in content.results.items() if name != "map"}
-    text = page.build(content._replace(results=results))
-    assert 'id="map"' not in text and '"map":null' in text
 
 
 # ---- The player
