@@ -173,7 +173,7 @@ class Interface:
             coefficient, slope, psi = self._friction(rates, past.log_state, beta)
             if imposed.strength is not None:
                 coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
-            linear_below = self.friction.linear_below(psi)[first:]
+            linear_below = np.broadcast_to(self.friction.linear_below(psi), psi.shape)[first:]
             residual, damping, error = newton.balance(
                 p, normal, coefficient, slope, elastic, np.abs(v) + linear_below,
                 self.tolerance, rounding,

@@ -150,9 +150,9 @@ class Friction(Checked):
         """``f(v, psi)``, df/dv (s/m) and df/dpsi, broadcast over slip rate (m/s) and log state."""
         raise NotImplementedError
 
-    def linear_below(self, log_state: ArrayLike) -> Array:
+    def linear_below(self, log_state: ArrayLike) -> Any:
         """Slip rate (m/s) below which friction is linear in it: about its scale of change there."""
-        return np.full(np.shape(log_state), self.regularisation_slip_rate)
+        return self.regularisation_slip_rate
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """This law with the :attr:`set_by_expansion` for which :meth:`expansion` is (f, a, zeta).
