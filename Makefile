@@ -5,7 +5,7 @@ CORES ?= 2
 TARGETS ?=
 PARTS ?= solver
 FAULTS ?= 200
-SEED ?=
+SEED ?= 1
 
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -43,7 +43,7 @@ test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system
 	@$(PYTEST) -n $(CORES) -m "not slow and not system"
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
-	PYTHONPATH=src:tests $(BIN)/python tests/faults/torture.py $(FAULTS) $(SEED)
+	FAULTS=$(FAULTS) FAULT_SEED=$(SEED) $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
 
 weight: ## Count lines and words against their budgets
 	@python3 .ci/weight.py

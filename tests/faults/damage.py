@@ -9,10 +9,9 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 from harness import IDS, Place, Reference
 from processes import require
-from registry import CLEAR_ERROR, RECOVERED, fault
+from registry import FAULTS, fault
 
 from nucleation.pipeline.store import NOTE, read_note
 
@@ -50,7 +49,7 @@ def _without_a_trace(path: Path, damage: Callable, random: random.Random) -> Non
     os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
 
 
-def _damaged_entry(place: Place, reference: Reference, random: random.Random, damage) -> str:
+def _damaged_entry(place: Place, reference: Reference, random: random.Random, damage) -> None:
     """Check lists it; nothing is made from it, and it is made again."""
     entry = place.store.entry(random.choice(place.store.listed()))
     path = entry / random.choice([*read_note(entry)["files"], NOTE])
@@ -61,15 +60,13 @@ def _damaged_entry(place: Place, reference: Reference, random: random.Random, da
     listed = any(f.path == entry and f.state in ("damaged", "foreign") for f in place.findings())
     if not listed:  # a bit without meaning, in what a note says of the rest
         require(path.name == NOTE, f"check does not list the damaged {path}")
-        place.require_same(reference)
-        return RECOVERED
+        return
     if random.choice((True, False)):
         place.forget_tables()
-    stopped = place.finish()
-    return CLEAR_ERROR if stopped else RECOVERED
+    place.finish()
 
 
-def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> str:
+def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> None:
     """Run on from a checkpoint that must be refused, or used, or (None) may be either."""
     place.forget(id)
     with place.unharmed():
@@ -78,7 +75,6 @@ def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> str:
     if refused is not None:
         expected = "the run starts at the beginning" if refused else "the run goes on from"
         require(expected in said, f"it does not say {expected!r}: {said}")
-    return RECOVERED
 
 
 def _stopped(place: Place, reference: Reference, id: str) -> Path:
@@ -89,32 +85,20 @@ def _stopped(place: Place, reference: Reference, id: str) -> Path:
 
 def _damaged_checkpoint(
     place: Place, reference: Reference, random: random.Random, damage, refused: bool | None
-) -> str:
+) -> None:
     id = random.choice(IDS)
     damage(_stopped(place, reference, id), random)
     return _bad_checkpoint(place, id, refused=refused)
 
 
-@fault("foreign checkpoint")
+@fault
 def checkpoint_of_other_parameters(place, reference, random):
     one, other = random.sample(IDS, 2)
     shutil.copy2(reference.checkpoints / place.checkpoint(other).name, place.checkpoint(one))
     return _bad_checkpoint(place, one, refused=True)
 
 
-@fault("foreign checkpoint")
-def checkpoint_of_other_code(place, reference, random):
-    """Its arrays are right, only the fingerprint is another."""
-    id = random.choice(IDS)
-    path = _stopped(place, reference, id)
-    with np.load(path) as stored:
-        arrays = dict(stored)
-    arrays["fingerprint"] = np.array(f"{random.getrandbits(256):x}")
-    np.savez(path, **arrays)
-    return _bad_checkpoint(place, id, refused=True)
-
-
-@fault("foreign checkpoint")
+@fault
 def checkpoint_after_the_end(place, reference, random):
     """A kill after the dataset and before the checkpoint's removal leaves one, which is used."""
     id = random.choice(IDS)
@@ -122,41 +106,14 @@ def checkpoint_after_the_end(place, reference, random):
     return _bad_checkpoint(place, id, refused=False)
 
 
-def _damaged_elsewhere(place: Place, reference: Reference, random: random.Random, damage) -> str:
-    """Fill another store, damage its entry, and ask for the result again."""
-    other = place.directory.parent / f"{place.directory.name}.store"
-    other.mkdir()
-    variables = {"NUCLEATION_STORES": str(other)}
-    try:
-        place.forget(IDS[0])
-        require((done := place.run("simulations", **variables)).status == 0, done.output)
-        (entry,) = other.iterdir()
-        damage(random.choice([*entry.iterdir()]), random)
-        place.forget(IDS[0])
-        require(not place.finish(**variables), "a damaged entry elsewhere stopped it")
-        place.require_same(reference)
-    finally:
-        shutil.rmtree(other)
-    return RECOVERED
+for _damage in (truncate, flip, zero):
+    FAULTS[f"{_damage.__name__}_entry"] = functools.partial(_damaged_entry, damage=_damage)
+    FAULTS[f"{_damage.__name__}_checkpoint"] = functools.partial(
+        _damaged_checkpoint, damage=_damage, refused=True if _damage is truncate else None
+    )  # not all bits matter
 
 
-_cut_checkpoint = functools.partial(_damaged_checkpoint, refused=True)
-_changed_checkpoint = functools.partial(_damaged_checkpoint, refused=None)  # not all bits matter
-
-for _name, _kind, _harm, _damage in (
-    ("truncated_entry", "damaged entry", _damaged_entry, truncate),
-    ("flipped_entry", "damaged entry", _damaged_entry, flip),
-    ("zeroed_entry", "damaged entry", _damaged_entry, zero),
-    ("truncated_checkpoint", "damaged checkpoint", _cut_checkpoint, truncate),
-    ("flipped_checkpoint", "damaged checkpoint", _changed_checkpoint, flip),
-    ("zeroed_checkpoint", "damaged checkpoint", _changed_checkpoint, zero),
-    ("truncated_entry_elsewhere", "damaged entry elsewhere", _damaged_elsewhere, truncate),
-    ("flipped_entry_elsewhere", "damaged entry elsewhere", _damaged_elsewhere, flip),
-):
-    fault(_kind, _name)(functools.partial(_harm, damage=_damage))
-
-
-@fault("damaged notes of snakemake")
+@fault
 def lost_notes(place, reference, random):
     """The directory .snakemake is removed, or a random note in it is cut or emptied."""
     place.forget(IDS[0])
@@ -168,4 +125,3 @@ def lost_notes(place, reference, random):
         truncate(note, random)
     with place.unharmed():
         place.finish()
-    return RECOVERED

@@ -10,12 +10,12 @@ import signal
 import psutil
 from harness import IDS, Place, Reference
 from processes import processor_time, require
-from registry import CLEAR_ERROR, RECOVERED, fault
+from registry import FAULTS, fault
 
 
 def _stop_simulation(
     place: Place, reference: Reference, random: random.Random, number: signal.Signals
-) -> str:
+) -> None:
     """Signals, up to three times, to a simulation's script, which is then run to its end."""
     id = random.choice(IDS)
     place.forget(id)
@@ -28,7 +28,6 @@ def _stop_simulation(
             require(not begun, f"a checkpoint was refused: {place.log(id)}")
         if not place.simulation(id).exists():
             place.run_alone(id)
-    return RECOVERED
 
 
 def _stop_snakemake(
@@ -37,35 +36,33 @@ def _stop_snakemake(
     random: random.Random,
     number: signal.Signals,
     group: bool = False,
-) -> str:
+) -> None:
     """A signal to snakemake, or to all its processes as from a terminal; then the next steps."""
     place.forget(*random.sample(IDS, random.choice((1, 2))))
     with place.unharmed():
         moment = random.uniform(0.1, 1.0) * reference.workflow
         place.start().interrupt(number, moment, group=group)
         place.finish()
-    return RECOVERED
 
 
 _stop_all = functools.partial(_stop_snakemake, group=True)
 
-for _name, _kind, _stop, _number in (
-    ("sigkill_simulation", "SIGKILL of a simulation", _stop_simulation, signal.SIGKILL),
-    ("sigterm_simulation", "SIGTERM", _stop_simulation, signal.SIGTERM),
-    ("sigint_simulation", "Ctrl-C", _stop_simulation, signal.SIGINT),
-    ("sighup_simulation", "SIGHUP", _stop_simulation, signal.SIGHUP),
+for _name, _stop, _number in (
+    ("sigkill_simulation", _stop_simulation, signal.SIGKILL),
+    ("sigterm_simulation", _stop_simulation, signal.SIGTERM),
+    ("sigint_simulation", _stop_simulation, signal.SIGINT),
+    ("sighup_simulation", _stop_simulation, signal.SIGHUP),
     # snakemake alone: its simulation goes on while the next workflow begins
-    ("sigkill_snakemake", "SIGKILL of snakemake", _stop_snakemake, signal.SIGKILL),
-    ("sigkill_snakemake_and_all", "SIGKILL of snakemake", _stop_all, signal.SIGKILL),
-    ("sigterm_snakemake", "SIGTERM", _stop_snakemake, signal.SIGTERM),
-    ("sigterm_snakemake_and_all", "SIGTERM", _stop_all, signal.SIGTERM),
-    ("ctrl_c", "Ctrl-C", _stop_all, signal.SIGINT),
-    ("closed_terminal", "SIGHUP", _stop_all, signal.SIGHUP),
+    ("sigkill_snakemake", _stop_snakemake, signal.SIGKILL),
+    ("sigkill_snakemake_and_all", _stop_all, signal.SIGKILL),
+    ("sigterm_snakemake", _stop_snakemake, signal.SIGTERM),
+    ("sigterm_snakemake_and_all", _stop_all, signal.SIGTERM),
+    ("ctrl_c", _stop_all, signal.SIGINT),
 ):
-    fault(_kind, _name)(functools.partial(_stop, number=_number))
+    FAULTS[_name] = functools.partial(_stop, number=_number)
 
 
-@fault("SIGKILL of a simulation")
+@fault
 def sigkill_simulation_in_workflow(place, reference, random):
     """Snakemake is told of the failure, and says which job it was."""
     id = random.choice(IDS)
@@ -78,14 +75,12 @@ def sigkill_simulation_in_workflow(place, reference, random):
                 with contextlib.suppress(psutil.NoSuchProcess):  # it has just ended
                     process.kill()
         done = running.end()
-        if done.status == 0:
-            return RECOVERED  # the kill came too late
-        require(f"{id}." in done.output, f"the failed job is not named: {done.output}")
-        place.finish()
-    return CLEAR_ERROR
+        if done.status != 0:  # or the kill came too late
+            require(f"{id}." in done.output, f"the failed job is not named: {done.output}")
+            place.finish()
 
 
-@fault("job taken for failed")
+@fault
 def job_taken_for_failed(place, reference, random):
     """Killed with its result in the store, before Snakemake has heard of it; others start then."""
     ids = random.sample(IDS, random.choice((1, 2)))
@@ -103,10 +98,9 @@ def job_taken_for_failed(place, reference, random):
         running.end()
         place.finish()
     require(second.status == 0 or "locked" in second.output, second.output)
-    return RECOVERED
 
 
-@fault("SIGKILL between writing and renaming")
+@fault
 def killed_before_renaming(place, reference, random):
     """Halves of a checkpoint and of a dataset lie there under temporary names."""
     id = random.choice(IDS)
@@ -126,4 +120,3 @@ def killed_before_renaming(place, reference, random):
     found = [finding for finding in place.findings() if "half a file" in finding.reason]
     require(len(found) == 2, "check does not list the halves")
     place.run_alone(id)
-    return RECOVERED

@@ -16,16 +16,15 @@ from harness import (
     IDS,
     OTHER,
     Place,
-    Reference,
     configure,
     datasets,
     first_difference,
     require_nothing_made,
     require_same,
     rules,
-)  # fmt: skip
+)
 from processes import ROOT, require
-from registry import CLEAR_ERROR, RECOVERED, fault, says
+from registry import fault, says
 
 from nucleation.datasets import netcdf
 from nucleation.pipeline.store import Store
@@ -33,95 +32,14 @@ from nucleation.pipeline.store import Store
 EDITED = "src/nucleation/simulation/control.py"
 
 
-def _lengths(place: Place) -> bytes:
-    return (place.results / "lengths.csv").read_bytes()
-
-
-def _there_and_back(place: Place, reference: Reference) -> None:
-    """Other parameters give other lengths; back at the first ones, nothing is made again."""
-    first = _lengths(place)
-    configure(place, OTHER)
-    require(place.run().status == 0, "it could not be run with other parameters")
-    require(_lengths(place) != first, "lengths of other parameters were kept")
-    configure(place, CONFIG)
-    require_nothing_made(place.run())
-    place.prune()
-
-
-@fault("lost notes, other parameters")
-def notes_lost_and_parameters_changed(place, reference, random):
-    shutil.rmtree(place.directory / ".snakemake")
-    with place.unharmed():
-        _there_and_back(place, reference)
-    return RECOVERED
-
-
-@fault("plain copy")
-def plain_copy(place, reference, random):
-    """Without notes and with times in any order; nothing is made again."""
-    aside = place.directory / "aside"
-    shutil.move(place.results, aside)
-    files = sorted(path for path in aside.rglob("*") if path.is_file())
-    random.shuffle(files)
-    for path in files:
-        target = place.results / path.relative_to(aside)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(path, target)
-    shutil.rmtree(aside)
-    shutil.rmtree(place.directory / ".snakemake")
-    require_nothing_made(place.run())
-    return RECOVERED
-
-
-@fault("moved results")
-def results_by_another_name(place, reference, random):
-    """An absolute path, a slash more, another directory: the same results."""
-    names = ("results/", "./results", str(place.results))
-    configure(place, {**CONFIG, "results": random.choice(names)})
-    require_nothing_made(place.run())
-    moved = place.results.rename(place.directory / "elsewhere")
-    configure(place, {**CONFIG, "results": "elsewhere"})
-    require_nothing_made(place.run())
-    moved.rename(place.results)
-    configure(place, CONFIG)
-    return RECOVERED
-
-
-@fault("renamed study")
-def study_renamed_and_back(place, reference, random):
-    with place.unharmed():
-        configure(place, {"studies": {"others": CONFIG["studies"]["faults"]}})
-        done = place.run()
-        require(done.status == 0 and "simulate" not in rules(done), "simulated again")
-        require(b"others-aging" in _lengths(place), "the table has the old names")
-        configure(place, CONFIG)
-        require_nothing_made(place.run())
-        place.prune()
-    return RECOVERED
-
-
-@fault("swapped results")
-def entries_swapped(place, reference, random):
-    """Two whole results under each other's key: found at planning, and made again."""
-    one, other = (place.simulation(id).parent for id in IDS)
-    _swap(one, other)
-    listed = {found.path for found in place.findings() if found.state == "foreign"}
-    require({one, other} <= listed, "check does not list them")
-    done = place.run("lengths", "--dry-run")
-    require(rules(done) == {"simulate"}, f"planning does not find them: {done.output[-2000:]}")
-    require(done.output.count("holds the result of another key") >= 2, done.output)
-    require(not place.finish(), "it was stopped")
-    return RECOVERED
-
-
-@fault("swapped results")
+@fault
 def files_of_entries_swapped(place, reference, random):
     """Only the datasets, in entries whose notes stay: no table is made of the wrong one."""
     _swap(*(place.simulation(id) for id in IDS))
     listed = {found.path for found in place.findings() if found.state == "damaged"}
     require({place.simulation(id).parent for id in IDS} <= listed, "check does not list them")
     place.forget_tables()
-    return CLEAR_ERROR if place.finish() else RECOVERED
+    place.finish()
 
 
 def _swap(one: Path, other: Path) -> None:
@@ -143,7 +61,7 @@ def _checkout(place: Place) -> Iterator[Path]:
         shutil.rmtree(checkout)
 
 
-@fault("code edited during a run")
+@fault
 def code_edited_during_a_run(place, reference, random):
     """At any moment: what is kept is of the code that made it, also in another store."""
     place.forget(*IDS)
@@ -154,15 +72,13 @@ def code_edited_during_a_run(place, reference, random):
         running.spend(random.uniform(0.0, 1.0) * reference.workflow)
         file.write_text(text.replace("SAFETY = 0.85", "SAFETY = 0.5"))
         done = running.end()
-        refused = done.status != 0
-        if refused:
+        if done.status != 0:
             says(done, "have changed since this job was planned")
         file.write_text(text)
         os.utime(file)
         done = place.start(checkout=checkout, NUCLEATION_STORES=str(other)).end()
         require(done.status == 0, done.output)
         require_same(datasets(Store(other)), reference.contents)
-    return CLEAR_ERROR if refused else RECOVERED
 
 
 SAME_SIZE = {
@@ -172,7 +88,7 @@ SAME_SIZE = {
 """Edits that change results, but not the size of a source."""
 
 
-@fault("code edited, its time kept")
+@fault
 def code_edited_with_its_time_kept(place, reference, random):
     """As by rsync: bytecode, and what numba has compiled, of before the edit are not used."""
     id, path = random.choice(IDS), random.choice(sorted(SAME_SIZE))
@@ -198,7 +114,6 @@ def code_edited_with_its_time_kept(place, reference, random):
             os.utime(file, ns=(times, times))
             require_nothing_made(place.start(checkout=checkout).end())
     place.prune()
-    return RECOVERED
 
 
 @contextlib.contextmanager
@@ -209,20 +124,7 @@ def _other_store(place: Place) -> Iterator[Path]:
     shutil.rmtree(directory)
 
 
-@fault("swapped entries elsewhere")
-def entries_of_another_store_swapped(place, reference, random):
-    with _other_store(place) as other:
-        one, two = (place.simulation(id).parent for id in IDS)
-        shutil.copytree(one, other / two.name)
-        shutil.copytree(two, other / one.name)
-        place.forget(*IDS)
-        require((done := place.run(NUCLEATION_STORES=str(other))).status == 0, done.output)
-        said = "".join(place.log(id) for id in IDS)
-        require(said.count("holds the result of another key") == 2, said)
-    return RECOVERED
-
-
-@fault("store that can't be written")
+@fault
 def unwritable_store(place, reference, random):
     """A mistyped one stops it before the first job; a read-only one loses no result."""
     place.forget(random.choice(IDS))
@@ -230,24 +132,9 @@ def unwritable_store(place, reference, random):
     with _other_store(place) as other, read_only(other):
         done = place.run(NUCLEATION_STORES=str(other))
         require(done.status == 0, f"the result was lost: {done.output[-1500:]}")
-    return CLEAR_ERROR
 
 
-@fault("results elsewhere")
-def results_from_another_store(place, reference, random):
-    """Without results of its own, it takes all from another store and computes nothing."""
-    with _other_store(place) as other:
-        shutil.rmtree(other)
-        shutil.copytree(place.store.directory, other)
-        with place.unharmed():
-            aside = place.results.rename(place.directory / "aside")
-            require((done := place.run(NUCLEATION_STORES=str(other))).status == 0, done.output)
-            require(all("taken from" in place.log(id) for id in IDS), "simulated again")
-            shutil.rmtree(aside)
-    return RECOVERED
-
-
-@fault("killed scheduler")
+@fault
 def scheduler_killed_and_parameters_changed(place, reference, random: random.Random):
     """Its simulation goes on to its end; meanwhile the configuration changes, and back again."""
     id = random.choice(IDS)
@@ -260,4 +147,3 @@ def scheduler_killed_and_parameters_changed(place, reference, random: random.Ran
         configure(place, CONFIG)
         place.finish()
         place.prune()
-    return RECOVERED

@@ -165,7 +165,7 @@ def test_runs_that_fail_do_not_take_the_others_with_them(workflow, study_name):
 
 
 def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
-    """And is, once run again, as one that nothing happened to (longer runs: tests/faults)."""
+    """And is, once run again, as one that nothing happened to."""
     slow = workflow.configured(configuration(5))
     process = slow.start("lengths", "--cores", "1")
     while not datasets(slow):
