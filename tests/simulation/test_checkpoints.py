@@ -1,6 +1,5 @@
 """Exact restart: a run that goes on from a checkpoint ends like one that never stopped."""
 
-import dataclasses
 import io
 import os
 import signal
@@ -12,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as shaped
 
-from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.perturbation import KINDS
 from nucleation.model.quantities import ParameterError
 from nucleation.simulation.checkpoints import (
     EVERY,
@@ -30,11 +29,23 @@ COARSE = Parameters(
     mesh=Mesh(n_x=60, n_y=6, grading=2.0),
     stepping=Stepping(end_time=30.0, time_after_event=0.1, tolerance=5e-2, longest_step=0.25),
 )
-SLIP = dataclasses.replace(
-    COARSE,
-    friction=Friction(evolution="slip"),
-    stepping=dataclasses.replace(COARSE.stepping, end_time=2.0),
-)
+SHORT = Parameters().replaced(
+    {"height": 0.1, "length": 1.5, "n_x": 40, "n_y": 4, "grading": 2.0, "end_time": 0.5,
+     "tolerance": 5e-2, "longest_step": 0.1}
+)  # fmt: skip
+SHAKEN = {"strength": 1e-2, "seed": 7}
+PAIR = {"second_body": "deformable", "second_shear_modulus": 5e9, "second_n_y": 5}
+RUNS = {
+    "slip law": {"evolution": "slip"},
+    **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS[1:]},
+    **{f"pair, {bottom}": {**PAIR, "bottom": bottom} for bottom in ("free", "clamped", "roller")},
+    "top": {"loading.kind": "top", **PAIR, "bottom": "clamped"},
+    "remote": {"loading.kind": "remote", "stress_rate": 2e5, "height": 0.5, "length": 3.0,
+               "n_x": 61, "n_y": 6, "varies": "normal_stress", "change": -0.1, "width": 0.3,
+               "perturbation": "drive_velocity", "strength": 1e-3},
+    "interface": {"record": "interface"},
+    "lengths": {"record": "lengths"},
+}  # fmt: skip
 
 
 def checkpoint(path, fingerprint="this run", every=0.0):
@@ -83,10 +94,11 @@ def test_restart_is_exact_wherever_the_run_stops(whole, tmp_path):
         assert_same(simulate(COARSE, start=one.load()), record)
 
 
-@pytest.mark.slow
-def test_restart_is_exact_with_the_slip_law(tmp_path):
-    record, offered = kept_at(SLIP, (150,))
-    assert_same(simulate(SLIP, start=offered[150]), record)
+@pytest.mark.parametrize("changes", RUNS.values(), ids=RUNS.keys())
+def test_restart_is_exact_whatever_is_simulated(changes):
+    record, offered = kept_at(SHORT.replaced(changes), range(20))
+    for arrays in (offered[0], offered[1], [one for one in offered if one is not None][-1]):
+        assert_same(simulate(SHORT.replaced(changes), start=arrays), record)
 
 
 @pytest.mark.slow

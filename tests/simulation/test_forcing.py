@@ -1,4 +1,4 @@
-"""Perturbed runs: each kind acts as declared, is the same on every restart, and none is none."""
+"""Perturbed runs: each kind acts as declared, and none is none."""
 
 import dataclasses
 
@@ -35,27 +35,9 @@ def quiet():
     return simulate(QUIET)
 
 
-KEPT = (0, 1, 2, 40)  # steps whose checkpoints are gone on from
-
-
-def keeping(kind):
-    """A run and its checkpoints after some steps."""
-    offered = []
-    record = simulate(
-        perturbed(kind),
-        keep=lambda arrays: offered.append(arrays() if len(offered) in KEPT else None),
-    )
-    return record, [offered[number] for number in KEPT]
-
-
 @pytest.fixture(scope="module")
-def runs():
-    return {kind: keeping(kind) for kind in ACTING}
-
-
-@pytest.fixture(scope="module")
-def records(runs):
-    return {kind: record for kind, (record, _) in runs.items()}
+def records():
+    return {kind: simulate(perturbed(kind)) for kind in ACTING}
 
 
 def test_strength_zero_is_the_quiet_run(quiet):
@@ -77,14 +59,6 @@ def test_every_kind_changes_the_run_by_about_its_strength(kind, quiet, records):
     change = np.abs(records[kind]["driving_force"].values[-1] / force - 1.0)
     assert records[kind].attrs["completed"]
     assert 1e-5 < change < 3e-2
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", ACTING)
-def test_restart_is_exact(kind, runs):
-    record, checkpoints = runs[kind]
-    for checkpoint in checkpoints:
-        assert_same(simulate(perturbed(kind), start=checkpoint), record)
 
 
 def test_the_drive_moves_as_declared(records):

@@ -1,4 +1,4 @@
-"""Runs that are loaded at the top and from afar: energy, restart, convergence, heterogeneity."""
+"""Runs that are loaded at the top and from afar: convergence, heterogeneity, what is refused."""
 
 import dataclasses
 
@@ -26,22 +26,6 @@ REMOTE = Parameters(
     mesh=Mesh(61, 6, 4.0), stepping=STEPPING, heterogeneity=SEED,
 )  # fmt: skip
 LOADED = pytest.mark.parametrize("parameters", [TOP, REMOTE], ids=["top", "remote"])
-
-
-@LOADED
-def test_a_run_that_goes_on_is_the_same_to_the_last_bit(parameters):
-    parameters = dataclasses.replace(
-        parameters, stepping=dataclasses.replace(STEPPING, end_time=0.5),
-        perturbation=Perturbation(kind="drive_velocity", strength=1e-3),
-    )  # fmt: skip
-    kept = []
-    whole = simulate(
-        parameters, keep=lambda arrays: kept.append(arrays()) if len(kept) < 20 else None
-    )
-    assert len(kept) == 20
-    again = simulate(parameters, start=kept[-1])
-    for name in whole.variables:
-        np.testing.assert_array_equal(again[name].values, whole[name].values)
 
 
 def test_a_patch_begins_where_it_is_told():

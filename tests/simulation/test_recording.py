@@ -64,14 +64,3 @@ def test_what_was_not_recorded_is_said(records):
         time_series(records["lengths"], 0.0)
     assert time_series(records["interface"], 0.0).startswith("# ")
     Record(records["lengths"]).require("slip_rate")
-
-
-@pytest.mark.parametrize("level", ["interface", "lengths"])
-def test_a_run_that_goes_on_records_the_same(level):
-    parameters = ONE.replaced({"record": level, "end_time": 0.3})
-    kept = []
-    whole = simulate(parameters, keep=lambda arrays: kept.append(arrays()) if not kept else None)
-    again = simulate(parameters, start=kept[0])
-    assert set(whole.variables) == set(again.variables)
-    for name in whole.variables:
-        np.testing.assert_array_equal(whole[name], again[name])

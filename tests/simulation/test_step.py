@@ -1,22 +1,17 @@
-"""Steps of the coupled problem against the assembled matrix and a general root finder."""
+"""Steps of the coupled problem: the start, statics, repetition and Newton's method."""
 
 import dataclasses
 
 import numpy as np
 import pytest
-from fem.assembled_problem import AssembledBlock
-from scipy.optimize import brentq, root
 
 from nucleation.fem.block import BlockOperator
-from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.composition import composed
 from nucleation.simulation.interface import NewtonFailure, Past
 from nucleation.simulation.start import at_rest
-from nucleation.stepping.bdf import Formula
-from nucleation.stepping.ladder import rung_value
 
 
 def small(law="aging", **mesh):
@@ -30,108 +25,6 @@ def small(law="aging", **mesh):
 
 # growing steps, then many of 3e-5 s (D/V is 5e-4 s) while the first nodes break loose
 LADDER = (*range(-92, -60, 4), *[-60] * 100)
-
-
-class Reference:
-    """The same time steps, every unknown in one assembled matrix, solved by MINPACK."""
-
-    def __init__(self, parameters):
-        self.p, grid = parameters, Grid.of(parameters.geometry, parameters.mesh)
-        self.block = AssembledBlock(grid, parameters.material)
-        self.load = self.block.top_load(parameters.loading.normal_stress)
-        u, _ = self.block.solve(0.0, self.load, np.zeros_like(self.load))
-        at_rest = np.zeros_like(u)
-        at_rest[self.block.x[:, 0]] = parameters.loading.velocity
-        self.u, self.v = [u], [at_rest]
-        self.psi = [np.full(grid.n_x + 1, np.log(parameters.loading.initial_state))]
-        self.time, self.steps = 0.0, []
-
-    def state(self, history, beta, v):
-        """psi by bracketing the implicit equation of the chosen law, node by node."""
-        law, out = self.p.friction, []
-        speed = np.hypot(v, law.regularisation_slip_rate)
-        for h, w in zip(history, speed, strict=True):
-
-            def residual(psi, h=h, w=w):
-                omega = np.exp(psi) * w / law.characteristic_slip_distance
-                rate = (
-                    (1 - omega) * np.exp(-psi)
-                    if law.evolution == "aging"
-                    else -w / law.characteristic_slip_distance * np.log(omega)
-                )
-                return psi - h - beta * rate
-
-            out.append(brentq(residual, h - 60, h + 60, xtol=1e-14, rtol=1e-14))
-        return np.array(out)
-
-    def step(self, beta, near):
-        """One step; the root finder starts in the neighbourhood of the slip rates `near`."""
-        f = Formula.bdf2(beta, self.steps[-1]) if self.steps else Formula.backward_euler(beta)
-        past = [f.from_past(np.array(q[:-3:-1])) for q in (self.u, self.v)]
-        history = f.from_past(np.array(self.psi[:-3:-1]))
-        self.time += f.step
-        velocity = self.p.loading.velocity
-        s = 1 / beta**2
-        load = self.load + s * self.block.mass @ (past[0] + beta * past[1])
-        bottom_x, bottom_y = self.block.x[0], self.block.y[0]
-
-        def solve(slip_rate):
-            prescribed = np.zeros_like(load)
-            prescribed[self.block.x[:, 0]] = velocity * self.time
-            prescribed[bottom_x[1:]] = past[0][bottom_x[1:]] + beta * slip_rate
-            return self.block.solve(s, load, prescribed)
-
-        def residual(z):
-            v = np.append(velocity, 1e-9 * np.sinh(z))
-            _, reaction = solve(v[1:])
-            psi = self.state(history, beta, v)
-            f_ = self.p.friction.coefficient(v, np.exp(psi))
-            return (reaction[bottom_x] + f_ * reaction[bottom_y])[1:] / (2e5 * 0.025)
-
-        guess = np.arcsinh(near[1:] / 1e-9) * 1.01
-        found = root(residual, guess, tol=1e-13)
-        assert np.abs(found.fun).max() < 1e-8, found.message
-        v = np.append(velocity, 1e-9 * np.sinh(found.x))
-        u, reaction = solve(v[1:])
-        psi = self.state(history, beta, v)
-        rate = (u - past[0]) / beta
-        # force of the driving wall: reactions of the left edge less friction at its own node
-        friction = -self.p.friction.coefficient(velocity, np.exp(psi[0])) * reaction[bottom_y[0]]
-        self.drive = -(reaction[self.block.x[:, 0]].sum() - friction)
-        for store, value in ((self.u, u), (self.v, rate), (self.psi, psi), (self.steps, f.step)):
-            store.append(value)
-        return v, psi, reaction
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("law", ["aging", "slip"])
-def test_steps_equal_the_assembled_problem(law):
-    parameters = small(law)
-    reference, dynamics = Reference(parameters), composed(parameters)
-    state, report = at_rest(dynamics, parameters.loading)
-    block = reference.block
-    for rung in LADDER:
-        state, report = dynamics.advance(state, rung)
-        v, psi, reaction = reference.step(rung_value(rung), report.interface.slip_rate)
-        assert state.time == pytest.approx(reference.time, rel=1e-13)
-        interface = report.interface
-        np.testing.assert_allclose(interface.slip_rate, v, rtol=2e-6, atol=1e-14)
-        np.testing.assert_allclose(interface.log_state, psi, rtol=1e-7, atol=1e-9)
-        np.testing.assert_allclose(interface.normal, reaction[block.y[0]], rtol=1e-7)
-        np.testing.assert_allclose(
-            interface.tangential[1:],
-            reaction[block.x[0, 1:]],
-            rtol=1e-6,
-            atol=1e-6 * np.abs(interface.tangential).max(),
-        )
-        u_x, u_y = dynamics.body.nodal_values(state.displacement)
-        scale = np.abs(reference.u[-1]).max()
-        u_x = u_x + parameters.loading.velocity * state.time
-        np.testing.assert_allclose(u_x, reference.u[-1][block.x], atol=1e-8 * scale)
-        np.testing.assert_allclose(u_y, reference.u[-1][block.y], atol=1e-8 * scale)
-        # f_d by discrete balance is the reaction of the driven edge
-        assert report.driving_force == pytest.approx(reference.drive, rel=1e-6)
-    assert np.count_nonzero(interface.slip_rate > 1e-5) >= 3  # a patch has formed
 
 
 def test_initial_force_is_that_of_uniaxial_strain():
