@@ -6,10 +6,15 @@ import numpy as np
 import pytest
 from verification.order_tables import print_orders
 
+from nucleation.fem.bodies import body_of
+from nucleation.fem.field import Motion
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.simulation.step import Dynamics
+from nucleation.stepping.scheme import BDF
+from nucleation.verification.manufactured.dynamics import ManufacturedFriction, block_field
 from nucleation.verification.manufactured.fields import Displacement, Power, Sine, Term
-from nucleation.verification.manufactured.pair import ManufacturedPair
+from nucleation.verification.manufactured.loads import Loads
 from nucleation.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, orders
 
 pytestmark = pytest.mark.slow
@@ -19,6 +24,61 @@ LIFT = {  # u_y on the interface, which both blocks share
     "exact": Term(0.5 * SCALE, Power(0.3, 0.6), Power(1.0), QUADRATIC),
     "mesh": Term(0.5 * SCALE, Sine(2.4, 0.4), Power(1.0), QUADRATIC),
 }
+
+
+class ManufacturedPair(ManufacturedFriction):
+    """The same loads on either block, friction between them; the lower one is held upside down.
+
+    The contact's forces on the upper block are those of a single one: friction and normal force of
+    its own stress, less the applied traction. The lower block is given what its own stress asks
+    for beyond the opposite of those.
+    """
+
+    def __init__(self, parameters, exact, below, log_state, lumped):
+        super().__init__(parameters, exact, log_state, lumped)
+        self.body, self.below = body_of(parameters), below
+        self.loads_below = Loads(self.body.lower.grid, below)
+        scheme = BDF(self.body.crossing_time)
+        self.dynamics = Dynamics(self.body, self.interface(), self, scheme)
+
+    def load(self, time):
+        above, below = self.loads.nodal(time), self.loads_below.nodal(time)
+        applied = self.applied_force(time)
+        above[0, 0] += applied
+        shear, normal = (-self.loads.along_x @ s for s in self.loads.interface_stress(time))
+        own = [-self.loads.along_x @ s for s in self.loads_below.interface_stress(time)]
+        below[0, 0] += own[0] + (shear - applied)
+        below[1, 0] += own[1] - normal
+        return self.body.joined(self.loads.field(above), self.loads_below.field(below))
+
+    def nodal_exact_below(self, time, **orders):
+        grid = self.body.lower.grid
+        x, y = grid.x[None], grid.y[:, None]
+        return np.array([self.below.value(c, x, y, time, **orders) for c in (0, 1)])
+
+    def exact_w(self, time):
+        x = self.grid.x[1:]
+        return super().exact_w(time) - self.below.value(0, x, np.zeros_like(x), time)
+
+    def exact_slip_rate(self, x, time, by_t=0):
+        own = self.below.value(0, x, np.zeros_like(x), time, by_t=1 + by_t)
+        return super().exact_slip_rate(x, time, by_t) - own
+
+    def exact_motion(self, time):
+        u, rate = (
+            self.body.joined(
+                block_field(self.body.upper, self.nodal_exact(time, by_t=order)),
+                block_field(self.body.lower, self.nodal_exact_below(time, by_t=order)),
+            )
+            for order in (0, 1)
+        )
+        return Motion(u, rate, self.body.momentum_x(rate))
+
+    def displacement_error_below(self, state):
+        x, y = self.body.nodal_values_below(state.displacement)
+        return self.loads_below.mean_over_area(
+            np.array([x, -y]) - self.nodal_exact_below(state.time)
+        )
 
 
 def problem(name, law, rows):
