@@ -13,8 +13,7 @@ from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.step import Dynamics
 from nucleation.stepping.scheme import BDF
 from nucleation.verification.manufactured.dynamics import ManufacturedFriction, block_field
-from nucleation.verification.manufactured.fields import Displacement, Power, Sine, Term
-from nucleation.verification.manufactured.loads import Loads
+from nucleation.verification.manufactured.fields import Displacement, Loads, Power, Sine, Term
 from nucleation.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, orders
 
 pytestmark = pytest.mark.slow

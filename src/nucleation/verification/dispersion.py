@@ -88,19 +88,10 @@ def one_wavelength(
 
 
 def follow_mode(parameters: Parameters, seed: float = SEED) -> tuple[float, ComplexArray]:
-    """Integrate homogeneous sliding with the period's first mode seeded.
+    """Integrate homogeneous sliding of one period with its first mode seeded in log(phi).
 
-    Parameters
-    ----------
-    parameters : of one period (:func:`one_wavelength`).
-    seed : amplitude of the perturbation of log(phi), dimensionless.
-
-    Returns
-    -------
-    interval : float
-        Time between samples (s).
-    amplitude : ndarray
-        Complex amplitude of ``exp(-i k x)`` in log(v), shape (samples,).
+    Returns the time between samples (s) and the samples of the complex amplitude of
+    ``exp(-i k x)`` in log(v).
     """
     dynamics = sliding_period(parameters, Interface(parameters.friction, NEWTON_TOLERANCE))
     n = parameters.mesh.n_x
@@ -153,19 +144,15 @@ def dispersion_dataset(
 ) -> xr.Dataset:
     """Growth rates and frequencies of Eq. (5) and of the time integration.
 
+    :data:`MODES_OF_SLIDING` on (height, mode, branch), the theory's curves on (height, curve,
+    branch). The branch of the larger frequency, which travels along +x (the direction of sliding),
+    comes first.
+
     Parameters
     ----------
     parameters : material, friction and loading of the block.
     heights : block heights (m), shape (height,).
     modes : wavenumbers over the critical one of each height, shape (mode,).
-
-    Returns
-    -------
-    Dataset with ``measured_growth``, ``measured_frequency``, ``theory_growth`` and
-    ``theory_frequency`` (1/s) on (height, mode, branch), the theory's curves ``curve_growth`` and
-    ``curve_frequency`` on (height, curve, branch), and the wavenumbers ``mode_wavenumber`` and
-    ``curve_wavenumber`` (1/m). The branch of the larger frequency, which travels along +x (the
-    direction of sliding), comes first.
     """
     heights = np.asarray(heights, dtype=float)
     interface = interface_state(parameters)

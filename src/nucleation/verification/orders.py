@@ -180,10 +180,7 @@ def orders(errors: ArrayLike) -> Array:
 def convergence_dataset() -> xr.Dataset:
     """Errors of all problems on all meshes and with all steps.
 
-    Returns
-    -------
-    Dataset with :data:`ERRORS` (dimensionless) on (problem, refinement, level), and the spacings
-    of the levels: ``element_size`` (m, along x), ``step_size`` and ``quasi_static_step_size`` (s).
+    :data:`ERRORS` on (problem, refinement, level), and :data:`SPACINGS` of the levels.
     Elastodynamics has the error of the displacement alone, and none in the quasi-static limit.
     """
     found = np.full((len(PROBLEMS), len(REFINEMENTS), len(ROWS), len(ERRORS)), np.nan)
@@ -194,8 +191,7 @@ def convergence_dataset() -> xr.Dataset:
             if problem != "elastodynamics" or name == "step":
                 found[i, j, :, :known] = step_errors(problem, name)[:, :known]
     on = ("problem", "refinement", "level")
-    sizes = [GEOMETRY.length / (2.0 * np.array(ROWS))]
-    sizes += [step_sizes(name) for name in REFINEMENTS[1:]]
+    sizes = [GEOMETRY.length / (2.0 * np.array(ROWS)), *map(step_sizes, REFINEMENTS[1:])]
     dataset = xr.Dataset(
         {
             **{name: (on, found[..., i]) for i, name in enumerate(ERRORS)},

@@ -28,13 +28,11 @@ from ..theory.transfer import bodies_of
 from ..types import Array
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement, measured_rates
 
-RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)
-"""k over the critical one."""
-
-DEEP = 1.2
-"""Heights of layers that are half-spaces to a mode, in its wavelengths: to less than 1e-4."""
-
+RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # k over the critical one
+DEEP = 1.2  # heights of layers that are half-spaces to a mode, in its wavelengths: to 1e-4
 ENDLESS = 1e3  # m
+SOFT, STIFF = 3.1e9, 9.3e9  # Pa
+SECOND_DENSITY = 2400.0  # kg/m^3
 
 
 class Layers(NamedTuple):
@@ -65,9 +63,6 @@ class Layers(NamedTuple):
             }
         )
 
-
-SOFT, STIFF = 3.1e9, 9.3e9  # Pa
-SECOND_DENSITY = 2400.0  # kg/m^3
 
 HELD = tuple(
     Layers(f"{stiff} {bottom}", *moduli, bottom=bottom, height=height)
@@ -147,19 +142,9 @@ def pair_modes(
 ) -> xr.Dataset:  # fmt: skip
     """Rates of modes between two layers, measured and of Eq. (5).
 
-    Parameters
-    ----------
-    base : friction, density and loading.
-    pairs : the layers.
-    ratios : wavenumbers over the critical one of each pair.
-
-    Returns
-    -------
-    Dataset
-        On ``run``: the two bodies, friction at V, ``f_beta``, ``mode_wavenumber`` and
-        ``critical_wavenumber`` (1/m); on (run, branch) ``measured_growth``,
-        ``measured_frequency``, ``theory_growth`` and ``theory_frequency`` (1/s). The branch of
-        the larger frequency, which travels along +x, comes first.
+    `base` has friction, density and loading, `ratios` are wavenumbers over the critical one of each
+    pair. The dataset has the two bodies and friction at V on ``run``, the rates (1/s) on (run,
+    branch); the branch of the larger frequency, which travels along +x, comes first.
     """
     rows = [mode_row(layers, base, ratio) for layers in pairs for ratio in ratios]
     found: dict[str, Any] = {}

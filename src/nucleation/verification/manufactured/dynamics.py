@@ -32,8 +32,7 @@ from ...simulation.state import State
 from ...simulation.step import Dynamics, StepReport
 from ...stepping.scheme import BDF
 from ...types import Array
-from .fields import Displacement, Term
-from .loads import Loads
+from .fields import Displacement, Loads, Term
 
 NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: below every error measured
 
@@ -124,14 +123,11 @@ class Manufactured(Drive):
     def exact_state(self, step: float) -> State:
         """The state at t = 0 with exact values at 0, -step and -2 step (s)."""
         times = np.array([0.0, -step, -2 * step])
-        rates = [self.exact_slip_rate(self.grid.x, t) for t in times]
-        motions = [self.exact_motion(t) for t in times[:2]]
-        states = [self.exact_log_state(self.grid.x, t) for t in times]
-        w = [self.exact_w(t) for t in times]
-        return State(
-            tuple(motions), times, np.array(rates), np.array(states), np.array(w),
-            self.body.no_memory,
-        )  # fmt: skip
+        rates = np.array([self.exact_slip_rate(self.grid.x, t) for t in times])
+        states = np.array([self.exact_log_state(self.grid.x, t) for t in times])
+        w = np.array([self.exact_w(t) for t in times])
+        motions = tuple(self.exact_motion(t) for t in times[:2])
+        return State(motions, times, rates, states, w, self.body.no_memory)
 
     # -- errors ---------------------------------------------------------------------------------
 
