@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.specimen import specimen_fit
+    from .theory.uncertainty import length_quantiles
 
 __all__ = [
     "CriticalMode",
@@ -79,6 +80,7 @@ __all__ = [
     "extract",
     "film",
     "laboratory_faults",
+    "length_quantiles",
     "lengths_in_use",
     "plot_length",
     "plot_run",
@@ -107,10 +109,11 @@ _LATER = {
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
     ".theory.specimen": ("specimen_fit",),
+    ".theory.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
-_LIGHT = {"stability_length", "specimen_fit", "laboratory_faults"}
+_LIGHT = {"stability_length", "specimen_fit", "laboratory_faults", "length_quantiles"}
 """Those that need no extra."""
 
 

@@ -191,15 +191,18 @@ ALIASES = {
 """What simulations, studies and their tables call parameters of a fault."""
 
 
+def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
+    """Keywords, some of which may be :data:`ALIASES`, by the names of :class:`Fault`."""
+    for alias, name in ALIASES.items():
+        if alias in parameters and name in parameters:
+            raise ParameterError(f"{alias} is not allowed beside {name}, which is the same")
+    return {ALIASES.get(k, k): value for k, value in parameters.items()}
+
+
 def fault_of(parameters: dict[str, Any]) -> Fault:
     """The fault of keywords, some of which may be :data:`ALIASES`."""
-    for alias, name in ALIASES.items():
-        if alias in parameters:
-            if name in parameters:
-                raise ParameterError(f"{alias} is not allowed beside {name}, which is the same")
-            parameters = {ALIASES.get(k, k): value for k, value in parameters.items()}
     try:
-        return Fault(**parameters)
+        return Fault(**without_aliases(parameters))
     except TypeError as error:  # a keyword that is missing or unknown
         raise ParameterError(str(error).replace("Fault.__init__()", "the fault")) from None
 

@@ -299,11 +299,16 @@ def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
         raise ParameterError(refusal(name, value, entry))
     array = array.astype(float)
     flat = np.asarray(array).ravel()
-    low = flat >= entry.low if entry.closed in ("low", "both") else flat > entry.low
-    high = flat <= entry.high if entry.closed in ("high", "both") else flat < entry.high
-    bad = np.flatnonzero(~(low & high))
+    bad = np.flatnonzero(~inside(flat, entry))
     if bad.size:
         at = ", ".join(map(str, np.unravel_index(bad[0], array.shape)))
         raise ParameterError(refusal(f"{name}[{at}]" if at else name, float(flat[bad[0]]), entry))
     warn_of_implausible(name, flat, entry)
     return array
+
+
+def inside(values: Array, entry: Quantity) -> NDArray:
+    """Whether each value lies in the declared range."""
+    low = values >= entry.low if entry.closed in ("low", "both") else values > entry.low
+    high = values <= entry.high if entry.closed in ("high", "both") else values < entry.high
+    return low & high

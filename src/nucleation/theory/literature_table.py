@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
@@ -273,7 +273,9 @@ def lengths_of(fault: Fault, weakening_rate: Values | None = None) -> xr.Dataset
     )
 
 
-def values_of(fault: Fault, weakening_rate: Values | None = None) -> dict[str, Any]:
+def values_of(
+    fault: Fault, weakening_rate: Values | None = None, lengths: Iterable[Length] = LENGTHS
+) -> dict[str, Any]:
     """The lengths (m) by key, as arrays or DataArrays."""
     if weakening_rate is None:
         weakening_rate = fault.b * fault.normal_stress / fault.slip_distance
@@ -281,4 +283,4 @@ def values_of(fault: Fault, weakening_rate: Values | None = None) -> dict[str, A
         weakening_rate = where(small, weakening_rate, np.nan)
     else:
         weakening_rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
-    return {length.key: length.evaluate(fault, weakening_rate) for length in LENGTHS}
+    return {length.key: length.evaluate(fault, weakening_rate) for length in lengths}
