@@ -151,7 +151,7 @@ def test_texts_have_units_as_on_the_command_line():
 def test_parameters_are_shown_for_completion():
     """By name, with what may be left out; a law shows its own."""
     for name in ("critical_length", "spectrum", "stability_length", "specimen_fit",
-                 "lengths_in_use", "plot_length"):  # fmt: skip
+                 "lengths_in_use", "length_quantiles", "plot_length"):  # fmt: skip
         shown = inspect.signature(getattr(api, name)).parameters
         assert set(inspect.signature(api.Fault).parameters) <= shown.keys()
         assert shown["height"].default == math.inf and "fault" not in shown

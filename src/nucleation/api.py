@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from .analysis.extraction import extract
     from .analysis.laboratory import laboratory_faults
     from .analysis.watched import simulate
+    from .configuration.samples import read_samples
     from .datasets.netcdf import read, write
     from .figures.overview import film, plot_length, plot_run, plot_spectrum
     from .patch.expected_drop import NoDrop, expected_drop
@@ -86,6 +87,7 @@ __all__ = [
     "plot_run",
     "plot_spectrum",
     "read",
+    "read_samples",
     "run",
     "simulate",
     "specimen_fit",
@@ -103,6 +105,7 @@ _LATER = {
     ".analysis.extraction": ("extract",),
     ".analysis.laboratory": ("laboratory_faults",),
     ".analysis.watched": ("simulate",),
+    ".configuration.samples": ("read_samples",),
     ".datasets.netcdf": ("read", "write"),
     ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
     ".patch.expected_drop": ("NoDrop", "expected_drop"),
@@ -113,7 +116,9 @@ _LATER = {
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
-_LIGHT = {"stability_length", "specimen_fit", "laboratory_faults", "length_quantiles"}
+_LIGHT = {
+    "length_quantiles", "laboratory_faults", "read_samples", "specimen_fit", "stability_length",
+}  # fmt: skip
 """Those that need no extra."""
 
 

@@ -130,13 +130,13 @@ def magnitude(key: str, value: Any, entry: Quantity) -> Any:
     if isinstance(value, str):
         return parse(key, value, entry)
     if is_quantity(value):
-        return _rescaled(key, value.magnitude, f"{value.units:D}", entry)
+        return rescaled(key, value.magnitude, f"{value.units:D}", entry)
     attributes = getattr(value, "attrs", None)
     if isinstance(attributes, dict):
         if is_quantity(getattr(value, "data", None)):
             return value.copy(data=magnitude(key, value.data, entry))
         if "units" in attributes:
-            return _rescaled(key, value, attributes["units"], entry)
+            return rescaled(key, value, attributes["units"], entry)
     if _carries_unit(value):
         raise ParameterError(
             f"{key}: quantities of {type(value).__module__.partition('.')[0]} are not known here; "
@@ -155,7 +155,7 @@ def _carries_unit(value: Any) -> bool:
     return isinstance(value, str) or is_quantity(value) or other
 
 
-def _rescaled(key: str, values: Any, unit: Any, entry: Quantity) -> Any:
+def rescaled(key: str, values: Any, unit: Any, entry: Quantity) -> Any:
     """The values (of a unit) in the declared unit."""
     try:
         if not isinstance(unit, str):

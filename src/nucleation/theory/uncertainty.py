@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy.special import ndtri
@@ -23,7 +22,9 @@ if TYPE_CHECKING:
 
 QUANTILES = (0.05, 0.16, 0.5, 0.84, 0.95)
 DRAWS = Quantity("number of draws", low=20, high=1e6, closed="both", kind="int")
-_DECLARED = QUANTITIES | {"weakening_rate": WEAKENING_RATE}
+SEED = Quantity("seed", low=0, high=2**32, closed="both", kind="int")
+SAMPLED = {k: x for k, x in QUANTITIES.items() if not x.worded} | {"weakening_rate": WEAKENING_RATE}
+"""Declarations of the parameters that may be uncertain."""
 _RANGE = re.compile(r"(.+)\((.+?)\s+to\s+(.+)\)\s*")
 _TITLES = {"critical_length": "critical length L_c", "stability_length": "stability length L_s"}
 
@@ -33,9 +34,9 @@ class Range(float):
 
     Notes
     -----
-    A fluctuation is log-normal where range and declaration are positive, and normal otherwise; each
-    side of the median has its own width. This is the smoothest choice that has the three numbers
-    as its quantiles and never makes a stress or a distance negative.
+    Log-normal where the ends and all allowed values are positive, so that no stress or distance is
+    drawn negative; normal otherwise, as for zeta. Each side of the median has its own width, so
+    that the three numbers are quantiles as given.
     """
 
     low: float
@@ -67,7 +68,7 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     ParameterError
         If one of the numbers is not allowed, infinite or in the wrong place.
     """
-    parts = None if entry.worded else _RANGE.fullmatch(text)
+    parts = _RANGE.fullmatch(text)
     if parts is None:
         return parse(key, text, entry)
     first = NUMBER.fullmatch(parts[1])
@@ -85,23 +86,12 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     return Range(value, low, high)
 
 
-@dataclasses.dataclass(frozen=True)
-class Draws:
-    """Faults drawn from ranges and samples.
+class Draws(NamedTuple):
+    """Faults drawn from ranges and samples."""
 
-    Attributes
-    ----------
-    values : mapping
-        Parameters in SI units: arrays of shape (n,) of those drawn, numbers and words.
-    invalid : mapping
-        How many draws were left out, by the parameter that was outside its allowed range.
-    total : int
-        Number of draws, those left out among them.
-    """
-
-    values: Mapping[str, Any]
-    invalid: Mapping[str, int]
-    total: int
+    values: dict[str, Any]  # SI units; arrays of shape (n,) of what was drawn, numbers and words
+    invalid: dict[str, int]  # draws left out, by the parameter outside its allowed range
+    total: int  # number of draws, those left out among them
 
 
 def draw(parameters: Mapping[str, Any], draws: int = 1000, seed: int = 0) -> Draws:
@@ -126,20 +116,21 @@ def draw(parameters: Mapping[str, Any], draws: int = 1000, seed: int = 0) -> Dra
         If nothing is uncertain, samples differ in number, or no draw is a valid fault.
     """
     check("draws", draws, DRAWS)
+    check("seed", seed, SEED)
     fixed, ranges, samples = _sorted(parameters)
-    sizes = {name: len(sample) for name, sample in samples.items()}
-    if not (ranges or sizes):
+    sizes = {len(sample) for sample in samples.values()}
+    if not (ranges or samples):
         raise ParameterError("no parameter has a range, VALUE (LOW to HIGH), or samples")
-    if len(set(sizes.values())) > 1 or 0 in sizes.values():
-        told = ", ".join(f"{name} {size}" for name, size in sizes.items())
+    if len(sizes) > 1 or 0 in sizes:
+        told = ", ".join(f"{name} {len(sample)}" for name, sample in samples.items())
         raise ParameterError(f"samples must be equal in number, and one at least: {told}")
-    size = next(iter(sizes.values()), draws)
+    size = max(sizes, default=draws)
     rows = np.linspace(0, size - 1, min(size, draws)).round().astype(int)
     drawn = {name: sample[rows] for name, sample in samples.items()}
     for name, own in ranges.items():
-        order = np.random.default_rng([seed, list(_DECLARED).index(name)]).permutation(rows.size)
-        drawn[name] = own.quantiles((order + 0.5) / rows.size, _DECLARED[name])
-    allowed = {name: inside(values, _DECLARED[name]) for name, values in drawn.items()}
+        order = np.random.default_rng([seed, list(SAMPLED).index(name)]).permutation(rows.size)
+        drawn[name] = own.quantiles((order + 0.5) / rows.size, SAMPLED[name])
+    allowed = {name: inside(values, SAMPLED[name]) for name, values in drawn.items()}
     valid = np.logical_and.reduce(list(allowed.values()))
     invalid = {name: int(np.sum(~own)) for name, own in allowed.items() if not own.all()}
     if not valid.any():
@@ -156,20 +147,18 @@ def _sorted(
     ranges: dict[str, Range] = {}
     samples: dict[str, Array] = {}
     for name, value in parameters.items():
-        entry = _DECLARED.get(name)
-        if entry is None or entry.worded:  # Fault refuses unknown names
-            fixed[name] = value
-        elif value is not None:
-            own = parse_range(name, value, entry) if isinstance(value, str) else value
-            own = own if isinstance(own, Range) else np.asarray(magnitude(name, own, entry))
-            if isinstance(own, Range):
-                ranges[name] = own
-            elif own.ndim == 0:
-                fixed[name] = checked(name, own, entry)
-            elif own.ndim == 1 and own.dtype.kind in "iuf":
-                samples[name] = own.astype(float)
-            else:
-                raise ParameterError(f"{name}: samples must be numbers in a row, not {own.shape}")
+        entry = SAMPLED.get(name)
+        own = parse_range(name, value, entry) if entry and isinstance(value, str) else value
+        if entry is None or own is None:  # a word; Fault refuses unknown names
+            fixed[name] = own
+        elif isinstance(own, Range):
+            ranges[name] = own
+        elif np.ndim(own := np.asarray(magnitude(name, own, entry))) == 0:
+            fixed[name] = checked(name, own, entry)
+        elif own.ndim == 1 and own.dtype.kind in "iuf":
+            samples[name] = own.astype(float)
+        else:
+            raise ParameterError(f"{name}: samples must be numbers in a row, not {own.shape}")
     return fixed, ranges, samples
 
 
@@ -196,11 +185,10 @@ def length_quantiles(
     Returns
     -------
     Dataset
-        ``value(key, quantile)`` (m), of the draws that have the length, and ``share(key)``, how
-        many of the valid ones do. Keys are ``critical_length`` (L_c), ``stability_length`` (L_s)
-        and those of :data:`~nucleation.theory.literature_table.LENGTHS`. Attributes: ``draws``;
-        ``invalid``, left out as no valid faults, and which parameters were ``outside``;
-        ``stable``, without L_c.
+        ``value(key, quantile)`` (m) of the draws that have the length, and their ``share(key)``
+        of all valid ones. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
+        :data:`~nucleation.theory.literature_table.LENGTHS`. Attributes: ``draws``; ``invalid``,
+        no valid faults, with parameters that were ``outside``; ``stable``, without L_c.
 
     Raises
     ------
@@ -222,8 +210,10 @@ def length_quantiles(
     size = next(np.size(x) for x in drawn.values.values() if np.ndim(x))
     arrays = np.array([np.broadcast_to(x, (size,)) for x in lengths.values()])
     there = np.isfinite(arrays)
-    found = [
-        np.quantile(x[own], QUANTILES) if own.any() else np.full(len(QUANTILES), np.nan)
+    found = [  # by Hazen's rule, which is exact for the draws of a single range
+        np.quantile(x[own], QUANTILES, method="hazen")
+        if own.any()
+        else np.full(len(QUANTILES), np.nan)
         for x, own in zip(arrays, there, strict=True)
     ]
     titles = _TITLES | {length.key: length.title for length in others}

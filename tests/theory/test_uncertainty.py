@@ -1,0 +1,152 @@
+"""Quantiles of lengths against closed forms; what is drawn, counted and refused."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.stats import norm
+
+from nucleation.api import (
+    critical_length,
+    length_quantiles,
+    lengths_in_use,
+    read_samples,
+    stability_length,
+)
+from nucleation.model.quantities import ParameterError
+from nucleation.theory.uncertainty import QUANTILES, draw
+
+FAULT = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
+FRICTION = {"a": 0.010, "zeta": 0.005}
+KNOWN = FAULT | FRICTION
+MEDIAN = math.pi * 40e9 * 5e-6 / (0.005 * 50e6)  # L_c (m) at D = 5 um, Eq. (6)
+
+
+def of(found, key):
+    return found["value"].sel(key=key).values
+
+
+@pytest.mark.slow
+def test_a_distance_of_a_range():
+    """L_c is proportional to D: the range's own quantiles, with unequal sides."""
+    found = length_quantiles(**KNOWN, slip_distance="5um (4 to 10um)", draws=151)
+    below, above = math.log(5 / 4) / norm.ppf(0.95), math.log(10 / 5) / norm.ppf(0.95)
+    expected = [MEDIAN * math.exp((below if q < 0.5 else above) * norm.ppf(q)) for q in QUANTILES]
+    assert_allclose(of(found, "critical_length"), expected, rtol=1e-3)
+    assert_allclose(of(found, "rice_ruina"), np.array(expected) / 4, rtol=1e-3)
+    assert (found.sizes["quantile"], found.attrs["invalid"], found.attrs["stable"]) == (5, 0, 0)
+    ratio = float(stability_length(**KNOWN, slip_distance=5e-6)) / MEDIAN
+    assert_allclose(of(found, "stability_length"), np.array(expected) * ratio, rtol=1e-3)
+
+
+def test_two_ranges_are_independent():
+    """The logarithms' variances add up."""
+    uncertain = {"slip_distance": "5um (4 to 6.25)", "normal_stress": "50MPa (32 to 78.125)"}
+    lengths = critical_length(**draw(KNOWN | uncertain, draws=4000).values)
+    width = math.hypot(math.log(1.25), math.log(1.5625)) / norm.ppf(0.95)
+    expected = MEDIAN * np.exp(width * norm.ppf(QUANTILES))
+    assert_allclose(np.quantile(lengths, QUANTILES), expected, rtol=0.03)
+
+
+@pytest.mark.slow
+def test_a_signed_parameter_is_normal_and_may_be_stable():
+    """A share of the draws has no L_c; the lengths' quantiles are those of the rest."""
+    uncertain = {"zeta": "0.005 (-0.001 to 0.011)", "slip_distance": 5e-6}
+    found = length_quantiles(**FAULT, a=0.01, **uncertain, draws=100)
+    negative = norm.cdf(-0.005 / (0.006 / norm.ppf(0.95)))
+    share = float(found["share"].sel(key="critical_length"))
+    assert share == pytest.approx(1 - negative, abs=0.006)
+    assert found.attrs["stable"] == round(100 * (1 - share))
+    middle = norm.ppf(negative + 0.5 * (1 - negative)) * 0.006 / norm.ppf(0.95) + 0.005
+    assert of(found, "critical_length")[2] == pytest.approx(MEDIAN * 0.005 / middle, rel=0.02)
+
+
+def test_samples_are_joint():
+    """Of each row its own length; an infinite height is a half-space."""
+    rows = {
+        "friction": [0.6, 0.5, 0.7],
+        "normal_stress": [4e7, 5e7, 6e7],
+        "height": [0.1, np.inf, 10.0],
+    }
+    own = FAULT | {"a": 0.01, "zeta": [0.005, 0.004, 0.003], "slip_distance": 5e-6}
+    found = length_quantiles(**own | {k: np.array(v) for k, v in rows.items()})
+    each = lengths_in_use(**own | rows)
+    for key, other in (("stability_length", "creeping_patch"), ("loaded_patch", "loaded_patch")):
+        expected = np.quantile(each[other], QUANTILES, method="hazen")
+        assert_allclose(of(found, key), expected, rtol=1e-12)
+
+
+def test_many_samples_are_thinned_evenly():
+    drawn = draw(KNOWN | {"slip_distance": np.linspace(1e-6, 2e-6, 1001)}, draws=101)
+    assert_allclose(drawn.values["slip_distance"], np.linspace(1e-6, 2e-6, 101))
+
+
+def test_draws_repeat_and_do_not_depend_on_other_ranges():
+    one = KNOWN | {"slip_distance": "5um (4 to 10)"}
+    first, again, other = draw(one), draw(one), draw(one, seed=1)
+    more = draw(
+        {"poisson_ratio": "0.25 (0.2 to 0.3)"} | one | {"poisson_ratio": "0.2 (0.1 to 0.3)"}
+    )
+    for drawn in (again, more):
+        assert np.array_equal(first.values["slip_distance"], drawn.values["slip_distance"])
+    assert not np.array_equal(first.values["slip_distance"], other.values["slip_distance"])
+
+
+def test_invalid_draws_are_left_out_and_counted():
+    uncertain = KNOWN | {"poisson_ratio": "0.45 (0.4 to 0.5)", "slip_distance": 5e-6}
+    with pytest.raises(ParameterError, match=r"0.5.*must lie in"):
+        length_quantiles(**uncertain)
+    found = length_quantiles(**uncertain | {"poisson_ratio": "0.45 (0.35 to 0.499)"}, draws=40)
+    beyond = 1 - norm.cdf(0.05 / 0.049 * norm.ppf(0.95))
+    assert found.attrs["invalid"] == pytest.approx(40 * beyond, abs=1)
+    assert found.attrs["outside"] == "poisson_ratio"
+    with pytest.raises(ParameterError, match=r"no draw is a valid fault.*slip_distance"):
+        draw(KNOWN | {"slip_distance": [-1.0, np.nan]})
+
+
+@pytest.mark.parametrize(
+    "changed, message",
+    [
+        ({"slip_distance": "5um (6 to 10)"}, "VALUE .LOW to HIGH.*5 and 95 %"),
+        ({"slip_distance": "5um (4MPa to 10)"}, "4MPa.*stress.*m is needed"),
+        ({"slip_distance": "5um (-4 to 10)"}, r"-4e-06 m .*must lie in \(0"),
+        ({"height": "5cm (1 to inf)"}, "finite"),
+        ({"slip_distance": 5e-6}, "no parameter has a range"),
+        ({"slip_distance": [5e-6, 6e-6], "a": [0.01] * 3}, "equal in number.*slip_distance 2"),
+        ({"slip_distance": [[5e-6]]}, "numbers in a row"),
+        ({"slip_distance": "5um (4 to 10)", "lenght": 1}, "lenght"),
+    ],
+)
+def test_what_is_wrong_is_named(changed, message):
+    with pytest.raises(ParameterError, match=message):
+        length_quantiles(**KNOWN | changed)
+
+
+def test_a_file_of_samples(tmp_path):
+    path = tmp_path / "posterior.csv"
+    path.write_text("slip_distance (um), f ,normal_stress [MPa],a\n5,0.6,50,0.01\n\n4,.5,40,1e-2\n")
+    found = read_samples(path)
+    assert found["slip_distance"].tolist() == [5e-6, 4e-6]
+    assert found["normal_stress"].tolist() == [5e7, 4e7]
+    assert found["friction"].tolist() == [0.6, 0.5] and found["a"].tolist() == [0.01, 0.01]
+
+
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("", "is empty"),
+        ("a,b\n", "no row of samples"),
+        ("slip_distnce (um)\n5\n", "column 'slip_distnce .um.' is unknown.*mean slip_distance"),
+        ("slip_distance (MPa)\n5\n", "column 'slip_distance .MPa.'.*stress, but m is needed"),
+        ("slip_distance (um),a\n5,.01\n\n6,\n", "row 4, column 'a': the cell is empty"),
+        ("slip_distance (um)\n5 um\n", "row 2, column 'slip_distance .um.': '5 um' is no number"),
+        ("a,b\n1,2,3\n", "row 2: 3 cells, but the header has 2"),
+        ("f,friction\n1,2\n", "friction is there twice"),
+    ],
+)
+def test_a_file_that_is_wrong(tmp_path, text, message):
+    path = tmp_path / "posterior.csv"
+    path.write_text(text)
+    with pytest.raises(ParameterError, match=message):
+        read_samples(path)
