@@ -20,7 +20,7 @@ _HEADER = re.compile(r"\s*(\w+)\s*(?:\((.*)\)|\[(.*)\])?\s*")
 
 
 def read_samples(path: Path | str) -> dict[str, Array]:
-    """Joint samples of parameters, a row each, for :func:`~nucleation.theory.uncertainty.length_quantiles`.
+    """Joint samples of parameters, a row each, for ``length_quantiles``.
 
     Parameters
     ----------
