@@ -14,69 +14,52 @@ COMPILED = ("numba", "nucleation.simulation.step", "nucleation.simulation.run")
 SOLVER = (*COMPILED, "nucleation.fem")
 HEAVY = ("xarray", "netCDF4", "matplotlib", "pint")  # a second in all, on a good day
 
-LOADED = """
-import sys
-{code}
-print(*sorted(set({names!r}) & set(sys.modules)))
-"""
-
 CONFIGURATION = """
 from nucleation.configuration import advice, load, schema
-settings = load.load("config/config.yaml")
+settings = load.load("{root}/config/config.yaml")
 schema.text()
 advice.advise(settings.runs)
 """
+COMMAND = """
+from nucleation.commands import run
+code = run("{words}".split())
+assert code in (0, None), code
+"""
+PLAN = """
+from snakemake.cli import main
+try:
+    main("paper --snakefile {root}/Snakefile --dry-run --quiet all".split())
+except SystemExit as end:
+    assert not end.code
+"""
+DRY_RUN = "simulate run.nc --height=0.1 --friction-law=dieterich_ruina --dry-run"
+NEEDED_LATER = {
+    "configuration": (CONFIGURATION.format(root=ROOT), (*SOLVER, *HEAVY)),
+    "help": (COMMAND.format(words="--help"), (*SOLVER, *HEAVY)),
+    "help of simulate": (COMMAND.format(words="simulate --help"), (*SOLVER, *HEAVY)),
+    "help of length": (COMMAND.format(words="length --help"), SOLVER),  # it knows named dimensions
+    "dry run": (COMMAND.format(words=DRY_RUN), (*SOLVER, *HEAVY)),
+    "plan": (PLAN.format(root=ROOT), COMPILED),
+    "reading and drawing": (
+        "import nucleation.analysis.lengths, nucleation.figures.paper.figure_3", COMPILED,
+    ),
+}  # fmt: skip
+"""Codes, and modules that they need not load."""
 
 
-def loaded(code, names, directory=ROOT):
+def loaded(code, names, directory):
     """Which of some modules a fresh Python has loaded after some code."""
+    code += f"\nimport sys\nprint(*sorted({{*{names!r}}} & {{*sys.modules}}))"
     done = subprocess.run(
-        [sys.executable, "-c", LOADED.format(code=code, names=names)], cwd=directory, text=True,
-        capture_output=True, check=True,
+        [sys.executable, "-c", code], cwd=directory, text=True, capture_output=True, check=True,
         env={"PYTHONPATH": str(ROOT / "src"), "PATH": "/usr/bin:/bin", "HOME": str(directory)},
     )  # fmt: skip
     return done.stdout.splitlines()[-1].split()
 
 
-def command(*words):
-    return f"""
-from nucleation.commands import run
-code = run({list(words)!r})
-assert code in (0, None), code
-"""
-
-
-def test_the_configuration_loads_no_solver():
-    assert loaded(CONFIGURATION, (*SOLVER, *HEAVY)) == []
-
-
-@pytest.mark.parametrize("words", [["--help"], ["simulate", "--help"], ["length", "--help"]])
-def test_help_loads_no_solver(words, tmp_path):
-    heavy = HEAVY if words != ["length", "--help"] else ()  # arrays over named dimensions
-    assert loaded(command(*words), (*SOLVER, *heavy), tmp_path) == []
-
-
-def test_a_dry_run_loads_no_solver(tmp_path):
-    words = ["simulate", "run.nc", "--height=0.1", "--friction-law=dieterich_ruina", "--dry-run"]
-    assert loaded(command(*words), (*SOLVER, *HEAVY), tmp_path) == []
-
-
-def test_planning_the_workflow_loads_no_solver(tmp_path):
-    words = ["paper", "--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path),
-             "--dry-run", "--quiet", "all"]  # fmt: skip
-    code = f"""
-from snakemake.cli import main
-try:
-    main({words!r})
-except SystemExit as end:
-    assert not end.code
-"""
-    assert loaded(code, COMPILED, tmp_path) == []
-
-
-def test_what_reads_and_draws_records_loads_no_solver(tmp_path):
-    code = "import nucleation.analysis.lengths, nucleation.figures.paper.figure_3"
-    assert loaded(code, COMPILED, tmp_path) == []
+@pytest.mark.parametrize(("code", "names"), NEEDED_LATER.values(), ids=NEEDED_LATER)
+def test_what_is_not_needed_is_not_loaded(code, names, tmp_path):
+    assert loaded(code, names, tmp_path) == []
 
 
 def test_a_simulation_does(tmp_path):

@@ -175,11 +175,3 @@ def test_every_sample_has_a_language(page):
     known = {"python", "sh", "console", "yaml", "text", "diff", "snakemake"}
     known |= {"{toctree}", "{eval-rst}", "{include}"}
     assert {(sample.language.split() or [""])[0] for sample in samples(page)} <= known
-
-
-def test_every_command_is_found():
-    """The reader of samples itself: a count by other means."""
-    text = (ROOT / "README.md").read_text()
-    assert len(re.findall(r"^(?:make|\.venv/bin/snakemake) ", text, re.M)) == len(
-        [c for _, c in commands(samples(ROOT / "README.md"))]
-    )

@@ -122,43 +122,24 @@ def test_line_through_the_crossing():
 
 
 def test_table_compares_with_the_reference_study():
-    def run(study, height):
-        values = dataclasses.replace(PARAMETERS, geometry=Geometry(height, 1.8)).to_dict()
-        return {
-            "id": study,
-            "study": "mine",
-            "role": study,
-            "parameters": values,
-            "theory_length": 0.4,
-        }
-
-    runs = [run("paper", 0.02), run("converged", 0.02), run("paper", 0.1)]
+    """Of the same fault alone: neither of another height nor of another material."""
+    stiff = {"shear_modulus": 9e9}
+    declared = [
+        ("paper", {}, 0.22), ("converged", {}, 0.2), ("paper", {"height": 0.1}, 0.5),
+        ("converged", stiff, 0.8), ("paper", stiff, 0.84),
+    ]  # fmt: skip
+    runs = [
+        {"id": role, "study": "mine", "role": role, "theory_length": 0.4,
+         "parameters": PARAMETERS.replaced(changes).to_dict()}
+        for role, changes, _ in declared
+    ]  # fmt: skip
     patches = [
-        xr.Dataset(dict.fromkeys(FITTED, 1.0) | {"stability_length": length})
-        for length in (0.22, 0.2, 0.5)
+        xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for _, _, length in declared
     ]
     table = gather_stability(runs, patches)
     assert set(table.data_vars) == set(STABILITY)
-    np.testing.assert_allclose(table["stability_ratio"], [0.55, 0.5, 1.25])
-    np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, np.nan], atol=1e-12)
-
-
-def test_runs_of_another_material_are_not_compared():
-    def run(study, modulus):
-        values = PARAMETERS.replaced({"shear_modulus": modulus}).to_dict()
-        return {
-            "id": study,
-            "study": study,
-            "role": study,
-            "parameters": values,
-            "theory_length": 0.4,
-        }
-
-    runs = [run("paper", 3e9), run("converged", 3e9), run("converged", 9e9), run("paper", 9e9)]
-    lengths = (0.22, 0.2, 0.8, 0.84)
-    patches = [xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for length in lengths]
-    table = gather_stability(runs, patches)
-    np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, 0.0, 0.05], atol=1e-12)
+    np.testing.assert_allclose(table["stability_ratio"], [0.55, 0.5, 1.25, 2.0, 2.1])
+    np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, np.nan, 0.0, 0.05], atol=1e-12)
 
 
 LAW = Friction(law="dieterich_ruina", characteristic_slip_distance=1.25e-7)

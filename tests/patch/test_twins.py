@@ -44,14 +44,6 @@ def test_lengths_are_those_asked_for(followed):
     assert ((first < mean) & (mean < last)).all()
 
 
-def test_growth_does_not_depend_on_the_size_of_the_kick(followed, monkeypatch):
-    monkeypatch.setattr(twins, "KICK", 3e-4)
-    other = follow_twins(PARAMETERS, THEORY, ExtractionSettings(), shares=(0.43,))
-    assert float(other["twin_growth"][0]) == pytest.approx(
-        float(followed["twin_growth"][0]), rel=0.01
-    )
-
-
 def test_twin_without_a_kick_is_the_run(monkeypatch):
     """It takes the very steps of the run, and the restarted state loses nothing."""
     monkeypatch.setattr(twins, "KICK", 0.0)

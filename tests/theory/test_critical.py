@@ -1,6 +1,5 @@
 import dataclasses
 import re
-import time
 
 import numpy as np
 import pytest
@@ -13,10 +12,9 @@ from nucleation.theory.critical import (
     NoInstability,
     critical_length,
     critical_wavenumber,
-    systems_of,
     theory_lengths,
 )
-from nucleation.theory.crossings import certainly_stable, largest_crossings, marginal_stiffness
+from nucleation.theory.crossings import certainly_stable, marginal_stiffness
 from nucleation.theory.spectrum import growth_rates, system
 from nucleation.theory.stiffness import FAR_SIDES
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
@@ -126,19 +124,6 @@ def test_many_systems_at_once_are_each_alone():
             assert critical_wavenumber(*case).length == length
     assert 20 < np.isnan(lengths).sum() < 100
     assert theory_lengths([]).shape == (0,)
-
-
-def test_twenty_thousand_layers_take_seconds():
-    heights = np.geomspace(1e-4, 1.0, 20_000)
-    one = systems_of([(Body(MATERIAL, 1.0, "traction"), RIGID, MAIN_TEXT)])
-    many = one.at(np.zeros(heights.size, dtype=int))
-    many = many._replace(pair=many.pair._replace(upper=many.pair.upper._replace(height=heights)))
-    start = time.process_time()
-    k = largest_crossings(many)
-    assert time.process_time() - start < 5.0
-    some = slice(None, None, 2500)
-    expected = critical_length(heights[some], MATERIAL, MAIN_TEXT)
-    np.testing.assert_array_equal(2 * np.pi / k[some], expected)
 
 
 def test_numbers_of_pairs_with_a_far_side_each():

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from scipy.linalg import eig
 
 from nucleation.theory import finite_patch, literature
@@ -107,10 +106,3 @@ def test_lengths_of_finite_patches():
             "uenishi_rice"
         ]
         assert float(rate) == pytest.approx(float(found["creeping_asperity"][i]))
-
-
-def test_named_arrays_stay_named():
-    a = xr.DataArray([0.002, 0.006, 0.03], dims="a")
-    found = lengths_in_use(**FAULT, a=a, b=0.0228)["loaded_patch"]
-    assert found.dims == ("a",)
-    assert np.isfinite(found).values.tolist() == [True, True, False]

@@ -2,7 +2,6 @@ import itertools
 import warnings
 from decimal import Decimal
 
-import layer_problem
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -109,38 +108,6 @@ def test_any_layer_number_is_safe(upper, lower):
     assert np.all(g1 > 0) and np.all(np.isfinite(g2))
     mirrored = transfer_functions(-k, upper, lower)
     np.testing.assert_array_equal(mirrored, [-g1, g2])
-
-
-@pytest.mark.parametrize("nu", [-0.6, 0.2, 0.45])
-def test_thin_layers_on_a_base(nu):
-    """Glued: simple shear and uniaxial strain. On rollers: the plate's modulus, and Poisson's lift.
-
-    Text-book strains, ``sigma_xy = mu U/H`` and so on, to first order in ``q = kH``.
-    """
-    mu, height, k = 2e9, 1e-6, 1.0
-    q = k * height
-    uniaxial = 2.0 * (1.0 - nu) / (1.0 - 2.0 * nu)  # over mu
-    glued = Body(Material(mu, nu), height, "clamped").layers.stiffness(k)
-    assert glued.xx == pytest.approx(1.0 / q, rel=1e-9)
-    assert glued.yy == pytest.approx(uniaxial / q, rel=1e-9)
-    rolling = Body(Material(mu, nu), height, "roller").layers.stiffness(k)
-    assert rolling.xx == pytest.approx(uniaxial * q, rel=1e-9)
-    assert rolling.yy == pytest.approx(uniaxial / q, rel=1e-9)
-    assert rolling.xy == pytest.approx(-2.0 * nu / (1.0 - 2.0 * nu), rel=1e-9)
-
-
-def test_two_halves_on_rollers_are_a_free_layer():
-    """Symmetric loads of both faces leave ``u_y = sigma_xy = 0`` in the middle."""
-    mu, nu, half, k = 3e9, 0.3, 0.1, 17.0
-    whole = layer_problem.mode_rows  # the general solution of the reference
-    y = [Decimal(0), Decimal(half), Decimal(2 * half)]
-    rows = [whole(Decimal(k), z, Decimal(mu), Decimal(nu)) for z in y]
-    loads = [rows[0]["t"], rows[0]["n"], rows[2]["t"], rows[2]["n"]]
-    (amplitudes,) = layer_problem.solve(loads, [[Decimal(x) for x in (1, 2, -1, 2)]])
-    found = [float(sum(a * c for a, c in zip(amplitudes, rows[0][f], strict=True))) for f in "uw"]
-    stiffness = Body(Material(mu, nu), half, "roller").layers.stiffness(k)
-    matrix = np.array([[stiffness.xx, -stiffness.xy], [-stiffness.xy, stiffness.yy]])
-    np.testing.assert_allclose(-mu * k * matrix @ found, [1.0, 2.0], rtol=1e-12)
 
 
 @settings(max_examples=60, deadline=None)

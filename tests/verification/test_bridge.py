@@ -135,17 +135,6 @@ def test_a_periodic_body_needs_an_odd_number_of_nodes():
         PeriodicBlock(Grid(1.0, 0.1, 8, 4), MATERIAL)
 
 
-def test_homogeneous_sliding_persists():
-    parameters = dispersion.one_wavelength(PARAMETERS, 0.02, 20.0, nodes=17)
-    dynamics = sliding_period(parameters)
-    state = sliding_state(dynamics, np.zeros(17))
-    for _ in range(40):
-        state, report = dynamics.advance(state, -45)
-    loading, interface = parameters.loading, report.interface
-    np.testing.assert_allclose(interface.slip_rate, loading.velocity, rtol=1e-7)
-    np.testing.assert_allclose(interface.normal[1:], 1e6 * dynamics.grid.dx, rtol=1e-9)
-
-
 # -- the time integration and Eq. (5) ------------------------------------------------------------
 
 
@@ -283,6 +272,24 @@ def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
     assert abs(expected[0].imag + expected[1].imag) > 1e-3 * abs(expected[0])  # they differ
 
 
+SLIDING = {
+    "one": PARAMETERS,
+    "pair": LAYERS["stiff above, free"].parameters(PARAMETERS, 0.2, 0.12),
+}
+
+
+@pytest.mark.parametrize("parameters", SLIDING.values(), ids=SLIDING)
+def test_homogeneous_sliding_persists(parameters):
+    """With sigma0 on the interface, also where nothing holds the mean."""
+    parameters = dispersion.one_wavelength(parameters, 0.2, 20.0, nodes=17)
+    dynamics = sliding_period(parameters)
+    state = sliding_state(dynamics, np.zeros(17))
+    for _ in range(40):
+        state, report = dynamics.advance(state, -45)
+    np.testing.assert_allclose(report.interface.slip_rate, 1e-5, rtol=1e-7)
+    np.testing.assert_allclose(report.interface.normal[1:], 1e6 * dynamics.grid.dx, rtol=1e-9)
+
+
 def test_a_mode_that_travels_back_is_told_apart_by_the_sense():
     """Swapped layers: what went along +x goes along -x, G2 changing sign and G1 not."""
     modes = pair_modes.pair_modes(PARAMETERS, pair_modes.HALF_SPACES[:2], (0.8,))
@@ -297,18 +304,6 @@ def test_a_mode_that_travels_back_is_told_apart_by_the_sense():
         beta = printed.bimaterial_contrast(psi, *nu)
         np.testing.assert_allclose(g2[i], beta * expected, rtol=1e-2)
     assert g2[0, 0] * g2[1, 0] < 0.0 < (modulus * g1).min()
-
-
-def test_a_sliding_pair_goes_on():
-    """Homogeneously, with sigma0 on the interface, also where nothing holds the mean."""
-    pair = LAYERS["stiff above, free"].parameters(PARAMETERS, 0.2, 0.12)
-    parameters = dispersion.one_wavelength(pair, 0.2, 20.0, 17)
-    dynamics = sliding_period(parameters)
-    state = sliding_state(dynamics, np.zeros(17))
-    for _ in range(40):
-        state, report = dynamics.advance(state, -45)
-    np.testing.assert_allclose(report.interface.slip_rate, 1e-5, rtol=1e-7)
-    np.testing.assert_allclose(report.interface.normal[1:], 1e6 * dynamics.grid.dx, rtol=1e-9)
 
 
 def test_heights_of_a_fault_of_ones_own():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from verification.verification_page import PAGE, rows
+from verification.verification_page import rows
 
 from nucleation.model.parameters import Parameters
 from nucleation.verification import dispersion, orders
@@ -114,12 +114,3 @@ def test_reference_bridge_is_measured_today():
         )
         for name in ("measured_growth", "measured_frequency", "theory_growth", "theory_frequency"):
             assert float(now[name]) == pytest.approx(float(stored[name]), rel=1e-4)
-
-
-def test_files_that_the_page_names_exist():
-    words = PAGE.read_text(encoding="utf-8").replace("(", "`").replace(")", "`").split("`")
-    named = [word for word in words if word.endswith((".py", ".png", ".csv"))]
-    assert len(named) > 6
-    for name in named:
-        root = PAGE.parent if name.startswith("..") else PAGE.parents[1]
-        assert (root / name).is_file(), name

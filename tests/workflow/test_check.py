@@ -1,7 +1,6 @@
 """The targets `check` and `prune`: what is not current, and what nothing refers to."""
 
 import dataclasses
-import json
 import re
 import shutil
 
@@ -10,8 +9,7 @@ import pytest
 import xarray as xr
 
 from nucleation.configuration.strict_yaml import read_yaml
-from nucleation.datasets import netcdf
-from nucleation.pipeline import check, keys
+from nucleation.pipeline import check
 from nucleation.pipeline.store import Store
 
 RUN = "paper-slip-H0.02-phi1"
@@ -179,9 +177,3 @@ def test_nothing_is_pruned_beside_a_damaged_record(content, tmp_path):
     record.write_text(content, errors="surrogateescape")
     with pytest.raises(check.StoreError, match="nothing can be said of unused results"):
         check.prune(tmp_path, {}, remove=True)
-
-
-def test_sources_and_units_stand_in_datasets(quick):
-    dataset = netcdf.read(quick.directory / "results/quick/lengths/paper.nc")
-    sources = json.loads(dataset.attrs["sources"])["simulations"]
-    assert sources and all(re.fullmatch(keys.PATTERN, key) for key in sources)

@@ -13,7 +13,6 @@ from nucleation.analysis import lengths
 from nucleation.analysis.extraction import extract
 from nucleation.configuration.load import load, read_yaml
 from nucleation.datasets import netcdf
-from nucleation.figures.paper import figure_3
 from nucleation.model.parameters import Parameters
 from nucleation.pipeline import keys
 
@@ -87,33 +86,6 @@ def test_table_of_lengths(quick, results):
         assert float(table["height"][index]) == run.parameters.geometry.height
         assert int(table["n_x"][index]) == run.parameters.mesh.n_x
         assert float(table["theory_length"][index]) == run.theory_length
-
-
-def test_figure_3_shows_the_datasets(quick, results):
-    theory = netcdf.read(results / "theory.nc")
-    table = netcdf.read(results / "lengths.nc")
-    identifier = "paper-aging-H0.1-phi1"
-    simulation = netcdf.read(quick.dataset("simulations", identifier))
-    drawn = figure_3.draw(theory, table, simulation, lengths.row(table, identifier))
-    axes = drawn.axes[0]
-    curves = [line.get_xydata() for line in axes.lines]
-    expected = np.column_stack([theory["height"], theory["critical_length"]])
-    assert any(np.array_equal(curve, expected) for curve in curves)
-    points = {tuple(point) for curve in curves for point in curve}
-    for height, length in zip(table["height"].values, table["length"].values, strict=True):
-        assert (height, length) in points
-
-
-def test_lost_simulation_is_missed_by_its_figures(quick, results):
-    """A figure that is there tells nothing of what it was made from."""
-    path = quick.dataset("simulations", "paper-slip-H0.02-phi1").parent
-    away = path.rename(path.with_suffix(".away"))
-    try:
-        for target in ("figure_s2", "lengths"):
-            assert quick.planned(target)["simulate"] == 1
-    finally:
-        away.rename(path)
-    assert quick.planned() == {}
 
 
 @pytest.mark.parametrize(

@@ -122,8 +122,3 @@ def test_very_thin_layers_are_like_less_thin_ones(monkeypatch):
     whole, scaled = (made.shear[:, 1:] @ known for made in (plain, rough))
     assert scaled[4:] == pytest.approx(whole[4:], rel=0.03, abs=0.03 * np.abs(whole).max())
     assert not np.array_equal(scaled, whole)
-
-
-def test_more_modes_where_the_stiffer_body_is_above():
-    assert module.modes_for(systems_of([(*pair(0.1), FAULT)])) == module.MODES
-    assert module.modes_for(systems_of([(RIGID, Body(MATERIAL, 0.1), FAULT)])) == module.MORE_MODES

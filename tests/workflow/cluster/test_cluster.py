@@ -195,13 +195,6 @@ def test_time_limit_leaves_time_for_a_checkpoint(stopped):
     assert (made.directory / "heard.txt").read_text() == "heard, and lived on\n"
 
 
-def test_starting_a_running_slurm_changes_nothing(slurm):
-    daemons = ("controller", "n1", "n2")
-    pids = [slurm.pid(name) for name in daemons]
-    assert slurm.start().returncode == 0
-    assert [slurm.pid(name) for name in daemons] == pids
-
-
 def test_slurm_of_others_is_refused(slurm, tmp_path):
     config = tmp_path / "slurm.conf"
     config.write_text("ClusterName=others\n")
@@ -209,11 +202,3 @@ def test_slurm_of_others_is_refused(slurm, tmp_path):
     assert refused.returncode == 1
     assert "is not this script's: this machine belongs to a cluster already" in refused.stdout
     assert config.read_text() == "ClusterName=others\n"
-
-
-def test_refusal_by_slurm_is_shown(slurm, workflow_type, tmp_path):
-    made = workflow_type(tmp_path, profile="slurm").configured(CONFIG)
-    wrong = ("--default-resources", "slurm_partition=nowhere", "mem_mb=500", "runtime=5")
-    done = made("simulations", "--retries", "0", *wrong)
-    assert done.returncode != 0
-    assert "invalid partition specified: nowhere" in done.stdout
