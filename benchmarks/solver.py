@@ -12,7 +12,6 @@ from scipy.sparse.linalg import splu
 
 from nucleation.analysis.extraction import extract
 from nucleation.configuration.load import Configuration
-from nucleation.fem.assembled import assemble
 from nucleation.fem.block import Block
 from nucleation.fem.bodies import body_of
 from nucleation.fem.grid import Grid
@@ -23,6 +22,8 @@ from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run, simulate
 from nucleation.stepping.ladder import rung_value
 from nucleation.stepping.scheme import BDF
+
+from .assembled import assemble
 
 CREEP_TIME = 1.0  # s, at which steps are timed
 BLOCKS, STEPS = 8, 40  # of timed steps

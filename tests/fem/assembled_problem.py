@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse.linalg import splu
 
-from nucleation.fem.assembled import assemble, unknown
+from benchmarks.assembled import assemble, unknown
 from nucleation.fem.grid import Grid
 from nucleation.model.material import Material
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks.assembled import assemble
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.lengths import gather
 from nucleation.api import (
@@ -16,7 +17,6 @@ from nucleation.api import (
     transfer_functions,
 )
 from nucleation.configuration.load import configure
-from nucleation.fem.assembled import assemble
 from nucleation.fem.grid import Grid
 from nucleation.model.identity import fault
 from nucleation.report.faults import faults

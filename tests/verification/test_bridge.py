@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from verification.order_tables import print_orders
 
+from benchmarks.assembled import assemble, unknown
 from nucleation.claims.independent import printed
-from nucleation.fem.assembled import assemble, unknown
 from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.grid import Grid
 from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator

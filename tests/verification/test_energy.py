@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from verification.verification_page import rows
 
-from nucleation.fem.assembled import assemble, unknown
+from benchmarks.assembled import assemble, unknown
 from nucleation.model.friction.law import Friction
 from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
-from ..model.material import Material
-from ..types import Array
-from .grid import Grid
+from nucleation.fem.grid import Grid
+from nucleation.model.material import Material
+from nucleation.types import Array
 
 
 def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, Array]:
