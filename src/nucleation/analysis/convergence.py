@@ -58,18 +58,8 @@ def sequences(rows: Sequence[Row], refined: str) -> list[list[Row]]:
 def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
     """The sequences found in a table of lengths, each run beside the finest one.
 
-    Parameters
-    ----------
-    lengths : Dataset
-        From :func:`nucleation.analysis.lengths.gather`, on ``run``.
-
-    Returns
-    -------
-    Dataset
-        On ``run``, :data:`COLUMNS`: ``refinement`` names the refined parameter, and a run has a
-        row in each of its sequences. ``onset_difference`` and ``length_difference`` are relative
-        to the finest run of the sequence, zero for that run itself; ``elements_difference`` is the
-        difference of the lengths in elements of the coarser mesh. NaN without an event.
+    :data:`COLUMNS` on ``run``: a run has a row in each of its sequences, with its differences from
+    the finest run of it. NaN without an event.
     """
     rows = rows_of(lengths)
     found = [

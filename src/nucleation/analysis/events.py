@@ -17,15 +17,8 @@ NEARLY = 0.98
 def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     """How many of some runs had no event, and a line with the reason for each of these.
 
-    Parameters
-    ----------
-    rows : rows of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`), of numbers or
-        of their text in a CSV.
-
-    Returns
-    -------
-    list of str
-        Empty if every run had its event.
+    `rows` are of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`), of numbers or of
+    their text in a CSV.
     """
     rows = list(rows)
     quiet = [row for row in rows if not math.isfinite(_number(row["onset_time"]))]

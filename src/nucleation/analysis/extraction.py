@@ -33,18 +33,10 @@ MEASURED = {
 def extract(
     simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
 ) -> dict[str, float]:
-    """Onset time and critical length of one simulation, each with its spread.
+    """:data:`MEASURED` of one simulation, by definitions of the patch's edge and of the drop.
 
-    Parameters
-    ----------
-    simulation : the record of :func:`nucleation.simulation.run.simulate`.
-    settings : definitions of the patch's edge.
-
-    Returns
-    -------
-    ``onset_time``, ``onset_time_low``, ``onset_time_high`` (s) and ``length``, ``length_low``,
-    ``length_high`` (m); all NaN if the run has no event, with a warning if it had one and ended
-    before the force fell by the settings' drop.
+    All NaN if the run has no event, with a warning if it had one and ended before the force fell by
+    the settings' drop.
     """
     record = Record(simulation, settings)
     if record.onset is None:

@@ -33,17 +33,10 @@ SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 
 def shear_stress(body: Body, state: State, materials: Sequence[Material]) -> Array:
-    """Shear stress (Pa) at the nodes, by differences of neighbours.
+    """Shear stress (Pa) at the nodes by differences of neighbours, (levels, n_x + 1).
 
-    Parameters
-    ----------
-    materials : of the (upper) body, and of the second one if there is one.
-
-    Returns
-    -------
-    ndarray
-        Shape (levels, n_x + 1), levels as of :func:`levels`: both bodies have one of their own on
-        the interface, whose stresses are alike as far as the meshes resolve them.
+    Levels as of :func:`levels`: both bodies have one of their own on the interface, whose stresses
+    are alike as far as the meshes resolve them.
     """
     sides = [(body.grid, 1.0, body.nodal_values)]
     if body.grid_below is not None:
@@ -72,21 +65,14 @@ def levels(body: Body) -> tuple[Array, Indices]:
 def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     """Run a simulation once more, and take the stress in its bodies along the way.
 
+    The dataset has ``slip_rate`` (m/s) on (time, x) and ``block_shear_stress`` (Pa) on (time, y, x)
+    at some of the recorded times and of the nodes, near the loaded edge. A second body is in it
+    from ``y = -H2`` to its own ``y = 0``, below that of the upper one.
+
     Parameters
     ----------
-    simulation : Dataset
-        The record of :func:`nucleation.simulation.run.simulate`.
-    row : Dataset
-        Its entry of the table of lengths: ``onset_time`` (s) and ``length`` (m), NaN without an
-        event.
-
-    Returns
-    -------
-    Dataset
-        ``slip_rate`` (m/s) on (time, x), ``block_shear_stress`` (Pa) on (time, y, x), at some of
-        the recorded times and of the nodes, near the loaded edge; ``driving_force`` (N/m) and
-        ``maximal_slip_rate`` (m/s) on (step); the run's ``parameters`` as an attribute. A second
-        body is in it from ``y = -H2`` to its own ``y = 0``, below that of the upper one.
+    simulation : the record of :func:`nucleation.simulation.run.simulate`.
+    row : of the table of lengths: ``onset_time`` (s) and ``length`` (m), NaN without an event.
     """
     parameters = parameters_of(simulation)
     dynamics = composed(parameters)

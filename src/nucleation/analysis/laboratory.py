@@ -64,21 +64,12 @@ COLUMNS = {
 
 
 class Number(NamedTuple):
-    """A number of an experiment in SI units; NaN where it is unknown.
+    """A number of an experiment in SI units; NaN where it is unknown."""
 
-    Attributes
-    ----------
-    low, high : float
-        Ends of its range, equal for a single number.
-    status : {"measured", "assumed", "unknown"}
-    where : str
-        Where it was read.
-    """
-
-    low: float
+    low: float  # the ends of its range, equal for a single number
     high: float
-    status: str
-    where: str
+    status: str  # one of STATUSES
+    where: str  # it was read
 
 
 UNKNOWN = Number(math.nan, math.nan, "unknown", "not read")
@@ -86,29 +77,16 @@ UNKNOWN = Number(math.nan, math.nan, "unknown", "not read")
 
 @dataclasses.dataclass(frozen=True)
 class LaboratoryFault:
-    """A published laboratory fault.
-
-    Attributes
-    ----------
-    name, title, material, source : str
-        What it is, and who published it.
-    read : str
-        How much of the source was read.
-    says : str
-        What the source says of nucleation, in our words.
-    plane : {"strain", "stress"}
-    numbers : dict of Number
-        By the names of :data:`ENTRIES`, all of them.
-    """
+    """A published laboratory fault: what it is, and who published it."""
 
     name: str
     title: str
     material: str
     source: str
-    read: str
-    says: str
-    plane: str
-    numbers: dict[str, Number]
+    read: str  # how much of the source was read
+    says: str  # what the source says of nucleation, in our words
+    plane: str  # strain or stress
+    numbers: dict[str, Number]  # by the names of ENTRIES, all of them
 
     @property
     def unknown(self) -> tuple[str, ...]:
@@ -182,9 +160,6 @@ def _number(place: str, key: str, given: dict[str, Any]) -> Number:
 
 def _row(own: LaboratoryFault) -> dict[str, Any]:
     parameters, observed = own.parameters, own.numbers["observed_length"]
-    found = (np.nan, np.nan)
-    if parameters is not None:
-        found = float(stability_length(**parameters)), float(critical_length(**parameters))
     return {
         "laboratory_fault": own.name,
         "title": own.title,
@@ -192,8 +167,8 @@ def _row(own: LaboratoryFault) -> dict[str, Any]:
         "lowest_stress": own.numbers["normal_stress"].low,
         "observed_low": observed.low,
         "observed_high": observed.high,
-        "creep_length": found[0],
-        "theory_length": found[1],
+        "creep_length": float(stability_length(**parameters)) if parameters else np.nan,
+        "theory_length": float(critical_length(**parameters)) if parameters else np.nan,
         "plane": own.plane,
         "assumed": " ".join(own.assumed if parameters else ()),
         "unknown": " ".join(own.unknown),

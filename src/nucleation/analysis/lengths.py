@@ -84,21 +84,13 @@ def gather(
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> xr.Dataset:
-    """The table of runs, with what is extracted from their simulations.
+    """:data:`COLUMNS` on ``run``, with what is extracted from simulations.
 
     Parameters
     ----------
-    runs : iterable of dict
-        From :meth:`nucleation.configuration.runs.Run.to_dict`.
-    simulations : iterable of Dataset
-        Their simulations, in the same order.
-    settings : ExtractionSettings
-        How lengths are read.
-
-    Returns
-    -------
-    Dataset
-        The variables :data:`COLUMNS` on the dimension ``run``.
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
+    simulations : of the runs, in the same order.
+    settings : how lengths are read.
     """
     by_theory: dict[str, float] = {}
     rows = []
@@ -158,22 +150,15 @@ def over_realisations(table: xr.Dataset) -> xr.Dataset:
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
 
-def declared(run: dict[str, Any]) -> dict[str, Any]:
-    """The columns that say how a run is perturbed; the strength of a quiet one is zero."""
-    perturbation = run["parameters"]["perturbation"]
-    acts = perturbation["kind"] != "none"
-    return {
+def description(run: dict[str, Any]) -> dict[str, Any]:
+    """The columns that say what a run was given, and the theory's length for it."""
+    parameters, interface = run["parameters"], run["interface"]
+    own, perturbation = Parameters.from_dict(parameters), parameters["perturbation"]
+    return second_body(own) | {
         "kind": perturbation["kind"],
-        "strength": perturbation["strength"] if acts else 0.0,
+        "strength": perturbation["strength"] if perturbation["kind"] != "none" else 0.0,
         "seed": perturbation["seed"],
         "correlation_length": perturbation["correlation_length"],
-    }
-
-
-def description(run: dict[str, Any]) -> dict[str, Any]:
-    """The columns that say which simulation a row is about, and the theory's length for it."""
-    parameters, own = run["parameters"], Parameters.from_dict(run["parameters"])
-    return declared(run) | {
         "fault": fault(own),
         "ensemble": ensemble(own),
         "id": run["id"],
@@ -193,13 +178,6 @@ def description(run: dict[str, Any]) -> dict[str, Any]:
         "slip_distance": parameters["friction"]["characteristic_slip_distance"],
         "velocity": parameters["loading"]["velocity"],
         "applied_stress": parameters["loading"]["normal_stress"],
-    }
-
-
-def _given(run: dict[str, Any]) -> dict[str, Any]:
-    """What else a run was given: material, friction of the theory, start."""
-    parameters, interface = run["parameters"], run["interface"]
-    return second_body(Parameters.from_dict(parameters)) | {
         "shear_modulus": parameters["material"]["shear_modulus"],
         "poisson_ratio": parameters["material"]["poisson_ratio"],
         "plane": parameters["material"].get("plane", "strain"),
@@ -237,7 +215,6 @@ def _row(
         reached = Record(simulation, settings).lengths[-1]
     return {
         **description(run),
-        **_given(run),
         **{name: float(measured[name]) for name in MEASURED},
         **{name: simulation.attrs[name] for name in DIAGNOSTICS},
         "simulated_time": float(simulation["step_time"].values[-1]),

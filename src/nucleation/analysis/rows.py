@@ -29,13 +29,9 @@ RATIO_COLUMNS = {
 def rows_of(
     table: xr.Dataset, chosen: Iterable[int] | None = None, names: Iterable[str] | None = None
 ) -> list[Row]:
-    """Rows of a table on ``run``, each with its values by name, as plain Python has them.
+    """Rows of a table on ``run``, all or those of some numbers, as plain Python has them.
 
-    Parameters
-    ----------
-    table : Dataset
-    chosen : numbers of rows; all of them without.
-    names : of columns; all of them without.
+    Each has its values by `names`, those of all columns by default.
     """
     wanted = [str(name) for name in (table.data_vars if names is None else names)]
     columns = {name: table[name].values.tolist() for name in wanted}

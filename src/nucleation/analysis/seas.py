@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import io
 import json
-import re
 
 import numpy as np
 import xarray as xr
@@ -29,13 +28,9 @@ FIELDS = (
 
 
 def time_series(simulation: xr.Dataset, position: float) -> str:
-    """The record of a simulation at one point of the interface.
+    """The record of a simulation at a distance (m) from the loaded edge.
 
-    Parameters
-    ----------
-    simulation : the record of :func:`nucleation.simulation.run.simulate`.
-    position : distance from the loaded edge (m); between nodes, fields are linear in x, and rates
-        and states by their logarithms.
+    Between nodes fields are linear in x, and rates and states by their logarithms.
 
     Raises
     ------
@@ -63,14 +58,15 @@ def time_series(simulation: xr.Dataset, position: float) -> str:
         record.time, at("slip"), at("slip_rate", True), 1e-6 * at("shear_stress"),
         -1e-6 * at("normal_stress"), at("state", True),
     )  # fmt: skip
-    made = re.match(r"(\d+)-(\d+)-(\d+)", str(simulation.attrs.get("created", "")))
+    made = str(simulation.attrs.get("created", "not given")).partition("T")[0].replace("-", "/")
+    versions = json.loads(simulation.attrs.get("versions", "{}"))
     header = [
         "This is the file header:",
         f"problem=none of the benchmarks: {simulation.attrs.get('command', 'a run of its own')}",
         "author=not given",
-        f"date={'/'.join(made.groups()) if made else 'not given'}",
+        f"date={made}",
         "code=nucleation",
-        f"code_version={_version(simulation)}",
+        f"code_version={versions.get('nucleation', 'not given')}",
         f"element_size={x[1] - x[0]:g} m",
         f"location=on fault, {position:g} m from the loaded edge",
         f"minimum_time_step={steps.min():g}",
@@ -84,12 +80,6 @@ def time_series(simulation: xr.Dataset, position: float) -> str:
     lines += ["# Here is the time-series data."]
     lines += [" ".join(f"{value:.15e}" for value in row) for row in zip(*columns, strict=True)]
     return "\n".join(lines) + "\n"
-
-
-def _version(simulation: xr.Dataset) -> str:
-    """The version that made a record."""
-    versions = json.loads(simulation.attrs.get("versions", "{}"))
-    return str(versions.get("nucleation", "not given"))
 
 
 def field_tables(simulation: xr.Dataset) -> dict[str, str]:

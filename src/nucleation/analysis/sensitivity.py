@@ -118,24 +118,14 @@ def sensitivity_table(
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings = ExtractionSettings(),
 ) -> xr.Dataset:
-    """Relative changes of critical length and onset, by what was varied.
+    """Relative changes of L_c and onset, by what was varied: :data:`COLUMNS` on ``run``.
 
     Parameters
     ----------
-    runs : iterable of dict
-        From :meth:`nucleation.configuration.runs.Run.to_dict`; the first of each height is the
-        base.
-    simulations : iterable of Dataset
-        Their simulations, in the same order.
-    settings : ExtractionSettings
-        The usual definitions.
-
-    Returns
-    -------
-    Dataset
-        On ``run``, :data:`COLUMNS`: lengths in m, times in s. ``length_change`` is that of L_c
-        over the base's, ``ratio_change`` that of L_c over the theory's length for the run's own
-        parameters, ``onset_change`` that of the onset; all relative. NaN without an event.
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`; the first of each height is the
+        base. ``ratio_change`` is of L_c over the theory's length for the run's own parameters.
+    simulations : of the runs, in the same order; without an event their numbers are NaN.
+    settings : the usual definitions.
     """
     cases = [
         Case(r["id"], Parameters.from_dict(r["parameters"]), r["theory_length"], simulation)

@@ -34,10 +34,8 @@ def simulate(
     Returns
     -------
     Dataset
-        Fields of the interface on (time, x), the force and the step sizes on (step), some fields
-        of the bulk on (snapshot, y, x), each with its unit. The attribute ``status`` tells how the
-        run ended and ``completed`` is 0 if it failed or was interrupted (Ctrl-C, the notebook's
-        stop button): the record then ends there.
+        That of :func:`nucleation.simulation.run.simulate`; its attribute ``completed`` is 0 also
+        if it was interrupted (Ctrl-C, the notebook's stop button): the record then ends there.
     """
     bar = Progress(parameters, sys.stderr, "ipykernel" in sys.modules) if progress is True else None
     watch = bar or (progress if callable(progress) else None)
