@@ -115,5 +115,5 @@ def test_the_figure_has_a_row_for_each_known_length():
     titles = [label.get_text() for label in axes.get_yticklabels()]
     lengths = np.isfinite([TABLE[n].values for n in ("fault_length", "theory_length")])
     assert titles == list(TABLE["title"].values[lengths.any(axis=0)])
-    legend = [text.get_text() for text in axes.get_legend().get_texts()]
-    assert legend == ["fault", "$L_s$, $L_c$, of\nassumed numbers", "observed"]
+    legend = [text.get_text() for text in axes.figure.legends[0].get_texts()]
+    assert legend == ["fault", "$L_s$, $L_c$ of assumed numbers", "observed"]
