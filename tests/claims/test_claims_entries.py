@@ -29,7 +29,7 @@ LENGTHS = pd.read_csv(REFERENCE / "lengths.csv")
 
 def realisations(study, law, height, phi0=1.0):
     """The rows of one fault in the table of lengths."""
-    frame = LENGTHS[(LENGTHS.study == study) & (LENGTHS.law == law) & (LENGTHS.phi0 == phi0)]
+    frame = LENGTHS[(LENGTHS.study == study) & (LENGTHS.evolution == law) & (LENGTHS.phi0 == phi0)]
     return frame[np.isclose(frame.height, height)]
 
 
@@ -168,7 +168,9 @@ def test_verdicts_whose_bound_is_near_have_six_realisations():
 
 
 def test_agreement_with_the_theory(rows):
-    mine = LENGTHS[(LENGTHS.study == "converged") & (LENGTHS.law == "aging") & (LENGTHS.phi0 == 1)]
+    mine = LENGTHS[
+        (LENGTHS.study == "converged") & (LENGTHS.evolution == "aging") & (LENGTHS.phi0 == 1)
+    ]
     how = {"length": "mean", "length_low": "min", "length_high": "max", "theory_length": "mean"}
     mine = mine.groupby("height", as_index=False).agg(how)
     ratio = mine.length / mine.theory_length
@@ -289,7 +291,7 @@ def test_runs_of_another_material_are_not_taken_for_the_papers():
     stiff = on.material.__class__(shear_modulus=9.3e9)
     changed = [
         fault(Parameters(stiff, on.friction.changed({"evolution": law}), geometry=Geometry(height)))
-        for law, height in zip(table["law"].values, table["height"].values, strict=True)
+        for law, height in zip(table["evolution"].values, table["height"].values, strict=True)
     ]
     other = table.assign(
         length=3.0 * table["length"], fault=("run", changed),

@@ -114,7 +114,7 @@ def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
         ("flat.yaml", "height: 20 mm\nn_x: 80\nphi0: 1e3\nlaw: slip\n"),
         ("groups.yaml", "geometry: {height: 2 cm}\nmesh: {n_x: 80}\nfriction: {evolution: slip}\n"
                         "loading: {initial_state: 1000}\n"),
-        ("flat.json", '{"height": 0.02, "n_x": 80, "initial_state": 1e3, "law": "slip"}'),
+        ("flat.json", '{"height": 0.02, "n_x": 80, "initial_state": 1e3, "evolution": "slip"}'),
     ],
 )  # fmt: skip
 def test_parameters_from_a_file(nucleation, tmp_path, name, text):

@@ -64,11 +64,17 @@ BAD = {
         changed("studies.paper.runs", {"height": 0.1}),
         ["studies.paper.runs", "must be a list"],
     ),
-    "text for text list": (with_run(height=0.01, law=["slip", 3]), [f"{RUN}.law[1] = 3"]),
+    "text for text list": (
+        with_run(height=0.01, evolution=["slip", 3]),
+        [f"{RUN}.evolution[1] = 3"],
+    ),
     "the whole is a list": ([1, 2], ["the configuration = [1, 2] must be a mapping"]),
     "the whole is empty": (None, ["the configuration = None must be a mapping"]),
     # unknown words
-    "unknown law": (with_run(height=0.01, law="ageing"), [f"{RUN}.law = 'ageing'", "aging, slip"]),
+    "unknown state evolution": (
+        with_run(height=0.01, evolution="ageing"),
+        [f"{RUN}.evolution = 'ageing'", "aging, slip"],
+    ),
     "unknown evolution": (changed("friction.evolution", "Slip"), ["evolution = 'Slip'", "slip"]),
     "unknown interface": (
         changed("studies.paper.interface", "both"),
@@ -91,7 +97,7 @@ BAD = {
     "empty runs": (changed("studies.paper.runs", []), ["studies.paper.runs = [] is empty"]),
     "empty run": (with_run(), [f"{RUN} = {{}} is empty"]),
     "empty list": (with_run(height=[]), [f"{RUN}.height = [] is empty"]),
-    "no height": (with_run(law="slip"), [f"{RUN}: the run has no height"]),
+    "no height": (with_run(evolution="slip"), [f"{RUN}: the run has no height"]),
     "value twice": (with_run(height=[0.2, 0.2]), [f"{RUN}.height = [0.2, 0.2] has a value twice"]),
     "run twice": (
         with_run(height=0.05),
@@ -151,10 +157,10 @@ def test_bad_configuration_is_named(config, fragments):
 def test_all_problems_are_reported_together():
     config = changed("material.poisson_ratio", 0.5)
     config["loading"]["velocity"] = "fast"
-    config["studies"]["paper"]["runs"].append({"heigth": 0.1, "law": "none"})
+    config["studies"]["paper"]["runs"].append({"heigth": 0.1, "evolution": "none"})
     text = messages(config)
     assert text.startswith("the configuration has 4 problems:")
-    for fragment in ("poisson_ratio", "velocity = 'fast'", "heigth", "law = 'none'"):
+    for fragment in ("poisson_ratio", "velocity = 'fast'", "heigth", "evolution = 'none'"):
         assert fragment in text
 
 

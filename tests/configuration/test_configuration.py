@@ -65,7 +65,7 @@ def test_default_configuration_is_the_papers():
 
 def test_papers_study():
     runs = load(CONFIG / "config.yaml").runs_of("paper")
-    aging = [r for r in runs if r.labels["law"] == "aging" and r.labels["phi0"] == 1.0]
+    aging = [r for r in runs if r.labels["evolution"] == "aging" and r.labels["phi0"] == 1.0]
     heights = [0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1]
     assert [run.labels["height"] for run in aging] == heights
     assert aging[0].id == "paper-aging-H0.005-phi1"
@@ -136,8 +136,8 @@ def test_quick_configuration_has_what_the_figures_show():
     quick = load(CONFIG / "quick.yaml")
     assert quick.results != "results"
     for height in (quick.figures.inset_height, quick.figures.space_time_height):
-        assert quick.shown(height).labels.items() >= {"law": "aging", "phi0": 1.0}.items()
-    laws = {(run.labels["law"], run.labels["phi0"]) for run in quick.runs}
+        assert quick.shown(height).labels.items() >= {"evolution": "aging", "phi0": 1.0}.items()
+    laws = {(run.labels["evolution"], run.labels["phi0"]) for run in quick.runs}
     assert laws == {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
 
 

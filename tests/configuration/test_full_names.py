@@ -13,7 +13,7 @@ from nucleation.model.names import Names
 from nucleation.model.parameters import Parameters
 
 RUN = "studies.paper.runs[6]"
-SHORT = {"height": 0.1, "law": ["aging", "slip"], "n_x": 800, "phi0": 10.0}
+SHORT = {"height": 0.1, "evolution": ["aging", "slip"], "n_x": 800, "phi0": 10.0}
 FULL = {
     "geometry.height": 0.1, "friction.evolution": ["aging", "slip"], "mesh.n_x": 800,
     "loading.initial_state": 10.0,
@@ -36,7 +36,7 @@ def test_names_in_defaults_and_runs_may_differ():
     (run,) = runs_of({"height": 0.1}, defaults={"geometry.height": 0.2, "mesh.n_x": 90})
     assert (run.parameters.geometry.height, run.parameters.mesh.n_x) == (0.1, 90)
     (run,) = runs_of({"height": 0.1, "evolution": "slip"})
-    assert run.labels["law"] == "slip"
+    assert run.labels["evolution"] == "slip"
 
 
 def test_schema_has_every_name():
@@ -63,8 +63,8 @@ NAMES = {
     ),
     "unknown": (with_run(zzz=0.1), [f"{RUN}.zzz = 0.1", "known keys: shear_modulus, poisson_r"]),
     "a law of friction as evolution": (
-        with_run(height=0.1, law="dieterich_ruina"),
-        [f"{RUN}.law = 'dieterich_ruina'", "must be one of aging, slip", "friction.law"],
+        with_run(height=0.1, law="aging"),
+        [f"{RUN}.law = 'aging'", "one of dieterich_ruina, product", "called evolution"],
     ),
 }
 
@@ -149,7 +149,9 @@ def test_laws_are_compared_by_one_study():
     ]  # fmt: skip
     for run in runs:
         found = constants(run.parameters.friction, 1e-5)
-        assert found == pytest.approx(constant | {"velocity_weakening": 0.01})
+        assert found == pytest.approx(
+            constant | {"velocity_weakening": 0.01, "evolution_effect": 0.02}
+        )
     assert runs[0].theory_length == pytest.approx(runs[1].theory_length, rel=1e-9)
     assert runs[1].value("friction_law") == "dieterich_ruina"
     assert runs[1].value("aging_coefficient") is None

@@ -17,11 +17,11 @@ def curves(*runs, **settings):
 @pytest.mark.parametrize("interface", ["main_text", "friction_law"])
 def test_curve_goes_through_the_runs(interface):
     runs, found = curves(
-        {"height": [0.01, 0.1], "law": ["aging", "slip"], "n_x": 400}, interface=interface
+        {"height": [0.01, 0.1], "evolution": ["aging", "slip"], "n_x": 400}, interface=interface
     )
     assert set(found) == {"aging", "slip"}
     for run in runs:
-        curve = found[run.labels["law"]]
+        curve = found[run.labels["evolution"]]
         at = curve["x"].index(run.labels["height"])
         assert curve["length"][at] == pytest.approx(run.theory_length, rel=1e-7)
     assert len(curve["x"]) > 50

@@ -34,7 +34,11 @@ def numbers():
 def texts():
     names = [f"study-aging-H{n}-φ{n}" for n in range(30)]
     return xr.Dataset(
-        {"id": ("run", names), "law": ("run", ["aging"] * 30), "length": ("run", np.arange(30.0))}
+        {
+            "id": ("run", names),
+            "evolution": ("run", ["aging"] * 30),
+            "length": ("run", np.arange(30.0)),
+        }
     )
 
 

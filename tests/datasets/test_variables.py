@@ -16,8 +16,8 @@ RECORDED = "nucleation.simulation.recorded"
 CROSSCHECK = "nucleation.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
-    "id", "study", "role", "law", "friction_law", "below", "far_side", "kind", "initial_stress",
-    "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
+    "id", "study", "role", "evolution", "friction_law", "below", "far_side", "kind",
+    "initial_stress", "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
     "plane", "loading", "laboratory_fault", "title", "assumed", "unknown",
 }  # fmt: skip
 

@@ -72,12 +72,12 @@ def test_study_and_figure(checkout, drawn):
     results = checkout / "results" / "laws"
     assert (results / "figures" / "figure_laws.png").stat().st_size > 10_000
     table = pd.read_csv(results / "lengths.csv")
-    means = pd.read_csv(results / "by_law.csv").set_index("law")
+    means = pd.read_csv(results / "by_law.csv").set_index("evolution")
     assert means["runs"].to_dict() == {"aging": 2, "halfway": 3, "slip": 1}
-    ratio = (table["length"] / table["theory_length"]).groupby(table["law"]).mean()
+    ratio = (table["length"] / table["theory_length"]).groupby(table["evolution"]).mean()
     assert np.allclose(means["mean_ratio"], ratio)
     table["friction"] = np.where(table["id"].str.contains("dieterich_ruina"), "other", "paper")
-    by_law = table.set_index(["friction", "height", "law"])["length"]
+    by_law = table.set_index(["friction", "height", "evolution"])["length"]
     assert by_law.notna().all() and by_law.index.is_unique
     paper, other = by_law["paper"].unstack(), by_law["other"].unstack()
     assert set(paper) == {"aging", "halfway"} and set(other) == {"halfway", "slip"}

@@ -24,7 +24,7 @@ CONTRASTS = (-0.38, -0.2, 0.0, 0.2, 0.38)
 def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
     table = pd.read_csv(REFERENCE / "drop.csv").dropna(subset=["predicted_length"])
     table["ratio"] = table["predicted_length"] / table["length"]
-    names = ["law", "height", "kind", "correlation_length", "strength"]
+    names = ["evolution", "height", "kind", "correlation_length", "strength"]
     means = table.groupby(names)["ratio"].mean().reset_index()
     weak = means[means["strength"] < 2e-4]
     assert len(weak) >= 27 and (weak["ratio"] - 1.0).abs().max() < 0.025

@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "results" / "reference"
-FAULT = ["law", "height", "phi0"]
+FAULT = ["evolution", "height", "phi0"]
 
 
 def percent(value, digits):
@@ -39,7 +39,9 @@ def error_rows():
     """What refinement of the declared run, and the paper's mesh, change of L_s."""
     refined = table("patch_convergence")
     refined = refined[refined["study"] == "patch_convergence"]
-    paper = table("patch_stability").query("study == 'paper' and law == 'aging' and phi0 == 1")
+    paper = table("patch_stability").query(
+        "study == 'paper' and evolution == 'aging' and phi0 == 1"
+    )
     base = table("patch_convergence").query("study == 'converged'").iloc[0]
     for height, rows in refined.groupby("height"):
         found = [

@@ -36,7 +36,7 @@ def number(row, name):
 
 def fault(row):
     """What the sequences of one perturbed run have in common."""
-    return tuple(row[name] for name in ("kind", "law", "phi0", "height", "strength", "seed"))
+    return tuple(row[name] for name in ("kind", "evolution", "phi0", "height", "strength", "seed"))
 
 
 def sequences(kinds):
@@ -74,7 +74,7 @@ def convergence_rows():
         of_it = {key[1]: rows for key, rows in found.items() if key[0] == own}
         first = judged(of_it["n_x"], "n_x")
         fault_cells = (
-            first["law"],
+            first["evolution"],
             f"{number(first, 'height'):g}",
             f"{number(first, 'phi0'):g}",
             f"{number(first, 'onset_time'):.3f}",
@@ -115,7 +115,9 @@ def _worst(runs):
 def floor_rows():
     """One row for each mesh, step and height of a quiet run: where it drops, and its noise."""
     rows = [
-        row for row in table("floors") if row["law"] == "aging" and number(row, "height") > 0.01
+        row
+        for row in table("floors")
+        if row["evolution"] == "aging" and number(row, "height") > 0.01
     ]
     for row in sorted(rows, key=lambda row: [number(row, name) for name in MESH]):
         ratio = number(row, "length") / number(row, "theory_length")

@@ -66,7 +66,7 @@ def lengths() -> xr.Dataset:
         "id": [f"{s}-{k}" for k, s in enumerate(study)],
         "study": study,
         "role": study,
-        "law": law,
+        "evolution": law,
         "ensemble": [f"{i}" for i in range(14)],
         "strength": [0.0] * 12 + [1e-5] * 2,
         "height": height,

@@ -20,7 +20,7 @@ def table():
     ratio = np.array([0.50] * 5 + [0.55] * 5)
     columns = {
         "role": ["paper"] * 5 + ["converged"] * 5,
-        "law": ["aging", "aging", "aging", "slip", "aging"] * 2,
+        "evolution": ["aging", "aging", "aging", "slip", "aging"] * 2,
         "height": HEIGHTS,
         "phi0": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,
         "theory_length": THEORY,
@@ -55,7 +55,7 @@ def patches(table):
 @pytest.fixture
 def twins():
     columns = {
-        "law": ["aging", "aging", "slip"],
+        "evolution": ["aging", "aging", "slip"],
         "height": [0.005, 0.005, 0.02],
         "theory_length": critical_length(np.array([0.005, 0.005, 0.02])),
         "twin_length": critical_length(np.array([0.005, 0.005, 0.02])) * [0.5, 0.6, 0.5],
@@ -165,7 +165,7 @@ def test_more_realisations_move_the_mean_and_stronger_noise_the_band(theory, len
     np.testing.assert_allclose(own, 1.1 * judged["length"].values)
     drawn = figure_3_extended.draw(theory, given, table, noisy).axes[0]
     band = drawn.collections[0].get_paths()[0].vertices[:, 1]
-    aging = judged["law"].values == "aging"
+    aging = judged["evolution"].values == "aging"
     usual = aging & np.isclose(judged["phi0"].values, 1.0)
     assert band.max() == pytest.approx(1.1 * judged["length"].values[usual].max())
     assert band.min() == pytest.approx(0.5 * judged["length"].values[usual].min())

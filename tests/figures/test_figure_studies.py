@@ -42,7 +42,9 @@ def test_one_number_is_a_curve():
 
 
 def test_words_tell_curves_apart():
-    figure = draw([1, 2, 1.1, 2.1], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], law=list("aabb"))
+    figure = draw(
+        [1, 2, 1.1, 2.1], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], evolution=list("aabb")
+    )
     labels = figure.axes[0].get_legend_handles_labels()[1]
     assert set(labels) == {"theory, a", "theory, b", "simulation, a", "simulation, b"}
 
@@ -81,7 +83,7 @@ def test_two_faults_never_share_a_marker():
     axes = draw([1, 2, 3], [0.9, 1.6, 2.5], **varied).axes[0]
     labels = axes.get_legend_handles_labels()[1]
     assert "simulation, $H=0.004$ m, $\\phi_0=1$ s" in labels and len(labels) == 4
-    axes = draw(range(1, 10), range(1, 10), height=[1] * 9, law=list("abcdefghi")).axes[0]
+    axes = draw(range(1, 10), range(1, 10), height=[1] * 9, evolution=list("abcdefghi")).axes[0]
     looks = {(c[0].get_marker(), c[0].get_color()) for c in axes.containers}
     assert len(looks) == 9
 
@@ -134,6 +136,6 @@ def test_nothing_is_cut_or_overlaps(kind, tmp_path):
 
 
 def test_one_theory_for_all_words_is_drawn_once():
-    figure = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], law=list("aabb"))
+    figure = draw([1, 2, 1, 2], [0.8, 1.7, 0.9, 1.8], height=[1, 2, 1, 2], evolution=list("aabb"))
     labels = figure.axes[0].get_legend_handles_labels()[1]
     assert [label for label in labels if label.startswith("theory")] == ["theory"]

@@ -23,7 +23,7 @@ def test_every_law_has_a_look_of_its_own():
 
 def table(*rows):
     law, phi0 = zip(*rows, strict=True)
-    return xr.Dataset({"law": ("run", list(law)), "phi0": ("run", list(phi0))})
+    return xr.Dataset({"evolution": ("run", list(law)), "phi0": ("run", list(phi0))})
 
 
 @pytest.mark.parametrize(
@@ -42,7 +42,7 @@ def test_what_is_shown_where_one_law_is(rows, shown):
 def others(lengths):
     """The paper's lengths as if they were of laws that the paper does not have."""
     names = {"aging": "halfway", "slip": "third"}
-    return lengths.assign(law=("run", [names[law] for law in lengths["law"].values]))
+    return lengths.assign(evolution=("run", [names[law] for law in lengths["evolution"].values]))
 
 
 def test_other_laws_are_drawn_in_figure_3(theory, others, thick, thick_row):
@@ -60,4 +60,4 @@ def test_other_laws_are_drawn_beyond_the_paper(theory, others):
     assert "halfway law" in right.get_legend_handles_labels()[1]
     assert len(left.containers) > 3
     shown = figure_patch_stability._shown(patches)
-    assert shown.size and set(others["law"].values[shown]) == {"halfway"}
+    assert shown.size and set(others["evolution"].values[shown]) == {"halfway"}

@@ -19,7 +19,7 @@ def dataset(rows):
 def sequence(refined, values, height, **fixed):
     usual = {
         "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
-        "strength": 1e-5, "seed": 1, "law": "aging", "phi0": 1.0,
+        "strength": 1e-5, "seed": 1, "evolution": "aging", "phi0": 1.0,
         "fault": f"{height}{fixed.get('law')}{fixed.get('phi0')}",
     }  # fmt: skip
     for i, value in enumerate(values):
@@ -36,7 +36,7 @@ def table():
     rows = []
     for height, law, age in ((0.005, "aging", 1.0), (0.02, "aging", 1.0), (0.1, "aging", 1.0),
                              (0.02, "slip", 1.0), (0.1, "aging", 1e3)):  # fmt: skip
-        own = {"law": law, "phi0": age}
+        own = {"evolution": law, "phi0": age}
         rows += sequence("n_x", [400, 800, 1600], height, **own)
         rows += sequence("n_y", [8, 16], height, **own)
         rows += sequence("longest_step", [0.1, 0.05, 0.02], height, **own)
@@ -157,7 +157,7 @@ def test_quiet_runs_are_dashed_beside_perturbed_ones(table, panel, refined):
         rows = table.to_dataframe()
         rows = rows[(rows["refinement"] == refined) & rows["height"].isin([0.005, 0.02])]
         rows = rows[rows["kind"].eq("none") if calm else rows["kind"].eq("normal_load")]
-        rows = rows[rows["law"] == "aging"]
+        rows = rows[rows["evolution"] == "aging"]
         assert drawn == set(zip(rows[refined], rows["length_over_theory"], strict=True))
     if refined == "longest_step":
         assert axes.get_xlim()[0] > axes.get_xlim()[1]

@@ -49,7 +49,8 @@ def test_own_constants_give_the_same_law():
 def test_constants_not_given_are_kept():
     law = with_constants(Friction(), V, {"zeta_over_a": 1.0, "height": 0.1})
     usual = constants(Friction(), V)
-    changed = {"zeta_over_a": 1.0, "velocity_weakening": usual["direct_effect"]}
+    a = usual["direct_effect"]
+    changed = {"zeta_over_a": 1.0, "velocity_weakening": a, "evolution_effect": 2.0 * a}
     assert constants(law, V) == pytest.approx(usual | changed, rel=1e-12)
     assert with_constants(Friction(), V, {"height": 0.1}) == Friction()
 
@@ -59,8 +60,10 @@ def test_weakening_is_given_alone_or_over_the_direct_effect():
     assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["direct_effect"], 0.004))
     both = with_constants(Friction(), V, {"velocity_weakening": 0.004, "direct_effect": 0.008})
     assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
-    with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with velocity_weakening"):
+    with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with velocity_weak"):
         with_constants(Friction(), V, {"velocity_weakening": 0.004, "zeta_over_a": 1.0})
+    same = with_constants(Friction(), V, {"evolution_effect": 0.012, "direct_effect": 0.008})
+    assert constants(same, V) == pytest.approx(constants(both, V), rel=1e-12)
 
 
 @pytest.mark.parametrize("bad", [(0.4, 0.01, 0.2), (0.3, 0.2, 0.0), (0.4, 0.01, -0.02)])

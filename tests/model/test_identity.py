@@ -16,7 +16,7 @@ PAIR = BLOCK.replaced({"second_body": "deformable", "height": 0.02})
     [
         {"shear_modulus": 9e9}, {"poisson_ratio": 0.2}, {"density": 2000.0}, {"height": 0.01},
         {"phi0": 2.0}, {"velocity": 2e-5}, {"applied_stress": 2e6}, {"evolution": "slip"},
-        {"slip_distance": 1e-6}, {"initial_stress": "uniform_shear"}, {"law": "slip"},
+        {"slip_distance": 1e-6}, {"initial_stress": "uniform_shear"}, {"evolution": "slip"},
         {"friction.law": "dieterich_ruina"}, {"second_body": "deformable"},
     ],
     ids=str,

@@ -111,7 +111,8 @@ def test_constants_and_what_they_set_are_not_given_together(law):
             with_constants(law, V, values)
     given = with_constants(law, V, {"zeta_over_a": 1.0})
     own = constants(law, V)
-    changed = own | {"zeta_over_a": 1.0, "velocity_weakening": own["direct_effect"]}
+    a = own["direct_effect"]
+    changed = own | {"zeta_over_a": 1.0, "velocity_weakening": a, "evolution_effect": 2.0 * a}
     assert constants(given, V) == pytest.approx(changed, rel=1e-9)
     assert set(CONSTANTS) == set(constants(law, V))
 

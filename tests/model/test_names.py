@@ -45,19 +45,19 @@ def test_names_of_a_run():
     parameters = Parameters()
     assert set(parameters.named()) <= set(known)
     for full in known:
-        group, _, field = full.partition(".")
-        assert group in GROUPS and known[full].description
+        group, _, field = full.rpartition(".")
+        assert (group or "friction") in GROUPS and known[full].description
         assert known.full(known.short(full)) == full
         if group == "second_body":
             assert known.full(f"second_{field}") == full
-        elif full not in ("friction.law", "loading.kind"):
+        elif full != "loading.kind":
             assert known.full(field) == full
-    assert known.short("friction.evolution") == "law" and known.full("phi0") in known
+    assert known.short("friction.evolution") == "evolution" and known.full("phi0") in known
     assert known.short("friction.law") == "friction_law"
 
 
 def test_replaced_by_any_name():
-    for height, law in (("height", "law"), ("geometry.height", "friction.evolution")):
+    for height, law in (("height", "evolution"), ("geometry.height", "friction.evolution")):
         changed = Parameters().replaced({height: 0.2, law: "slip", "n_x": 80})
         assert (changed.geometry.height, changed.friction.evolution) == (0.2, "slip")
         assert changed.mesh.n_x == 80 and changed.mesh.n_y == Parameters().mesh.n_y

@@ -170,7 +170,7 @@ def test_a_file_that_can_not_be_loaded_is_named_with_its_line(
 ):
     (tmp_path / "odd.py").write_text(text)
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path)])
-    key = "friction.law" if package is laws else "law"
+    key = "friction.law" if package is laws else "evolution"
     with pytest.raises(ParameterError) as caught:
         configure({"studies": {"s": {"runs": [{"height": 0.1, key: "odd"}]}}})
     assert f"{tmp_path / 'odd.py'}, {said}" in str(caught.value)

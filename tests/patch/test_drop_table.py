@@ -22,7 +22,7 @@ def drops(**changes):
         "study": ["drop"] * 4,
         "role": ["drop"] * 4,
         "id": list("abcd"),
-        "law": ["aging"] * 4,
+        "evolution": ["aging"] * 4,
         "height": [0.02, 0.02, 0.02, 0.3],
         "fault": [FAULT] * 3 + ["of another"],
         "kind": ["normal_load", "none", "state", "state"],

@@ -12,7 +12,7 @@ from nucleation.patch.theory_history import theory_history
 RUNS = {run.id: run for run in load(CONFIG / "config.yaml").runs}
 TABLE = pd.read_csv(CONFIG.parent / "results" / "reference" / "drop.csv")
 TABLE = TABLE[(TABLE.strength > 0.0) & TABLE.id.isin(list(RUNS))]
-KIND = ["law", "height", "kind", "strength", "correlation_length"]
+KIND = ["evolution", "height", "kind", "strength", "correlation_length"]
 
 
 def drops(table):
@@ -20,7 +20,7 @@ def drops(table):
     histories, rows = {}, []
     for _, same in table.groupby(KIND):
         run, first = RUNS[same.id.iloc[0]], same.iloc[0]
-        fault = first.law, first.height
+        fault = first.evolution, first.height
         if fault not in histories:
             histories[fault] = theory_history(run.parameters, run.theory_length)
         declared = run.parameters.perturbation
@@ -34,7 +34,7 @@ def drops(table):
 
 def test_one_fault_under_each_kind():
     """Normal load, state and drive, 1e-5: sixteen seeds each, two of the drive."""
-    known = TABLE[(TABLE.law == "aging") & (TABLE.height == 0.02) & (TABLE.strength == 1e-5)]
+    known = TABLE[(TABLE.evolution == "aging") & (TABLE.height == 0.02) & (TABLE.strength == 1e-5)]
     simulated, quiet, found, width, quiet_width = drops(known)
     assert simulated.size == 3
     assert found == pytest.approx(simulated, rel=0.01)

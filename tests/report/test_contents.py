@@ -161,7 +161,7 @@ def test_points_have_the_marks_of_figure_3(table):
 
 
 def test_points_of_a_law_that_the_paper_does_not_have(table):
-    other = table.assign(law=("run", ["halfway"]), role=("run", ["own"]), phi0=("run", [7.0]))
+    other = table.assign(evolution=("run", ["halfway"]), role=("run", ["own"]), phi0=("run", [7.0]))
     (series,) = tables.point_series(other)
     assert series["label"] == "paper, halfway law, φ(0) = 7 s" and not series["filled"]
     assert series["symbol"] == tables.SYMBOLS[laws.OTHERS[0][0]]

@@ -13,7 +13,7 @@ TARGET = "patch_convergence"
 
 
 def configuration(study_name, heights):
-    study = QUICK["studies"]["converged"] | {"runs": [{"law": "aging", "height": heights}]}
+    study = QUICK["studies"]["converged"] | {"runs": [{"evolution": "aging", "height": heights}]}
     study["defaults"] = study["defaults"] | {"time_after_event": 0.0, "n_x": 80, "n_y": 6}
     return {**QUICK, "studies": {study_name: study}}
 

@@ -30,7 +30,7 @@ LENGTH_OVER_THEORY = Variable("1", "critical length over that of the linear theo
 COLUMNS = {
     "refinement": Variable("", "what is refined from level to level"),
     **some(
-        LENGTHS, "id", "law", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
+        LENGTHS, "id", "evolution", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
         "grading", "longest_step", "tolerance", "onset_time",
     ),
     "onset_difference": Variable("1", "relative difference of the onset from the finest run"),

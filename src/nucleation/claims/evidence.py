@@ -67,17 +67,17 @@ class Evidence:
 
     def row(self, role: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
         """The one row with these labels; raises Missing if there is none."""
-        return self.rows(role, law=law, height=height, phi0=phi0)[0]
+        return self.rows(role, evolution=law, height=height, phi0=phi0)[0]
 
     def series(self, role: str) -> list[dict[str, Any]]:
         """The aging law's rows with a role over all heights, age 1 s."""
-        return self.rows(role, law="aging", phi0=1.0)
+        return self.rows(role, evolution="aging", phi0=1.0)
 
     def _is_own(self, row: dict[str, Any]) -> bool:
         """Whether a row is of the configuration's material, friction and loads, on a rigid base."""
         own = Parameters(
             self.material,
-            self.friction.changed({"evolution": row["law"]}),
+            self.friction.changed({"evolution": row["evolution"]}),
             dataclasses.replace(self.loading, initial_state=float(row["phi0"])),
             Geometry(height=float(row["height"])),
         )

@@ -9,7 +9,6 @@ from typing import Any
 from ..configuration.load import load
 from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
-from ..model.friction.constants import CONSTANT_ALIASES
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, check
 from ..model.units import parse
@@ -53,7 +52,6 @@ def of_file(path: Path) -> dict[str, Any]:
 def _name_in_file(path: Path, group: str, field: str, value: Any) -> str:
     """The name in studies of a parameter that stands in a group of a file, or in none."""
     known, declared = names(), study_parameters()
-    field = CONSTANT_ALIASES.get(field, field)
     name = group + field if group + field in known else field
     try:
         return name if name in declared else known.short(known.full(name))

@@ -9,7 +9,7 @@ from typing import Any
 from ..configuration.load import configure
 from ..configuration.runs import Run
 from ..configuration.study_names import study_parameters
-from ..model.friction.constants import CONSTANT_ALIASES, CONSTANTS, with_constants
+from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
@@ -67,9 +67,9 @@ def _option(name: str, entry: Quantity, defaults: Mapping[str, Any]) -> Callable
     known = names()
     note = f"default {with_unit(defaults[name], entry)}" if name in defaults else ""
     note = "6 critical lengths if left out" if name == "length" else note
-    called = [] if name in CONSTANTS else [known.full(name), *known.others(known.full(name))]
-    called += [*(alias for alias, own in CONSTANT_ALIASES.items() if own == name), name]
-    called = [word for word in dict.fromkeys(called) if word not in ("a", "f", "kind")]
+    full = known.full(name)
+    called = [full, *known.others(full), name]
+    called = [word for word in dict.fromkeys(called) if word not in ("f", "kind", "law")]
     words = [f"--{word.replace('_', '-')}" for word in called]
     return units.option(*words, key=name, entry=entry, note=note)
 

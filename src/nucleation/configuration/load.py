@@ -19,7 +19,7 @@ from jsonschema.exceptions import ValidationError
 from ..analysis.definitions import ExtractionSettings
 from ..configuration import schema
 from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS
+from ..model.friction.registry import EVOLUTIONS
 from ..model.linearised import InterfaceState, loaded
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, refusal
@@ -229,8 +229,8 @@ def _messages(error: ValidationError) -> Iterator[str]:
             "letters, digits and _, beginning with a letter"
         )
     elif leaf and entry is not None:
-        meant = path[:1] == ("studies",) and "law" in path and error.instance in LAWS
-        hint = "; the law of friction itself is friction.law" if meant else ""
+        meant = path[:1] == ("studies",) and "law" in path and error.instance in EVOLUTIONS
+        hint = "; the evolution of the state is called evolution" if meant else ""
         yield f"{refusal(key, error.instance, entry)}{hint}"
     else:
         form = {"object": "a mapping (lines of key: value)", "array": "a list"}

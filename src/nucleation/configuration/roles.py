@@ -102,7 +102,7 @@ def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
     """The run of a height (m) with the configuration's own evolution law and initial state."""
     usual = {
         "height": height,
-        "law": base.friction.evolution,
+        "evolution": base.friction.evolution,
         "phi0": base.loading.initial_state,
     }
     return next((run for run in runs if usual.items() <= run.labels.items()), None)

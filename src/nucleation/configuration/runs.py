@@ -56,7 +56,7 @@ class Run:
         """What tells runs apart: study, law, height (m) and phi0 (s)."""
         return {
             "study": self.study,
-            "law": self.parameters.friction.evolution,
+            "evolution": self.parameters.friction.evolution,
             "height": self.parameters.geometry.height,
             "phi0": self.parameters.loading.initial_state,
         }

@@ -201,7 +201,7 @@ def _identifier(study: str, given: _Given, base: Parameters) -> str:
     """The name of a run that is as the study gives it."""
     values = _all_given(given)
     labels = {
-        "law": values.get("law", base.friction.evolution),
+        "evolution": values.get("evolution", base.friction.evolution),
         "height": values.get("height", base.geometry.height),
         "phi0": values.get("phi0", base.loading.initial_state),
     }

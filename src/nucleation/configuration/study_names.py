@@ -9,21 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from ..model.friction.constants import CONSTANT_ALIASES, CONSTANTS
+from ..model.friction.constants import CONSTANTS
 from ..model.parameters import GROUPS, names
 from ..model.quantities import ParameterError, Quantity
 
 
 def study_parameters() -> dict[str, Quantity]:
     """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
-    return names().by_short | CONSTANTS
+    return names().by_short
 
 
 def other_names() -> dict[str, str]:
     """The names that stand for another one: full names, and short ones beside an alias."""
     known = names()
-    found = {other: known.short(full) for full in known for other in known.others(full)}
-    return found | CONSTANT_ALIASES
+    return {other: known.short(full) for full in known for other in known.others(full)}
 
 
 def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
@@ -39,8 +38,7 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
     known, declared = names(), study_parameters()
     found: dict[str, Any] = {}
     for given, value in values.items():
-        given = CONSTANT_ALIASES.get(given, given)
-        name = given if given in CONSTANTS else known.short(known.full(given))
+        name = known.short(known.full(given))
         if name in found:
             raise ParameterError(f"{given} = {value!r} is not allowed: {name} is given already")
         number = declared[name].kind == "float" and value is not None
@@ -67,7 +65,12 @@ def in_identifiers(chosen: Iterable[str]) -> list[str]:
 
 def identifier(study: str, labels: dict[str, Any], varied: dict[str, Any]) -> str:
     """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``."""
-    parts = [study, labels["law"], f"H{_text(labels['height'])}", f"phi{_text(labels['phi0'])}"]
+    parts = [
+        study,
+        labels["evolution"],
+        f"H{_text(labels['height'])}",
+        f"phi{_text(labels['phi0'])}",
+    ]
     others = in_identifiers(name for name in varied if name not in labels)
     parts += [f"{name}{_text(varied[name])}" for name in others]
     return "-".join(parts)

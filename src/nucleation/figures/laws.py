@@ -61,12 +61,12 @@ def usual_law(table: xr.Dataset) -> str:
 
     A table without rows has the usual one.
     """
-    laws = table["law"].values.astype(str)
+    laws = table["evolution"].values.astype(str)
     return USUAL_EVOLUTION if USUAL_EVOLUTION in laws or not laws.size else str(laws[0])
 
 
 def usual(table: xr.Dataset) -> NDArray[np.bool_]:
     """The rows with :func:`usual_law` and the usual initial state, or any state if none has it."""
-    law = table["law"].values.astype(str) == usual_law(table)
+    law = table["evolution"].values.astype(str) == usual_law(table)
     young = law & ~aged(table)
     return young if young.any() else law

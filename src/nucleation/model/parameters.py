@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from .checked import Checked
+from .friction.constants import CONSTANTS
 from .friction.law import Friction
 from .friction.registry import LAWS, law_declarations
 from .heterogeneity import Heterogeneity
@@ -226,8 +227,17 @@ GROUPS: dict[str, type] = {
 """The groups of :class:`Parameters` and their classes."""
 
 ALIASES = {
-    "law": "friction.evolution",
+    "evolution": "friction.evolution",
     "friction_law": "friction.law",
+    "f": "friction_coefficient",
+    "friction": "friction_coefficient",
+    "friction_coefficient": "friction_coefficient",
+    "a": "direct_effect",
+    "direct_effect": "direct_effect",
+    "b": "evolution_effect",
+    "evolution_effect": "evolution_effect",
+    "zeta": "velocity_weakening",
+    "velocity_weakening": "velocity_weakening",
     "phi0": "loading.initial_state",
     "loading": "loading.kind",
     "heterogeneity": "heterogeneity.varies",
@@ -246,11 +256,12 @@ ALIASES = {
     "height": "geometry.height",
     "n_y": "mesh.n_y",
     "grading": "mesh.grading",
+    "second_far_side": "second_body.bottom",
     **{f"second_{name}": f"second_body.{name}" for name in declarations(SecondBody)},
     "second_body": "second_body.kind",
 }
-"""Short names by agreement: ``law`` was the evolution's before the coefficient had one; those
-without ``second_`` are the first body's."""
+"""Short names by agreement, the one by which a parameter goes last; those without ``second_`` are
+the first body's."""
 
 
 def group_declarations(group: str) -> dict[str, Quantity]:
@@ -259,7 +270,7 @@ def group_declarations(group: str) -> dict[str, Quantity]:
 
 
 def names() -> Names:
-    """All parameters of a run by their full names, with their short ones."""
+    """All parameters of a run, and the constants of friction, with their short names."""
     return _names(tuple(LAWS))
 
 
@@ -271,7 +282,7 @@ def _names(laws: tuple[str, ...]) -> Names:
         for group in GROUPS
         for name, entry in group_declarations(group).items()
     }
-    return Names(entries, ALIASES)
+    return Names(entries | CONSTANTS, ALIASES)
 
 
 FIRST_STEP = 2.0e-6  # over the memory time D/V

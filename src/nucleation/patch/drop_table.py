@@ -26,7 +26,7 @@ from .growth import FITTED
 from .mode_history import ModeHistory, from_dataset
 
 MEASURED = some(
-    LENGTHS, "study", "role", "id", "law", "height", "kind", "strength", "seed",
+    LENGTHS, "study", "role", "id", "evolution", "height", "kind", "strength", "seed",
     "correlation_length", "n_x", "n_y", "longest_step", "onset_time", "length", "theory_length",
 )  # fmt: skip
 
@@ -45,8 +45,8 @@ PREDICTED = {
 COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
 
 FLOORS = some(
-    COLUMNS, "study", "role", "id", "law", "height", "n_x", "n_y", "longest_step", "onset_time",
-    "length", "theory_length", "stability_length", "floor_normal_load", "floor_state", "fault",
+    COLUMNS, "study", "role", "id", "evolution", "height", "n_x", "n_y", "longest_step",
+    "onset_time", "length", "theory_length", "stability_length", "floor_normal_load", "floor_state", "fault",
 )  # fmt: skip
 """Columns that say something of a quiet run."""
 

@@ -28,7 +28,7 @@ from .growth import FITTED
 MEASURED = some(EXTRACTED, "onset_time", "length", "length_low", "length_high")
 
 COLUMNS = {
-    **some(LENGTHS, "id", "study", "role", "law"),
+    **some(LENGTHS, "id", "study", "role", "evolution"),
     **some(
         SHARED, "far_side", "height", "second_height", "shear_modulus", "second_shear_modulus",
         "poisson_ratio", "second_poisson_ratio", "friction", "f_beta", "zeta_over_a",

@@ -15,7 +15,7 @@ from .growth import FITTED
 
 STABILITY = {
     **some(
-        COLUMNS, "id", "study", "role", "law", "height", "phi0", "n_x", "n_y", "grading",
+        COLUMNS, "id", "study", "role", "evolution", "height", "phi0", "n_x", "n_y", "grading",
         "tolerance", "longest_step",
     ),
     **FITTED,
@@ -26,7 +26,7 @@ STABILITY = {
 }  # fmt: skip
 
 TWINS = {
-    **some(COLUMNS, "id", "law", "height", "phi0", "n_x", "n_y"),
+    **some(COLUMNS, "id", "evolution", "height", "phi0", "n_x", "n_y"),
     **twins.MEASURED,
     **some(COLUMNS, "theory_length", "fault"),
 }

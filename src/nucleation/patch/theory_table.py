@@ -24,7 +24,7 @@ from ..theory.creep.thin import thin_limit
 from .growth import FITTED
 
 COLUMNS = {
-    **some(LENGTHS, "id", "study", "role", "law", "friction_law", "height"),
+    **some(LENGTHS, "id", "study", "role", "evolution", "friction_law", "height"),
     **some(SHARED, "zeta_over_a", "f_beta"),
     "theory_length": LENGTHS["theory_length"],
     "stability_length": FITTED["stability_length"],
@@ -102,7 +102,7 @@ def _row(run: dict[str, Any], measured: float) -> dict[str, Any]:
     start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
     row = {
         "id": run["id"], "study": run["study"], "role": run["role"],
-        "fault": fault(parameters), "law": parameters.friction.evolution,
+        "fault": fault(parameters), "evolution": parameters.friction.evolution,
         "friction_law": parameters.friction.law, "height": parameters.geometry.height,
         "zeta_over_a": interface.zeta / interface.a, "f_beta": f_beta, "theory_length": critical,
         "stability_length": measured,

@@ -152,7 +152,7 @@ def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
     """
     known = faults(lengths)
     of_run = {i: fault for fault in known for i in fault.runs}
-    names, laws = (lengths[n].values.astype(str) for n in ("study", "law"))
+    names, laws = (lengths[n].values.astype(str) for n in ("study", "evolution"))
     seen = looks(laws)
     ages, usable = lengths["phi0"].values, np.flatnonzero(np.isfinite(lengths["length"].values))
     kinds: dict[tuple[str, str, float, str], list[int]] = {}

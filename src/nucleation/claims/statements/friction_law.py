@@ -101,7 +101,7 @@ def _well_approximated(evidence: Evidence, part: str, note: str = "") -> Result:
     """Where the slip law with v is good: the least of all its runs, of either study."""
 
     def share(study: str) -> Ours:
-        runs = evidence.each_measured(study, law="slip")
+        runs = evidence.each_measured(study, evolution="slip")
         return Ours.worst([getattr(run, part) for run in runs], target=1.0)
 
     return Result(share(JUDGED), on_papers_mesh=share(PAPERS), note=note)

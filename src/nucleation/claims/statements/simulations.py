@@ -126,7 +126,7 @@ def stability_lost_at_length(evidence: Evidence) -> Result:
 
 def linear_stage_generic(evidence: Evidence) -> Ours:
     varied = [
-        row for row in evidence.rows(JUDGED) if row["law"] != "aging" or row["phi0"] != 1.0
+        row for row in evidence.rows(JUDGED) if row["evolution"] != "aging" or row["phi0"] != 1.0
     ] or [evidence.row(JUDGED, "slip", 0.01)]
 
     def unstable(row: dict[str, Any]) -> float:

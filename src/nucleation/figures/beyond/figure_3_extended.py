@@ -55,7 +55,7 @@ def draw(
     theory : Dataset
         With ``critical_length(height)`` (m).
     lengths : Dataset
-        On ``run``: ``role``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
         ``length`` with ``_low`` and ``_high`` (m).
     table : Dataset
         The same with ``stability_length`` in place of ``length``.
@@ -135,7 +135,7 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
     """One set of lengths, a marker for each law and initial state."""
-    law, aged = table["law"].values.astype(str), laws.aged(table)
+    law, aged = table["evolution"].values.astype(str), laws.aged(table)
     chosen = table["role"].values.astype(str) == series.role
     chosen &= np.isfinite(table[series.column].values)
     scale = table["theory_length"].values if relative else np.ones(law.size)
@@ -186,7 +186,7 @@ def _finish_ratios(axes: Axes, lengths: xr.Dataset) -> None:
     axes.set_xlim(*LIMIT_HEIGHTS)
     axes.set_ylim(*RATIOS)
     axes.set_ylabel("Length over theory $L/L_c$")
-    law, aged = lengths["law"].values.astype(str), laws.aged(lengths)
+    law, aged = lengths["evolution"].values.astype(str), laws.aged(lengths)
     handles = [
         axes.plot([], [], kind.marker, color=style.GUIDE, markersize=4.8,
                   label=kind.label + OLDER * old)[0]

@@ -92,9 +92,11 @@ def groups(table: xr.Dataset) -> Iterator[xr.Dataset]:
 def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     """One kind of forcing on the shown fault."""
     law, height = SHOWN
-    fault = _where(table, law=law, height=height)
+    fault = _where(table, evolution=law, height=height)
     if not fault.sizes["run"]:  # a configuration without it: the fault it has
-        fault = _where(table, law=table["law"].values[0], height=table["height"].values[0])
+        fault = _where(
+            table, evolution=table["evolution"].values[0], height=table["height"].values[0]
+        )
     fault = _where(fault, fault=fault["fault"].values[0])  # of one material, if there are several
     own = _where(fault, kind=kind)
     marker, colour, label = KINDS[kind]
@@ -160,7 +162,7 @@ def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
     for runs in groups(table):
         kind = str(runs["kind"].values[0])
         marker, colour, label = KINDS[kind]
-        filled = runs["law"].values[0] == USUAL_EVOLUTION
+        filled = runs["evolution"].values[0] == USUAL_EVOLUTION
         axes.plot(
             ASIDE[kind] * runs["strength"].values[0],
             runs["length"].values.mean() / runs["predicted_length"].values[0],
@@ -169,7 +171,7 @@ def _draw_ratios(axes: Axes, table: xr.Dataset) -> None:
             label=label if kind not in seen else None,
         )  # fmt: skip
         seen.add(kind)
-    if (table["law"].values == "slip").any():
+    if (table["evolution"].values == "slip").any():
         axes.plot(
             [], [], "o", color=style.GUIDE, markersize=4.0, label="open: slip law", **style.OPEN
         )

@@ -28,13 +28,14 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
     Parameters
     ----------
     table : Dataset
-        On ``run``: ``role``, ``law``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
         ``stability_length`` (m).
     patches : sequence of Dataset
         In the same order, with ``patch_length`` (m), ``oscillation_growth`` and
         ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.
     twins : Dataset
-        On ``twin``: ``law``, ``height``, ``twin_length``, ``theory_length`` (m), ``twin_growth``
+        On ``twin``: ``evolution``, ``height``, ``twin_length``, ``theory_length`` (m),
+        ``twin_growth``
         and ``twin_frequency`` (1/s); those of the usual law are drawn.
 
     Returns
@@ -93,7 +94,7 @@ def _draw_patch(
 
 def _draw_twins(axes: Axes, twins: xr.Dataset, name: str, colours: _Colours) -> None:
     """What the twin runs of the usual law measure of the same property."""
-    for i in np.flatnonzero(twins["law"].values.astype(str) == laws.usual_law(twins)):
+    for i in np.flatnonzero(twins["evolution"].values.astype(str) == laws.usual_law(twins)):
         axes.plot(
             float(twins["twin_length"][i] / twins["theory_length"][i]), float(twins[name][i]), "o",
             markersize=4.6, markerfacecolor="none", markeredgewidth=1.0,

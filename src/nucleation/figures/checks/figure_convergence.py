@@ -31,7 +31,7 @@ REFINED = {
     "tolerance": "tolerance",
 }
 ALONG = {"n_x": "Elements along $x$", "longest_step": r"Longest step $\times V/D$"}
-FAULT = ("kind", "law", "phi0", "height", "strength", "seed", "fault")
+FAULT = ("kind", "evolution", "phi0", "height", "strength", "seed", "fault")
 EVERY_FAULT = "normal_load"  # the kind whose faults are told apart
 
 
@@ -139,7 +139,7 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     sizes: set[float] = set()
     for sequence in _sequences(table, refined):
         first = {name: sequence[name].values[0].item() for name in (*FAULT, "n_x")}
-        alike = first["law"] == USUAL_EVOLUTION and first["kind"] in ("none", "normal_load")
+        alike = first["evolution"] == USUAL_EVOLUTION and first["kind"] in ("none", "normal_load")
         if first["height"] not in heights or not alike:
             continue
         marker, colour = style.look(heights.index(first["height"]))

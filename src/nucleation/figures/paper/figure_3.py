@@ -53,7 +53,7 @@ def draw(
     theory : Dataset
         With ``critical_length(height)`` and ``thin_limit_length(height)`` (m).
     lengths : Dataset
-        One entry on dimension ``run`` per simulation, with ``role``, ``law``, ``height`` (m),
+        One entry on dimension ``run`` per simulation, with ``role``, ``evolution``, ``height`` (m),
         ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m); entries without a
         finite length are left out, and realisations of one fault drawn by their mean.
     inset_simulation : Dataset
@@ -113,7 +113,7 @@ def _inset_height(axes: Axes, drawn: list[Series]) -> float:
 
 def _series(lengths: xr.Dataset, studies: Mapping[str, Study]) -> Iterator[Series]:
     """The sets of points that share role, law and initial state: style, label and entries."""
-    law, phi0 = lengths["law"].values.astype(str), lengths["phi0"].values
+    law, phi0 = lengths["evolution"].values.astype(str), lengths["phi0"].values
     roles, old = lengths["role"].values.astype(str), aged(lengths)
     usable = np.isfinite(lengths["length"].values)
     for role, study in studies.items():

@@ -28,17 +28,18 @@ CONSTANTS: dict[str, Quantity] = {
         "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a", low=-1.0,
         high=1.0, symbol="zeta",
     ),
+    "evolution_effect": Quantity(
+        "coefficient b = a + zeta of the log of the state at the imposed velocity; in place of "
+        "zeta_over_a", low=0.0, high=1.0, closed="low", symbol="b",
+    ),
 }  # fmt: skip
 """Constants of the logarithmic law, by their names in studies."""
-
-CONSTANT_ALIASES = {"f": "friction_coefficient", "a": "direct_effect", "zeta": "velocity_weakening"}
-"""The theory's names for them."""
 
 
 def constants(friction: Friction, velocity: float) -> dict[str, float]:
     """The :data:`CONSTANTS` of a law at a slip rate (m/s)."""
     f, a, zeta = friction.expansion(velocity)
-    return dict(zip(CONSTANTS, (f, a, zeta / a, zeta), strict=True))
+    return dict(zip(CONSTANTS, (f, a, zeta / a, zeta, a + zeta), strict=True))
 
 
 def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) -> Friction:
@@ -49,8 +50,8 @@ def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) 
     Raises
     ------
     ParameterError
-        If there is no such law, or the values also set what is to be found, or both zeta and
-        zeta/a.
+        If there is no such law, or the values also set what is to be found, or more than one of
+        zeta, zeta/a and b.
     """
     given = {name: float(values[name]) for name in CONSTANTS if name in values}
     if not given:
@@ -60,10 +61,15 @@ def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) 
         raise ParameterError(
             f"{', '.join(clash)} is not allowed together with {', '.join(given)}, which sets it"
         )
-    if {"zeta_over_a", "velocity_weakening"} <= given.keys():
-        raise ParameterError("zeta_over_a is not allowed together with velocity_weakening (zeta)")
-    f, a, ratio, _ = (constants(friction, velocity) | given).values()
-    return full_law(friction, velocity, f, a, given.get("velocity_weakening", ratio * a))
+    weakening = [name for name in list(CONSTANTS)[2:] if name in given]
+    if len(weakening) > 1:
+        raise ParameterError(f"{weakening[0]} is not allowed together with {weakening[1]}")
+    f, a, ratio, zeta, b = (constants(friction, velocity) | given).values()
+    if "evolution_effect" in given:
+        zeta = b - a
+    elif "velocity_weakening" not in given:
+        zeta = ratio * a
+    return full_law(friction, velocity, f, a, zeta)
 
 
 def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: float) -> Friction:
