@@ -55,7 +55,7 @@ from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.elsewhere import others
-from nucleation.pipeline.steps import LINKS, Steps
+from nucleation.pipeline.steps import LINKS, Steps, configfiles
 from nucleation.pipeline.store import StoreError
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
@@ -64,6 +64,9 @@ gc.freeze()  # what is loaded stays: looking through it takes a third of a secon
 if "studies" not in config:
 
     configfile: str(Path(BASE, "config", "config.yaml"))
+
+
+os.environ.setdefault("NUCLEATION_CONFIGFILES", configfiles(sys.argv))  # jobs have other arguments
 
 
 try:

@@ -31,7 +31,7 @@ LENGTH = [
     (length(shear_modulus="abc"), ["'abc'", "no number", "(0, 1e+13) Pa"]),
     (length(shear_modulus=""), ["no number"]),
     (length(shear_modulus="nan"), ["'nan'", "no number"]),
-    (length(shear_modulus=None), ["Missing option '--shear-modulus'"]),
+    (length(shear_modulus=None), ["shear_modulus is missing: give --shear-modulus"]),
     (length(poisson="0.5"), ["poisson_ratio = 0.5", "(-1, 0.5)"]),
     (length(poisson="0.25 Pa"), ["unit of stress", "no dimension"]),
     (length(normal_stress="0"), ["normal_stress = 0.0 Pa", "(0, 1e+13) Pa"]),
@@ -57,7 +57,8 @@ LENGTH = [
     (length(second_body="60GPa,0.3,1m,2m", friction="0.6"), ["second_body", "same, rigid"]),
     (length(shear_modulos="1"), ["No such option '--shear-modulos'", "--shear-modulus"]),
     ([*length(), "extra"], ["unexpected extra argument"]),
-    (["lenght"], ["No such command 'lenght'"]),
+    (["lenght"], ["there is no command 'lenght'; did you mean length?"]),
+    (length(shear_modulus="30GPA"), ["GPA is not a known unit; did you mean GPa?"]),
     (["--nonsense"], ["No such option '--nonsense'"]),
 ]
 
@@ -71,7 +72,7 @@ SIMULATE = [
     (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
     (["new.nc", "--n-x", "60.5"], ["n_x = 60.5 is not", "an integer in [8, 100000]"]),
     (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
-    (["new.nc", "--law", "ageing"], ["law = 'ageing'", "one of aging, slip"]),
+    (["new.nc", "--evolution", "ageing"], ["evolution = 'ageing'", "one of aging, slip"]),
     (["new.nc", "--length", "1cm"], ["length = 0.01 m", "critical"]),
     (["new.nc", "--length-over-critical", "0.5"], ["length_over_critical = 0.5", "(1, 1000)"]),
     (["new.nc", "--n-x", "20000"], ["n_x = 20000", "MB", "memory"]),

@@ -10,7 +10,7 @@ from nucleation.patch.expected_drop import ExpectedDrop, NoDrop
 
 DROP = Drop(0.32, 0.31, 0.33, 14.0, 13.5, 14.5)
 CLOSED = ClosedForm(0.25, 0.322, 0.014, 50.0, 1e-5)
-WORDS = ("drop", "--height", "2cm", "--strength", "1e-4")
+WORDS = ("drop", "--height", "2cm", "--strength", "1e-4", "--second-body", "rigid")
 
 
 class Law:
@@ -35,15 +35,15 @@ def law(monkeypatch):
 
 
 def test_it_asks_for_the_fault_that_is_given(nucleation, law):
-    assert nucleation(*WORDS, "--law", "slip", "--perturbation", "state", "--seed", 3).code == 0
+    assert nucleation(*WORDS, "--evolution", "slip", "--perturbation", "state").code == 0
     assert law.parameters.geometry.height == 0.02
     assert law.parameters.friction.evolution == "slip"
     declared = law.parameters.perturbation
-    assert (declared.kind, declared.strength, declared.seed) == ("state", 1e-4, 3)
+    assert (declared.kind, declared.strength) == ("state", 1e-4)
     assert 0.4 < law.theory_length < 0.5
     nucleation("drop", "--height", "2cm")
     assert (law.parameters.perturbation.kind, law.parameters.perturbation.strength) == (
-        "normal_load", 1e-3
+        "normal_load", 1e-4
     )  # fmt: skip
 
 

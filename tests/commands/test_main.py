@@ -44,7 +44,7 @@ def test_completion():
 
     assert complete("le") == ["length"]
     assert "--shear-modulus" in complete("length", "--sh")
-    assert complete("simulate", "--law", "s") == ["slip"]
+    assert complete("simulate", "--evolution", "s") == ["slip"]
 
 
 @pytest.mark.system

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import os
 import signal
@@ -45,7 +46,8 @@ COMMANDS = {
     "specimen.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
-    "export": "Write slip, slip rate, stresses and state at points of the fault, a file for each.",
+    "export": "Write the fields of a simulation's fault as CSV, or with --at their time series at "
+    "points.",
     "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""
@@ -62,7 +64,9 @@ class LazyGroup(click.Group):
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         if name not in COMMANDS:
-            return None
+            close = difflib.get_close_matches(name, COMMANDS, n=1)
+            hint = f"; did you mean {close[0]}?" if close else ""
+            ctx.fail(f"there is no command {name!r}{hint}")
         if name not in LIGHT:
             require("solver")
         return importlib.import_module(f".{name}", __package__).command

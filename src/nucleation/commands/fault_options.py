@@ -5,86 +5,100 @@ from __future__ import annotations
 import contextlib
 import math
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import click
 
 from ..commands import units
+from ..model.parameters import Parameters, names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
-from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES, Fault
+from .options import merged_parameters, second_body_option, source_options, sourced, words
+from .system import of_parameters
 from .text import plain
 
+NOTES = {
+    "b": "this, --zeta or --zeta-over-a", "zeta": "zeta = b - a",
+    "friction": "needed where the bodies differ", "velocity": "for frequencies alone",
+    "height": "inf, a half-space, if left out", "far_side": "traction if left out",
+    "second_far_side": "of the second body; the first one's if left out",
+    "plane": "strain if left out",
+}  # fmt: skip
+"""What options say beside the declaration of their parameter."""
 
-def fault_options(required: bool) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """One option for each parameter of a fault; what every fault needs may be `required`."""
+REQUIRED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance")
 
-    def option(*names: str, key: str, **settings: Any) -> Any:
-        return units.option(*names, key=key, entry=QUANTITIES[key], **settings)
 
-    always = {"required": required}
-    stack = [
-        option("--shear-modulus", key="shear_modulus", **always),
-        option("--poisson", "--poisson-ratio", key="poisson_ratio", required=True),
-        option("--normal-stress", key="normal_stress", **always),
-        option("--a", "--direct-effect", key="a", required=True),
-        option("--b", key="b", note="this or --zeta"),
-        option("--zeta", key="zeta", note="zeta = b - a"),
-        option("--slip-distance", "--characteristic-slip-distance", key="slip_distance", **always),
-        option(
-            "--friction", "--friction-coefficient", key="friction",
-            note="needed where the bodies differ",
-        ),
-        option("--velocity", key="velocity", note="for frequencies alone"),
-        option("--height", key="height", default="inf", show_default=True),
-        option("--far-side", key="far_side", default="traction", show_default=True),
-        option(
-            "--second-far-side", key="second_far_side",
-            note="of the second body; the same by default",
-        ),
-        option("--plane", key="plane", default="strain", show_default=True),
-        click.option(
-            "--second-body", default="same", show_default=True, metavar="BODY",
-            help="same; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3",
-        ),
+def fault_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """One option for each parameter of a fault, and those for where they are from."""
+    options = [
+        units.option(
+            *(["--far-side"] if key == "far_side" else words(key)),
+            key=key, entry=entry, note=NOTES.get(key, ""),
+        )
+        for key, entry in QUANTITIES.items()
+    ]  # fmt: skip
+    ratio = names()["zeta_over_a"]
+    options += [
+        units.option("--zeta-over-a", key="zeta_over_a", entry=ratio),
+        second_body_option,
         click.option(
             "--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10"
         ),
-    ]  # fmt: skip
-
-    def with_options(function: Callable[..., Any]) -> Callable[..., Any]:
-        for add in reversed(stack):
-            function = add(function)
-        return function
-
-    return with_options
+        source_options,
+    ]
+    for add in reversed(options):
+        function = add(function)
+    return function
 
 
-def fault_values(second_body: str, per_decade: bool, **parameters: Any) -> dict[str, Any]:
-    """The parameters of :class:`~nucleation.theory.fault.Fault` that the options give."""
-    given = {k: v for k, v in parameters.items() if v is not None} | _second(second_body)
+def fault_values(
+    per_decade: bool, file: Path | None, run_id: str | None, config: str,
+    second_body: str | None, optional: str = "", **options: Any,
+) -> dict[str, Any]:  # fmt: skip
+    """The parameters of :class:`~nucleation.theory.fault.Fault` that options and files give.
+
+    Raises
+    ------
+    ParameterError
+        If one is wrong or missing, but for an `optional` one.
+    """
+    known = names()
+    own = {k: v for k, v in options.items() if v is not None}
     if per_decade:
-        given |= {k: given[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in given}
-    return given
+        own |= {k: own[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in own}
+    by_study = {known.short(known.full(k)): v for k, v in own.items() if k != "far_side"}
+    base, given = sourced(file, run_id, config, {"second_body": second_body, **by_study})
+    law = {"friction_law", *(base or Parameters()).friction.set_by_expansion}
+    if base is not None or law & given.keys():
+        found = of_parameters(merged_parameters(base, given))
+    else:
+        found = _of_study(given)
+    found |= {k: v for k, v in own.items() if k in ("far_side", "second_far_side")}
+    for name in REQUIRED:
+        if name not in found and name != optional:
+            raise ParameterError(f"{name} is missing: give {words(name)[-1]}, or --parameters FILE")
+    return found
 
 
-def _second(text: str) -> dict[str, float]:
-    """The parameters of the second body."""
-    if text == "same":
-        return {}
-    if text == "rigid":
-        return {"second_shear_modulus": math.inf}
-    keys = ("second_shear_modulus", "second_poisson_ratio", "second_height")
-    parts = text.split(",")
-    if not 2 <= len(parts) <= 3:
-        raise ParameterError(
-            f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
-            f"in {bounds(QUANTITIES[keys[0]])}, Poisson's ratio in "
-            f"{bounds(QUANTITIES[keys[1]])} and perhaps a height, with commas between"
-        )
-    return {k: parse(k, part, QUANTITIES[k]) for k, part in zip(keys, parts, strict=False)}
+def _of_study(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The same of values by their names in studies; what a fault does not have is left out."""
+    known = names()
+    found = {
+        key: given[name]
+        for key in QUANTITIES
+        if key != "far_side" and (name := known.short(known.full(key))) in given
+    }
+    if "zeta_over_a" in given and "a" in found:
+        if {"zeta", "b"} & found.keys():
+            raise ParameterError("zeta_over_a is not allowed together with zeta or b")
+        found["zeta"] = given["zeta_over_a"] * found["a"]
+    if given["second_body"] == "rigid":
+        found["second_shear_modulus"] = math.inf
+    return found
 
 
 @contextlib.contextmanager
@@ -101,3 +115,17 @@ def given_of(fault: Fault) -> dict[str, Any]:
     """All parameters that a fault has, for JSON (SI units)."""
     names = (name for name in QUANTITIES if getattr(fault, name) is not None)
     return {name: plain(getattr(fault, name)) for name in names}
+
+
+def assumed_line(given: Mapping[str, Any]) -> list[str]:
+    """What was assumed of a fault of which this is given."""
+    assumed = []
+    if "second_shear_modulus" not in given:
+        assumed.append("the second body is like the first")
+    if "height" not in given:
+        assumed.append("half-spaces")
+    elif "far_side" not in given:
+        assumed.append("far sides free of changes of stress")
+    if "plane" not in given:
+        assumed.append("plane strain")
+    return [f"Assumed: {', '.join(assumed)}."] if assumed else []

@@ -63,6 +63,8 @@ def _name_in_file(path: Path, group: str, field: str, value: Any) -> str:
 
 def _file_value(path: Path, key: str, value: Any) -> Any:
     """One value of a file, in SI units."""
+    if key == "second_body":
+        return str(value)  # as the option
     entry = study_parameters()[key]
     try:
         if isinstance(value, str):

@@ -19,6 +19,7 @@ from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
 from ..theory.creep.lengths import stability_values
 from ..theory.fault import Fault
 from ..theory.literature_table import (
+    HALF_SPACES,
     LENGTHS,
     TWO_MATERIALS,
     WEAKENING_RATE,
@@ -26,22 +27,18 @@ from ..theory.literature_table import (
     of_two_materials,
     values_of,
 )
-from .fault_options import doubts_told, fault_options, fault_values, given_of
+from .fault_options import assumed_line, doubts_told, fault_options, fault_values, given_of
+from .system import BEGINS, system_line
 from .text import plain
 
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the usual friction law that is told."""
 
-BEGINS = {
-    "edge": "pushed at its edge", "top": "begun at a free side", "remote": "begun in the interior",
-}  # fmt: skip
-"""What is said of the patch with each ``--loading``."""
-
 DENSITY = declarations(Material)["density"]
 
 
 @click.command("length", epilog=EXIT_CODES)
-@fault_options(required=True)
+@fault_options
 @units.option(
     "--density", key="density", entry=DENSITY,
     note="to check that inertia does not matter; needs --velocity",
@@ -79,7 +76,9 @@ def command(
         )
     lengths = values_of(fault, weakening_rate)
     print_as = _as_json if as_json else _as_text
-    click.echo(print_as(fault, mode, {k: float(lengths[k]) for k in lengths}, density, loading))
+    said = [system_line(fault, loading), *assumed_line(given)]
+    found = {k: float(lengths[k]) for k in lengths}
+    click.echo(print_as(said, fault, mode, found, density, loading))
     return DONE if np.isfinite(mode.length) else STABLE
 
 
@@ -95,11 +94,12 @@ def _over_rate(fault: Fault, mode: CriticalMode) -> float:
 
 
 def _as_json(
-    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None,
-    loading: str,
+    said: list[str], fault: Fault, mode: CriticalMode, lengths: dict[str, float],
+    density: float | None, loading: str,
 ) -> str:  # fmt: skip
     return json.dumps(
         {
+            "system": said,
             "parameters": given_of(fault),
             "theory": {
                 "critical_length": plain(mode.length),
@@ -120,19 +120,23 @@ def _as_json(
 
 
 def _as_text(
-    fault: Fault, mode: CriticalMode, lengths: dict[str, float], density: float | None,
-    loading: str,
+    said: list[str], fault: Fault, mode: CriticalMode, lengths: dict[str, float],
+    density: float | None, loading: str,
 ) -> str:  # fmt: skip
     lines = [
+        *(line for text in said for line in textwrap.wrap(text, 95, subsequent_indent="  ")),
+        "",
         *_theory_lines(fault, mode, density),
         *_patch_lines(fault, float(mode.length), loading),
     ]
     one_material = (fault.shear_modulus, fault.poisson_ratio) == (
         fault.second_shear_modulus, fault.second_poisson_ratio,
     )  # fmt: skip
-    for system in dict.fromkeys(length.system for length in LENGTHS):
-        if system == TWO_MATERIALS and one_material:
-            continue
+    systems = list(dict.fromkeys(length.system for length in LENGTHS))
+    systems.remove(TWO_MATERIALS)
+    if not one_material and np.isfinite(float(fault.second_shear_modulus)):
+        systems.insert(1, TWO_MATERIALS)  # after the fault's own, before those of its first body
+    for system in systems:
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
             if length.system == system:
@@ -230,6 +234,9 @@ def _length_lines(length: Length, value: float, fault: Fault, critical: float) -
     if np.isfinite(value):
         ratio = f"{value / critical:.3g} L_c" if np.isfinite(critical) else ""
         said, valid = _metres(value), f"valid: {length.validity}"
+        lowest = min(float(fault.height), float(fault.second_height))
+        if length.system in (HALF_SPACES, TWO_MATERIALS) and np.isfinite(lowest):
+            valid = f"for half-spaces (here H = {lowest:g} m), {length.validity}"
     else:
         said, ratio = "-", ""
         valid = f"NOT VALID HERE, needs {length.needs}: {_why(length, fault)}"

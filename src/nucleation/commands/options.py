@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import Any
+
+import click
 
 from ..configuration.load import configure
 from ..configuration.runs import Run
@@ -14,7 +17,11 @@ from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
+from ..model.units import bounds, parse
+from ..theory.fault import Fault
 from . import units
+from .given import of_dataset, of_file, of_run
+from .system import of_parameters, system_line
 from .text import with_unit
 
 STUDY = "command"  # name of the study of one run that a command line amounts to
@@ -64,14 +71,118 @@ def parameter_options(
 
 
 def _option(name: str, entry: Quantity, defaults: Mapping[str, Any]) -> Callable[..., Any]:
-    known = names()
+    if name == "second_body":
+        return second_body_option
     note = f"default {with_unit(defaults[name], entry)}" if name in defaults else ""
     note = "6 critical lengths if left out" if name == "length" else note
+    return units.option(*words(name), key=name, entry=entry, note=note)
+
+
+def words(name: str) -> list[str]:
+    """The options for a parameter: its full name, its other names, and the one it goes by."""
+    known = names()
     full = known.full(name)
-    called = [full, *known.others(full), name]
-    called = [word for word in dict.fromkeys(called) if word not in ("f", "kind", "law")]
-    words = [f"--{word.replace('_', '-')}" for word in called]
-    return units.option(*words, key=name, entry=entry, note=note)
+    called = [*known.others(full), known.short(full)]
+    return [
+        f"--{word.replace('_', '-')}"
+        for word in dict.fromkeys(called)
+        if word not in ("f", "kind", "law")  # which would be read as something else
+    ]
+
+
+second_body_option = click.option(
+    "--second-body", metavar="BODY",
+    help="same: like the first; rigid; or MODULUS,POISSON[,HEIGHT], such as 60GPa,0.3; "
+    "default same",
+)  # fmt: skip
+
+
+def second_body(text: str) -> dict[str, Any]:
+    """What ``--second-body`` stands for, by names of parameters in studies.
+
+    Raises
+    ------
+    ParameterError
+        If it is none of same (deformable), rigid, and two or three values with commas between.
+    """
+    if text in ("same", "deformable", "rigid"):
+        return {"second_body": "rigid" if text == "rigid" else "deformable"}
+    keys = ("second_shear_modulus", "second_poisson_ratio", "second_height")
+    entries, parts = study_parameters(), text.split(",")
+    if not 2 <= len(parts) <= 3:
+        raise ParameterError(
+            f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
+            f"in {bounds(entries[keys[0]])}, Poisson's ratio in {bounds(entries[keys[1]])} and "
+            "perhaps a height, with commas between"
+        )
+    own = {k: parse(k, part, entries[k]) for k, part in zip(keys, parts, strict=False)}
+    return {"second_body": "deformable", **own}
+
+
+def source_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """``--parameters``, ``--run`` and ``--config``: where other parameters are from."""
+    for option in (
+        click.option(
+            "--config", type=click.Path(dir_okay=False), default="config/config.yaml",
+            show_default=True, help="the configuration that --run is in",
+        ),
+        click.option("--run", "run_id", metavar="ID", help="a run of the configuration, by its id"),
+        click.option(
+            "--parameters", "file", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+            help="YAML or JSON file of parameters by the names of options, with units if you like; "
+            "or the dataset of an earlier simulation",
+        ),
+    ):  # fmt: skip
+        function = option(function)
+    return function
+
+
+def sourced(
+    file: Path | None, run_id: str | None, config: str, options: Mapping[str, Any]
+) -> tuple[Parameters | None, dict[str, Any]]:
+    """The parameters of a run or a dataset, if one is named, and those that are given."""
+    if file and run_id:
+        raise ParameterError("--parameters and --run can't be combined")
+    base, given = None, {}
+    if run_id:
+        base = of_run(config, run_id)
+    elif file and file.suffix == ".nc":
+        base = of_dataset(file)
+    elif file:
+        given = of_file(file)
+    own = given_of(options)
+    for values in (given, own):
+        if "second_body" in values:
+            values |= second_body(values.pop("second_body"))
+    usual = {} if base else {"second_body": "deformable"}
+    return base, usual | given | own
+
+
+ASSUMED = {
+    "shear_modulus": {"shear_modulus"}, "poisson_ratio": {"poisson_ratio"},
+    "normal_stress": {"normal_stress"}, "velocity": {"velocity"},
+    "slip_distance": {"characteristic_slip_distance"},
+    "friction": {*CONSTANTS, "friction_law", *Friction().set_by_expansion},
+}  # fmt: skip
+"""Whose values are the paper's if none of these is given."""
+
+
+def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, Any]) -> list[str]:
+    """The system of a run, its friction, and what was assumed, a line each."""
+    law, v = parameters.friction, parameters.loading.velocity
+    f, a, zeta = law.expansion(v)
+    scale = getattr(law, "slip_rate_scale", getattr(law, "reference_slip_rate", None))
+    scales = {"v*": scale, "v0": law.regularisation_slip_rate, "V": v}
+    shown = ", ".join(f"{name} = {x:.3g}" for name, x in scales.items() if x is not None)
+    lines = [
+        system_line(Fault(**of_parameters(parameters)), parameters.loading.kind),
+        f"Friction: {law.law} law, {law.evolution}; at V: f = {f:.4g}, a = {a:.4g}, "
+        f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; {shown} m/s.",
+    ]
+    papers = [name for name, by in ASSUMED.items() if not by & given.keys()]
+    if base is None and papers:
+        lines.append(f"Not given, so the paper's: {', '.join(papers)}.")
+    return lines
 
 
 def merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
@@ -79,13 +190,18 @@ def merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
 
     Without a base, the block's length is left out unless it is given: it follows from the theory.
     """
-    plain = {name: value for name, value in given.items() if name not in CONSTANTS}
-    parameters = (base or Parameters()).replaced(plain)
-    friction = with_constants(parameters.friction, parameters.loading.velocity, given)
-    values = flat(dataclasses.replace(parameters, friction=friction))
+    values = flat(merged_parameters(base, given))
     if base is None and "length" not in given:
         del values["length"]
     return values
+
+
+def merged_parameters(base: Parameters | None, given: dict[str, Any]) -> Parameters:
+    """The parameters of a base, or the defaults, with those given."""
+    plain = {name: value for name, value in given.items() if name not in CONSTANTS}
+    parameters = (base or Parameters()).replaced(plain)
+    friction = with_constants(parameters.friction, parameters.loading.velocity, given)
+    return dataclasses.replace(parameters, friction=friction)
 
 
 def planned(

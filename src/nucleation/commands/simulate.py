@@ -22,9 +22,19 @@ from ..configuration.studies import StudySettings
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, declarations
+from ..model.second_body import SecondBody
 from ..theory.estimates import growth_time
-from .given import of_dataset, of_file, of_run
-from .options import STUDY, flat, given_of, merged, parameter_options, planned
+from .options import (
+    STUDY,
+    flat,
+    given_of,
+    merged,
+    parameter_options,
+    planned,
+    source_options,
+    sourced,
+    told,
+)
 from .output import require_writable
 from .text import event_lines, outcome, parameter_lines, plain
 
@@ -40,16 +50,7 @@ AFTER = 10.0
 
 @click.command("simulate", epilog=EXIT_CODES)
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
-@click.option(
-    "--parameters", "file", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="YAML or JSON file of parameters by the names below, with units if you like; or the "
-    "dataset of an earlier simulation",
-)  # fmt: skip
-@click.option("--run", "run_id", metavar="ID", help="a run of the configuration, by its id")
-@click.option(
-    "--config", type=click.Path(dir_okay=False), default="config/config.yaml",
-    show_default=True, help="the configuration that --run is in",
-)  # fmt: skip
+@source_options
 @parameter_options(study_parameters())
 @units.option("--length-over-critical", key="length_over_critical", entry=RATIO)
 @units.option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
@@ -72,33 +73,26 @@ def command(
     Example:
       nucleation simulate run.nc --height 5mm --n-x 100 --n-y 10
     """
-    if file and run_id:
-        raise ParameterError("--parameters and --run can't be combined")
     _check_output(output, force)
-    base, given = None, {}
-    if run_id:
-        base = of_run(config, run_id)
-    elif file and file.suffix == ".nc":
-        base = of_dataset(file)
-    elif file:
-        given = of_file(file)
-    values = merged(base, given | given_of(options))
+    base, given = sourced(file, run_id, config, options)
+    values = merged(base, given)
     study = given_of({"length_over_critical": length_over_critical})
     limits, place = given_of({"memory": memory}), str(output.absolute().parent)
     run = planned(values, study, limits, place)
-    if base is None and "end_time" not in given | given_of(options):
-        found = _with_end(values, run) | given_of({"time_after_event": options["time_after_event"]})
+    if base is None and "end_time" not in given:
+        found = _with_end(values, run) | {k: v for k, v in given.items() if k == "time_after_event"}
         run = planned(found, study, limits, place)
+    said = told(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo(f"Warning: {text}", err=True)
     if dry_run and as_json:
         click.echo(json.dumps(_planned(run), indent=2))
     elif dry_run:
-        click.echo("\n".join([*parameter_lines(run.parameters), *_plan_lines(run)]))
+        click.echo("\n".join([*parameter_lines(run.parameters), *said, *_plan_lines(run)]))
     if dry_run:
         return DONE
-    click.echo("\n".join(_plan_lines(run)), err=as_json)
+    click.echo("\n".join([*said, *_plan_lines(run)]), err=as_json)
     return _simulate(run, output, _command(output, run), as_json)
 
 
@@ -145,7 +139,7 @@ def _with_end(values: dict[str, Any], run: Run) -> dict[str, Any]:
 
 def _command(output: Path, run: Run) -> str:
     """A command line that makes the dataset again: what differs from the defaults."""
-    values, usual = flat(run.parameters), flat(Parameters())
+    values, usual = flat(run.parameters), flat(Parameters(second_body=SecondBody("deformable")))
     changed = {k: v for k, v in values.items() if k == "length" or v != usual.get(k)}
     words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
     return shlex.join(["nucleation", "simulate", str(output), *words])

@@ -11,7 +11,7 @@ from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES
 from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
-from .fault_options import doubts_told, fault_options, fault_values
+from .fault_options import assumed_line, doubts_told, fault_options, fault_values
 from .text import plain
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
@@ -28,7 +28,7 @@ NAMES = {"critical": "L_c", "stability": "L_s"}
     help="the length that has to fit: L_c of homogeneous sliding, or L_s of a patch that is "
     "pushed at its edge",
 )  # fmt: skip
-@fault_options(required=False)
+@fault_options
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(length: float, unknown: str, criterion: str, as_json: bool, **options: Any) -> int:
     """Normal stress, slip distance or modulus at which a nucleation length fits into a specimen.
@@ -41,7 +41,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
       nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa --poisson 0.35 \\
           --a 0.0068 --zeta 0.016 --slip-distance 0.5um --plane stress
     """
-    given = fault_values(**options)
+    given = fault_values(**options, optional=unknown)
     own = given.pop(unknown, None)
     if missing := [name for name in UNKNOWNS.choices if name not in {unknown, *given}]:
         raise ParameterError(f"{missing[0]} is missing: one parameter is looked for, {unknown}")
@@ -56,9 +56,11 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
             **fit._asdict(),
             "given": judged,
         }
-        click.echo(json.dumps(found | {"plane": given["plane"]}, indent=2))
+        click.echo(json.dumps(found | {"plane": given.get("plane", "strain")}, indent=2))
     else:
-        click.echo(_as_text(length, criterion, fit, own, now, given["plane"]))
+        said = assumed_line(given | {unknown: own})
+        plane = given.get("plane", "strain")
+        click.echo("\n".join([*said, _as_text(length, criterion, fit, own, now, plane)]))
     return DONE if fit.exists else STABLE
 
 

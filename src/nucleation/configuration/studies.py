@@ -263,7 +263,8 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
     if length <= critical:
         raise ParameterError(
             f"length = {length:g} m is not allowed: the block must be longer than the critical "
-            f"nucleation length of the theory, {critical:.3g} m, better 6 times as long"
+            f"nucleation length of the theory, {critical:.3g} m, better 6 times as long; "
+            f"`nucleation specimen --length {length:g}m` says at which stress it would nucleate"
         )
     geometry = replace(parameters.geometry, length=float(length))
     parameters = replace(parameters, geometry=geometry)

@@ -16,7 +16,7 @@ from ..model.quantities import ParameterError, Quantity
 
 def study_parameters() -> dict[str, Quantity]:
     """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
-    return names().by_short
+    return dict(names().by_short)
 
 
 def other_names() -> dict[str, str]:

@@ -14,6 +14,11 @@ from .quantities import ParameterError, Quantity, check
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(rf"\s*([+-]?(?:{_DIGITS}|inf(?:inity)?))\s*(?:/\s*({_DIGITS}))?\s*(.*?)\s*")
 UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-]{1,60}")
+COMMON_UNITS = (
+    *("Pa", "kPa", "MPa", "GPa", "m", "km", "cm", "mm", "um", "nm", "s", "ms", "min", "h", "yr"),
+    *("m/s", "mm/yr", "mm/s", "um/s", "kg/m^3", "Pa/s", "MPa/s"),
+)
+"""Units that a wrong one is compared with, in small letters."""
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅", "0123456789-**")
 
 
@@ -88,7 +93,9 @@ def _quantity(number: Decimal, unit: str, entry: Quantity) -> Decimal:
     try:
         given = units.Quantity(number, units.parse_units(_plain_unit(unit)))
     except Exception:  # the library raises errors of many kinds for units it can't read
-        raise ValueError(f"{unit} is not a known unit") from None
+        close = next((u for u in COMMON_UNITS if u.lower() == unit.lower()), "")
+        hint = f"; did you mean {close}?" if close else ""
+        raise ValueError(f"{unit} is not a known unit{hint}") from None
     try:
         return given.to(declared_unit(entry)).magnitude
     except pint.DimensionalityError:

@@ -46,7 +46,8 @@ COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
 
 FLOORS = some(
     COLUMNS, "study", "role", "id", "evolution", "height", "n_x", "n_y", "longest_step",
-    "onset_time", "length", "theory_length", "stability_length", "floor_normal_load", "floor_state", "fault",
+    "onset_time", "length", "theory_length", "stability_length", "floor_normal_load",
+    "floor_state", "fault",
 )  # fmt: skip
 """Columns that say something of a quiet run."""
 

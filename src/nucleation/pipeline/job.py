@@ -139,13 +139,19 @@ class Job:
         """Attributes of a task's dataset that say how it was made."""
         sources = _sources(task.sources)
         return provenance.attributes(
-            task.values, task.code, f"snakemake {task.link}", sources, key=task.key
+            task.values, task.code, f"snakemake {task.link}{configured()}", sources, key=task.key
         )
 
     def leave_link(self, task: Task) -> None:
         """Tell Snakemake that a result is there."""
         link, key = Path(task.link), str(keys.key_in(task.link))
         lay(link, path_in(self.store.entry(key), link.suffix))
+
+
+def configured() -> str:
+    """The option of Snakemake that names the configuration in use, unless it is the usual one."""
+    files = os.environ.get("NUCLEATION_CONFIGFILES", "")
+    return f" --configfile {files}" if files else ""
 
 
 def lay(link: Path, target: Path) -> None:

@@ -9,6 +9,7 @@ of Snakemake decides what is current, and a dry run lists what will be computed.
 from __future__ import annotations
 
 import contextlib
+import shlex
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
@@ -179,3 +180,16 @@ def _given(value: Any, wildcards: Any) -> Any:
 def _plain(paths: Any) -> str | list[str]:
     """Paths as plain texts, without what Snakemake knows of them."""
     return str(paths) if isinstance(paths, str) else [str(path) for path in paths]
+
+
+def configfiles(arguments: Sequence[str]) -> str:
+    """The files that a command line of Snakemake gives as its configuration."""
+    found, taking = [], False
+    for word in arguments:
+        if word.startswith("-"):
+            name, _, file = word.partition("=")
+            taking = name in ("--configfile", "--configfiles")
+            found += [file] if taking and file else []
+        elif taking:
+            found.append(word)
+    return shlex.join(found)

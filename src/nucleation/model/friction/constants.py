@@ -101,4 +101,7 @@ def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: floa
         return friction.with_expansion(velocity, f, a, zeta)
     except ParameterError as error:
         wanted = f"f = {f:g}, a = {a:g}, zeta = {zeta:g} at {velocity:g} m/s"
-        raise ParameterError(f"no friction law has {wanted}: {error}") from None
+        v0 = friction.regularisation_slip_rate
+        slow = velocity < 10.0 * v0
+        cure = f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V" if slow else ""
+        raise ParameterError(f"no friction law has {wanted}{cure}: {error}") from None

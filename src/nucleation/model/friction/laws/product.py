@@ -87,7 +87,8 @@ class Law(Friction):
         if not 0.0 <= growth < 1.0:
             raise ParameterError(
                 f"(a + zeta)/f log(1 + phi/phi*) = {growth:.3g} must lie "
-                f"in [0, 1), with phi = D/V; phi* = {self.state_scale:g} s is state_scale"
+                f"in [0, 1), with phi = D/V; phi* = {self.state_scale:g} s is state_scale. "
+                "The law dieterich_ruina (friction_law) has no such limit"
             )
         aging = per_aging / (1.0 - growth)
         factor = 1.0 + aging * np.log1p(age)

@@ -1,0 +1,132 @@
+"""All commands ask for a fault in the same words, and say which fault they took it for."""
+
+import json
+
+import pytest
+
+from nucleation.api import critical_length
+from nucleation.commands.options import second_body
+from nucleation.model.quantities import ParameterError
+from nucleation.pipeline.steps import configfiles
+
+FAULT = {
+    "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
+    "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
+    "--height": "2m", "--second-body": "20GPa,0.3,3m",
+}  # fmt: skip
+OTHER_WORDS = {
+    "--a": "--direct-effect", "--friction": "--friction-coefficient",
+    "--poisson": "--poisson-ratio", "--slip-distance": "--characteristic-slip-distance",
+    "--height": "--geometry.height",
+}  # fmt: skip
+
+
+def words(options):
+    return [word for pair in options.items() for word in pair]
+
+
+def expected():
+    return float(critical_length(
+        shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.01, b=0.015,
+        slip_distance=5e-6, friction=0.6, height=2.0, second_shear_modulus=20e9,
+        second_poisson_ratio=0.3, second_height=3.0,
+    ))  # fmt: skip
+
+
+def theory(ended):
+    return json.loads(ended.out)["theory"]["critical_length"]
+
+
+def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
+    other = {OTHER_WORDS.get(word, word): value for word, value in FAULT.items()}
+    for options in (FAULT, other):
+        assert theory(nucleation("length", *words(options), "--json")) == pytest.approx(expected())
+        run = [*words(options), "--friction-law", "dieterich_ruina", "--json"]
+        dry = nucleation("simulate", tmp_path / "run.nc", *run, "--dry-run")
+        assert theory(dry) == pytest.approx(expected(), rel=1e-3), dry.err
+        assert theory(nucleation("drop", *run)) == pytest.approx(expected(), rel=1e-3)
+    asked = {k: v for k, v in FAULT.items() if k != "--normal-stress"}
+    fit = nucleation("specimen", "--length", f"{expected()}m", *words(asked), "--json")
+    assert json.loads(fit.out)["intervals"][0][0] == pytest.approx(50e6, rel=1e-3)
+
+
+def test_one_file_for_all_commands(nucleation, tmp_path):
+    lines = [f"{k[2:].replace('-', '_')}: {v}" for k, v in FAULT.items() if k != "--second-body"]
+    lines += ["second_body: 20GPa,0.3,3m", "friction_law: dieterich_ruina", "n_x: 200"]
+    (file := tmp_path / "fault.yaml").write_text("\n".join(lines) + "\n")
+    for command in (("length",), ("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
+        ended = nucleation(*command, "--parameters", file, "--json")
+        assert theory(ended) == pytest.approx(expected(), rel=1e-3), ended.err
+    doubled = nucleation("length", "--parameters", file, "--normal-stress", "100MPa", "--json")
+    assert theory(doubled) < 0.9 * expected()  # an option is stronger
+
+
+@pytest.mark.parametrize("text", ["same", "deformable"])
+def test_bodies_alike(text):
+    assert second_body(text) == {"second_body": "deformable"}
+
+
+@pytest.mark.parametrize("text", ["soft", "60GPa", "60GPa,0.3,1m,2", "60m,0.3", "60GPa,0.7"])
+def test_bad_second_bodies_are_refused(text):
+    with pytest.raises(ParameterError, match="is not allowed"):
+        second_body(text)
+
+
+def test_two_bodies_are_the_usual_system_everywhere(nucleation, tmp_path):
+    fault = ("--height", "2cm")
+    for command in (("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
+        assert (
+            "System: two identical bodies, each a layer 0.02 m" in nucleation(*command, *fault).out
+        )
+        rigid = nucleation(*command, *fault, "--second-body", "rigid").out
+        assert "a layer 0.02 m high with its far side free" in rigid and "on a rigid one" in rigid
+        assert "Not given, so the paper's: shear_modulus" in rigid
+    given = {k: v for k, v in FAULT.items() if k not in ("--height", "--second-body")}
+    told = " ".join(nucleation("length", *words(given)).out.split())
+    assert "two identical bodies, each a half-space" in told
+    assert "Assumed: the second body is like the first, half-spaces, plane strain." in told
+
+
+def test_lengths_of_half_spaces_are_not_called_valid_of_layers(nucleation):
+    same = {k: v for k, v in FAULT.items() if k != "--second-body"}
+    out = nucleation("length", *words(same)).out
+    part = out.partition("two identical half-spaces of")[2].partition(
+        "Lengths in use, for a layer"
+    )[0]
+    assert "for half-spaces (here H = 2 m)" in part and " valid:" not in part
+    high = {k: v for k, v in same.items() if k != "--height"}
+    assert "valid: velocity weakening" in nucleation("length", *words(high)).out
+
+
+def test_lengths_of_the_pair_come_before_those_of_its_first_body(nucleation):
+    out = nucleation("length", *words(FAULT)).out
+    assert (
+        0 < out.index("two half-spaces of the two bodies") < out.index("two identical half-spaces")
+    )
+
+
+def test_drop_of_a_stable_fault_ends_as_length_does(nucleation):
+    ended = nucleation("drop", "--height", "2cm", "--zeta", "-0.001")
+    assert ended.code == 3 and "No critical length: sliding is stable" in ended.out
+
+
+def test_a_law_that_can_not_have_the_constants_names_one_that_can(nucleation):
+    fault = ("--height", "2m", "--a", "0.01", "--b", "0.04", "--friction", "0.6")
+    ended = nucleation("drop", *fault, "--velocity", "1e-12m/s")
+    assert ended.code == 2 and "dieterich_ruina" in ended.err
+    assert "v0 = 1e-09 m/s, regularisation_slip_rate, must be far below V" in ended.err
+
+
+def test_too_short_a_block_is_sent_to_specimen(nucleation, tmp_path):
+    ended = nucleation("simulate", tmp_path / "run.nc", "--length", "2cm", "--dry-run")
+    assert ended.code == 2 and "nucleation specimen --length 0.02m" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "files"),
+    [(["snakemake", "x", "--configfile", "my.yaml", "--cores", "2"], "my.yaml"),
+     (["snakemake", "--configfile=a b.yaml"], "'a b.yaml'"), (["snakemake", "lengths"], ""),
+     (["snakemake", "--configfiles", "a.yaml", "b.yaml", "--", "x"], "a.yaml b.yaml")],
+)  # fmt: skip
+def test_what_makes_a_result_again_names_its_configuration(arguments, files):
+    assert configfiles(arguments) == files
