@@ -11,6 +11,7 @@ from nucleation.model.friction.constants import constants
 from nucleation.model.friction.law import Friction
 from nucleation.model.names import Names
 from nucleation.model.parameters import Parameters
+from nucleation.theory.estimates import growth_time
 
 RUN = "studies.paper.runs[6]"
 SHORT = {"height": 0.1, "evolution": ["aging", "slip"], "n_x": 800, "phi0": 10.0}
@@ -37,6 +38,21 @@ def test_names_in_defaults_and_runs_may_differ():
     assert (run.parameters.geometry.height, run.parameters.mesh.n_x) == (0.1, 90)
     (run,) = runs_of({"height": 0.1, "evolution": "slip"})
     assert run.labels["evolution"] == "slip"
+
+
+def test_end_of_a_run_that_is_given_none_follows_from_the_theory():
+    """Not the paper's: late enough for an event, and soon after it."""
+    config = study({"height": [0.1, 5.0]})
+    low, high = configure(config).runs
+    for run in (low, high):
+        due = growth_time(run.parameters, run.theory_length)
+        assert run.parameters.stepping.end_time == pytest.approx(1.5 * due, rel=0.05)
+        assert run.parameters.stepping.time_after_event == pytest.approx(0.5)
+    assert high.parameters.stepping.end_time != low.parameters.stepping.end_time
+    section = {**config, "stepping": {"end_time": 16.0}}
+    for given in (section, study({"height": 0.1, "end_time": 16.0})):
+        assert configure(given).runs[0].parameters.stepping.end_time == 16.0
+        assert configure(given).runs[0].parameters.stepping.time_after_event > 1.0
 
 
 def test_schema_has_every_name():

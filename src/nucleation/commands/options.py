@@ -188,11 +188,13 @@ def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, An
 def merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
     """All values, from a base or the defaults, and those given; constants of friction set its law.
 
-    Without a base, the block's length is left out unless it is given: it follows from the theory.
+    Without a base, the block's length and the end time are left out unless they are given: they
+    follow from the theory.
     """
     values = flat(merged_parameters(base, given))
-    if base is None and "length" not in given:
-        del values["length"]
+    if base is None:  # these follow from the theory
+        for name in {"length", "end_time", "time_after_event"} - given.keys():
+            del values[name]
     return values
 
 

@@ -23,7 +23,6 @@ from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, declarations
 from ..model.second_body import SecondBody
-from ..theory.estimates import growth_time
 from .options import (
     STUDY,
     flat,
@@ -40,12 +39,6 @@ from .text import event_lines, outcome, parameter_lines, plain
 
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
-
-LATE = 1.5
-"""Latest end of a run that is given none, over the estimated time until the critical length."""
-
-AFTER = 10.0
-"""Time that such a run goes on after its event, over D/V."""
 
 
 @click.command("simulate", epilog=EXIT_CODES)
@@ -79,9 +72,6 @@ def command(
     study = given_of({"length_over_critical": length_over_critical})
     limits, place = given_of({"memory": memory}), str(output.absolute().parent)
     run = planned(values, study, limits, place)
-    if base is None and "end_time" not in given:
-        found = _with_end(values, run) | {k: v for k, v in given.items() if k == "time_after_event"}
-        run = planned(found, study, limits, place)
     said = told(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
@@ -118,23 +108,6 @@ def _plan_lines(run: Run) -> list[str]:
         until,
         f"memory: about {estimated_megabytes(run.parameters):.0f} MB",
     ]
-
-
-def _with_end(values: dict[str, Any], run: Run) -> dict[str, Any]:
-    """The values with an end time found from the theory: late enough for an event.
-
-    An estimate of the time for a patch of the theory's critical length is an upper one
-    (:func:`nucleation.theory.estimates.growth_time`); the run ends soon after its event, whenever
-    that comes.
-    """
-    if math.isnan(run.theory_length):
-        return values
-    end = LATE * growth_time(run.parameters, run.theory_length)
-    found = {
-        "end_time": float(f"{end:.2g}"),
-        "time_after_event": AFTER * run.parameters.memory_time,
-    }
-    return values | found
 
 
 def _command(output: Path, run: Run) -> str:

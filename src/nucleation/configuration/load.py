@@ -134,7 +134,7 @@ def configure(values: Any, only: Collection[str] | None = None) -> Configuration
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
-        found.extend(study_runs(name, study, base, interface, only))
+        found.extend(study_runs(name, study, base, interface, only, values.get("stepping", {})))
     settings = {k: v for k, v in groups.items() if k != "figures"}
     _stop_on(
         [

@@ -22,11 +22,18 @@ from ..model.linearised import (
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
+from ..theory.estimates import growth_time
 from ..theory.transfer import bodies_of
 from .grids import expand
 from .roles import OWN, ROLES
 from .runs import Run, varied
 from .study_names import by_study_name, identifier, study_parameters
+
+LATE = 1.5
+"""Latest end of a run that is given none, over the estimated time until the critical length."""
+
+AFTER = 10.0
+"""Time that such a run goes on after its event, over D/V."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -117,6 +124,7 @@ def study_runs(
     base: Parameters,
     main_text: InterfaceState,
     only: Collection[str] | None = None,
+    stepping: Collection[str] = (),
 ) -> Iterator[tuple[str, Run | str]]:
     """The runs of a study, each with the key it comes from; a string in place of a bad run.
 
@@ -132,6 +140,9 @@ def study_runs(
         The main text's rounded interface.
     only : collection of str, optional
         Names of runs and batches: no others are looked at.
+    stepping : collection of str
+        What the section of that name gives. If neither it nor the study has an end time, the
+        theory says when an event is overdue.
     """
     settings = study_settings(study)
     asked = _given(name, study)
@@ -146,7 +157,9 @@ def study_runs(
     lengths = _theory_lengths(run for *_, run in prepared if isinstance(run, _Prepared))
     for given, batch, run in prepared:
         try:
-            found = run if isinstance(run, str) else _run(name, settings, run, next(lengths))
+            found = (
+                run if isinstance(run, str) else _run(name, settings, run, next(lengths), stepping)
+            )
             yield given.key, found if isinstance(found, str) else replace(found, batch=batch)
         except ParameterError as error:
             yield given.key, str(error)
@@ -251,7 +264,10 @@ def _reason(parameters: Parameters, interface: InterfaceState) -> str:
     return "the theory has no critical length"
 
 
-def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: float) -> Run:
+def _run(
+    study: str, settings: StudySettings, prepared: _Prepared, critical: float,
+    stepping: Collection[str],
+) -> Run:  # fmt: skip
     """One run; its length, unless given, is a multiple of the theory's critical length."""
     varied, values, parameters, interface = prepared
     if math.isnan(critical) and "length" not in values:
@@ -269,5 +285,19 @@ def _run(study: str, settings: StudySettings, prepared: _Prepared, critical: flo
     geometry = replace(parameters.geometry, length=float(length))
     parameters = replace(parameters, geometry=geometry)
     parameters.require_consistent()
+    if not {"end_time"} & {*stepping, *values} and not math.isnan(critical):
+        parameters = _until_overdue(parameters, critical, {*stepping, *values})
     run = Run("", study, parameters, critical, interface, values, role=settings.role)
     return replace(run, id=identifier(study, run.labels, varied))
+
+
+def _until_overdue(parameters: Parameters, critical: float, given: Collection[str]) -> Parameters:
+    """With an end that is late enough for an event, and soon after it, whenever that comes.
+
+    An estimate of the time for a patch of the theory's critical length is an upper one
+    (:func:`nucleation.theory.estimates.growth_time`).
+    """
+    end = float(f"{LATE * growth_time(parameters, critical):.2g}")
+    found = {"end_time": end, "time_after_event": min(AFTER * parameters.memory_time, end)}
+    own = {name: value for name, value in found.items() if name not in given}
+    return replace(parameters, stepping=replace(parameters.stepping, **own))
