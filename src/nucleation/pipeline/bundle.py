@@ -99,15 +99,8 @@ def _text(name: str, content: bytes) -> Packed:
 def restore(archive: Path, results: str, directory: Path = Path()) -> int:
     """Put the entries of an archive into the store of a checkout; how many are new there.
 
-    Parameters
-    ----------
-    archive : of :func:`write`; it may come from others.
-    results : directory of the results, relative to `directory`, where the workflow runs.
-
-    Raises
-    ------
-    BundleError
-        If it is damaged or foreign, and then nothing is written.
+    The archive may come from others. If it is damaged or foreign, BundleError says so and nothing
+    is written. `results` is relative to `directory`, where the workflow runs.
     """
     place = Path(os.path.normpath(directory.resolve() / results / "store"))
     if place.resolve() != place:

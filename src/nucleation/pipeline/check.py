@@ -23,22 +23,16 @@ LEFTOVERS = {
     "*.failed.nc": "the record of a run that failed",
 }
 
-OWN = {"store", "logs", LINKS, "reference"}
-"""Directories below the results that hold no links to results."""
-
-UNUSED = "unused"
-"""State of a result of other parameters or other code, which is no finding."""
+OWN = {"store", "logs", LINKS, "reference"}  # directories that hold no links to results
+UNUSED = "unused"  # state of a result of other parameters or other code, which is no finding
 
 
 @dataclasses.dataclass(frozen=True)
 class Finding:
-    """A file that is not as it should be.
-
-    `state` is stale, incomplete, damaged, foreign or :data:`UNUSED`.
-    """
+    """A file that is not as it should be."""
 
     path: Path
-    state: str
+    state: str  # stale, incomplete, damaged, foreign or UNUSED
     reason: str
 
     def __str__(self) -> str:
@@ -46,13 +40,10 @@ class Finding:
 
 
 def check_results(results: Path, expected: Mapping[str, str]) -> list[Finding]:
-    """All that is not what the present configuration and code make.
+    """All among the results that is not what the present configuration and code make.
 
-    Parameters
-    ----------
-    results : directory of the results.
-    expected : keys of all results that the configuration can ask for, by the name that each is
-        shown under.
+    `expected` has the keys of all that the configuration can ask for, by the name that each is
+    shown under.
     """
     store = Store(results / "store")
     found = [*_entries(store), *_shown(results, store, expected)]
@@ -140,11 +131,9 @@ def prune(results: Path, expected: Mapping[str, str], remove: bool) -> str:
     keys = unused(store, expected)
     lines = []
     for key in keys:
-        note, size = (
-            store.note(key) or {},
-            sum(f.stat().st_size for f in store.entry(key).iterdir()),
-        )
-        lines.append(f"{store.entry(key)}  {note.get('name', '')}  {size / 1e6:.1f} MB")
+        name = (store.note(key) or {}).get("name", "")
+        size = sum(f.stat().st_size for f in store.entry(key).iterdir())
+        lines.append(f"{store.entry(key)}  {name}  {size / 1e6:.1f} MB")
         if remove:
             store.remove(key)
     done = "removed" if remove else "that nothing refers to; PRUNE=yes removes them"

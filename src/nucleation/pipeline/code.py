@@ -23,20 +23,16 @@ from .syntax import PACKAGE, Source, parse
 
 ROOT = Path(__file__).resolve().parents[1]
 
+# the wing that surrounds computations and can't change what they compute: in no digest
 NEUTRAL = f"{PACKAGE}.pipeline"
-"""The wing that surrounds computations and can't change what they compute: in no digest."""
-
+# libraries whose distribution has another name than what is imported
 DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml", "pypandoc": "pypandoc_binary"}
-"""Libraries whose distribution has another name than what is imported."""
-
+# libraries that do the work of others without being imported here
 COMPANIONS = {"numba": ("llvmlite",), "xarray": ("netCDF4", "pandas"), "matplotlib": ("pillow",)}
-"""Libraries that do the work of others without being imported here."""
-
+# code that takes part in every dataset: how it is written
 ALWAYS = (f"{PACKAGE}.datasets.netcdf",)
-"""Code that takes part in every dataset: how it is written."""
-
+# what is kept of each source, by its content, so that a start of the workflow parses nothing
 PARSED = ROOT / "__pycache__" / "digests.json"
-"""What is kept of each source, by its content, so that a start of the workflow parses nothing."""
 
 
 class CodeError(RuntimeError):
@@ -47,16 +43,7 @@ class CodeError(RuntimeError):
 def digest(*roots: str) -> str:
     """Digest of scripts and modules, of all they import from the package, and of libraries.
 
-    Parameters
-    ----------
-    roots : str
-        Dotted names of the package's modules, such as ``nucleation.simulation.run``, or paths of
-        scripts.
-
-    Returns
-    -------
-    str
-        64 hexadecimal digits.
+    `roots` are dotted names, such as ``nucleation.simulation.run``, or paths of scripts.
 
     Raises
     ------

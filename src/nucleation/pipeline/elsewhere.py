@@ -115,15 +115,8 @@ class Bucket:
 def others(strict: bool = True) -> list[Other]:
     """The other stores that the environment names.
 
-    Parameters
-    ----------
-    strict : whether to stop if one can't be used; if not, it is said and left out, as on a node of
-        a cluster that lacks a disk.
-
-    Raises
-    ------
-    StoreError
-        If one is no directory, can't be read, or is of a kind that nothing here can read.
+    One that is no directory, can't be read, or is of a kind that nothing here can read raises a
+    StoreError if `strict`; if not, it is said and left out, as on a node that lacks a disk.
     """
     found: list[Other] = []
     for name in filter(None, map(str.strip, os.environ.get(VARIABLE, "").split(","))):

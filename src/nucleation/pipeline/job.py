@@ -35,12 +35,7 @@ EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 
 
 class Job:
-    """The results that a job makes, one or several.
-
-    Parameters
-    ----------
-    snakemake : what Snakemake gives to a script.
-    """
+    """The results that a job makes, one or several, from what Snakemake gives to a script."""
 
     def __init__(self, snakemake: Any) -> None:
         params = dict(snakemake.params.items())
@@ -89,12 +84,11 @@ class Job:
         return function(**arguments(function, values), **inputs)
 
     def read(self, task: Task) -> dict[str, Any]:
-        """What a function is given for the inputs of its task, by their roles."""
-        return {role: self._input(paths) for role, paths in task.sources.items()}
-
-    def _input(self, paths: str | list[str]) -> Any:
-        """One input, or several, of which datasets are read when they are asked for."""
-        return Inputs(self, paths) if isinstance(paths, list) else self.open(paths)
+        """What a function is given for its task's inputs by role: several are read when asked for."""
+        return {
+            role: Inputs(self, paths) if isinstance(paths, list) else self.open(paths)
+            for role, paths in task.sources.items()
+        }
 
     def open(self, path: str) -> Any:
         """A dataset, whole and of the key in its path; of any other file the path.

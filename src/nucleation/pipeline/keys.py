@@ -14,29 +14,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-LENGTH = 16
-"""Hexadecimal digits of a key: 64 bits, of which thousands of results never share one."""
-
+LENGTH = 16  # hexadecimal digits: 64 bits, of which thousands of results never share one
 PATTERN = rf"[0-9a-f]{{{LENGTH}}}"
-
-IN_NAME = re.compile(rf"\.({PATTERN})\.\w+$")
-"""The end of the name of a link."""
-
-IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")
-"""The end of the path of a file in a store."""
+IN_NAME = re.compile(rf"\.({PATTERN})\.\w+$")  # the end of the name of a link
+IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")  # and of the path of a file in a store
 
 
 def key(code: str, parameters: Mapping[str, Any], sources: Mapping[str, Sequence[str]]) -> str:
-    """The key of a result.
-
-    Parameters
-    ----------
-    code : str
-        From :func:`nucleation.pipeline.code.digest`.
-    parameters : JSON-serialisable
-        Everything from the configuration that the result depends on.
-    sources : mapping of str to sequence of str
-        Keys of what it is made from, by the role that it plays.
+    """The key of a result, from the digest of its code, all of the configuration that it depends on,
+    and keys of what it is made from, by the role that each plays.
     """
     text = plain([code, parameters, sources])
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]

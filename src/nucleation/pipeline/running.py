@@ -19,8 +19,7 @@ from .steps import LINKS, Task
 from .store import path_in
 
 SIMULATE = "nucleation.simulation.run:simulate"
-UNFINISHED = "unfinished"
-"""Directory below the results with checkpoints, and records of runs that failed."""
+UNFINISHED = "unfinished"  # directory with checkpoints, and records of runs that failed
 
 
 class Failed(Exception):
@@ -37,14 +36,9 @@ def task_of_run(run: dict[str, Any], results: Path) -> Task:
 def record_of(job: Job, task: Task) -> xr.Dataset:
     """The record of a run, found or made, and now in the store.
 
-    Raises
-    ------
-    StoreError
-        If what is there is damaged or of another key.
-    Failed
-        If the run ends before its end time or event; its record is among the unfinished.
-    Stopped
-        If a signal has stopped the run, which has left a checkpoint, or came after the run before.
+    Raises StoreError if what is there is damaged or of another key, Failed if the run ends before
+    its end time or event (its record is among the unfinished), and Stopped if a signal has stopped
+    the run, which has left a checkpoint, or came after the run before.
     """
     if job.listener is not None and job.listener.asked is not None:
         raise Stopped(f"not begun, since the job was stopped by {job.listener.asked}")
@@ -79,25 +73,10 @@ def run_to_file(
     checkpoint: Checkpoint,
     progress: Callable[[Any], None],
 ) -> tuple[xr.Dataset, Path]:
-    """Simulate, from the checkpoint if there is one, and write the record.
+    """Simulate, from the checkpoint if there is one, and write the record; it, and where it is.
 
-    Parameters
-    ----------
-    simulate : :func:`nucleation.simulation.run.simulate`.
-    parameters : of the run.
-    output : place of the result; the record of a failed run goes beside it, as ``.failed.nc``.
-    write : writes the record to one of both.
-    checkpoint : of :func:`checkpoint_of`; it is removed once the record is written.
-    progress : called with every accepted step.
-
-    Returns
-    -------
-    The record, and where it was written.
-
-    Raises
-    ------
-    Stopped
-        If a signal has stopped the run, which has left a checkpoint.
+    The record of a failed run goes beside `output`, as ``.failed.nc``. The checkpoint is removed
+    once the record is written; a signal that stops the run leaves it, and raises Stopped.
     """
     dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
     failed = output.with_suffix(".failed.nc")

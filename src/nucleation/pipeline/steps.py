@@ -20,14 +20,9 @@ from typing import Any, NamedTuple
 from . import code, keys
 from .store import Store, path_in
 
-LINKS = ".links"
-"""Directory below the results with what jobs tell Snakemake they have made."""
-
-ABOUT = ("call", "loads", "simulates", "each")
-"""Parameters of rules that are no parameters of a result."""
-
-Sources = dict[str, "str | list[str]"]
-"""Inputs by their role: a path, or a list of them."""
+LINKS = ".links"  # directory below the results with what jobs tell Snakemake they have made
+ABOUT = ("call", "loads", "simulates", "each")  # of a rule, and no parameters of a result
+Sources = dict[str, "str | list[str]"]  # inputs by their role: a path, or a list of them
 
 
 class Made(NamedTuple):
@@ -101,12 +96,9 @@ class Steps:
         return f"{self._results}/{LINKS}/{name}.{{key}}.{suffix}"
 
     def __call__(self, rule: str, name: str = "") -> str:
-        """The path of a result: in the store, or that of the link which is to be made.
+        """The path of a rule's result: in the store, or that of the link which is to be made.
 
-        Parameters
-        ----------
-        rule : name of the rule.
-        name : value of its wildcard ``name``, if it has one.
+        `name` is the value of the rule's wildcard of that name, if it has one.
         """
         return self.made(rule, name).path
 

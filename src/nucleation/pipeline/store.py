@@ -61,13 +61,9 @@ def suffixes(note: Note) -> list[str]:
 
 
 def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
-    """What an entry says of itself, held against its key and its files.
+    """What an entry says of itself, held against its key (by its name, if none is given) and files.
 
-    Parameters
-    ----------
-    entry : directory.
-    key : which the entry must be of, if its name doesn't say.
-    whole : whether to hold the bytes of each file against its digest, and not its size alone.
+    If `whole`, the bytes of each file are held against its digest, and not its size alone.
 
     Raises
     ------
@@ -92,13 +88,7 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
 
 
 def files_of(note: Note) -> list[str]:
-    """Names of the files of an entry: plain ones, which can't lead out of it.
-
-    Raises
-    ------
-    StoreError
-        If one is none.
-    """
+    """Names of the files of an entry: plain ones, which can't lead out of it, or StoreError."""
     for name in note["files"]:
         if not FILE.fullmatch(name):
             raise StoreError(f"{name!r} is no name of a result's file")
@@ -106,12 +96,7 @@ def files_of(note: Note) -> list[str]:
 
 
 class Store:
-    """A store in a directory.
-
-    Parameters
-    ----------
-    directory : which need not exist.
-    """
+    """A store in a directory, which need not exist."""
 
     def __init__(self, directory: str | Path) -> None:
         self.directory = Path(directory)
@@ -147,13 +132,9 @@ class Store:
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
 
     def put(self, key: str, make: Callable[[Path], None], about: Mapping[str, Any]) -> Note:
-        """Make an entry: whole on the disk, or not at all.
+        """Make an entry, whole on the disk or not at all, of the files that `make` writes.
 
-        Parameters
-        ----------
-        key : of the result.
-        make : writes its files into a directory.
-        about : what else ``entry.json`` is to say.
+        `about` is what else ``entry.json`` is to say.
         """
         self.directory.mkdir(parents=True, exist_ok=True)
         with self._unfinished() as place:

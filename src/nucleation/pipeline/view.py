@@ -22,26 +22,12 @@ from .job import lay
 from .keys import content
 from .store import Note, Store, StoreError, path_in, read_note, suffixes
 
-VIEWS = "views"
-"""Directory in a store with a record of each directory of results that shows something of it."""
-
-LARGE = 2**24
-"""Bytes from which on the content of a file is not looked at again before it is shown."""
+VIEWS = "views"  # directory in a store: a record of each directory of results that shows some of it
+LARGE = 2**24  # bytes from which on a file's content is not looked at again before it is shown
 
 
 def show(results: Path, target: str, shown: Iterable[tuple[str, str]]) -> list[Path]:
-    """Lay what a target shows.
-
-    Parameters
-    ----------
-    results : directory of the results.
-    target : its name.
-    shown : names in the directory, without suffix, and keys.
-
-    Returns
-    -------
-    list of Path
-        All files that are shown, in that order.
+    """Lay what a target shows, by names without suffix and keys; all files, in that order.
 
     Raises
     ------

@@ -18,22 +18,15 @@ WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
 
 
 class CriticalMode(NamedTuple):
-    """The marginally stable mode with the largest wavenumber.
+    """The marginally stable mode with the largest wavenumber: arrays, DataArrays or quantities.
 
-    Attributes
-    ----------
-    length : ndarray, DataArray or pint quantity
-        Critical nucleation length ``L_c = 2 pi/k_c`` (m).
-    wavenumber : ndarray or DataArray
-        k_c (1/m).
-    angular_frequency : ndarray or DataArray
-        omega (rad/s) of ``exp(i omega t - i k_c x)``: along +x if positive. Where the bodies are
-        mirror images both signs are marginal, and the positive one is given.
+    Its ``exp(i omega t - i k_c x)`` runs along +x if omega is positive. Where the bodies are mirror
+    images both signs are marginal, and the positive one is given.
     """
 
-    length: Any
-    wavenumber: Any
-    angular_frequency: Any
+    length: Any  # L_c = 2 pi/k_c (m)
+    wavenumber: Any  # k_c (1/m)
+    angular_frequency: Any  # omega (rad/s)
 
 
 @takes_fault

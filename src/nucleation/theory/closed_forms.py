@@ -31,17 +31,8 @@ def bimaterial_contrast(upper: Material, lower: Material) -> float:
 def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
     """L_c of two half-spaces over ``L_c^M = pi M ell / (zeta sigma0)`` (Eq. 9, Fig. 2).
 
-    Parameters
-    ----------
-    f_beta : array_like
-        Friction coefficient times bimaterial contrast, of either sign.
-    zeta_over_a : array_like
-        Velocity weakening over direct effect; broadcast against `f_beta`.
-
-    Returns
-    -------
-    ratio : ndarray
-        Dimensionless; negative with ``L_c^M`` for ``zeta < 0``; NaN where sliding is stable.
+    Of f beta, of either sign, and zeta/a, which broadcast; negative with ``L_c^M`` for
+    ``zeta < 0``, NaN where sliding is stable.
 
     Notes
     -----

@@ -35,12 +35,8 @@ from .bounds import transfer_bounds
 from .spectrum import Systems
 from .stiffness import SATURATION, Array
 
-RESOLUTION = 1e-4
-"""An unstable band narrower than this in ``log k`` may be overlooked; it ends the search."""
-
-LONG_WAVES = 1e-3
-"""``Hk`` below which the transfer functions are powers of k."""
-
+RESOLUTION = 1e-4  # an unstable band narrower than this in log k may be overlooked
+LONG_WAVES = 1e-3  # Hk below which the transfer functions are powers of k
 INTERVALS = 64  # of log k at first
 PARTS = 16  # into which an undecided interval is divided
 TOGETHER = 1000  # systems that are searched at once, so that their arrays stay in the cache

@@ -34,33 +34,24 @@ CURVES = {
 
 
 def theory_dataset(
-    material: Material,
-    friction: Friction,
-    interface: InterfaceState,
-    curves: Curves,
+    material: Material, friction: Friction, interface: InterfaceState, curves: Curves
 ) -> xr.Dataset:
     """All curves of the linear theory.
 
     Parameters
     ----------
-    material : Material
-        Of the block.
-    friction : Friction
-        The full law with the parameters of Table S1.
-    interface : InterfaceState
-        The main text's rounded friction, on which the curve of Figure 3 stands; at its velocity
-        the full law is expanded.
-    curves : Curves
-        Where to compute.
+    material : of the block.
+    friction : the full law with the parameters of Table S1.
+    interface : the main text's rounded friction, on which the curve of Figure 3 stands; at its
+        velocity the full law is expanded.
+    curves : where to compute.
     """
-    merged = xr.merge(
-        [
-            length_curve(material, interface, np.array(curves.heights)),
-            bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
-            friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
-        ]
+    parts = (
+        length_curve(material, interface, np.array(curves.heights)),
+        bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
+        friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
     )
-    return annotate(merged, CURVES)
+    return annotate(xr.merge(parts), CURVES)
 
 
 def length_curve(material: Material, interface: InterfaceState, height: np.ndarray) -> xr.Dataset:
@@ -88,13 +79,11 @@ def friction_curves(friction: Friction, velocity: float, slip_rate: np.ndarray) 
     """Steady-state friction, full law and logarithmic expansion about `velocity` (Figure S1)."""
     state = friction.characteristic_slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
     expansion = friction.expansion(velocity)
+    logarithmic = friction.logarithmic(slip_rate, state, velocity)
     return xr.Dataset(
         {
             "steady_friction": ("slip_rate", friction.steady_coefficient(slip_rate)),
-            "steady_friction_logarithmic": (
-                "slip_rate",
-                friction.logarithmic(slip_rate, state, velocity),
-            ),
+            "steady_friction_logarithmic": ("slip_rate", logarithmic),
             "friction_reference": expansion.f0,
             "direct_effect": expansion.a,
             "velocity_weakening": expansion.zeta,

@@ -28,7 +28,7 @@ class Stiffness(NamedTuple):
 
 
 def stiffness_of(parameters: Parameters) -> Stiffness:
-    """The stiffness of a run's bodies."""
+    """That of a run's bodies."""
     if parameters.below is None:
         material = parameters.material
         thick = material.shear_modulus / (1.0 - material.in_plane_ratio)

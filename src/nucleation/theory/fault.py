@@ -206,22 +206,14 @@ class Fault:
     ) -> Any:
         """Values of a function of many faults at every point of the broadcast parameters.
 
+        Shape ``(rows,) + broadcast shape``; the first dimension of a DataArray is called ``row``.
+
         Parameters
         ----------
-        function : callable
-            Takes :class:`~nucleation.theory.spectrum.Systems` of n faults and n entries of each
-            further argument; returns `rows` arrays of length n.
-        arrays : array_like
-            Further arguments, which broadcast with the parameters.
-        rows : int
-            Number of values at each point.
-        dtype : type
-            Of the values.
-
-        Returns
-        -------
-        ndarray or DataArray
-            Shape ``(rows,) + broadcast shape``; the first dimension is called ``row``.
+        function : takes :class:`~nucleation.theory.spectrum.Systems` of n faults and n entries of
+            each further argument; returns `rows` arrays of length n.
+        arrays : further arguments, which broadcast with the parameters.
+        rows, dtype : number of values at each point, and their type.
         """
         neutral = {"friction": 0.0, "velocity": 1.0}  # where not given they do not matter
         own = dict(

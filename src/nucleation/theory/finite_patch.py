@@ -32,15 +32,9 @@ from numpy.typing import NDArray
 
 from ..types import Array
 
-TERMS = 24
-"""Slip modes ``sin(n theta)``, n odd: the first instability is even in x."""
-
-NODES = 200
-"""Of the quadrature over theta."""
-
-DEGREE = 12
-"""Of the polynomial in ``log(1 - a/b)`` through the logarithms of the computed factors."""
-
+TERMS = 24  # slip modes sin(n theta), n odd: the first instability is even in x
+NODES = 200  # of the quadrature over theta
+DEGREE = 12  # of the polynomial in log(1 - a/b) through the logarithms of the computed factors
 NEAREST = 0.99
 """Largest a/b of a loaded patch: nearer to neutral its mode shrinks to the patch's middle."""
 
@@ -58,10 +52,7 @@ def _basis() -> tuple[Array, Array, Array]:
 def softest(answer: NDArray) -> complex:
     """Largest ``1/(2 lambda)`` at which ``K u = lambda answer u``, lambda in units of 1/h.
 
-    Parameters
-    ----------
-    answer : ndarray
-        Friction's answer per ``u/sin(theta)``, at the nodes of theta.
+    `answer` is friction's per ``u/sin(theta)``, at the nodes of theta.
     """
     n, _, products = _basis()
     values = np.linalg.eigvals((products @ answer) / n[:, None])
@@ -69,19 +60,9 @@ def softest(answer: NDArray) -> complex:
 
 
 def marginal_loaded_patch(a_over_b: float) -> tuple[float, float]:
-    """The patch under a steadily rising load where it loses stability.
+    """The patch under a steadily rising load where it loses stability, for a/b in (0, 1).
 
-    Parameters
-    ----------
-    a_over_b : float
-        In (0, 1).
-
-    Returns
-    -------
-    factor : float
-        ``L zeta sigma0/(mu* D)``.
-    frequency : float
-        Angular frequency of its mode, over ``V(0)/D``.
+    Its ``L zeta sigma0/(mu* D)``, and the angular frequency of its mode over ``V(0)/D``.
     """
     _, sine, _ = _basis()
 
@@ -98,24 +79,15 @@ def marginal_loaded_patch(a_over_b: float) -> tuple[float, float]:
 
 @lru_cache(maxsize=1)
 def polynomial() -> Array:
-    """Chebyshev coefficients of the factor's logarithm, over :func:`_nearness` from -1 to 1."""
+    """Chebyshev coefficients of the factor's logarithm, over nearness to neutral from -1 to 1."""
     points = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
     ratios = 1.0 - np.exp(0.5 * (1.0 + points) * np.log(1.0 - NEAREST))
     factors = [marginal_loaded_patch(ratio)[0] for ratio in ratios]
     return chebyshev.chebfit(points, np.log(factors), DEGREE)
 
 
-def _nearness(a_over_b: Any) -> Any:
-    """How near to neutral: -1 without direct effect, 1 at :data:`NEAREST`."""
-    return 2.0 * np.log(1.0 - a_over_b) / np.log(1.0 - NEAREST) - 1.0
-
-
 def loaded_patch_factor(a_over_b: Any) -> Any:
-    """``L zeta sigma0/(mu* D)`` of a loaded patch, array or DataArray.
-
-    Parameters
-    ----------
-    a_over_b : array_like
-        From 0 to :data:`NEAREST`.
-    """
-    return np.exp(chebyshev.chebval(_nearness(a_over_b), polynomial()))
+    """``L zeta sigma0/(mu* D)`` of a loaded patch with a/b from 0 to :data:`NEAREST`."""
+    # how near to neutral: -1 without direct effect, 1 at the nearest
+    near = 2.0 * np.log(1.0 - a_over_b) / np.log(1.0 - NEAREST) - 1.0
+    return np.exp(chebyshev.chebval(near, polynomial()))

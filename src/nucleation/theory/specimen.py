@@ -25,8 +25,7 @@ CRITERIA = {"critical": critical_length, "stability": stability_length}
 SPECIMEN = dataclasses.replace(
     declarations(Geometry)["length"], description="length of the specimen along the fault"
 )
-PER_DECADE = 12
-"""Values at which the length is computed, in each decade, before roots are looked for between."""
+PER_DECADE = 12  # values, in each decade, between which roots are looked for
 FAR = 4.0
 """L_s is taken for longer than the specimen where L_c is this much longer: the least L_s of
 150 random faults is 0.39 L_c, and a patch that is very long against its height takes seconds."""
@@ -35,15 +34,13 @@ FAR = 4.0
 class Fit(NamedTuple):
     """Where a nucleation length fits into a specimen.
 
-    `intervals` are the values, low to high, at which the nucleation length exists and is at most
-    the specimen's; none if it does not nucleate. An end that is one of `searched`, the values that
-    were looked at, is none of the specimen's.
+    An end of `intervals` that is one of `searched` is none of the specimen's.
     """
 
     unknown: str  # the parameter that was looked for
     unit: str
-    intervals: tuple[tuple[float, float], ...]
-    searched: tuple[float, float]
+    intervals: tuple[tuple[float, float], ...]  # values at which the length is at most its own
+    searched: tuple[float, float]  # values that were looked at
     exists: bool  # whether there is a nucleation length at any of them, of whatever length
     monotonic: bool  # whether the length rises or falls all along, wherever it exists
 

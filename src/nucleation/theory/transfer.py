@@ -88,19 +88,9 @@ def as_wavenumber(wavenumber: ArrayLike) -> Array:
 def transfer_functions(
     wavenumber: ArrayLike, upper: Body | RigidBody, lower: Body | RigidBody
 ) -> tuple[Array, Array]:
-    """Elastic transfer functions of a pair of bodies.
+    """G1 and G2 (dimensionless) of a pair of bodies, at most one of them rigid, shape of k.
 
-    Parameters
-    ----------
-    wavenumber : array_like
-        k (1/m), any shape, either sign, not zero.
-    upper, lower : Body or RigidBody
-        The bodies above and below the interface; at most one is rigid.
-
-    Returns
-    -------
-    G1, G2 : ndarray
-        Dimensionless, shape of k; G1 is odd and G2 even in k.
+    The wavenumber k (1/m) may have either sign but not be zero; G1 is odd and G2 even in it.
 
     Notes
     -----

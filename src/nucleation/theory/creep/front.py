@@ -28,9 +28,7 @@ from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import MORE_MODES, Half, modes, response
 from .profile import Creep, EdgeSlip, edge_slip
 
-ROUNDS = 4
-"""Of the three equations: each takes off more than nine tenths of the error."""
-
+ROUNDS = 4  # of the three equations: each takes off more than nine tenths of the error
 FINE = 400  # angles at which the state behind the front is followed,
 AT_REST = 100  # and times of the interface ahead
 STEP = 0.01  # of log L, in derivatives by L
@@ -54,20 +52,14 @@ def advance(
     patches: Patches, lengths: ArrayLike, initial_state: float, initial_stress: float = 0.0,
     number: int | None = None,
 ) -> Advance:  # fmt: skip
-    """The patch of one fault at some lengths, with its advancing front.
+    """The patch of one fault at some lengths (m), with its advancing front.
 
     Parameters
     ----------
-    patches : Patches
-        With a friction law and its velocity; pushed at the edge.
-    lengths : array_like
-        L (m), (n,).
-    initial_state : float
-        phi_0 (s) when the edge begins to move.
-    initial_stress : float
-        Shear stress over sigma0 when it does.
-    number : int
-        Of modes; more than steady creep needs, by default.
+    patches : with a friction law and its velocity; pushed at the edge.
+    initial_state, initial_stress : phi_0 (s), and the shear stress over sigma0, when the edge
+        begins to move.
+    number : of modes; more than steady creep needs, by default.
 
     Raises
     ------

@@ -29,18 +29,11 @@ from ..estimates import loading_rate
 from ..fault import Fault, Values, takes_fault
 from ..spectrum import Systems
 from ..transfer import bodies_of
-from .linearised import (
-    FrozenPatch,
-    constant_coefficients,
-    creeping_patch,
-    local_coefficients,
-)
+from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
 from .modes import modes_for, response
 from .profile import Creep, creep
 
-LONGEST = 3.0
-"""Patches up to this multiple of L_c are tried."""
-
+LONGEST = 3.0  # patches up to this multiple of L_c are tried
 OSCILLATING = 0.01
 """Modes of a smaller angular frequency, over V/D, do not count: none that has to do with L_s is as
 slow, and it is less than what is asked of a run's patch, whose spectrum is not as clean."""
@@ -66,24 +59,14 @@ class StabilityPoint(NamedTuple):
 class Patches:
     """The creeping patches of one fault, of any length.
 
-    Parameters
-    ----------
-    one : Systems
-        A single fault, all fields of shape (1,).
-    law : Friction, optional
-        With whose local a(v) and b(v); constant a and b by default.
-    velocity : float, optional
-        V (m/s), which a law needs.
-    loading : {"edge", "top", "remote"}
-        Where the patch begins: at an edge that is pushed, at a side that is free, or in between.
-    load_rate : float
-        Rise of the shear stress that loads the patch, over ``sigma0 V/D``, without an edge; with
-        constant a and b nothing depends on it.
+    A patch begins at an ``edge`` that is pushed, at a side that is free under a moved ``top``, or
+    in between under a ``remote`` load. Without an edge `load_rate` is the rise of the shear stress
+    that loads it, over ``sigma0 V/D``; with constant a and b nothing depends on that.
     """
 
-    one: Systems
-    law: Friction | None = None
-    velocity: float = 1.0
+    one: Systems  # a single fault, all fields of shape (1,)
+    law: Friction | None = None  # with whose local a(v) and b(v); without it they are constant
+    velocity: float = 1.0  # V (m/s), which a law needs
     loading: str = "edge"
     load_rate: float = 1.0
 

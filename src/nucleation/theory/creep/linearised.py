@@ -131,17 +131,9 @@ def constant_coefficients(rate: Array, friction: float, a: float, zeta: float) -
 def local_coefficients(
     law: Friction, velocity: float, rate: Array, log_state: Array | None = None
 ) -> Coefficients:
-    """A friction law linearised at the slip rates and states of each place.
+    """A friction law linearised at slip rates over V (m/s) and states, log(phi), phi in s.
 
-    Parameters
-    ----------
-    law : Friction
-    velocity : float
-        V (m/s), in which `rate` is given.
-    rate : ndarray
-        Over V.
-    log_state : ndarray, optional
-        log(phi), phi in s; that of steady sliding by default.
+    The states are those of steady sliding by default.
     """
     v, distance = velocity * rate, law.characteristic_slip_distance
     psi = np.log(law.steady_state(v)) if log_state is None else log_state
@@ -158,10 +150,6 @@ def creeping_patch(creep: Creep, friction: Coefficients) -> FrozenPatch:
     """
     held = creep.response
     by_slip = held.coupled(friction.friction)[:, 1:] @ held.modes.inverse
-    return FrozenPatch(
-        np.arange(friction.by_rate.size),
-        -by_slip / (creep.normal_stress * friction.by_rate)[:, None],
-        -friction.by_state / friction.by_rate,
-        friction.evolution_by_rate,
-        friction.evolution_by_state,
-    )
+    by_slip = -by_slip / (creep.normal_stress * friction.by_rate)[:, None]
+    by_state = -friction.by_state / friction.by_rate
+    return FrozenPatch(np.arange(friction.by_rate.size), by_slip, by_state, *friction[3:])

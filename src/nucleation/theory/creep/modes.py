@@ -36,18 +36,12 @@ MODES, MORE_MODES = 16, 32
 """Modes of slip: enough for an error of L_s of some 1e-4, and more where the stiffer body is
 above: pushed that way, slip piles up compression behind the front (:func:`modes_for`)."""
 
-STIFFER_ABOVE = -0.05
-"""``f G2/G1`` of the half-spaces below which there are more modes."""
-
-CUT = 14.0
-"""``kH`` beyond which layers are half-spaces: ``q^2 exp(-2 q)`` is 1e-10."""
-
+STIFFER_ABOVE = -0.05  # f G2/G1 of the half-spaces below which there are more modes
+CUT = 14.0  # kH beyond which layers are half-spaces: q^2 exp(-2 q) is 1e-10
+# patch lengths over height for which there are tables: thicker layers need shorter ones; those
+# thinner than the last are not taken as they are (_thickened)
 REACHES = (5.0, 25.0, 250.0)
-"""Patch lengths over height for which there are tables: thicker layers need shorter ones."""
-
 SLIMMEST = REACHES[-1]
-"""Patch length over height up to which layers are taken as they are (:func:`_thickened`)."""
-
 WIDTH, POINTS = 6.0, 10  # panels of kappa and their Gauss points: J_2n(kappa) turns with 2 pi
 FINEST = 1e-3  # the first panel, of thick layers
 
@@ -132,19 +126,11 @@ def modes_for(one: Systems) -> int:
 
 
 def response(one: Systems, length: float, number: int = MODES, loading: str = "edge") -> Response:
-    """The response of one fault's bodies to slip of a patch.
+    """The response of one fault's bodies to slip of a patch of a length L (m), from end to end.
 
-    Parameters
-    ----------
-    one : Systems
-        Of a single fault, all fields of shape (1,).
-    length : float
-        L (m) of the patch, from end to end.
-    number : int
-        Of modes; of a remote load as many of either symmetry.
-    loading : {"edge", "top", "remote"}
-        Which modes there are. Column 0 has what is imposed: the edge's displacement, or for the
-        others a shear stress of sigma0 on all of the interface.
+    There are `number` modes, under a remote load as many of either symmetry. Column 0 has what is
+    imposed: the edge's displacement, or under the other loadings a shear stress of sigma0 on all of
+    the interface.
     """
     if loading == "edge":
         return _half_response(one, length, number, False)

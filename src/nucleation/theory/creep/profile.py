@@ -12,12 +12,8 @@ import numpy as np
 from ...types import Array
 from .modes import Response
 
-SLOWEST = 1e-6
-"""Slip rates below this part of V do not count: friction's logarithm has no end."""
-
-
-NEAR = 2
-"""Places next to the front from which the singularity's share is found."""
+SLOWEST = 1e-6  # slip rates below this part of V do not count: friction's logarithm has no end
+NEAR = 2  # places next to the front from which the singularity's share is found
 
 
 class Creep(NamedTuple):
@@ -38,12 +34,9 @@ def creep(response: Response, friction: float, load_rate: float | None = None) -
 
     Parameters
     ----------
-    response : Response
-    friction : float
-        f, the strength over the normal stress.
-    load_rate : float, optional
-        Rise of the shear stress that loads the patch, over ``sigma0 V/D``; by default it is an
-        edge that is pushed at V.
+    friction : f, the strength over the normal stress.
+    load_rate : rise of the shear stress that loads the patch, over ``sigma0 V/D``; by default it is
+        an edge that is pushed at V.
 
     Notes
     -----
@@ -58,13 +51,8 @@ def creep(response: Response, friction: float, load_rate: float | None = None) -
     if load_rate is not None:
         scale = float(rates.max())
         fastest = scale * load_rate
-    return Creep(
-        response,
-        np.maximum(rates / scale, SLOWEST),
-        1.0 + response.normal @ slip.slip,
-        slip.loaded,
-        fastest,
-    )
+    rates, normal = np.maximum(rates / scale, SLOWEST), 1.0 + response.normal @ slip.slip
+    return Creep(response, rates, normal, slip.loaded, fastest)
 
 
 class EdgeSlip(NamedTuple):

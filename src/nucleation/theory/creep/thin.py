@@ -52,17 +52,12 @@ def softest(ratio: float, frequency: float, degree: int = DEGREE) -> complex:
 
 
 def thin_limit(zeta_over_a: float, degree: int = DEGREE) -> ThinLimit:
-    """Length and frequency of the thin limit.
-
-    Parameters
-    ----------
-    zeta_over_a : float
-        Positive; results are checked to 1e-6 from 0.2 on.
+    """Length and frequency of the thin limit; checked to 1e-6 from ``zeta/a = 0.2`` on.
 
     Raises
     ------
     ValueError
-        If it is not positive.
+        If zeta/a is not positive.
     """
     if not zeta_over_a > 0.0:
         raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
