@@ -7,10 +7,9 @@ import pytest
 
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.composition import composed
+from nucleation.simulation.composition import at_rest, composed
 from nucleation.simulation.drive import Imposed, Steady
 from nucleation.simulation.interface import Interface
-from nucleation.simulation.start import at_rest
 from nucleation.simulation.step import Dynamics
 
 PARAMETERS = Parameters(

@@ -9,9 +9,8 @@ from nucleation.fem.block import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.composition import composed
+from nucleation.simulation.composition import at_rest, composed
 from nucleation.simulation.interface import NewtonFailure, Past
-from nucleation.simulation.start import at_rest
 
 
 def small(law="aging", **mesh):

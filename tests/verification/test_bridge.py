@@ -16,12 +16,12 @@ from nucleation.model import linearised
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Parameters
-from nucleation.simulation.periodic import sliding_period, sliding_state
 from nucleation.theory.critical import critical_wavenumber
 from nucleation.theory.spectrum import growth_rates
 from nucleation.theory.transfer import RIGID, bodies_of, transfer_functions
 from nucleation.theory.transfer import Body as Layer
 from nucleation.verification import dispersion, pair_modes
+from nucleation.verification.dispersion import sliding_period, sliding_state
 from nucleation.verification.orders import orders
 
 MATERIAL = Material(poisson_ratio=0.29)

@@ -13,8 +13,7 @@ from nucleation.fem.grid import Grid
 from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.composition import composed
-from nucleation.simulation.start import at_rest
+from nucleation.simulation.composition import at_rest, composed
 from nucleation.verification.manufactured.dynamics import Manufactured
 from nucleation.verification.manufactured.fields import Displacement, Power, Term
 from nucleation.verification.orders import GEOMETRY, MATERIAL

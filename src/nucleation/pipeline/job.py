@@ -84,7 +84,7 @@ class Job:
         return function(**arguments(function, values), **inputs)
 
     def read(self, task: Task) -> dict[str, Any]:
-        """What a function is given for its task's inputs by role: several are read when asked for."""
+        """What a function is given for inputs by their roles; several are read when asked for."""
         return {
             role: Inputs(self, paths) if isinstance(paths, list) else self.open(paths)
             for role, paths in task.sources.items()

@@ -21,8 +21,9 @@ IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")  # and of the path of a file in a
 
 
 def key(code: str, parameters: Mapping[str, Any], sources: Mapping[str, Sequence[str]]) -> str:
-    """The key of a result, from the digest of its code, all of the configuration that it depends on,
-    and keys of what it is made from, by the role that each plays.
+    """The key of a result, from its code's digest and all that it depends on in the configuration.
+
+    `sources` are the keys of what it is made from, by the role that each plays.
     """
     text = plain([code, parameters, sources])
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]

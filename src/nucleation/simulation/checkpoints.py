@@ -27,8 +27,7 @@ from ..model.quantities import ParameterError
 
 Arrays = dict[str, NDArray]
 
-EVERY = 60.0
-"""Wall time (s) between checkpoints, unless the variable :data:`VARIABLE` says otherwise."""
+EVERY = 60.0  # wall time (s) between checkpoints, unless the variable says otherwise
 VARIABLE = "NUCLEATION_CHECKPOINT_EVERY"
 SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 """What asks a run to stop: a scheduler's time limit or pre-emption, Ctrl-C, a closed terminal."""
@@ -47,11 +46,6 @@ class Checkpoint:
     fingerprint : identifies the parameters and the code; a checkpoint of others is refused.
     every : wall time (s) between checkpoints, by default that of :func:`interval`.
     log : where messages go.
-
-    Attributes
-    ----------
-    asked : str or None
-        Name of the signal that has asked to stop.
     """
 
     def __init__(
@@ -62,12 +56,10 @@ class Checkpoint:
         every: float | None = None,
         log: TextIO | None = None,
     ) -> None:
-        self.path = Path(path)
-        self._fingerprint = fingerprint
+        self.path, self._fingerprint = Path(path), fingerprint
         self._every = interval() if every is None else every
-        self._log = log or sys.stderr
-        self._last = time.monotonic()
-        self.asked: str | None = None
+        self._log, self._last = log or sys.stderr, time.monotonic()
+        self.asked: str | None = None  # name of the signal that has asked to stop
 
     def load(self) -> Arrays | None:
         """The stored arrays, or None if there are none of this run; says why it goes on or not."""

@@ -7,27 +7,15 @@ U''(t) of a fluctuating velocity are exact, not sums over steps.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
 from ..fem.field import Field
-from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..types import Array
 from .drive import Drive, Imposed, Recorded, Remote, Steady
 from .realisation import Series, Sheet, profile
-
-
-class Loaded(Protocol):
-    """What a drive needs of a body."""
-
-    grid: Grid
-
-    @property
-    def top_load(self) -> Callable[..., Field]:
-        """The load (N/m) of a compressive stress (Pa), and of a shear stress, on the top."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -105,8 +93,11 @@ class ForcedState(Perturbed):
         return ("time", "x"), self.strength * np.array([self.sheet.values(t) for t in frames])
 
 
-def drive_of(parameters: Parameters, body: Loaded) -> Drive:
-    """The drive that parameters ask for: an edge or a top that moves, or a far load that rises."""
+def drive_of(parameters: Parameters, body: Any) -> Drive:
+    """The drive that parameters ask for: an edge or a top that moves, or a far load that rises.
+
+    Of the body it takes the grid and ``top_load``, of a normal and perhaps a shear stress (Pa).
+    """
     loading, near = parameters.loading, near_drive(parameters, body)
     if loading.kind != "remote":
         return near
@@ -116,7 +107,7 @@ def drive_of(parameters: Parameters, body: Loaded) -> Drive:
     return Remote(near, start, shear.times(per_displacement))
 
 
-def near_drive(parameters: Parameters, body: Loaded) -> Steady:
+def near_drive(parameters: Parameters, body: Any) -> Steady:
     """What moves, and the normal load: steady where nothing is perturbed."""
     declared, loading = parameters.perturbation, parameters.loading
     velocity, load = loading.velocity, body.top_load(loading.normal_stress)

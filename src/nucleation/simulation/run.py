@@ -17,11 +17,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..model.parameters import FIRST_STEP, Parameters
-from .composition import composed
+from .composition import at_rest, composed
 from .control import Control, Instant, SimulationFailure, accepted_step
 from .outcome import Outcome
 from .recording import Recorder
-from .start import at_rest
 from .state import State
 from .step import Dynamics
 
@@ -71,6 +70,10 @@ def simulate(
 ) -> xr.Dataset:
     """Run one simulation to its end and return its record.
 
+    It has the interface's fields on (time, x), the driving force and the step sizes on (step), some
+    fields of the bulk on (snapshot, y, x), of :data:`nucleation.simulation.recorded.RECORDED`, and
+    the outcome as attributes. A run that fails has what it recorded, with ``status`` telling so.
+
     Parameters
     ----------
     parameters : everything the result depends on.
@@ -79,13 +82,6 @@ def simulate(
         on from there, to the last bit as if it had never stopped.
     keep : called after every step with a function that returns all that the run is made of at this
         instant, to be stored for `start` (:class:`nucleation.simulation.checkpoints.Checkpoint`).
-
-    Returns
-    -------
-    Dataset with the interface's fields on (time, x), the driving force and the step sizes on
-    (step), some fields of the bulk on (snapshot, y, x), and the outcome as attributes; names and
-    units are those of :data:`nucleation.simulation.recorded.RECORDED`. A run that fails
-    numerically returns what it recorded, with ``status`` telling so.
     """
     began = time.perf_counter()
     dynamics = composed(parameters)

@@ -42,15 +42,6 @@ class StepReport:
 class Dynamics:
     """A body on an interface under a drive, ready to step by a scheme.
 
-    Parameters
-    ----------
-    body : what is elastic, and has the mesh.
-    interface : what holds the body back; the simulation's is frictional.
-    drive : the loads.
-    scheme : the time integrator.
-
-    Notes
-    -----
     With ``u_x = U(t) + w_x`` the body is seen from its driven edge: where that accelerates, inertia
     acts as a body force ``-rho U''`` along x.
     """
@@ -63,10 +54,7 @@ class Dynamics:
     def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
         """One step with the leading coefficient of a rung of the step-size ladder.
 
-        Raises
-        ------
-        NewtonFailure
-            The interface's equations were not solved; try a lower rung.
+        NewtonFailure, if the interface's equations were not solved, asks for a lower rung.
         """
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length

@@ -19,17 +19,21 @@ from numpy.typing import ArrayLike
 
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, annotate
+from ..fem.bodies import period_of
 from ..model.friction.law import Friction
 from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
+from ..simulation.drive import Steady
 from ..simulation.interface import Interface
-from ..simulation.periodic import sliding_period, sliding_state
+from ..simulation.state import State
+from ..simulation.step import Dynamics
+from ..stepping.scheme import BDF
 from ..theory.critical import critical_length, critical_wavenumber
 from ..theory.curves import CURVES
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import RIGID, Body
-from ..types import ComplexArray
+from ..types import Array, ComplexArray
 
 HEIGHTS = (0.005, 0.02, 0.1, 0.5)  # m, of the paper's fault
 MODES = (0.5, 0.6, 0.7, 0.8, 0.9, 0.97, 1.03, 1.1, 1.25, 1.5, 1.75, 2.0)  # k / k_c
@@ -60,6 +64,39 @@ MODES_OF_SLIDING = {
     "critical_wavenumber": CURVES["critical_wavenumber"],
     "memory_time": Variable("s", "time over which friction forgets at V", "D/V"),
 }
+
+
+def sliding_period(parameters: Parameters, interface: Interface | None = None) -> Dynamics:
+    """A period of a long block or pair that slides homogeneously at V: by traction, or by its top.
+
+    ``geometry.length`` is the period, ``mesh.n_x`` must be odd. The reports' driving force has no
+    meaning here.
+    """
+    body = period_of(parameters)
+    law, loading = parameters.friction, parameters.loading
+    shear = loading.normal_stress * float(law.steady_coefficient(loading.velocity))
+    load = body.top_load(loading.normal_stress, shear)
+    return Dynamics(
+        body, interface or Interface(law), Steady(loading.velocity, load), BDF(body.crossing_time)
+    )
+
+
+def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
+    """Homogeneous steady sliding, with a perturbation of log(phi) at the period's nodes."""
+    body, n, velocity = dynamics.body, dynamics.grid.n_x, dynamics.drive.velocity
+    operator = body.operator(0.0)
+    far_side = getattr(body, "upper", body).far_side  # type: ignore[union-attr]
+    load = dynamics.drive.load(0.0)
+    response = operator.respond(load, np.zeros(n))
+    if far_side == "velocity":  # the interface lags behind the top that drags it
+        strength = dynamics.interface.friction.steady_coefficient(velocity) * response.normal[1:]
+        response = operator.respond(load, -strength / operator.apply(np.ones(n))[0])
+    balance = operator.balance(response, response.w)
+    steady = float(np.log(dynamics.interface.friction.steady_state(velocity)))
+    # carried along by the driving traction, it stands still as seen from V
+    motion = body.at_rest(balance.displacement, 0.0)
+    rates, log_state = np.full(n + 1, velocity), steady + np.append(0.0, perturbation)
+    return State.beginning(motion, rates, log_state, response.w, balance.memory)
 
 
 def one_wavelength(
