@@ -21,8 +21,6 @@ from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import arrays, critical, spectrum, transfer
-from nucleation.theory.closed_forms import bimaterial_length_ratio
-from nucleation.theory.literature import bimaterial
 from nucleation.theory.transfer import RIGID, Body
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
@@ -45,19 +43,6 @@ def test_a_block_on_a_rigid_base():
     height = np.array([0.005, 0.02, 0.1, np.inf])
     expected = critical.critical_length(height, Material(3.1e9, 1 / 3), InterfaceState())
     assert_allclose(arrays.critical_length(**PAPER, height=height), expected, rtol=1e-12)
-
-
-def test_two_rocks():
-    """Eq. (9) for half-spaces; the second body has its own material."""
-    own = FAULT | {"friction": 0.6}
-    computed = arrays.critical_length(
-        **own, second_shear_modulus=[30e9, 60e9], second_poisson_ratio=0.2
-    )
-    for value, modulus in zip(computed, (30e9, 60e9), strict=True):
-        m, beta = bimaterial(30e9, 0.25, modulus, 0.2)
-        scale = np.pi * m * 5e-6 / (0.005 * 50e6)
-        expected = scale * bimaterial_length_ratio(0.6 * beta, 0.5)
-        assert value == pytest.approx(expected, rel=1e-9)
 
 
 def test_layers_of_different_heights_and_far_sides():
@@ -162,23 +147,11 @@ def test_parameters_are_shown_for_completion():
     assert "aging_coefficient" in law and "log_rate_coefficient" not in law
 
 
-def test_arrays_that_do_not_broadcast_are_named():
-    with pytest.raises(ParameterError, match=r"a \(3,\), wavenumber \(2,\)"):
-        arrays.spectrum([1.0, 2.0], **FAULT | {"a": [0.01] * 3}, velocity=1e-6)
-
-
 def test_stable_sliding_is_nan():
     found = arrays.critical_length(**ROCK, slip_distance=5e-6, a=[0.01, 0.02], b=0.015)
     assert np.isfinite(found).tolist() == [True, False]
     mode = arrays.critical_mode(**ROCK, slip_distance=5e-6, a=0.02, b=0.015, velocity=1.0)
     assert all(np.isnan(value) for value in mode)
-
-
-def test_frequency_of_mirror_images_is_positive():
-    mode = arrays.critical_mode(**FAULT, velocity=[1e-6, 2e-6])
-    rate = math.sqrt(0.005 / 0.010) / 5e-6
-    assert_allclose(mode.angular_frequency, [rate * 1e-6, rate * 2e-6])
-    assert_allclose(mode.length, 2 * math.pi / mode.wavenumber)
 
 
 def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():

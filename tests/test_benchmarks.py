@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks import paired, solver, workflow
+from benchmarks import solver, workflow
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS
 
@@ -50,18 +50,3 @@ def test_the_workflow_is_measured(monkeypatch, tmp_path):
     (tmp_path / "results").rename(tmp_path / "moved")
     workflow.cost(workflow.COMMANDS["restore"], tmp_path)
     assert len(list((tmp_path / "results/store").glob("*/result.nc"))) > 50
-
-
-@pytest.mark.system
-def test_steps_of_two_commits_are_compared_by_their_fastest_runs(monkeypatch):
-    seconds, seen = iter((3.0, 2.0, 2.5, 1.0)), []
-
-    def measured(source, run):
-        seen.append(source)
-        assert (source / "src" / "nucleation" / "api.py").exists()
-        return {"seconds": next(seconds), "steps": 100 if source == paired.CHECKOUT else 50}
-
-    monkeypatch.setattr(paired, "measured", measured)
-    found = paired.paired("HEAD", turns=2)
-    assert seen[1::2] == [paired.CHECKOUT] * 2 and paired.CHECKOUT not in seen[::2]
-    assert found["step_now_over_before"] == pytest.approx((1.0 / 100) / (2.5 / 50))

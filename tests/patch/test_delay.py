@@ -8,7 +8,6 @@ import pytest
 from nucleation.analysis.extraction import extract
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
-from nucleation.patch.continued import trend
 from nucleation.patch.delay import growth, realised
 from nucleation.patch.mode_history import ModeHistory, follow_mode
 from nucleation.simulation.realisation import spectral_density
@@ -95,12 +94,6 @@ def test_mean_square_of_realisations(kind):
 def test_no_drop_where_the_law_does_not_reach():
     found = growth(history(), LOAD)
     assert np.isnan(found.drop(1e-300).length)
-
-
-def test_trend_goes_on_in_a_straight_line():
-    own = history()
-    at = trend(own, own.rate.real)
-    assert at(np.array([0.4, 0.5])) == pytest.approx([SLOPE * 0.15, SLOPE * 0.25], rel=1e-6)
 
 
 @pytest.fixture(scope="module")

@@ -94,12 +94,6 @@ def test_modes_and_amplitudes_are_eigenvectors_of_the_whole_matrix(patch):
         np.testing.assert_allclose(weights, known, rtol=0, atol=1e-6 * np.abs(known).max())
 
 
-def test_amplitude_sees_one_mode_alone(patch):
-    fastest, other = patch.eigenvalues[0], patch.eigenvalues[4]
-    mixed = 3.0 * np.concatenate(patch.mode(fastest)) + 2.0 * np.concatenate(patch.mode(other))
-    assert complex(patch.amplitude(fastest) @ mixed) == pytest.approx(3.0, rel=1e-6)
-
-
 def test_oscillating_mode_is_the_fastest_of_its_kind(patch):
     rate = patch.oscillating(1.0)
     values = patch.eigenvalues

@@ -79,20 +79,6 @@ def test_slope_and_integral_belong_to_the_series():
 
 
 @pytest.mark.slow
-def test_variance_and_correlation_over_seeds():
-    lags = np.arange(0.0, 4.0, 0.5) * MEAN_SQUARE
-    start = 3.21
-    seen = np.array(
-        [[Series(seed, 1.0).value(start + lag) for lag in lags] for seed in range(2000)]
-    )
-    septic = BSpline.basis_element(np.arange(-4.0, 5.0), extrapolate=False)
-    expected = np.nan_to_num(septic(lags / MEAN_SQUARE)) / MEAN_SQUARE
-    assert expected[0] == pytest.approx(1.0)
-    found = (seen[:, :1] * seen).mean(axis=0)
-    np.testing.assert_allclose(found, expected, atol=4.0 / np.sqrt(2000))
-
-
-@pytest.mark.slow
 def test_spectral_density_is_that_of_unit_variance():
     omega = np.linspace(-4000.0, 4000.0, 400001)
     density = spectral_density(omega, 0.05)

@@ -237,12 +237,6 @@ def test_arrays_and_names():
     assert plain["rice_ruina"].shape == (2, 3)
 
 
-def test_what_depends_on_no_named_array():
-    a = xr.DataArray([0.004, 0.006], dims="a")
-    found = lengths_in_use(**ROCK, **LOAD, a=a, b=0.0228)
-    assert found["state_evolution"].dims == () and found["rice_ruina"].dims == ("a",)
-
-
 TWO = {"friction": 0.6, "second_shear_modulus": 4e9, "second_poisson_ratio": 0.3}
 
 

@@ -52,14 +52,3 @@ def test_each_is_what_its_own_job_makes(together):
         assert found.drop_attrs().identical(expected.drop_attrs())
         for name in ("key", "code_digest", "sources", "parameters"):
             assert found.attrs[name] == expected.attrs[name], name
-
-
-def test_one_that_is_missing_is_made_and_the_other_kept(together):
-    together(TARGET, "--cores", "1")
-    (kept, other) = patches(together).values()
-    shutil.rmtree(other.parent)
-    before = netcdf.read(kept).attrs["created"]
-    done = together(TARGET, "--cores", "1")
-    assert done.returncode == 0, done.stdout
-    assert other.is_file() and netcdf.read(kept).attrs["created"] == before
-    assert together.planned(TARGET) == {}

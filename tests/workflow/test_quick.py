@@ -50,10 +50,6 @@ def test_one_line_tells_of_all_simulations(quick, results):
     assert "Simulations that failed" not in output
 
 
-def test_running_again_does_nothing(quick):
-    assert quick.planned() == {}
-
-
 def test_simulations_carry_their_origin_and_units(quick, results):
     for run in shared_runs(load(quick.config)):
         path = quick.dataset("simulations", run.id)
