@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.configuration.runs import Run
 from nucleation.model.friction.law import Friction
 from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.model.linearised import interface_state
@@ -124,15 +125,12 @@ def test_line_through_the_crossing():
 def test_table_compares_with_the_reference_study():
     """Of the same fault alone: neither of another height nor of another material."""
     stiff = {"shear_modulus": 9e9}
-    declared = [
-        ("paper", {}, 0.22), ("converged", {}, 0.2), ("paper", {"height": 0.1}, 0.5),
-        ("converged", stiff, 0.8), ("paper", stiff, 0.84),
-    ]  # fmt: skip
+    declared = [("paper", {}, 0.22), ("converged", {}, 0.2), ("paper", {"height": 0.1}, 0.5)]
+    declared += [("converged", stiff, 0.8), ("paper", stiff, 0.84)]
     runs = [
-        {"id": role, "study": "mine", "role": role, "theory_length": 0.4,
-         "parameters": PARAMETERS.replaced(changes).to_dict()}
+        Run(role, "mine", PARAMETERS.replaced(changes), 0.4, role=role).to_dict()
         for role, changes, _ in declared
-    ]  # fmt: skip
+    ]
     patches = [
         xr.Dataset(dict.fromkeys(FITTED, 1.0) | {FIRST: length}) for _, _, length in declared
     ]
