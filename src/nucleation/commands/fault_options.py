@@ -16,6 +16,7 @@ from ..model.parameters import Parameters, names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
+from ..theory.uncertainty import Range, parse_range
 from .options import merged_parameters, second_body_option, source_options, sourced, words
 from .system import of_parameters
 from .text import plain
@@ -37,7 +38,7 @@ def fault_options(function: Callable[..., Any]) -> Callable[..., Any]:
     options = [
         units.option(
             *(["--far-side"] if key == "far_side" else words(key)),
-            key=key, entry=entry, note=NOTES.get(key, ""),
+            key=key, entry=entry, note=NOTES.get(key, ""), read=parse_range,
         )
         for key, entry in QUANTITIES.items()
     ]  # fmt: skip
@@ -68,6 +69,8 @@ def fault_values(
     """
     known = names()
     own = {k: v for k, v in options.items() if v is not None}
+    if ranges := [name for name, value in own.items() if isinstance(value, Range)]:
+        raise ParameterError(f"{ranges[0]}: only `nucleation length` takes a range")
     if per_decade:
         own |= {k: own[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in own}
     by_study = {known.short(known.full(k)): v for k, v in own.items() if k != "far_side"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import textwrap
+from pathlib import Path
 from typing import Any
 
 import click
@@ -27,9 +28,11 @@ from ..theory.literature_table import (
     of_two_materials,
     values_of,
 )
+from ..theory.uncertainty import parse_range
 from .fault_options import assumed_line, doubts_told, fault_options, fault_values, given_of
 from .system import BEGINS, system_line
 from .text import plain
+from .uncertainty import print_quantiles, samples_option, take_uncertain
 
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the usual friction law that is told."""
@@ -45,19 +48,23 @@ DENSITY = declarations(Material)["density"]
 )  # fmt: skip
 @units.option(
     "--weakening-rate", key="weakening_rate", entry=WEAKENING_RATE,
-    note="of Uenishi and Rice's length; b sigma0/D if left out",
+    note="of Uenishi and Rice's length; b sigma0/D if left out", read=parse_range,
 )  # fmt: skip
 @click.option(
     "--loading", type=click.Choice(LOADINGS), default="edge", show_default=True,
     help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
     "or interior; a top that moves has --far-side velocity",
 )  # fmt: skip
+@samples_option
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    density: float | None, weakening_rate: float | None, loading: str, as_json: bool,
+    density: float | None, loading: str, as_json: bool, samples: Path | None,
     **options: Any,
 ) -> int:  # fmt: skip
     """Critical nucleation length of a fault: the theory's, and others in use.
+
+    A range "5um (3 to 10)", the median and the quantiles of 5 and 95 %, or --samples give the
+    quantiles of each length.
 
     Friction is f0 + a log(v/V) + b log(phi V/D) with NATURAL logarithms; zeta = b - a > 0 weakens.
 
@@ -66,7 +73,14 @@ def command(
       nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
           --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
     """
+    options, uncertain = take_uncertain(options, samples)
+    weakening_rate = options.pop("weakening_rate")
     given = fault_values(**options)
+    if uncertain:
+        if density is not None:
+            raise ParameterError("density is not allowed beside ranges and samples")
+        usual = {"weakening_rate": weakening_rate, "loading": loading}
+        return print_quantiles(given, uncertain, options | usual, as_json)
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
     with doubts_told():

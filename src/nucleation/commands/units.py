@@ -15,8 +15,8 @@ from ..model.units import bounds, parse
 class Declared(click.ParamType):
     """An option's value, read and checked by the declaration of its parameter."""
 
-    def __init__(self, key: str, entry: Quantity) -> None:
-        self.key, self.entry = key, entry
+    def __init__(self, key: str, entry: Quantity, read: Callable[..., Any] = parse) -> None:
+        self.key, self.entry, self.read = key, entry, read
         self.name = "choice" if entry.choices else entry.kind
 
     def convert(self, value: Any, param: Any, ctx: Any) -> Any:
@@ -24,7 +24,7 @@ class Declared(click.ParamType):
         if not isinstance(value, str):
             return value
         try:
-            return parse(self.key, value, self.entry)
+            return self.read(self.key, value, self.entry)
         except ParameterError as error:
             self.fail(str(error), param, ctx)
 
@@ -40,13 +40,18 @@ class Declared(click.ParamType):
 
 
 def option(
-    *names: str, key: str, entry: Quantity, note: str = "", **settings: Any
-) -> Callable[..., Any]:
+    *names: str, key: str, entry: Quantity, note: str = "", read: Callable[..., Any] = parse,
+    **settings: Any,
+) -> Callable[..., Any]:  # fmt: skip
     """A click option whose help, unit and range come from the declaration of a parameter."""
     text = entry.description
     if not entry.choices:
         kind = "an integer in" if entry.kind == "int" else "in"
         text += f"; {kind} {bounds(entry)}"
     return click.option(
-        *names, key, type=Declared(key, entry), help=f"{text}{note and '; ' + note}", **settings
+        *names,
+        key,
+        type=Declared(key, entry, read),
+        help=f"{text}{note and '; ' + note}",
+        **settings,
     )

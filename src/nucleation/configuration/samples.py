@@ -50,17 +50,15 @@ def read_samples(path: Path | str) -> dict[str, Array]:
     if not rows:
         raise ParameterError(f"{path} has a header, but no row of samples")
     columns = [_column(path, text) for text in header]
-    names = [name for name, _ in columns]
     for number, row in rows:
-        if len(row) != len(names):
+        if len(row) != len(header):
             raise ParameterError(
-                f"{path}, row {number}: {len(row)} cells, but the header has {len(names)}"
+                f"{path}, row {number}: {len(row)} cells, but the header has {len(header)}"
             )
-    for name in names:
-        if names.count(name) > 1:
-            raise ParameterError(f"{path}: column {name} is there twice")
-    found = {}
+    found: dict[str, Array] = {}
     for i, (name, unit) in enumerate(columns):
+        if name in found:
+            raise ParameterError(f"{path}: column {name} is there twice")
         cells = [_cell(path, number, header[i], row[i]) for number, row in rows]
         try:
             found[name] = rescaled(name, np.array(cells), unit, SAMPLED[name])

@@ -1,0 +1,135 @@
+"""What ``nucleation length`` does with parameters that are ranges or samples."""
+
+from __future__ import annotations
+
+import json
+import math
+import textwrap
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+from ..configuration.samples import read_samples
+from ..model.quantities import ParameterError
+from ..theory.fault import Fault
+from ..theory.literature_table import LENGTHS, THIS_FAULT, TWO_MATERIALS
+from ..theory.uncertainty import QUANTILES, Range, length_quantiles
+from . import DONE, STABLE
+from .fault_options import assumed_line, doubts_told, given_of
+from .system import system_line
+from .text import plain
+
+samples_option = click.option(
+    "--samples", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
+)  # fmt: skip
+
+
+def take_uncertain(
+    options: dict[str, Any], samples: Path | None
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Options with medians in the place of ranges and samples, and those themselves.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is given twice, or what is fixed while `a` varies is not said.
+    """
+    uncertain: dict[str, Any] = {k: v for k, v in options.items() if isinstance(v, Range)}
+    for name, values in ({} if samples is None else read_samples(samples)).items():
+        if options.get(name) is not None:
+            raise ParameterError(f"{name} is given twice: as an option and in {samples}")
+        uncertain[name] = values
+    medians = options | {name: float(np.median(values)) for name, values in uncertain.items()}
+    if "a" in uncertain and medians.get("zeta") is None and medians.get("b") is None:
+        raise ParameterError("zeta or b is needed beside an uncertain a: which one stays as it is?")
+    if options.get("per_decade"):
+        for name in uncertain.keys() & {"a", "b", "zeta"}:
+            value = uncertain[name]
+            own = (value, value.low, value.high) if isinstance(value, Range) else value
+            scaled = np.asarray(own, dtype=float) / math.log(10.0)
+            uncertain[name] = Range(*scaled) if isinstance(value, Range) else scaled
+    return medians, uncertain
+
+
+def print_quantiles(
+    given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any], as_json: bool
+) -> int:
+    """Print the quantiles of all lengths, and return the exit code; `given` is the median fault."""
+    known = dict(given)
+    if options["b"] is not None and "zeta" in known:
+        known["b"] = known["a"] + known.pop("zeta")  # b is what stays when a varies
+    if options["second_body"] in (None, "same"):
+        for name in ("shear_modulus", "poisson_ratio", "height"):
+            if known.get(f"second_{name}") == known.get(name):
+                known.pop(f"second_{name}", None)  # it varies with the first body's
+    known |= {name: options[name] for name in ("weakening_rate", "loading")} | uncertain
+    with doubts_told():
+        middle = Fault(**given)
+        found = length_quantiles(**known)
+    said = [system_line(middle, options["loading"]), *assumed_line(given)]
+    click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
+    return STABLE if np.isnan(found["value"][0]).all() else DONE
+
+
+def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
+    words = {length.key: length.words() for length in LENGTHS}
+    lengths = [
+        {
+            "key": key,
+            "quantiles": {f"{q:g}": plain(x) for q, x in zip(QUANTILES, values, strict=True)},
+            "share": share, **words.get(key, {"units": "m"}),
+        }
+        for key, _, values, share in _rows(found)
+    ]  # fmt: skip
+    return json.dumps(
+        {
+            "system": said, "parameters": given_of(middle), "uncertain": list(uncertain),
+            **found.attrs, "lengths": lengths,
+        },
+        indent=2,
+    )  # fmt: skip
+
+
+def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
+    count = found.attrs
+    lines = [
+        *(line for text in said for line in textwrap.wrap(text, 95, subsequent_indent="  ")),
+        "",
+        f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
+        + (f" ({count['outside']} not allowed)" if count["invalid"] else "")
+        + f", {count['stable']} of the others stable, without L_c",
+        "",
+        f"{'quantiles (m)':<32}" + "".join(f"{q:>10.0%}" for q in QUANTILES)
+        + "   share",
+    ]  # fmt: skip
+    systems = {length.key: length.system for length in LENGTHS}
+    head, nowhere = "", []
+    one, other = (middle.shear_modulus, middle.poisson_ratio), (
+        middle.second_shear_modulus, middle.second_poisson_ratio,
+    )  # fmt: skip
+    differ = one != other or any(name.startswith("second_") for name in uncertain)
+    for key, title, values, share in _rows(found):
+        system = systems.get(key, THIS_FAULT)
+        if system == TWO_MATERIALS and not differ:
+            continue
+        if share == 0.0:
+            nowhere.append(f"{title}{' (two materials)' if system == TWO_MATERIALS else ''}")
+            continue
+        if system != head:
+            lines += [f"for {system}:"]
+            head = system
+        row = "".join(f"{value:>10.4g}" for value in values)
+        lines.append(f"  {title:<30}{row}{share:>8.0%}")
+    if nowhere:
+        lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
+    lines += ["", "share: of the draws in which the length exists; all are full lengths"]
+    return "\n".join(lines)
+
+
+def _rows(found: Any) -> Iterable[tuple[str, str, list[float], float]]:
+    """Key, title, quantiles (m) and share of each length."""
+    return zip(*(found[x].values.tolist() for x in ("key", "title", "value", "share")), strict=True)

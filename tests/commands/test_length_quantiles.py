@@ -1,0 +1,82 @@
+"""``nucleation length`` with ranges and samples against the library."""
+
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+
+from nucleation import api
+
+ROCK = ["length", "--shear-modulus", "30GPa", "--normal-stress", "50MPa", "--slip-distance", "5um"]
+WORDS = [*ROCK, "--poisson", "0.25 (0.2 to 0.3)", "--b", "0.015"]
+FAULT = {"shear_modulus": 30e9, "normal_stress": 50e6, "slip_distance": 5e-6}
+A = [0.010, 0.011, 0.012, 0.016]
+
+
+@pytest.fixture
+def samples(tmp_path):
+    """A file of four samples of a, the last of a fault that is stable."""
+    path = tmp_path / "posterior.csv"
+    path.write_text("a\n" + "\n".join(map(str, A)))
+    return ["--samples", path]
+
+
+def test_the_library_s_numbers(nucleation, samples):
+    ended = nucleation(*WORDS, *samples, "--json")
+    expected = api.length_quantiles(**FAULT, poisson_ratio="0.25 (0.2 to 0.3)", b=0.015, a=A)
+    found = json.loads(ended.out)
+    assert (ended.code, found["stable"], found["draws"], found["invalid"]) == (0, 1, 4, 0)
+    assert sorted(found["uncertain"]) == ["a", "poisson_ratio"]
+    assert found["parameters"]["a"] == 0.0115
+    for entry in found["lengths"]:
+        own = expected.sel(key=entry["key"])
+        assert entry["share"] == own["share"]
+        values = [math.nan if x is None else x for x in entry["quantiles"].values()]
+        np.testing.assert_allclose(values, own["value"], rtol=1e-12)
+    lines = nucleation(*WORDS, *samples).out.splitlines()
+    (line,) = (line for line in lines if "critical length L_c" in line)
+    row = [f"{x:.4g}" for x in expected["value"].sel(key="critical_length").values]
+    assert line.split()[-6:] == [*row, "75%"]
+    assert any(x.startswith("4 draws of poisson_ratio, a: 0 left out, 1 of the") for x in lines)
+    assert max(map(len, lines)) <= 100
+
+
+def test_values_per_decade(nucleation, samples, tmp_path):
+    decimal = tmp_path / "decimal.csv"
+    decimal.write_text("a\n" + "\n".join(str(a * math.log(10)) for a in A))
+    own = [*WORDS[:-1], str(0.015 * math.log(10)), "--per-decade", "--samples", decimal]
+    assert nucleation(*own).out == nucleation(*WORDS, *samples).out
+
+
+def test_the_second_body_is_like_the_first(nucleation, samples):
+    """Unless it is another one: the pair's own lengths are among the others then."""
+    assert "two half-spaces of the two" not in nucleation(*WORDS, *samples).out
+    other = nucleation(*WORDS, *samples, "--second-body", "60GPa,0.3", "--friction", "0.6")
+    assert "for two half-spaces of the two bodies' materials:" in other.out
+
+
+def test_a_fault_that_is_stable_in_all_draws(nucleation, samples):
+    ended = nucleation(*ROCK, "--poisson", "0.25", "--zeta", "-0.01", *samples)
+    assert ended.code == 3 and "4 of the others stable" in ended.out
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        ([*WORDS, "--a", "0.01"], "a is given twice: as an option and in .*posterior.csv"),
+        ([*ROCK, "--poisson", ".25"], "zeta or b is needed beside an uncertain a"),
+        ([*WORDS, "--density", "2700"], "density is not allowed beside ranges"),
+        ([*WORDS, "--height", "2m (3 to 4)"], "--height.*VALUE .LOW to HIGH"),
+    ],
+)
+def test_what_is_refused(nucleation, samples, words, message):
+    ended = nucleation(*words, *samples)
+    assert ended.code == 2
+    assert re.search(message, ended.err)
+
+
+def test_other_commands_have_single_numbers(nucleation):
+    ended = nucleation("specimen", "--length", "1m", "--a", "0.01", *WORDS[1:])
+    assert ended.code == 2 and "only `nucleation length` takes a range" in ended.err
