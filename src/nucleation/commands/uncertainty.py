@@ -108,10 +108,10 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     ]  # fmt: skip
     systems = {length.key: length.system for length in LENGTHS}
     head, nowhere = "", []
-    one, other = (middle.shear_modulus, middle.poisson_ratio), (
-        middle.second_shear_modulus, middle.second_poisson_ratio,
-    )  # fmt: skip
-    differ = one != other or any(name.startswith("second_") for name in uncertain)
+    first = (middle.shear_modulus, middle.poisson_ratio)
+    second = (middle.second_shear_modulus, middle.second_poisson_ratio)
+    differ = first != second or any(name.startswith("second_") for name in uncertain)
+    differ &= bool(np.isfinite(middle.second_shear_modulus))
     for key, title, values, share in _rows(found):
         system = systems.get(key, THIS_FAULT)
         if system == TWO_MATERIALS and not differ:
@@ -123,7 +123,7 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
             lines += [f"for {system}:"]
             head = system
         row = "".join(f"{value:>10.4g}" for value in values)
-        lines.append(f"  {title:<30}{row}{share:>8.0%}")
+        lines.append(f"  {title:<30}{row}{share:>8.1%}")
     if nowhere:
         lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
     lines += ["", "share: of the draws in which the length exists; all are full lengths"]

@@ -91,7 +91,7 @@ def _stability_length(fault: Fault) -> Any:
 
 
 def _crack(s: Setting) -> Any:
-    length = 2.0 / math.pi * nan0((s.b - s.a) / s.b) ** -2 * s.state_evolution()
+    length = 2.0 / math.pi * nan0((s.b - s.a) / nan0(s.b)) ** -2 * s.state_evolution()
     return valid((s.a > 0.5 * s.b) & (s.a < s.b), length)
 
 
