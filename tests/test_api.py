@@ -45,16 +45,24 @@ def test_a_block_on_a_rigid_base():
     assert_allclose(arrays.critical_length(**PAPER, height=height), expected, rtol=1e-12)
 
 
-def test_layers_of_different_heights_and_far_sides():
-    body = Body(Material(30e9, 0.25), 0.3, "velocity"), Body(Material(30e9, 0.25), 0.7, "velocity")
-    interface = InterfaceState(0.6, 0.010, 0.005, 5e-6, 2e-6, 50e6)
-    expected = critical.critical_wavenumber(*body, interface)
-    found = arrays.critical_mode(
-        **FAULT, friction=0.6, velocity=2e-6, height=0.3, second_height=0.7, far_side="velocity"
+@pytest.mark.parametrize(
+    ("heights", "sides"), [((0.3, 0.7), ("velocity",) * 2), ((0.3, 0.3), ("free", "clamped"))]
+)
+def test_layers_of_different_heights_and_far_sides(heights, sides):
+    material = Material(30e9, 0.25)
+    bodies = (Body(material, h, side) for h, side in zip(heights, sides, strict=True))
+    expected = critical.critical_wavenumber(
+        *bodies, InterfaceState(0.6, 0.010, 0.005, 5e-6, 2e-6, 50e6)
     )
+    layers = {"height": heights[0], "second_height": heights[1]}
+    layers |= {"far_side": sides[0], "second_far_side": sides[1]}
+    found = arrays.critical_mode(**FAULT, **layers, friction=0.6, velocity=2e-6)
     assert found.length == pytest.approx(expected.length)
     assert found.wavenumber == pytest.approx(expected.wavenumber)
     assert found.angular_frequency == pytest.approx(expected.angular_frequency)
+    own = FAULT | {"height": 0.3}
+    free = arrays.critical_length(**own, far_side="traction")  # another word for it
+    assert free == arrays.critical_length(**own, far_side="free")
 
 
 @pytest.mark.parametrize(
@@ -77,21 +85,6 @@ def test_every_parameter_broadcasts(name):
         alone = arrays.critical_length(**base | {name: column_values[i], row: row_values[j]})
         assert alone == pytest.approx(value, rel=1e-13)
     assert np.ptp(found, axis=0).max() > 0.0
-
-
-def test_far_side_of_each_body():
-    bodies = Body(Material(30e9, 0.25), 0.3, "free"), Body(Material(30e9, 0.25), 0.3, "clamped")
-    interface = InterfaceState(0.6, 0.01, 0.005, 5e-6, 1.0, 50e6)
-    expected = critical.critical_wavenumber(*bodies, interface)
-    fault = FAULT | {"height": 0.3, "far_side": "free"}
-    found = arrays.critical_length(**fault, friction=0.6, second_far_side="clamped")
-    assert found == pytest.approx(expected.length, rel=1e-13)
-    with pytest.raises(ParameterError, match="friction is missing"):
-        arrays.critical_length(**fault, second_far_side="roller")
-    free = arrays.critical_length(**fault, second_far_side="traction")  # another word for it
-    assert free == arrays.critical_length(**fault)
-    with pytest.raises(ParameterError, match="second_far_side = 'glued' is not allowed"):
-        arrays.critical_length(**fault, second_far_side="glued")
 
 
 def test_units_are_converted_and_results_carry_theirs():
@@ -218,6 +211,7 @@ def test_named_arrays_keep_their_names():
         ({"zeta": 0.005}, "zeta or b"),
         ({"b": None}, "zeta or b"),
         ({"far_side": "glued"}, "far_side = 'glued' is not allowed.*velocity, traction"),
+        ({"second_far_side": "glued"}, "second_far_side = 'glued' is not allowed"),
         ({"second_shear_modulus": 60e9}, "friction is missing"),
         ({"second_height": 60.0}, "friction is missing"),
         ({"viscosity": 1.0}, "unexpected keyword argument 'viscosity'"),

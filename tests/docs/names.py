@@ -36,17 +36,16 @@ def tree(path: Path) -> ast.Module:
 
 
 @cache
-def kind(name: str) -> str | None:
-    """What a name with its dots is: ``module``, ``class``, ``other``, or None if there is none."""
+def exists(name: str) -> bool:
+    """Whether a name with its dots is of anything."""
     found, rest = _module(name)
     for i, part in enumerate(rest):
         if isinstance(found, type) and i == len(rest) - 1 and not hasattr(found, part):
-            return "other" if _is_of_objects(found, part) else None
+            return _is_of_objects(found, part)
         if not hasattr(found, part):
-            return None
+            return False
         found = getattr(found, part)
-    return next((k for k, of in (("module", ModuleType), ("class", type)) if isinstance(found, of)),
-                "other" if found is not None or rest else None)  # fmt: skip
+    return found is not None or bool(rest)
 
 
 def _module(name: str) -> tuple[ModuleType | None, list[str]]:
@@ -66,14 +65,6 @@ def _is_of_objects(owner: type, name: str) -> bool:
         or re.search(rf"self\.{name}\b[^=\n]*=", inspect.getsource(base))
         for base in own
     )
-
-
-def imported(name: str) -> bool:
-    """Whether a name goes by a module that has it from elsewhere."""
-    module, rest = _module(name)
-    if not rest or not name.startswith("nucleation."):
-        return False
-    return getattr(getattr(module, rest[0]), "__module__", module.__name__) != module.__name__
 
 
 def words(path: Path) -> Iterator[tuple[str, str]]:
@@ -106,19 +97,16 @@ def candidates(target: str, place: str) -> Iterator[str]:
 
 
 ROLE = re.compile(r"[:{]([a-z]+)[:}]`(?:[^`<]*<)?([\w.~]+)>?`")
-WANTED = {"mod": "module", "class": "class", "exc": "class"}
-OF_PYTHON = {*WANTED, "func", "meth", "attr", "data", "obj"}
+OF_PYTHON = {"mod", "class", "exc", "func", "meth", "attr", "data", "obj"}
 
 
 def stale_roles(text: str, place: str = "") -> list[str]:
-    """The roles in a text that name nothing, or something else than they say."""
-    stale = []
-    for role, target in ROLE.findall(text):
-        kinds = [kind(name) for name in candidates(target, place)]
-        right = any(found and WANTED.get(role, found) == found for found in kinds)
-        if role in OF_PYTHON and (not right or imported(target.removeprefix("~"))):
-            stale.append(f":{role}:`{target}`")
-    return stale
+    """The roles in a text that name nothing."""
+    return [
+        f":{role}:`{target}`"
+        for role, target in ROLE.findall(text)
+        if role in OF_PYTHON and not any(exists(name) for name in candidates(target, place))
+    ]
 
 
 def stale_dotted(text: str) -> list[str]:
@@ -126,7 +114,7 @@ def stale_dotted(text: str) -> list[str]:
     named = re.findall(
         r"(?<![\w./-])nucleation(?!\.(?:sif|tar))(?:\.[A-Za-z_]\w*)+(?![\w*/])", text
     )
-    return [name for name in named if not kind(name)]
+    return [name for name in named if not exists(name)]
 
 
 FILE = re.compile(

@@ -112,44 +112,20 @@ def test_change_of_one_run_reruns_it_alone(quick):
 SPARE = "\nSPARE = 1\n"
 SIMULATIONS = 6  # of the quick configuration
 
+WORDS = {
+    "src/nucleation/simulation/run.py": "\n# a remark\n",
+    "src/nucleation/stepping/bdf.py": '\n"""More words."""\n',
+    "src/nucleation/analysis/progress.py": SPARE,
+    "workflow/scripts/simulate.py": "\n# a remark\n",
+    "workflow/rules/simulations.smk": "\n# a remark\n",
+}
+OF_SOLVER = {"simulate", "patch", "dispersion"}
+OF_LENGTHS = {"extract", "gather_lengths", "draw_figure_3", "draw_figure_s2", *CLAIMING}
 EDITS = {
-    "words": (
-        {
-            "src/nucleation/simulation/run.py": "\n# a remark\n",
-            "src/nucleation/stepping/bdf.py": '\n"""More words."""\n',
-            "src/nucleation/analysis/progress.py": SPARE,
-            "workflow/scripts/simulate.py": "\n# a remark\n",
-            "workflow/rules/simulations.smk": "\n# a remark\n",
-        },
-        set(),
-    ),
-    "solver": (
-        {"src/nucleation/fem/kernels.py": SPARE},
-        {
-            "simulate",
-            "extract",
-            "gather_lengths",
-            "draw_figure_3",
-            "draw_figure_s2",
-            "patch",
-            "dispersion",
-            *CLAIMING,
-        },
-    ),
-    "extraction and a figure": (
-        {
-            "src/nucleation/analysis/lengths.py": SPARE,
-            "src/nucleation/figures/paper/figure_2.py": SPARE,
-        },
-        {
-            "extract",
-            "gather_lengths",
-            "draw_figure_2",
-            "draw_figure_3",
-            "draw_figure_s2",
-            *CLAIMING,
-        },
-    ),
+    "words": (WORDS, set()),
+    "solver": ({"src/nucleation/fem/kernels.py": SPARE}, OF_SOLVER | OF_LENGTHS),
+    "extraction": ({"src/nucleation/analysis/lengths.py": SPARE}, OF_LENGTHS),
+    "figure": ({"src/nucleation/figures/paper/figure_2.py": SPARE}, {"draw_figure_2"}),
 }
 
 
