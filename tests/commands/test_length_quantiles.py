@@ -57,6 +57,18 @@ def test_the_second_body_is_like_the_first(nucleation, samples):
     assert "for two half-spaces of the two bodies' materials:" in other.out
 
 
+def test_a_law_that_is_named(nucleation, samples, tmp_path):
+    """Its fault has both bodies and zeta in numbers; b stays, and the second body varies too."""
+    file = tmp_path / "fault.yaml"
+    file.write_text("friction_law: dieterich_ruina\nfriction: 0.6\nvelocity: 1um/s\nheight: 20cm")
+    found = json.loads(nucleation(*WORDS, *samples, "--parameters", file, "--json").out)
+    expected = api.length_quantiles(
+        **FAULT, poisson_ratio="0.25 (0.2 to 0.3)", b=0.015, a=A, height=0.2
+    )
+    values = list(found["lengths"][0]["quantiles"].values())
+    np.testing.assert_allclose(values, expected["value"][0], rtol=1e-12)
+
+
 def test_a_fault_that_is_stable_in_all_draws(nucleation, samples):
     ended = nucleation(*ROCK, "--poisson", "0.25", "--zeta", "-0.01", *samples)
     assert (ended.code, ended.err) == (3, "")
