@@ -127,19 +127,10 @@ class Growth:
 
 
 def growth(history: ModeHistory, declared: Perturbation) -> Growth:
-    """How the mode grows under a kind of forcing of a given correlation, in the mean square.
+    """How the mode of a quiet run grows under a declared forcing, in the mean square.
 
-    The run is carried on beyond its own drop by the trends of L(t) and Lambda(L).
-
-    Parameters
-    ----------
-    history : of a quiet run.
-    declared : kind and correlation; strength and seed are not used.
-
-    Raises
-    ------
-    ValueError
-        If nothing is declared to be perturbed.
+    The run is carried on beyond its own drop by the trends of L(t) and Lambda(L). Strength and seed
+    are not used. ValueError if nothing is declared to be perturbed.
     """
     path = continued(history)
     if declared.kind == "strength":
@@ -178,10 +169,7 @@ def _log_gathered(history: ModeHistory, path: Path, declared: Perturbation) -> A
 def realised(history: ModeHistory, declared: Perturbation) -> Growth:
     """How the mode grows in one realisation, that of the declared seed; its strength is not used.
 
-    Raises
-    ------
-    ValueError
-        If nothing is declared to be perturbed.
+    ValueError if nothing is declared to be perturbed.
     """
     path = continued(history)
     if declared.kind == "strength":

@@ -56,16 +56,15 @@ class Law:
     """The law of the drop for one fault, from the mode of its quiet run."""
 
     def __init__(self, history: ModeHistory) -> None:
-        self._history = history
-        self._growth = cache(self._uncached)
+        self._history, usual = history, history.parameters.perturbation
 
-    def _uncached(self, kind: str, correlation_length: float) -> Growth:
-        usual = self._history.parameters.perturbation
-        length = correlation_length or usual.correlation_length
-        declared = Perturbation(
-            kind=kind, correlation_time=usual.correlation_time, correlation_length=length
-        )
-        return growth(self._history, declared)
+        @cache
+        def known(kind: str, length: float) -> Growth:
+            scale, time = length or usual.correlation_length, usual.correlation_time
+            declared = Perturbation(kind=kind, correlation_time=time, correlation_length=scale)
+            return growth(history, declared)
+
+        self._growth = known
 
     def row(self, run: Row) -> Row:
         """The columns :data:`PREDICTED` for one run; NaN where there is nothing to say."""

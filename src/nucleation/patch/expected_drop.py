@@ -43,10 +43,7 @@ class ExpectedDrop(NamedTuple):
 def expected_drop(parameters: Parameters, theory_length: float) -> ExpectedDrop:
     """L_s and the length at the drop of a fault under its declared perturbation.
 
-    Parameters
-    ----------
-    parameters : the fault, its loads, the block and the perturbation; mesh and steps do not matter.
-    theory_length : the theory's critical length (m).
+    Mesh and steps do not matter; `theory_length` is L_c (m).
 
     Raises
     ------

@@ -116,18 +116,8 @@ def follow_mode(
     """The oscillating mode of a quiet run, and how each forcing stirs it.
 
     It is followed up to one period before the onset, if there is one. Then it swings as much as V,
-    and a patch that is frozen in such a swing says nothing about small ones.
-
-    Parameters
-    ----------
-    simulation : of :func:`nucleation.simulation.run.simulate`, or of a recorder stopped before the
-        event; without a perturbation that changes the path.
-    settings : definitions of the patch's edge and of the drop.
-
-    Raises
-    ------
-    ValueError
-        If the patch has no oscillating mode at any instant.
+    and a patch that is frozen in such a swing says nothing about small ones. ValueError if the
+    patch has no oscillating mode at any instant.
     """
     record = Record(simulation, settings)
     record.parameters.require_edge("the law of the drop")
@@ -152,14 +142,10 @@ def follow_mode(
 
 
 def _loads(operator: BodyOperator, parameters: Parameters) -> _Loads:
-    body = operator.body
-    at_rest = operator.respond(
-        body.top_load(parameters.loading.normal_stress), np.zeros(body.grid.n_x)
-    )
-    tangential, normal = operator.apply(np.ones(body.grid.n_x))
-    return _Loads(
-        (np.append(0.0, at_rest.tangential), at_rest.normal), (np.append(0.0, tangential), normal)
-    )
+    n, load = operator.body.grid.n_x, operator.body.top_load(parameters.loading.normal_stress)
+    at_rest, (tangential, normal) = operator.respond(load, np.zeros(n)), operator.apply(np.ones(n))
+    loads = np.append(0.0, at_rest.tangential), at_rest.normal
+    return _Loads(loads, (np.append(0.0, tangential), normal))
 
 
 def _weights(

@@ -24,17 +24,9 @@ PLACES = 400  # along x, for what depends on it
 
 
 def theory_history(parameters: Parameters, theory_length: float) -> ModeHistory:
-    """The oscillating mode of a run's creep, by the theory.
+    """The oscillating mode of a run's creep, by the theory whose critical length is given (m).
 
-    Parameters
-    ----------
-    parameters : the fault and its loads; mesh, steps and length of the block do not matter.
-    theory_length : L_c (m).
-
-    Raises
-    ------
-    NoPatch
-        If no patch turns unstable within the lengths looked at, or its creep opens the fault.
+    NoPatch if none turns unstable within the lengths looked at, or its creep opens the fault.
     """
     patches, loading = Patches.of(parameters), parameters.loading
     if not np.isfinite(theory_length):
