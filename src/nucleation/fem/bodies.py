@@ -20,10 +20,7 @@ BodyOperator: TypeAlias = BlockOperator | PairOperator
 def body_of(parameters: Parameters) -> Any:
     """The body of a run, by its loading: here a further kind of loading has its body.
 
-    Raises
-    ------
-    ParameterError
-        If the parameters are not for one another.
+    ParameterError if the parameters are not for one another.
     """
     parameters.require_consistent()
     return LOADED[parameters.loading.kind](parameters)

@@ -31,8 +31,7 @@ from .grid import Grid
 class Response:
     """Nodal forces (N/m) that hold the interface at given `w` (m), the bulk in balance.
 
-    `w` and `tangential` at the nodes 1..n_x, `normal` at 0..n_x. A body's own responses may carry
-    more, which is nobody else's business.
+    `w` and `tangential` at the nodes 1..n_x, `normal` at 0..n_x.
     """
 
     w: Array

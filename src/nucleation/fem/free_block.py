@@ -86,10 +86,8 @@ class EvenHalf(Block):
 class FreeBlock:
     """A block, or two, with free side edges; seen from its top, which is moved along x.
 
-    Parameters
-    ----------
-    grid : of the (upper) block, with an even number of elements along x.
-    odd, even : its right halves with u_x odd and even about the middle.
+    Its `odd` and `even` right halves have u_x odd and even about the middle; the (upper) block's
+    `grid` has an even number of elements along x.
     """
 
     def __init__(self, grid: Grid, odd: Block | Pair, even: Block | Pair) -> None:
@@ -129,12 +127,8 @@ class FreeBlock:
     def parts(self, field: Field) -> list[Field]:
         """The fields of both halves in one."""
         n, levels = self.grid.n_x // 2, field.modes.shape[0]
-        return [
-            Field(np.ascontiguousarray(field.modes[..., own]), edge)
-            for own, edge in zip(
-                (slice(n), slice(n, None)), (field.edge[:levels], field.edge[levels:]), strict=True
-            )
-        ]
+        odd, even = map(np.ascontiguousarray, (field.modes[..., :n], field.modes[..., n:]))
+        return [Field(odd, field.edge[:levels]), Field(even, field.edge[levels:])]
 
     def joined(self, odd: Field, even: Field) -> Field:
         """The field of both halves."""

@@ -2,9 +2,8 @@
 
 Every array is laid out ``[level, component, mode]`` with the mode fastest, so that each inner
 loop runs over the independent modes, along rows that the compiler knows to be contiguous, and
-becomes vector instructions. Levels
-count from the interface (0) to the top (n_y). Elimination runs from the top down, so that the
-last pivot is the body's dynamic stiffness condensed on its interface.
+becomes vector instructions. Levels count from the interface (0) to the top (n_y). Elimination runs
+from the top down: the last pivot is the body's dynamic stiffness condensed on its interface.
 
 For each mode the equations are ``A[j,j-1] u[j-1] + A[j,j] u[j] + A[j,j+1] u[j+1] = r[j]`` with
 2x2 blocks. The factors kept are the inverse pivots ``Q[j] = P[j]^-1`` (symmetric: xx, xy, yy)

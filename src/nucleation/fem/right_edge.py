@@ -84,11 +84,8 @@ class EdgeValues(ABC):
         tangential, normal = self.to_interface
         largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
         near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
-        return (
-            near,
-            np.ascontiguousarray(tangential[:, near:]),
-            np.ascontiguousarray(normal[:, near:]),
-        )
+        tangential, normal = (np.ascontiguousarray(x[:, near:]) for x in (tangential, normal))
+        return near, tangential, normal
 
 
 class RightEdge(EdgeValues):

@@ -44,12 +44,10 @@ HELD = {
 
 
 class SeparableBody(ABC):
-    """A layer of a material on a grid.
+    """A layer of a material on a grid, its far side one of :data:`HELD`.
 
     Parameters
     ----------
-    grid, material : of the layer.
-    far_side : condition on the side away from the interface, one of :data:`HELD`.
     theta : angle of each mode per element, shape (n_x,).
     x_integral : integral along x (m) of each mode of u_x, for the momentum.
     edge_weights : of each mode in the forces on an edge that has unknowns of its own, (3, n_x).
@@ -136,14 +134,7 @@ class SeparableBody(ABC):
         return load
 
     def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`.
-
-        Parameters
-        ----------
-        s : of ``K + s M`` (1/s^2).
-        terms : coefficients and fields (m).
-        load : a load (N/m) to add to; none by default.
-        """
+        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`."""
         load = self.zero_field() if load is None else load
         terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
         coefficients = np.array([c for c, _ in terms])
@@ -205,10 +196,8 @@ class SeparableOperator:
     def __init__(self, body: SeparableBody, s: float) -> None:
         self.body, self.s = body, s
         grid, material = body.grid, body.material
-        lame, shear, p_modulus = (
-            material.lame_modulus, material.shear_modulus, material.p_wave_modulus,
-        )  # fmt: skip
-        rho_s = s * material.density
+        lame, shear = material.lame_modulus, material.shear_modulus
+        p_modulus, rho_s = material.p_wave_modulus, s * material.density
         # stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy
         self.pivot = np.empty((3, body.modes))
         self._inverse = np.zeros((grid.n_y + 1, 3, body.modes))

@@ -38,18 +38,7 @@ class Parts(NamedTuple):
 
 
 class TwoBodies(Generic[Layer]):
-    """Two bodies with the same modes along x, the upper one driven.
-
-    Parameters
-    ----------
-    upper : the body above, its far side under the applied normal stress.
-    lower : the body below, mirrored.
-
-    Raises
-    ------
-    ValueError
-        If they do not have the same nodes along x.
-    """
+    """Two bodies with the same nodes and modes along x, the upper one driven, the other mirrored."""
 
     def __init__(self, upper: Layer, lower: Layer) -> None:
         one, other = upper.grid, lower.grid

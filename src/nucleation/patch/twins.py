@@ -150,12 +150,8 @@ def follow_twins(
 ) -> xr.Dataset:  # fmt: skip
     """Twins of one run, started at several lengths of its patch: :data:`MEASURED` on ``twin``.
 
-    Parameters
-    ----------
-    parameters : the run; twins not followed enough when it or its creep ends are left out.
-    theory_length : the theory's critical length (m).
-    settings : definition of the patch's edge.
-    shares : patch lengths at which twins start, over `theory_length`.
+    The `shares` are of the theory's length (m). Twins not followed enough when the run or its creep
+    ends are left out.
     """
     parameters.require_edge("role = twins")
     patches, dynamics = Patches(parameters, settings), composed(parameters)

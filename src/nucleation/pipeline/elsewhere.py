@@ -17,11 +17,9 @@ from typing import Any
 
 from .store import BAD, NOTE, Other, Store, StoreError, files_of, in_a_line, read_note
 
-VARIABLE = "NUCLEATION_STORES"
-"""The environment variable that names further stores, separated by commas."""
-
+VARIABLE = "NUCLEATION_STORES"  # of the environment; it names further stores, separated by commas
+# times (s) and attempts after which a bucket of S3 is out of reach (botocore's)
 PATIENCE = {"connect_timeout": 3, "read_timeout": 10, "retries": {"total_max_attempts": 2}}
-"""Times (s) and attempts after which a bucket of S3 is out of reach (botocore's)."""
 
 
 class SharedDirectory:

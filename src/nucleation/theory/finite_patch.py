@@ -35,8 +35,7 @@ from ..types import Array
 TERMS = 24  # slip modes sin(n theta), n odd: the first instability is even in x
 NODES = 200  # of the quadrature over theta
 DEGREE = 12  # of the polynomial in log(1 - a/b) through the logarithms of the computed factors
-NEAREST = 0.99
-"""Largest a/b of a loaded patch: nearer to neutral its mode shrinks to the patch's middle."""
+NEAREST = 0.99  # largest a/b of a loaded patch: nearer to 1 its mode shrinks to the patch's middle
 
 
 @lru_cache(maxsize=1)
