@@ -112,10 +112,7 @@ class Job:
                 raise DatasetError(f"{file} is another result than it should be, of key {found}")
             return dataset
         except (DatasetError, StoreError) as error:
-            self.store.set_aside(key)
-            raise StoreError(
-                f"{error}. It was moved aside: run this again, and it is made again"
-            ) from None
+            raise self.store.refused(key, error) from None
 
     def put(self, task: Task, key: str, made: Any) -> None:
         """Put what a function has returned into the store: all files of the result."""

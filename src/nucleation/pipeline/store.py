@@ -208,6 +208,11 @@ class Store:
             self.entry(key).rename(place / key)
         return place / key
 
+    def refused(self, key: str, error: Exception) -> StoreError:
+        """Move an entry aside that can't be used; the error that says so."""
+        self.set_aside(key)
+        return StoreError(f"{error}. It was moved aside: run this again, and it is made again")
+
     def remove(self, key: str) -> None:
         """Remove an entry: its name first, so that half of one is never found."""
         gone = self.directory / f".{key}.removed.tmp"

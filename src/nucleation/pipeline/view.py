@@ -93,10 +93,7 @@ def _verified(store: Store, key: str) -> Note:
         small = sum(file["size"] for file in note["files"].values()) < LARGE
         return read_note(store.entry(key), whole=small)
     except StoreError as error:
-        store.set_aside(key)
-        raise StoreError(
-            f"{error}. It was moved aside: run this again, and it is made again"
-        ) from None
+        raise store.refused(key, error) from None
 
 
 def _lay(path: Path, target: Path) -> Path:
