@@ -38,7 +38,7 @@ class Parts(NamedTuple):
 
 
 class TwoBodies(Generic[Layer]):
-    """Two bodies with the same nodes and modes along x; the upper one driven, the lower mirrored."""
+    """Two bodies with the same nodes and modes along x: one driven, above, the other mirrored."""
 
     def __init__(self, upper: Layer, lower: Layer) -> None:
         one, other = upper.grid, lower.grid
