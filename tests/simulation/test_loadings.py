@@ -120,6 +120,5 @@ def test_onset_converges_with_mesh_and_tolerance(parameters):
         stepping = dataclasses.replace(STEPPING, tolerance=tolerance, longest_step=0.1)
         own = dataclasses.replace(parameters, mesh=mesh, stepping=stepping, perturbation=declared)
         onsets.append(extract(simulate(own))["onset_time"])
-    print(f"\n{parameters.loading.kind}: {onsets}")
     assert abs(onsets[1] / onsets[0] - 1.0) < 1e-3
     assert abs(onsets[2] / onsets[1] - 1.0) < 1e-3

@@ -5,7 +5,6 @@ import functools
 
 import numpy as np
 import pytest
-from verification.order_tables import print_orders
 
 from benchmarks.assembled import assemble, unknown
 from nucleation.claims.independent import printed
@@ -51,7 +50,6 @@ def test_condensed_stiffness_converges_to_the_transfer_functions(layer_number, b
         exact = transfer_functions(k, Layer(MATERIAL, grid.height, "traction"), RIGID)
         found = operator.pivot[:2, 1] / scale
         errors.append(np.abs(found - np.array(exact)).max() / exact[0])
-    print_orders(f"G1, G2 at kH = {layer_number}", ["16x8", "32x16", "64x32", "128x64"], errors)
     np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
     assert errors[-1] < bound
 
@@ -163,8 +161,6 @@ def test_modes_grow_and_turn_as_the_theory_says(height, ratio):
     """Both roots, so the mode that travels along +x and the one along -x each in its place."""
     found, expected = measured(height, ratio), theory(PARAMETERS, height, ratio * critical(height))
     error = np.abs(found - expected) / np.abs(expected)
-    kh = ratio * critical(height) * height
-    print(f"\nH = {height}, kH = {kh:.3f}: {found * 0.05}, theory {expected * 0.05}, {error}")
     assert error.max() < AGREEMENT
     assert (found[0].real > 0.0) == (ratio < 1.0)
 
@@ -182,7 +178,6 @@ def test_modes_grow_as_the_theory_says_below_a_top_that_is_moved(ratio):
     k = ratio * critical_wavenumber(*bodies, state).wavenumber
     expected = growth_rates(k, *bodies, state)
     error = np.abs(dispersion.measured_rates(top, 0.2, k) - expected) / np.abs(expected)
-    print(f"\nkH = {k * 0.2:.3f}: {error}")
     assert error.max() < AGREEMENT
     assert (expected[0].real > 0.0) == (ratio < 1.0)
 
@@ -191,7 +186,6 @@ def test_modes_grow_as_the_theory_says_below_a_top_that_is_moved(ratio):
 def test_growth_changes_sign_at_the_critical_wavenumber(height):
     low, high = (measured(height, ratio)[0].real for ratio in (0.97, 1.03))
     crossing = 0.97 + 0.06 * low / (low - high)
-    print(f"\nH = {height}: growth vanishes at {crossing:.5f} k_c")
     assert crossing == pytest.approx(1.0, abs=2e-3)
 
 
@@ -220,7 +214,6 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
         errors.append(np.abs(found - expected).max() / np.abs(expected).max())
     ratio = np.array(sizes[1:]) / np.array(sizes[:-1])
     order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
-    print("\ngrowth rate in h:", list(zip(sizes, errors, [np.nan, *order], strict=True)))
     np.testing.assert_allclose(order, 2.0, atol=0.2)
     assert errors[-1] < 1e-3
 
@@ -266,7 +259,6 @@ def test_modes_of_a_pair_grow_and_turn_as_the_theory_says(which, ratio):
     row = pair_modes.mode_row(LAYERS[which], PARAMETERS, ratio)
     found, expected = row["measured"], row["theory"]
     error = np.abs(found - expected) / np.abs(expected)
-    print(f"\n{which}, k/k_c = {ratio}: {found * 0.05}, theory {expected * 0.05}, {error}")
     assert error.max() < 5e-3  # 1 % is asked for
     assert (found.real.max() > 0.0) == (ratio < 1.0)
     assert abs(expected[0].imag + expected[1].imag) > 1e-3 * abs(expected[0])  # they differ

@@ -6,9 +6,8 @@ the time stepping (nucleation.verification.orders has the fields).
 
 import numpy as np
 import pytest
-from verification.order_tables import levels, print_orders
 
-from nucleation.verification.orders import ROWS, SCALE, manufactured, mesh_errors, orders
+from nucleation.verification.orders import SCALE, manufactured, mesh_errors, orders
 
 pytestmark = pytest.mark.slow
 
@@ -16,14 +15,12 @@ pytestmark = pytest.mark.slow
 @pytest.mark.parametrize("refinement", ["mesh", "step"])
 def test_second_order(convergence, refinement):
     errors = convergence["displacement_error"].sel(problem="elastodynamics", refinement=refinement)
-    print_orders(f"elastodynamics, {refinement}", levels(convergence, refinement), errors.values)
     np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
     assert errors[-1] < {"mesh": 1.2e-4, "step": 5e-5}[refinement]
 
 
 def test_second_order_in_h_on_a_uniform_mesh():
     errors = mesh_errors("elastodynamics", grading=1.0)[:, 0]
-    print_orders("elastodynamics, uniform mesh", [f"{2 * n}x{n}" for n in ROWS], errors)
     np.testing.assert_allclose(orders(errors)[1:], 2.0, atol=0.1)
     assert errors[-1] < 1.2e-4
 

@@ -197,9 +197,6 @@ TOLERANCES = (1e-1, 1e-2, 1e-3)
 @pytest.mark.parametrize("law", ["aging", "slip"])
 def test_energy_balance_through_an_event(law):
     ledgers = [event(law, tolerance) for tolerance in TOLERANCES]
-    print(f"\nenergy (J/m), {law} law")
-    for tolerance, books in zip(TOLERANCES, ledgers, strict=True):
-        print(f"  tolerance {tolerance:g}: residual {books.residual / books.friction:.1e}", books)
     for books in ledgers:
         assert books.fastest > 1e-2
         assert abs(books.residual) < 1e-11 * books.friction
@@ -218,7 +215,6 @@ def test_energy_balance_through_an_event(law):
     assert shares[2] < 0.5 * shares[1]
     assert shares[2] < 5e-5
     mismatch = [abs(books.friction_by_rates / books.friction - 1) for books in ledgers]
-    print("  friction by slip rates, relative difference:", *(f"{m:.1e}" for m in mismatch))
     assert mismatch[2] < 0.3 * mismatch[0]
     assert mismatch[2] < 5e-4
 
@@ -241,7 +237,6 @@ def test_energy_balance_of_two_blocks(bottom, thick):
          "second_height": 0.008 * thick, "second_n_y": 5}
     )  # fmt: skip
     books = Accountant(parameters).books(creeps_again)
-    print(f"\n{bottom}: residual {books.residual / books.friction:.1e}", books)
     assert abs(books.residual) < 1e-11 * books.friction
     assert books.most_kinetic > 1e6 * abs(books.residual)
     assert 0.0 < books.scheme < 3e-4 * books.friction
@@ -265,6 +260,5 @@ def test_energy_balance_of_bodies_that_are_loaded_from_afar(parameters):
     # slip everywhere: with the usual tolerance of 1e-8, 6e-11 is missing of a remote load's work
     accountant = Accountant(parameters, tolerance=1e-12)
     books = accountant.books(lambda fastest, rate: rate < 0.5 * fastest)
-    print(f"\nresidual {books.residual / books.friction:.1e}", books)
     assert abs(books.residual) < 1e-11 * books.friction
     assert 0.0 < books.scheme < 3e-4 * books.friction

@@ -80,8 +80,6 @@ def test_every_step_obeys_the_assembled_equation_of_motion(law, grading):
             ("driving force", -edge, report.driving_force),
         ):
             worst[name] = max(worst[name], np.abs(found - expected).max() / scale)
-    print(f"\n{law} law, grading {grading}, inertia {inertia:.1e} of the largest force:")
-    print("  unbalanced:", *(f"{name} {value:.1e}" for name, value in worst.items()))
     assert np.count_nonzero(interface.slip_rate > 0.01 * VELOCITY) >= 3  # a patch has formed
     assert inertia > 1e-3  # so a part missing from it would be seen
     assert max(worst.values()) < ROUND_OFF

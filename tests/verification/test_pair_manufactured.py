@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from verification.order_tables import print_orders
 
 from nucleation.fem.bodies import body_of
 from nucleation.fem.field import Motion
@@ -118,15 +117,12 @@ def errors(solved, *rungs):
 def test_exact_for_bilinear_fields_quadratic_in_time(law):
     """Elements and time stepping are exact for these fields: only round-off is left."""
     found = errors(problem("exact", law, 5), *[-56] * 10)
-    print(f"\n{law} law, two blocks:", *(f"{e:.1e}" for e in found))
     assert max(found) < 1e-10
 
 
 def test_second_order_in_h():
     rungs = [MESH_RUNG] * MESH_STEPS
     found = np.array([errors(problem("mesh", "aging", rows), *rungs) for rows in (4, 8, 16)])
-    for name, column in zip(("above", "below", "slip rate", "log(phi)"), found.T, strict=True):
-        print_orders(f"two blocks, {name}", ["8x4", "16x8", "32x16"], column)
     np.testing.assert_allclose(orders(found)[-1], 2.0, atol=0.1)
     assert (found[-1] < (9e-3, 8e-3, 3.5e-2, 8e-3)).all()
 

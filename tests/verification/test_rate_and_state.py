@@ -7,7 +7,6 @@ solution (nucleation.verification.manufactured.dynamics).
 
 import numpy as np
 import pytest
-from verification.order_tables import levels, print_orders
 
 from nucleation.verification.manufactured import dynamics
 from nucleation.verification.orders import (
@@ -16,7 +15,6 @@ from nucleation.verification.orders import (
     manufactured,
     orders,
     step_errors,
-    step_sizes,
 )
 
 pytestmark = pytest.mark.slow
@@ -39,7 +37,6 @@ ORDER = {"mesh": 2.0, "step": 2.0, "quasi_static_step": 3.0}
 def test_order(convergence, law, refinement):
     for name, bound in zip(ERRORS, BOUNDS[law, refinement], strict=True):
         found = convergence[name].sel(problem=law, refinement=refinement).values
-        print_orders(f"{law} law, {refinement}, {name}", levels(convergence, refinement), found)
         np.testing.assert_allclose(orders(found)[1:], ORDER[refinement], rtol=0.05)
         assert found[-1] < bound
 
@@ -48,9 +45,6 @@ def test_order(convergence, law, refinement):
 def test_second_order_with_steps_that_change(law):
     """Steps that grow and shrink along the ladder, by the same pattern at every level."""
     found = step_errors(law, pattern=(0, 1, 2, 1, -1))
-    for name, column in zip(ERRORS, found.T, strict=True):
-        labels = [f"{size:.3e}" for size in step_sizes("step")]
-        print_orders(f"{law} law, changing steps, {name}", labels, column)
     np.testing.assert_allclose(orders(found)[1:], 2.0, atol=0.1)
     assert (found[-1] < 1.5e-4).all()
 
@@ -59,7 +53,6 @@ def test_second_order_with_steps_that_change(law):
 def test_exact_for_bilinear_fields_quadratic_in_time(law):
     """Only round-off is left; the reactions are the exact tractions, friction's and the applied."""
     found = errors(manufactured(law, "exact", rows=5), [-56] * 10)
-    print(f"\n{law} law, exact fields:", *(f"{e:.1e}" for e in found))
     assert max(found) < 1e-11
     problem = manufactured(law, "exact", rows=5)
     state, report = problem.run(*[-56] * 10)

@@ -70,5 +70,4 @@ def test_fixed_length(ratio, n_x, change):
     fault = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "normal_stress": 1e6, "b": B}
     lengths = lengths_in_use(**fault, a=ratio * B, slip_distance=5e-7)
     expected = float(lengths["rubin_ampuero_localised"])
-    print(f"\na/b = {ratio}, n_x = {n_x}: {found:.4f} m, formula {expected:.4f} m")
     assert math.isclose(found, expected, rel_tol=0.03)
