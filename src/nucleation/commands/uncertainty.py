@@ -96,16 +96,12 @@ def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
 
 def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
     count = found.attrs
-    lines = [
-        *(line for text in said for line in textwrap.wrap(text, 95, subsequent_indent="  ")),
-        "",
-        f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
-        + (f" ({count['outside']} not allowed)" if count["invalid"] else "")
-        + f", {count['stable']} of the others stable, without L_c",
-        "",
-        f"{'quantiles (m)':<32}" + "".join(f"{q:>10.0%}" for q in QUANTILES)
-        + "   share",
-    ]  # fmt: skip
+    drawn = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
+    drawn += f" ({count['outside']} not allowed)" if count["invalid"] else ""
+    drawn += f", {count['stable']} of the others stable, without L_c"
+    wrapped = [textwrap.fill(text, 95, subsequent_indent="  ") for text in (*said, drawn)]
+    head = "".join(f"{share:>10.0%}" for share in QUANTILES)
+    lines = [*wrapped[:-1], "", wrapped[-1], "", f"{'quantiles (m)':<32}{head}   share"]
     systems = {length.key: length.system for length in LENGTHS}
     head, nowhere = "", []
     first = (middle.shear_modulus, middle.poisson_ratio)

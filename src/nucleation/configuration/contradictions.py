@@ -117,8 +117,8 @@ def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
         value = getattr(declared, name)
         if declared.kind == "none" and value:
             yield (
-                f"{key}: {name} = {value:g} is not allowed with perturbation = none, which perturbs "
-                f"nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
+                f"{key}: {name} = {value:g} is not allowed with perturbation = none, which "
+                f"perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
             )
     if declared.acts and declared.kind in ALONG_X and declared.correlation_length < element:
         yield (

@@ -25,7 +25,7 @@ DRAWS = Quantity("number of draws", low=20, high=1e6, closed="both", kind="int")
 SEED = Quantity("seed", low=0, high=2**32, closed="both", kind="int")
 SAMPLED = {k: x for k, x in QUANTITIES.items() if not x.worded} | {"weakening_rate": WEAKENING_RATE}
 """Declarations of the parameters that may be uncertain."""
-_RANGE = re.compile(r"(.+)\((.+?)\s+to\s+(.+)\)\s*")
+_RANGE = re.compile(r"(.+)\((.+?)\s+(?:to|-|–)\s+(.+)\)\s*")
 _TITLES = {"critical_length": "critical length L_c", "stability_length": "stability length L_s"}
 
 
