@@ -58,7 +58,7 @@ BAD = {
     "studies are nothing": ({"studies": None}, ["studies = None must be a mapping"]),
     "description is nothing": (study(TALL, description=None), ["description = None"]),
     "a strength of nothing": (
-        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "kind one of"],
+        study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "perturbation one of"],
     ),
     "roughness finer than elements": (
         study({**TALL, "perturbation": "strength", "strength": 1e-3, "correlation_length": 1e-4}),
