@@ -55,13 +55,10 @@ class Onset:
 def find_onset(
     time: Array, force: Array, window: float, drop: float, fast: NDArray[np.bool_] | None = None
 ) -> Onset | None:
-    """The first abrupt drop of a force magnitude (N/m) over time (s), or None.
+    """The first abrupt drop of a force magnitude (N/m) over the times (s) of all steps, or None.
 
-    Parameters
-    ----------
-    time, force : of every step, shape (steps,).
-    window, drop : of :class:`~nucleation.simulation.event.DropWatch`, in s and as a fraction.
-    fast : whether the interface slips fast at these times, always by default.
+    `window` (s) and `drop` (a fraction) are of :class:`~nucleation.simulation.event.DropWatch`;
+    `fast` is whether the interface slips fast at these times, always by default.
     """
     watch = DropWatch(window, drop)
     fast = np.ones(time.size, dtype=bool) if fast is None else fast

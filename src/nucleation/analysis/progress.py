@@ -26,13 +26,7 @@ class Progress:
     The part of the way never falls: it is the simulated time over the end time, or the patch's
     length over the linear theory's if that is more. The event comes somewhat before that length,
     and takes many short steps: the wall time that is left can't be told, but the steps per second
-    are.
-
-    Parameters
-    ----------
-    parameters : of the run.
-    stream : a terminal, which gets a bar, or a file, which gets lines.
-    terminal : whether there is a bar in any case, as in a notebook.
+    are. A terminal gets a bar, as does a notebook if `terminal` says so; a file gets lines.
     """
 
     def __init__(self, parameters: Parameters, stream: TextIO, terminal: bool = False) -> None:

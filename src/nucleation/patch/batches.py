@@ -21,14 +21,9 @@ STABILITY = some(FITTED, "stability_length", "stability_length_error")
 def measured(
     run: dict[str, Any], record: xr.Dataset, settings: ExtractionSettings, measure: str
 ) -> xr.Dataset:
-    """The row of a run: :data:`nucleation.analysis.lengths.COLUMNS`, on ``run``.
+    """The row of a run and its record: :data:`nucleation.analysis.lengths.COLUMNS`, on ``run``.
 
-    Parameters
-    ----------
-    run : of :meth:`nucleation.configuration.runs.Run.to_dict`.
-    record : of :func:`nucleation.simulation.run.simulate`.
-    settings : how lengths are read.
-    measure : ``lengths``; or ``stability``, with :data:`STABILITY` beside them.
+    If the measure is ``stability`` and not ``lengths``, :data:`STABILITY` stands beside them.
     """
     row = lengths.gather([run], [record], settings)
     if measure == "stability":

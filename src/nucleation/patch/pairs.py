@@ -85,15 +85,10 @@ def gather(
     patches: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> xr.Dataset:
-    """The table of runs of two bodies.
+    """The table of runs of two bodies, with their simulations in the same order.
 
-    Parameters
-    ----------
-    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
-    simulations : of the runs, in their order.
-    patches : of :func:`.growth.follow_patch`, of each fault's first realisation in the same order;
-        the others have its L_s, which the perturbation hardly moves.
-    settings : how lengths are read.
+    `patches` are those of each fault's first realisation (:func:`.growth.follow_patch`); the others
+    have its L_s, which the perturbation hardly moves.
     """
     rows, waiting, fitted = [], iter(patches), {}
     for run, simulation in zip(runs, simulations, strict=True):
@@ -110,11 +105,10 @@ def gather(
 
 
 def over_realisations(table: xr.Dataset) -> xr.Dataset:
-    """A table of pairs with one row for each fault, the mean of its realisations.
+    """A table of pairs with one row for each fault, the mean of its ``realisations``.
 
     ``length_ratio_low`` and ``length_ratio_high`` are the least and the largest of them, without
-    the range over definitions that ``length_low`` and ``length_high`` have; ``realisations`` counts
-    them.
+    the range over definitions that ``length_low`` and ``length_high`` have.
     """
     ratio = [table["length_ratio"].values[rows] for rows in lengths.realisations(table)]
     return lengths.over_realisations(table).assign(

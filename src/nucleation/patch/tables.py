@@ -37,12 +37,8 @@ def gather_stability(
 ) -> xr.Dataset:
     """:data:`STABILITY` on ``run``: the lengths at which the frozen patches turn unstable.
 
-    Parameters
-    ----------
-    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
-    patches : of :func:`.growth.follow_patch`, in the same order.
-    reference : the role with whose run of the same fault each run is compared:
-        ``stability_change`` is the length over that run's, minus one, NaN without one.
+    `patches` are of :func:`.growth.follow_patch`, in the order of the runs. ``stability_change`` is
+    the length over that of the same fault's run in the role `reference`, minus one; NaN without.
     """
     rows = [
         description(run) | {name: float(patch[name]) for name in FITTED}

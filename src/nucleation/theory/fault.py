@@ -216,9 +216,8 @@ class Fault:
         rows, dtype : number of values at each point, and their type.
         """
         neutral = {"friction": 0.0, "velocity": 1.0}  # where not given they do not matter
-        own = dict(
-            zip(("poisson_ratio", "second_poisson_ratio"), self.in_plane_ratios, strict=True)
-        )
+        first, second = self.in_plane_ratios
+        own = {"poisson_ratio": first, "second_poisson_ratio": second}
         values = [own[n] if n in own else getattr(self, n) for n in _OF_SYSTEMS]
         values = [neutral[n] if v is None else v for n, v in zip(_OF_SYSTEMS, values, strict=True)]
 
