@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis.extraction import extract
@@ -70,17 +71,20 @@ def draw_patch(patch: xr.Dataset) -> Figure:
     growth, frequency = figure.subplots(2, 1, sharex=True)
     length = patch["patch_length"].values
     growth.plot(length, patch["oscillation_growth"].values, color=style.THEORY)
-    growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
     frequency.plot(length, patch["oscillation_frequency"].values, color=style.THEORY)
-    for axes in (growth, frequency):
-        axes.axvline(float(patch["stability_length"]), color=style.GUIDE, linestyle=":")
-    growth.annotate(
-        "$L_s$", (float(patch["stability_length"]), 1.0), (3.0, -10.0),
-        xycoords=growth.get_xaxis_transform(), textcoords="offset points", color=style.GUIDE,
-    )  # fmt: skip
+    _mark(growth, frequency, float(patch["stability_length"]), "$L_s$")
     growth.set_ylabel(r"Growth $\mathrm{Re}\,\Lambda$ (1/s)")
     frequency.set(xlabel="Patch length $L$ (m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
     return figure
+
+
+def _mark(growth: Axes, frequency: Axes, place: float, name: str) -> None:
+    """Mark zero growth, and a place in both panels by its name."""
+    growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
+    for axes in (growth, frequency):
+        axes.axvline(place, color=style.GUIDE, linestyle=":")
+    where = growth.get_xaxis_transform()
+    growth.annotate(name, (place, 1.0), (3.0, -10.0), where, "offset points", color=style.GUIDE)
 
 
 def plot_run(record: xr.Dataset) -> Figure:
@@ -162,17 +166,7 @@ def plot_spectrum(**fault: Any) -> Figure:
     for root, dashes, name in zip(rates, ("-", "--"), ("faster mode", "slower mode"), strict=True):
         growth.plot(k, root.real, dashes, color=style.THEORY, label=name)
         frequency.plot(k, root.imag, dashes, color=style.THEORY)
-    growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
-    for axes in (growth, frequency):
-        axes.axvline(float(critical), color=style.GUIDE, linestyle=":")
-    growth.annotate(
-        "$k_c$",
-        (float(critical), 1.0),
-        (3.0, -10.0),
-        color=style.GUIDE,
-        xycoords=growth.get_xaxis_transform(),
-        textcoords="offset points",
-    )
+    _mark(growth, frequency, float(critical), "$k_c$")
     growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)")
     frequency.set(xlabel="Wavenumber $k$ (1/m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
     growth.legend()
