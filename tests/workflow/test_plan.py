@@ -59,7 +59,7 @@ QUICK = read_yaml(ROOT / "config" / "quick.yaml")
         ({**QUICK, "material": {"poisson_ratio": 0.5}}, ["poisson_ratio = 0.5", "(-1, 0.5)"]),
         (
             {"studies": {"s": {"runs": [{"height": -1, "evolution": "agin", "n_x": 0}]}}},
-            ["height = -1 m", "law = 'agin'", "n_x = 0", "has 3 problems"],
+            ["height = -1 m", "evolution = 'agin'", "n_x = 0", "has 3 problems"],
         ),
         (
             {"studies": {"s": {"runs": [{"height": 0.1, "length": 0.5}]}}},
