@@ -117,6 +117,12 @@ def test_a_law_that_can_not_have_the_constants_names_one_that_can(nucleation):
     assert "v0 = 1e-09 m/s, regularisation_slip_rate, must be far below V" in ended.err
 
 
+@pytest.mark.parametrize("alone", [("--seed", "3"), ("--strength", "1e-5")])
+def test_a_seed_or_a_strength_of_nothing_is_refused(nucleation, tmp_path, alone):
+    ended = nucleation("simulate", tmp_path / "run.nc", *alone, "--dry-run")
+    assert ended.code == 2 and f"{alone[0][2:]} = " in ended.err and "none" in ended.err
+
+
 def test_too_short_a_block_is_sent_to_specimen(nucleation, tmp_path):
     ended = nucleation("simulate", tmp_path / "run.nc", "--length", "2cm", "--dry-run")
     assert ended.code == 2 and "nucleation specimen --length 0.02m" in ended.err

@@ -21,6 +21,7 @@ from ..configuration.settings import Limits, estimated_megabytes
 from ..configuration.studies import StudySettings
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
+from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..model.second_body import SecondBody
 from .options import (
@@ -69,6 +70,11 @@ def command(
     _check_output(output, force)
     base, given = sourced(file, run_id, config, options)
     values = merged(base, given)
+    if "seed" in given and values["perturbation"] == "none":
+        raise ParameterError(
+            f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
+            f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
+        )
     study = given_of({"length_over_critical": length_over_critical})
     limits, place = given_of({"memory": memory}), str(output.absolute().parent)
     run = planned(values, study, limits, place)

@@ -111,15 +111,13 @@ def _recording_problems(key: str, run: Run, extraction: ExtractionSettings) -> I
 
 
 def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
-    """A strength or a seed of nothing, and a roughness that the mesh can't have."""
+    """A strength of nothing, and a roughness that the mesh can't have."""
     declared, element = parameters.perturbation, parameters.geometry.length / parameters.mesh.n_x
-    for name in ("strength", "seed"):
-        value = getattr(declared, name)
-        if declared.kind == "none" and value:
-            yield (
-                f"{key}: {name} = {value:g} is not allowed with perturbation = none, which "
-                f"perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
-            )
+    if declared.kind == "none" and declared.strength > 0.0:
+        yield (
+            f"{key}: strength = {declared.strength:g} is not allowed with perturbation = none, "
+            f"which perturbs nothing: it must be 0, or perturbation one of {', '.join(KINDS[1:])}"
+        )
     if declared.acts and declared.kind in ALONG_X and declared.correlation_length < element:
         yield (
             f"{key}: correlation_length = {declared.correlation_length:g} m is not allowed: it "
