@@ -66,6 +66,14 @@ def test_bodies_alike(text):
     assert second_body(text) == {"second_body": "deformable"}
 
 
+def test_a_layer_on_a_half_space(nucleation, tmp_path):
+    options = words({**FAULT, "--second-body": "25GPa,0.25,inf"})
+    out = nucleation("length", *options).out
+    assert "a layer 2 m high" in out and "on a half-space (mu = 2.5e+10 Pa" in " ".join(out.split())
+    ended = nucleation("simulate", tmp_path / "run.nc", *options, "--dry-run")
+    assert ended.code == 2 and "second_body.height = inf m is not allowed" in ended.err
+
+
 @pytest.mark.parametrize("text", ["soft", "60GPa", "60GPa,0.3,1m,2", "60m,0.3", "60GPa,0.7"])
 def test_bad_second_bodies_are_refused(text):
     with pytest.raises(ParameterError, match="is not allowed"):

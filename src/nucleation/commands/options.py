@@ -18,7 +18,7 @@ from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
-from ..theory.fault import Fault
+from ..theory.fault import QUANTITIES, Fault
 from . import units
 from .given import of_dataset, of_file, of_run
 from .system import of_parameters, system_line
@@ -108,7 +108,7 @@ def second_body(text: str) -> dict[str, Any]:
     if text in ("same", "deformable", "rigid"):
         return {"second_body": "rigid" if text == "rigid" else "deformable"}
     keys = ("second_shear_modulus", "second_poisson_ratio", "second_height")
-    entries, parts = study_parameters(), text.split(",")
+    entries, parts = QUANTITIES, text.split(",")  # of the theory: a height may be infinite
     if not 2 <= len(parts) <= 3:
         raise ParameterError(
             f"second_body = {text!r} is not allowed: it must be same, rigid, or a shear modulus "
