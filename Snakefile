@@ -66,7 +66,7 @@ if "studies" not in config:
     configfile: str(Path(BASE, "config", "config.yaml"))
 
 
-os.environ.setdefault("NUCLEATION_CONFIGFILES", configfiles(sys.argv))  # jobs have other arguments
+os.environ.setdefault("NUCLEATION_CONFIGFILES", configfiles())  # jobs have other arguments
 
 
 try:

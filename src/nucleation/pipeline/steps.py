@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import shlex
+import sys
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
@@ -174,10 +175,10 @@ def _plain(paths: Any) -> str | list[str]:
     return str(paths) if isinstance(paths, str) else [str(path) for path in paths]
 
 
-def configfiles(arguments: Sequence[str]) -> str:
-    """The files that a command line of Snakemake gives as its configuration."""
+def configfiles(arguments: Sequence[str] | None = None) -> str:
+    """The files that a command line of Snakemake, by default this one, gives as configuration."""
     found, taking = [], False
-    for word in arguments:
+    for word in sys.argv if arguments is None else arguments:
         if word.startswith("-"):
             name, _, file = word.partition("=")
             taking = name in ("--configfile", "--configfiles")
