@@ -34,6 +34,28 @@ def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
     assert (smooth["ratio"] - 1.0).abs().max() < 0.028
 
 
+LITERATURE_ROWS = {
+    "fixed": "rubin_ampuero_localised", "thin layer": "thin_layer",
+    "expanding": "rubin_ampuero_crack", "slip law, over L_b": "state_evolution",
+}  # fmt: skip
+
+
+def test_lengths_of_the_literature_are_those_of_the_reference():
+    """Of each a/b the first run is in the table, and all of 0.3 are within what the text says."""
+    table = pd.read_csv(REFERENCE / "literature.csv").dropna(subset=["difference"])
+    page = (ROOT / "docs" / "loading.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| ([a-z][^|]+) \| (0\.\d+) \| ([\d. |]+) \|$", page, re.MULTILINE)
+    assert len(rows) == 10
+    for length, ratio, values in rows:
+        same = table[(table["name"] == LITERATURE_ROWS[length])
+                     & np.isclose(table["a_over_b"], float(ratio))]  # fmt: skip
+        first = same[same["id"] == same["id"].iloc[0]]["difference"] + 1.0
+        assert [f"{value:.2f}" for value in first] == values.split(" | "), (length, ratio)
+    fixed = table[(table["name"] == "rubin_ampuero_localised") & np.isclose(table["a_over_b"], 0.3)]
+    late = fixed[fixed["read_at"] > 0.05]["difference"]
+    assert len(late) == 7 and late.min() > 0.005 and late.max() < 0.035
+
+
 STUDIES = {
     "`map`, all heights, zeta/a = 1.5 to 6": ["map"],
     "`converged`, both laws, phi0 = 1 and 1000 s": ["converged"],

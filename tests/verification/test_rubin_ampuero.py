@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from theory.test_literature import crack_coefficients
 
+from nucleation.analysis.literature import DEFINITIONS
 from nucleation.model.friction.law import Friction
 from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.model.material import Material
@@ -71,3 +72,8 @@ def test_fixed_length(ratio, n_x, change):
     lengths = lengths_in_use(**fault, a=ratio * B, slip_distance=5e-7)
     expected = float(lengths["rubin_ampuero_localised"])
     assert math.isclose(found, expected, rel_tol=0.03)
+
+
+def test_the_table_of_the_literature_reads_the_same_part_of_the_length():
+    part = DEFINITIONS["rubin_ampuero_localised"].part
+    assert math.isclose(part, width_over_length(), rel_tol=1e-3)

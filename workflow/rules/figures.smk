@@ -43,6 +43,7 @@ DRAWN = {
     "figure_sensitivity": {"table": only("sensitivity")},
     "figure_pairs": {"table": only("gather_pairs")},
     "figure_2_simulated": {"table": only("gather_pairs")},
+    "figure_literature": {"table": only("gather_literature")},
 }
 """The figures that are drawn from datasets alone, with these."""
 

@@ -11,7 +11,8 @@ ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_
 the paper's figures nor the verdicts, which are about the paper's runs."""
 TABLES = {"theory": "theory", "lengths": "gather_lengths", "drop": "gather_drop",
           "map": "gather_map", "patch_theory": "gather_patch_theory", "twin_runs": "gather_twins",
-          "sensitivity": "sensitivity", "pairs": "gather_pairs", "convergence": "convergence",
+          "sensitivity": "sensitivity", "pairs": "gather_pairs",
+          "literature": "gather_literature", "convergence": "convergence",
           "dispersion": "dispersion", "verification": "verification"}  # fmt: skip
 """The rules of the datasets that figures are downloaded with."""
 

@@ -98,6 +98,19 @@ make_rule(
     message="Sensitivity of critical lengths",
 )
 
+make_rule(
+    "gather_literature",
+    call="nucleation.analysis.literature:files",
+    shows="literature",
+    inputs={
+        "simulations": needed(
+            lambda wildcards: simulations(*in_role("literature")), "study with role: literature"
+        ),
+    },
+    runs=as_dicts(runs_for("literature")),
+    message="The literature's lengths, simulated",
+)
+
 # Published laboratory faults: the lengths observed, and those of the theory where enough was read.
 make_rule(
     "gather_laboratory",

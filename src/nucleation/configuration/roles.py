@@ -17,6 +17,8 @@ Run = Any
 OWN = "own"
 JUDGED, PAPERS = "converged", "paper"
 """The role that verdicts on lengths stand on, and that of the runs on the paper's own mesh."""
+LITERATURE = "literature"
+"""The role of runs whose zones are read while they accelerate, not at the drop."""
 LONGER = "long_blocks"
 """Runs in longer blocks than those with the role :data:`JUDGED`; in tables of lengths also of the
 runs that they are compared with."""
@@ -36,6 +38,7 @@ BATCHES = Need("runs_per_job", (1).__lt__, "more than 1")
 INTERFACE = Need("record", lambda level: level != "lengths", "interface or everything")
 QUIET = Need("perturbation", "none".__eq__, "none")
 PAIR = Need("second_body", "deformable".__eq__, "deformable")
+REMOTE = Need("loading", "remote".__eq__, "remote")
 
 
 class Role(NamedTuple):
@@ -87,6 +90,9 @@ ROLES = {
     ),
     "figure_2_simulated": Role(
         "the same, half-spaces in contrast, for `figure_2_simulated`", several=True, runs=(PAIR,)
+    ),
+    LITERATURE: Role(
+        "the literature's lengths in their own settings, for `figure_literature`", runs=(REMOTE,)
     ),
 }  # fmt: skip
 """All roles, by name."""

@@ -81,6 +81,10 @@ FIGURES: dict[str, Entry] = {
         "Figure 2 with simulations, in both senses of the contrast", BEYOND,
         ("pairs_identical", "figure_2_simulated"), (Data("pairs"),),
     ),
+    "figure_literature": Entry(
+        "Lengths of the literature, simulated in their own settings", BEYOND, ("literature",),
+        (Data("literature"),),
+    ),
     "figure_convergence": Entry(
         "Critical length against mesh and steps", CHECKS,
         ("convergence", "convergence_quiet"), (Data("convergence"),)

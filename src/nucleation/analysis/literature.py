@@ -1,0 +1,197 @@
+"""The literature's lengths, each simulated in its own setting and read by its own definition.
+
+Two tall identical bodies, or a low block on a rigid body, under a far stress that rises
+(``remote``). Nucleation begins where f is lower. Without inertia a zone accelerates for ever, so
+its length is read at several slip rates.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..datasets.shared import SHARED
+from ..datasets.variables import Variable, some, table
+from ..model.parameters import Parameters
+from ..theory.fault import Fault
+from ..theory.literature import LOCALISED_LIMIT
+from ..theory.literature_table import LENGTHS, TWO_MATERIALS, values_of
+from ..types import Array
+from .definitions import slipping_zone
+from .lengths import Files, with_csv
+from .rows import Row
+
+SLIP_RATES = (1e-4, 1e-2, 1e-1)  # m/s, at which lengths are read
+
+
+class Definition(NamedTuple):
+    """How a simulated length is read: the zone that slips faster than a share of the fastest."""
+
+    share: float
+    part: float  # the zone's part of the whole length in the source's own solution
+    words: str
+
+
+DEFINITIONS = {
+    "rubin_ampuero_localised": Definition(
+        0.5, 0.7434 / 1.3774, "width at half the largest slip rate, times 1.3774/0.7434"
+    ),
+    "rubin_ampuero_crack": Definition(0.1, 1.0, "width at a tenth of the largest slip rate"),
+    "thin_layer": Definition(0.5, 0.5, "twice the width at half the largest slip rate"),
+    "state_evolution": Definition(0.5, 1.0, "width at half the largest slip rate"),
+}
+"""Of Rubin and Ampuero's solution 0.7434 L_b either side are faster than half its maximum; of
+Viesca's, ``1 + cos(x/L)``, one half."""
+
+SPRING_BLOCK = "an estimate by a spring block, which has no setting of its own"
+ELSEWHERE = {
+    "creeping_patch": "simulated with role patch_theory: patch_theory.csv",
+    "homogeneous_sliding": "growth of single modes is simulated in dispersion.csv",
+    "rice_ruina": SPRING_BLOCK,
+    "dieterich_shortest": SPRING_BLOCK,
+    "dieterich_longest": SPRING_BLOCK,
+    "uenishi_rice": "strength without direct effect, which no friction law here has",
+    "creeping_asperity": "not simulated: it needs velocity strengthening around the patch",
+    "loaded_patch": "pinned ends; equal to the theory of the creeping patch under remote",
+    "thin_limit": "the limit of homogeneous sliding in low blocks",
+}
+"""Why a length is not among the simulated ones."""
+
+COLUMNS = {
+    "id": SHARED["id"],
+    "name": Variable("", "name of the length, as in lengths_in_use"),
+    "evolution": Variable("", "evolution of the state: aging or slip"),
+    "a": SHARED["direct_effect"],
+    "b": Variable("1", "coefficient of the logarithm of the state", "b"),
+    "a_over_b": Variable("1", "direct effect over b", "a/b"),
+    "definition": Variable("", "how the simulated length is read, or why it is not simulated"),
+    "read_at": Variable("m/s", "largest slip rate at which the length is read"),
+    "formula_length": Variable("m", "length by the formula"),
+    "simulated_length": Variable("m", "length in the simulation"),
+    "difference": Variable("1", "simulated length over that of the formula, less 1"),
+    **some(SHARED, "height", "n_x", "n_y"),
+    "stress_rate": Variable("Pa/s", "rate of the far shear stress"),
+    "change": Variable("1", "relative change of f where nucleation begins"),
+    "width": Variable("m", "full width of that change at half its height"),
+}
+
+
+def length_of(parameters: Parameters) -> str | None:
+    """The length of the literature whose setting a run is; None between those of the aging law."""
+    ratio = _ratio(parameters)
+    if parameters.friction.evolution == "slip":
+        return "state_evolution"
+    if parameters.second_body.kind == "rigid":
+        return "thin_layer"
+    if ratio < LOCALISED_LIMIT:
+        return "rubin_ampuero_localised"
+    return "rubin_ampuero_crack" if ratio > 0.5 else None
+
+
+def _ratio(parameters: Parameters) -> float:
+    _, a, zeta = parameters.friction.expansion(parameters.loading.velocity)
+    return a / (a + zeta)
+
+
+def zone_length(simulation: xr.Dataset, slip_rate: float, definition: Definition) -> float:
+    """Length (m) of the accelerating zone when its largest slip rate passes a value (m/s).
+
+    Between recorded times it is linear in the logarithm of the largest slip rate. NaN if that is
+    not reached.
+    """
+    rates = np.abs(simulation["slip_rate"].values.astype(float))
+    fastest = rates.max(axis=1)
+    above = np.flatnonzero(fastest >= slip_rate)
+    if not above.size or above[0] == 0:
+        return math.nan
+    pair = [above[0] - 1, above[0]]
+
+    def width(rate: Array) -> float:
+        share = definition.share * float(rate.max())
+        begin, end = slipping_zone(simulation["x"].values, rate, share, periodic=True)
+        return (end - begin) / definition.part
+
+    widths = [width(rates[i]) for i in pair]
+    return float(np.interp(np.log(slip_rate), np.log(fastest[pair]), widths))
+
+
+def literature_table(
+    runs: Iterable[dict[str, Any]], simulations: Iterable[xr.Dataset]
+) -> xr.Dataset:
+    """Simulated lengths beside their formulas, and the lengths that have no run here.
+
+    Parameters
+    ----------
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
+    simulations : theirs, in the same order.
+
+    Returns
+    -------
+    Dataset
+        On ``run``, :data:`COLUMNS`: one row for each run and each of :data:`SLIP_RATES` (m/s),
+        then one for each of the other lengths in use, with the reason in ``definition``.
+    """
+    rows = [
+        row
+        for run, simulation in zip(runs, simulations, strict=True)
+        for row in _rows(run["id"], Parameters.from_dict(run["parameters"]), simulation)
+    ]
+    simulated = {row["name"] for row in rows}
+    return table([*rows, *_not_simulated(simulated)], COLUMNS)
+
+
+def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[Row]:
+    """A run's rows, one for each slip rate."""
+    name = length_of(parameters)
+    if name is None:
+        return
+    friction, load, material = parameters.friction, parameters.loading, parameters.material
+    _, a, zeta = friction.expansion(load.velocity)
+    fault = Fault(
+        shear_modulus=material.shear_modulus, poisson_ratio=material.poisson_ratio,
+        plane=material.plane, normal_stress=load.normal_stress, a=a, zeta=zeta,
+        slip_distance=friction.characteristic_slip_distance, height=parameters.geometry.height,
+    )  # fmt: skip
+    formula = float(values_of(fault)[name])
+    for slip_rate in SLIP_RATES:
+        found = zone_length(simulation, slip_rate, DEFINITIONS[name])
+        yield {
+            "id": id,
+            "name": name,
+            "evolution": friction.evolution,
+            "a": a,
+            "b": a + zeta,
+            "a_over_b": a / (a + zeta),
+            "definition": DEFINITIONS[name].words,
+            "read_at": slip_rate,
+            "formula_length": formula,
+            "simulated_length": found,
+            "difference": found / formula - 1.0,
+            "height": parameters.geometry.height,
+            "n_x": parameters.mesh.n_x,
+            "n_y": parameters.mesh.n_y,
+            "stress_rate": load.stress_rate,
+            "change": parameters.heterogeneity.change,
+            "width": parameters.heterogeneity.width,
+        }
+
+
+def _not_simulated(simulated: set[str]) -> Iterator[Row]:
+    """A row with the reason for each length without a run."""
+    empty = {name: "" if not c.units else math.nan for name, c in COLUMNS.items()}
+    empty |= {"n_x": 0, "n_y": 0}
+    for length in LENGTHS:
+        if length.key not in simulated:
+            reason = ELSEWHERE.get(length.key, "no run of the study is its setting")
+            if length.system == TWO_MATERIALS:
+                reason = "the formula of one material, with M in the place of mu*"
+            yield empty | {"name": length.key, "definition": reason}
+
+
+def files(runs: list[Row], simulations: Iterable[xr.Dataset]) -> Files:
+    """The step ``gather_literature``: :func:`literature_table`, with its CSV."""
+    return with_csv(literature_table(runs, simulations))

@@ -1,0 +1,48 @@
+"""Simulated lengths of the literature: how they are read, and what the committed table says."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from nucleation.analysis import literature
+from nucleation.figures.beyond import figure_literature
+from nucleation.theory.literature_table import LENGTHS
+
+REFERENCE = Path(__file__).parents[2] / "results" / "reference" / "literature.csv"
+
+
+@pytest.mark.parametrize(("name", "factor"), [("thin_layer", 2.0), ("state_evolution", 1.0)])
+def test_a_zone_of_known_width_is_read_at_the_slip_rate_asked_for(name, factor):
+    x = np.linspace(0.0, 1.0, 2002)
+    widths, fastest = np.array([0.1, 0.2]), np.array([1e-5, 1e-3])
+    shape = 0.5 ** ((x - 0.5) / (0.5 * widths[:, None])) ** 2  # half the maximum at width/2
+    simulation = xr.Dataset({"slip_rate": (("time", "x"), fastest[:, None] * shape)}, {"x": x})
+    found = literature.zone_length(simulation, 1e-4, literature.DEFINITIONS[name])
+    assert found == pytest.approx(factor * 0.15, rel=1e-3)
+    assert np.isnan(literature.zone_length(simulation, 1e-2, literature.DEFINITIONS[name]))
+
+
+def test_every_length_in_use_has_a_row_and_those_without_a_run_a_reason():
+    frame = pd.read_csv(REFERENCE)
+    assert {length.key for length in LENGTHS} == set(frame["name"])
+    assert frame["definition"].notna().all()
+
+
+def test_asymptotes_are_met_where_their_source_claims_them():
+    frame = pd.read_csv(REFERENCE)
+    late = frame[np.isclose(frame["read_at"], 0.1)].set_index("name")["difference"]
+    assert late["rubin_ampuero_localised"].abs().max() < 0.05
+    assert late["thin_layer"].abs().max() < 0.05
+
+
+def test_the_figure_draws_every_simulated_length():
+    frame = pd.read_csv(REFERENCE)
+    table = xr.Dataset({name: ("run", frame[name]) for name in frame})
+    left, right = figure_literature.draw(table).axes
+    assert [line.get_label() for line in left.lines[:4]] == [
+        kind[0] for kind in figure_literature.KINDS.values()
+    ]
+    assert len(right.lines) > 8
