@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from nucleation.analysis.definitions import ExtractionSettings
+from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import twins
 from nucleation.patch.tables import TWINS, gather_twins
@@ -87,7 +88,7 @@ def test_rate_of_a_known_amplitude():
 def test_table_has_a_row_for_each_twin(followed):
     description = {
         "id": "a", "study": "twin_runs", "role": "twin_runs", "parameters": PARAMETERS.to_dict(),
-        "theory_length": THEORY,
+        "theory_length": THEORY, "interface": dataclasses.asdict(interface_state(PARAMETERS)),
     }  # fmt: skip
     table = gather_twins([description, description], [followed, followed])
     assert table.sizes["twin"] == 4

@@ -62,8 +62,9 @@ class Workflow:
         assert table, done.stdout
         counts = {rule: int(count) for rule, count in map(str.split, table[1].splitlines())}
         asked = [*itertools.takewhile(lambda one: not one.startswith("-"), arguments)]
-        default = "paper" if load(self.config).studies_for("paper") else "studies"
-        for target in asked or [default]:
+        if not asked:
+            asked = ["paper" if load(self.config).studies_for("paper") else "studies"]
+        for target in asked:
             assert counts.pop(target) == 1, "a target's own job always runs"
         return counts
 
