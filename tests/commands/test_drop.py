@@ -51,6 +51,8 @@ def test_scales_near_the_velocity_are_warned_of(nucleation, law):
     assert "friction changes" not in nucleation(*WORDS).err
     slow = nucleation(*WORDS, "--velocity", "1um/s")
     assert "slip_rate_scale = 1e-07 m/s" in slow.err and "with constant a and b 0.5" in slow.err
+    of_b = ("--velocity", "10nm/s", "--friction-law", "dieterich_ruina", "--a", "0.01")
+    assert "b = 0.0" in (told := nucleation(*WORDS, *of_b).err) and "at V/10" in told
     others = ("--slip-rate-scale", "1e-10m/s", "--regularisation-slip-rate", "1e-12m/s")
     assert nucleation(*WORDS, "--velocity", "1um/s", *others).err == ""
 
@@ -77,6 +79,17 @@ def test_json(nucleation, law):
     assert found["drop"]["length"] == 0.32 and found["closed_form"]["effective"] == 1e-5
     assert found["trusted"] is True and found["doubt"] == ""
     assert found["perturbation"]["kind"] == "normal_load"
+
+
+def test_a_stable_fault_is_told_with_its_system(nucleation, law):
+    """And with a cure, where the law's own scales have stopped its weakening."""
+    ended = nucleation(*WORDS, "--velocity", "1e-9m/s")
+    assert ended.code == 3 and ended.out.startswith("System: a layer 0.02 m")
+    assert "v0 = 1e-09 m/s, regularisation_slip_rate, must be far below V" in ended.out
+    ended = nucleation(*WORDS, "--zeta", "-0.001", "--json")
+    found = json.loads(ended.out)
+    assert ended.code == 3 and found["theory"]["critical_length"] is None
+    assert "sliding is stable" in found["unknown"] and "v0" not in found["unknown"]
 
 
 @pytest.mark.parametrize("words", [(), ("--json",)])

@@ -88,7 +88,10 @@ def test_two_bodies_are_the_usual_system_everywhere(nucleation, tmp_path):
         )
         rigid = nucleation(*command, *fault, "--second-body", "rigid").out
         assert "a layer 0.02 m high with its far side free" in rigid and "on a rigid one" in rigid
-        assert "Not given, so the paper's: shear_modulus" in rigid
+        papers = "shear_modulus, poisson_ratio, normal_stress, velocity, slip_distance, "
+        assert (
+            f"{papers}friction." in nucleation(*command, *fault, "--a", "0.01", "--b", "0.02").out
+        )
     given = {k: v for k, v in FAULT.items() if k not in ("--height", "--second-body")}
     told = " ".join(nucleation("length", *words(given)).out.split())
     assert "two identical bodies, each a half-space" in told

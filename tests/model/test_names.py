@@ -5,6 +5,7 @@ import pytest
 from nucleation.model.names import Names
 from nucleation.model.parameters import GROUPS, Parameters, names
 from nucleation.model.quantities import ParameterError, Quantity
+from nucleation.theory.arrays import ALIASES
 
 HEIGHT = Quantity("height", unit="m")
 TWO = Names(
@@ -54,6 +55,11 @@ def test_names_of_a_run():
             assert known.full(field) == full
     assert known.short("friction.evolution") == "evolution" and known.full("phi0") in known
     assert known.short("friction.law") == "friction_law"
+
+
+def test_the_theory_has_the_same_names_for_the_same_parameters():
+    for other, name in ALIASES.items():
+        assert names().full(other) == names().full(name)
 
 
 def test_replaced_by_any_name():

@@ -158,13 +158,15 @@ def sourced(
     return base, usual | given | own
 
 
-ASSUMED = {
-    "shear_modulus": {"shear_modulus"}, "poisson_ratio": {"poisson_ratio"},
-    "normal_stress": {"normal_stress"}, "velocity": {"velocity"},
-    "slip_distance": {"characteristic_slip_distance"},
-    "friction": {*CONSTANTS, "friction_law", *Friction().set_by_expansion},
+BODIES_AND_LOAD = {
+    **{name: {name} for name in ("shear_modulus", "poisson_ratio", "height", "normal_stress")},
+    "velocity": {"velocity"}, "slip_distance": {"characteristic_slip_distance"},
 }  # fmt: skip
-"""Whose values are the paper's if none of these is given."""
+FRICTION = {
+    "friction": {"friction_coefficient"}, "a": {"direct_effect"},
+    "b": {"zeta_over_a", "velocity_weakening", "evolution_effect"},
+}  # fmt: skip
+"""The parameters of a fault that the paper has values for, and by which names each is given."""
 
 
 def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, Any]) -> list[str]:
@@ -179,7 +181,9 @@ def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, An
         f"Friction: {law.law} law, {law.evolution}; at V: f = {f:.4g}, a = {a:.4g}, "
         f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; {shown} m/s.",
     ]
-    papers = [name for name, by in ASSUMED.items() if not by & given.keys()]
+    own = {name: {name} for name in law.set_by_expansion}
+    asked = BODIES_AND_LOAD | (own if own.keys() & given.keys() else FRICTION)
+    papers = [name for name, by in asked.items() if not by & given.keys()]
     if base is None and papers:
         lines.append(f"Not given, so the paper's: {', '.join(papers)}.")
     return lines

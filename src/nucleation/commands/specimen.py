@@ -9,9 +9,10 @@ import click
 
 from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.quantities import ParameterError
-from ..theory.fault import QUANTITIES
+from ..theory.fault import QUANTITIES, Fault
 from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
 from .fault_options import assumed_line, doubts_told, fault_options, fault_values
+from .system import system_line
 from .text import plain
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
@@ -48,19 +49,18 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
     with doubts_told():
         fit = specimen_fit(unknown, length, criterion, **given)
         now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))
+        fault = Fault(**given, **{unknown: fit.searched[0] if own is None else own})
+    looked_for = own is None and unknown == "shear_modulus"
+    said = [system_line(fault, known=not looked_for), *assumed_line(given)]
     if as_json:
         judged = None if now is None else {"value": own, "length": plain(now)}
         found = {
-            "specimen": plain(length),
-            "criterion": criterion,
-            **fit._asdict(),
-            "given": judged,
-        }
-        click.echo(json.dumps(found | {"plane": given.get("plane", "strain")}, indent=2))
+            "system": said, "specimen": plain(length), "criterion": criterion, **fit._asdict(),
+            "given": judged, "plane": fault.plane,
+        }  # fmt: skip
+        click.echo(json.dumps(found, indent=2))
     else:
-        said = assumed_line(given | {unknown: own})
-        plane = given.get("plane", "strain")
-        click.echo("\n".join([*said, _as_text(length, criterion, fit, own, now, plane)]))
+        click.echo("\n".join([*said, _as_text(length, criterion, fit, own, now, fault.plane)]))
     return DONE if fit.exists else STABLE
 
 

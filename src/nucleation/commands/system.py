@@ -10,16 +10,22 @@ from ..theory.fault import Fault
 from ..theory.transfer import RigidBody, bodies_of
 
 
-def system_line(fault: Fault, loading: str = "edge") -> str:
-    """What was computed, in a line: bodies, far sides, loading, plane."""
+def system_line(fault: Fault, loading: str = "edge", known: bool = True) -> str:
+    """What was computed, in a line: bodies, far sides, loading, plane.
+
+    `known` is whether the first body's shear modulus is, or it is looked for.
+    """
     first = (fault.shear_modulus, fault.poisson_ratio, fault.height, fault.far_side)
     second = (
         fault.second_shear_modulus, fault.second_poisson_ratio, fault.second_height,
         fault.second_far_side,
     )  # fmt: skip
+    alike = first == second
+    if not known:
+        first = (math.nan, *first[1:])
     if math.isinf(float(fault.second_shear_modulus)):
         bodies = f"{_body(*first)} on a rigid one"
-    elif first == second:
+    elif alike:
         bodies = f"two identical bodies, each {_body(*first)}"
     else:
         bodies = f"{_body(*first)} on {_body(*second)}"
@@ -27,7 +33,8 @@ def system_line(fault: Fault, loading: str = "edge") -> str:
 
 
 def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
-    own = f"(mu = {float(modulus):.4g} Pa, nu = {float(ratio):.4g})"
+    value = "looked for" if math.isnan(float(modulus)) else f"= {float(modulus):.4g} Pa"
+    own = f"(mu {value}, nu = {float(ratio):.4g})"
     if math.isinf(float(height)):
         return f"a half-space {own}"
     side = {"traction": "free", "velocity": "moved"}.get(str(far_side), far_side)

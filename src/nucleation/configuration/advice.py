@@ -47,9 +47,9 @@ UNSTABLE = 0.55
 SHORT_BLOCK = 2.0
 """Block length over the critical length below which the far end is felt by the patch."""
 
-CHANGE_OF_A = 0.2
-"""Relative change of the direct effect from V to V/10, where the front slips, that is told: 0.08
-with the paper's v* and V, 0.45 with V = 10 v*."""
+CHANGE_OF_FRICTION = 0.2
+"""Relative change of a or b from V to V/10, where the front slips, that is told: 0.03 with the
+paper's scales; b of the regularised Dieterich-Ruina law halves with V = 10 v0."""
 
 NAMED = 100
 """Most runs that a warning names besides the worst: maps have thousands."""
@@ -130,8 +130,12 @@ def _about(run: Run) -> Iterator[Advice]:
 def changing_friction(run: Run) -> Iterator[Advice]:
     """Where the friction law's own scales, v* and v0, make a and b change along the patch."""
     friction, loading = run.parameters.friction, run.parameters.loading
-    here, near_front = (friction.expansion(loading.velocity * part).a for part in (1.0, 0.1))
-    if abs(near_front / here - 1.0) < CHANGE_OF_A:
+    (_, a, zeta), (_, a_near, zeta_near) = (
+        friction.expansion(loading.velocity * part) for part in (1.0, 0.1)
+    )
+    b, b_near = a + zeta, a_near + zeta_near
+    change = max(abs(a_near / a - 1.0), abs(b_near - b) / max(a, abs(b)))
+    if change < CHANGE_OF_FRICTION:
         return
     from ..theory.creep.lengths import effect_of_scales  # with SciPy, which takes a while
 
@@ -144,10 +148,10 @@ def changing_friction(run: Run) -> Iterator[Advice]:
         if hasattr(friction, name)
     )
     yield Advice(
-        "friction changes along the patch", abs(near_front / here - 1.0),
-        f"{scales} beside V = {loading.velocity:g} m/s: a = {here:.3g} at V, {near_front:.3g} at "
-        f"V/10. L_s is {lengths[0]}, with constant a and b {lengths[1]}; give smaller scales "
-        "unless they are meant (docs/patch_theory.md)",
+        "friction changes along the patch", change,
+        f"{scales} beside V = {loading.velocity:g} m/s: a = {a:.3g}, b = {b:.3g} at V, "
+        f"{a_near:.3g}, {b_near:.3g} at V/10. L_s is {lengths[0]}, with constant a and b "
+        f"{lengths[1]}; give smaller scales unless they are meant (docs/patch_theory.md)",
     )  # fmt: skip
 
 
