@@ -1,7 +1,5 @@
 """``python -m benchmarks CONFIGURATION [PART ...]``, in a checkout."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from pathlib import Path

@@ -5,8 +5,6 @@ as the yardstick of the benchmark. Element matrices come from 2x2 Gauss quadratu
 bilinear elements on rectangles.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse

@@ -4,8 +4,6 @@
 codes run in the present environment, each on its own configuration.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -1,7 +1,5 @@
 """What a step and a run cost: on the paper's mesh, over meshes, of pairs, under perturbations."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable

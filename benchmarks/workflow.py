@@ -3,8 +3,6 @@
 Studies of short runs to their event are really made, in batches, by the commands of the workflow.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -5,8 +5,6 @@ A job takes a second of processor time before it begins, nearly all of it import
 own code anew, from wherever Snakemake's environment says.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

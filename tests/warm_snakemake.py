@@ -5,8 +5,6 @@ process that is forked holds packages of others alone, so that every call loads 
 code anew, of whatever checkout it is given.
 """
 
-from __future__ import annotations
-
 import atexit
 import functools
 import gc

@@ -18,7 +18,7 @@ COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L"
 TEXTS = {
     "id", "study", "role", "evolution", "friction_law", "below", "far_side", "kind",
     "initial_stress", "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
-    "plane", "loading", "laboratory_fault", "title", "assumed", "unknown",
+    "plane", "loading", "name", "definition", "laboratory_fault", "title", "assumed", "unknown",
 }  # fmt: skip
 
 

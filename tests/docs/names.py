@@ -1,7 +1,5 @@
 """What there is of the source, and what its texts name."""
 
-from __future__ import annotations
-
 import ast
 import contextlib
 import importlib

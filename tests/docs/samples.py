@@ -3,8 +3,6 @@
 A sample in Python that is followed by a ``text`` block has to print it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Others at work in the same place, and clocks."""
 
-from __future__ import annotations
-
 import contextlib
 import datetime
 import os

@@ -1,7 +1,5 @@
 """Files that are damaged or foreign: entries of stores, checkpoints, notes."""
 
-from __future__ import annotations
-
 import functools
 import os
 import random

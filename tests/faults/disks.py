@@ -1,7 +1,5 @@
 """Disks that are full and directories that can't be written."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

@@ -1,7 +1,5 @@
 """Kills. The moment is a random part of the processor time that an undisturbed run takes."""
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import random

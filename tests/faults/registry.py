@@ -5,8 +5,6 @@ random numbers. It leaves a workflow that is finished again: the caller compares
 raises :class:`processes.Lost` if something was damaged, or if it ended without a clear error.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What has fooled the reuse of results: lost notes, copies, edits, stores that are not right."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import random

@@ -1,7 +1,5 @@
 """A pair of blocks by its assembled sparse matrix, for comparison with the separable solver."""
 
-from __future__ import annotations
-
 import numpy as np
 from fem.assembled_problem import AssembledBlock
 from scipy import sparse

@@ -1,7 +1,5 @@
 """The block by its assembled sparse matrix, for comparison with the separable solver."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.sparse.linalg import splu
 

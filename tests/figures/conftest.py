@@ -1,7 +1,5 @@
 """Small made-up datasets with the layout of the real ones, for drawing only."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

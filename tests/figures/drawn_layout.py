@@ -1,7 +1,5 @@
 """Where the text of a drawn figure lies, to check that nothing overlaps or is cut off."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import matplotlib as mpl

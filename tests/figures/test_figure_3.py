@@ -1,7 +1,5 @@
 """Figure 3: theory, points with error bars, and the inset's snapshots."""
 
-from __future__ import annotations
-
 import drawn_layout
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """The written files, and what all figures have in common."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Figure S2: the space-time image on its true times, and the driving force."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

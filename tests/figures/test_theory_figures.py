@@ -1,7 +1,5 @@
 """Figures 1, 2, S1 and Table S1 show what they are given."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from matplotlib.text import Text

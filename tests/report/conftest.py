@@ -1,7 +1,5 @@
 """A report on a small run, and a browser that opens it."""
 
-from __future__ import annotations
-
 import dataclasses
 import os
 import shutil

@@ -4,8 +4,6 @@ Runs that differ in one numerical parameter alone are a sequence, ordered from c
 run is compared with the finest one of its sequence.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from typing import Any

@@ -6,8 +6,6 @@ point at which the slip rate has exceeded a fraction of the imposed velocity V s
 crept belongs to the patch, though its slip rate oscillates before the onset.
 """
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

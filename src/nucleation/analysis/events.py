@@ -1,7 +1,5 @@
 """Runs without an event: how many there are, and why, from the table of lengths."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Iterable, Mapping

@@ -5,8 +5,6 @@ reasonable definitions: edges from 0.5 V to 1e-3 V, and instants up to the one w
 complete.
 """
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

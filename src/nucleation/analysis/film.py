@@ -4,8 +4,6 @@ A simulation records the bulk at a few instants only. For a film the same run is
 which gives the same steps, and the stress is taken at chosen ones of its recorded times.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ The numbers are in ``laboratory.yaml``, each with whether it was measured or ass
 was read. What nobody has read is unknown: no length is computed from it.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from importlib.resources import files as resources

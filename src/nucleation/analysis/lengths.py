@@ -1,7 +1,5 @@
 """The table of critical lengths: one row for each simulation, SI units."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Iterable
 from typing import Any

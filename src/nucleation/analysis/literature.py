@@ -5,8 +5,6 @@ Two tall identical bodies, or a low block on a rigid body, under a far stress th
 its length is read at several slip rates.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
@@ -64,7 +62,7 @@ ELSEWHERE = {
 COLUMNS = {
     "id": SHARED["id"],
     "name": Variable("", "name of the length, as in lengths_in_use"),
-    "evolution": Variable("", "evolution of the state: aging or slip"),
+    "evolution": Variable("", "state evolution law"),
     "a": SHARED["direct_effect"],
     "b": Variable("1", "coefficient of the logarithm of the state", "b"),
     "a_over_b": Variable("1", "direct effect over b", "a/b"),

@@ -1,7 +1,5 @@
 """Which of the recorded moments of a run are shown when it is played or filmed."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray

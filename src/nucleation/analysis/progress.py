@@ -1,7 +1,5 @@
 """Progress of a simulation: a bar on a terminal, a line now and then in a log."""
 
-from __future__ import annotations
-
 import time
 from typing import TextIO
 

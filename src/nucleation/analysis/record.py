@@ -4,8 +4,6 @@ Whatever looks at a simulation's dataset looks at it through a :class:`Record`, 
 thresholds, onset and length of the patch are the same for all.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np

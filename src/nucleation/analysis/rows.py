@@ -1,7 +1,5 @@
 """Rows of a table and the ratios in them, for whatever goes through a table run by run."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -8,8 +8,6 @@ fields; and a line for each time with time (s), slip (m), decimal logarithm of t
 shear stress (MPa), normal stress (MPa, positive in compression) and the logarithm of the state (s).
 """
 
-from __future__ import annotations
-
 import io
 import json
 

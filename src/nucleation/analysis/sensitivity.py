@@ -4,8 +4,6 @@ The base is the first run of each height. What a run varies is found by comparin
 that a study may vary any of them. Definitions of the extraction are varied on the base run itself.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """A simulation that someone watches: it shows how far it is and can be interrupted."""
 
-from __future__ import annotations
-
 import signal
 import sys
 import threading

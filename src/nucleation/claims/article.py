@@ -1,7 +1,5 @@
 """The article on the replication: a template whose numbers come from the results alone."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import Any

@@ -3,8 +3,6 @@
 The verdict follows from :func:`nucleation.claims.said.holds` alone; docs/claims.md states the rule.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import enum
 import math

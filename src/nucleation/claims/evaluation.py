@@ -1,7 +1,5 @@
 """From the workflow's results to the tables of claims and the article: the steps of both."""
 
-from __future__ import annotations
-
 import itertools
 import json
 from collections.abc import Iterable, Mapping, Sequence

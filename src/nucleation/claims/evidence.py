@@ -1,7 +1,5 @@
 """What the claims stand on: the workflow's datasets, each asked for by what it is about."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """What the claims need to know about one simulation, beyond onset and length."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Sequence

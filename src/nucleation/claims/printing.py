@@ -5,8 +5,6 @@ and tables take the paragraph beside them, **Figure 1.** or **Table 1.**, as the
 links to pages of this project become text.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The claims with their verdicts as JSON, CSV and Markdown."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -3,8 +3,6 @@
 :func:`run` turns every failure into one message on the standard error and an exit code.
 """
 
-from __future__ import annotations
-
 import difflib
 import importlib
 import os

@@ -1,7 +1,5 @@
 """``nucleation export``: fields of a simulation, or time series at points of its fault, as text."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

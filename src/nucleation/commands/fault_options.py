@@ -1,7 +1,5 @@
 """The parameters of a fault of the linear theory as options of a command line."""
 
-from __future__ import annotations
-
 import contextlib
 import math
 import warnings

@@ -1,7 +1,5 @@
 """Parameters of a simulation from a file, an earlier dataset, or a run of a configuration."""
 
-from __future__ import annotations
-
 import difflib
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """``nucleation length``: the theory's critical length of a fault beside the lengths in use."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import textwrap

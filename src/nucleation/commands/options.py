@@ -1,7 +1,5 @@
 """Parameters as options of a command line, and the run that they stand for."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Where commands may write: in directories that exist, over nothing that does."""
 
-from __future__ import annotations
-
 import os
 import shlex
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``nucleation show``: what is in a dataset of the project, and a picture of it."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import math

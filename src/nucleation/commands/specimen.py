@@ -1,7 +1,5 @@
 """``nucleation specimen``: at which stress, slip distance or modulus a nucleation length fits."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

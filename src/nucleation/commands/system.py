@@ -1,7 +1,5 @@
 """The system that a command computes, in words: bodies, far sides, loading, plane."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What several commands print: parameters with units, and what was extracted from a run."""
 
-from __future__ import annotations
-
 import math
 import re
 from typing import Any

@@ -1,7 +1,5 @@
 """What ``nucleation length`` does with parameters that are ranges or samples."""
 
-from __future__ import annotations
-
 import json
 import math
 import textwrap

@@ -1,7 +1,5 @@
 """Options of the command line whose values are parameters, with units as people write them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

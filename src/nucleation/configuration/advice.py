@@ -4,8 +4,6 @@ Each warning names the study, the runs concerned and the numbers. The measures a
 the linear theory and the thin block's statics; docs/studies.md says what they are worth.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple

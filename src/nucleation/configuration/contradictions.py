@@ -1,7 +1,5 @@
 """What is wrong with values that are each allowed alone: settings and runs that can't be meant."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath

@@ -1,7 +1,5 @@
 """Values in the configuration that stand for many: lists, ranges, and grids of these."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -3,8 +3,6 @@
 All problems of a configuration are reported together, each with key, value, unit and range.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import difflib
 import numbers

@@ -3,8 +3,6 @@
 A study says its role in its section of the configuration; names are the user's, and say nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 

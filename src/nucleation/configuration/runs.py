@@ -1,7 +1,5 @@
 """A simulation of a study, with what the study and the theory say of it."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Iterable
 from typing import Any

@@ -1,7 +1,5 @@
 """Samples of a fault's parameters from a CSV file, such as a posterior."""
 
-from __future__ import annotations
-
 import csv
 import difflib
 import math

@@ -1,7 +1,5 @@
 """The JSON schema of the configuration, made from the declarations of the parameters."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import yaml

@@ -1,7 +1,5 @@
 """Settings beside the simulations' parameters: what is measured, drawn and allowed."""
 
-from __future__ import annotations
-
 import dataclasses
 
 from ..model.checked import Checked

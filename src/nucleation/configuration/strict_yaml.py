@@ -1,7 +1,5 @@
 """YAML as configurations need it: what YAML would silently take otherwise than meant is refused."""
 
-from __future__ import annotations
-
 import math
 import os
 import re

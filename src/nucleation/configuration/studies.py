@@ -1,7 +1,5 @@
 """Studies: named sets of simulations over lists or ranges of parameters, one `Run` for each."""
 
-from __future__ import annotations
-
 import dataclasses
 import itertools
 import math

@@ -4,8 +4,6 @@ A parameter goes by one name there, the short one (:class:`nucleation.model.name
 a configuration calls it: identifiers and tables do not depend on that.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Values of a configuration with their unit, ``30 GPa`` or ``1/3``, as numbers in SI units."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -4,8 +4,6 @@ The library alone needs no more than ``dependencies`` in pyproject.toml. What ne
 for it here, so that whoever lacks it reads its name.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 

@@ -1,7 +1,5 @@
 """Datasets as netCDF files, written whole or not at all, every variable with what it is."""
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json

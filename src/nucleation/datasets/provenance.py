@@ -1,7 +1,5 @@
 """Where a result comes from: what a dataset says of its parameters, code, sources and versions."""
 
-from __future__ import annotations
-
 import contextlib
 import datetime
 import hashlib

@@ -8,8 +8,6 @@ read a hundred times faster than through HDF5, which counts where thousands are 
 The bytes: the netCDF file, its attributes as JSON, and a last line of fixed length.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

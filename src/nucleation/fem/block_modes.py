@@ -13,8 +13,6 @@ all modes. They are eliminated by their Schur complement, so that the result is 
 assembled matrix to round-off (tests/fem/test_block.py).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import fft
 

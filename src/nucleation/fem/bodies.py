@@ -1,7 +1,5 @@
 """The elastic body that parameters ask for: on a rigid base, or a pair; finite, or periodic."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from typing import Any, TypeAlias

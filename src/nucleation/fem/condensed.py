@@ -13,8 +13,6 @@ driven (:mod:`.free_block`), and is counted from one like the others. For one bl
 w is its displacement at the interface, for two bodies the difference of theirs.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, Protocol

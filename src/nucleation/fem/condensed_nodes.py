@@ -11,8 +11,6 @@ the edge adds a term of low rank. One block and a pair of them differ in neither
 follow the edge through a step.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Iterator

@@ -10,8 +10,6 @@ For each mode the equations are ``A[j,j-1] u[j-1] + A[j,j] u[j] + A[j,j+1] u[j+1
 and ``T[j] = A[j,j+1] Q[j+1]`` (xx, xy, yx, yy).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit
 

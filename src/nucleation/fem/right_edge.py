@@ -5,8 +5,6 @@ interface held, that leaves a small dense system, their Schur complement. Its in
 interface falls exponentially over some heights of the block.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from functools import cached_property
 

@@ -6,8 +6,6 @@ and leave a block-tridiagonal system along y per mode. Which modes these are, an
 along x add, is for each body to say.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Sequence

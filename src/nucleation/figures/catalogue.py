@@ -1,7 +1,5 @@
 """The figures of the report: title, category, roles of the studies they stand on, data."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
 

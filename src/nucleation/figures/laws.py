@@ -3,8 +3,6 @@
 The paper's two laws look as in its Figure 3; every other law of a table takes the next free marker.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Pictures in one call: of a run, of lengths over a parameter, of a spectrum, of a dataset."""
 
-from __future__ import annotations
-
 import os
 from typing import Any
 

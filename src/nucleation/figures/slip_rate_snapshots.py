@@ -1,7 +1,5 @@
 """Snapshots of the slip rate along the interface, from creep to the event (inset of Fig. 3)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

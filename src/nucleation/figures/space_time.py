@@ -1,7 +1,5 @@
 """Space-time images on grids that are uneven in time."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """The one style of all figures: sizes, fonts, colours by meaning, and reproducible files."""
 
-from __future__ import annotations
-
 import functools
 import os
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Dataclasses whose declared quantities are read and checked when they are made."""
 
-from __future__ import annotations
-
 from .quantities import check, declarations
 from .units import parse
 

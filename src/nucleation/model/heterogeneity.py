@@ -8,8 +8,6 @@ stress at the interface, beside what slip changes of it; D; and f, a, b and zeta
 at V, for which the friction law's own parameters are found at each node (``with_expansion``).
 """
 
-from __future__ import annotations
-
 import copy
 import dataclasses
 

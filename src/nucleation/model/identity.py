@@ -5,8 +5,6 @@ for the runs of a fault compares it, and nothing else. Numbers that differ by ro
 and a second body's values that are left out are those of the first.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import hashlib
 import json

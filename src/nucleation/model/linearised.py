@@ -1,7 +1,5 @@
 """Friction linearised about steady sliding at one velocity: what the linear theory knows of it."""
 
-from __future__ import annotations
-
 import dataclasses
 from functools import lru_cache
 

@@ -7,8 +7,6 @@ begins and ends. What follows from it stands where it acts: the body in
 :func:`nucleation.theory.transfer.bodies_of`.
 """
 
-from __future__ import annotations
-
 import dataclasses
 
 from .checked import Checked

@@ -1,7 +1,5 @@
 """Linear isotropic elasticity in two dimensions: moduli and wave speeds."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any

@@ -1,7 +1,5 @@
 """Names of parameters: the full one says the group, ``geometry.height``, short ones are aliases."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from functools import cached_property

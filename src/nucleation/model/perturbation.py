@@ -11,8 +11,6 @@ is a Gaussian process of zero mean and unit variance (:mod:`nucleation.simulatio
     state            d log(phi)/dt = g + eps (V/D) xi(x, t)    evolution of the state variable
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

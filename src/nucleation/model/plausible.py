@@ -1,7 +1,5 @@
 """Magnitudes that are rarely meant: numbers in other units than SI units, most of the time."""
 
-from __future__ import annotations
-
 import warnings
 from typing import Any
 

@@ -5,8 +5,6 @@ declaration come the checks of the library's dataclasses, the JSON schema of the
 and the attributes of the datasets.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 import numbers

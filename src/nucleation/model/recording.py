@@ -1,7 +1,5 @@
 """What of a simulation is recorded: everything, the interface, or what lengths need."""
 
-from __future__ import annotations
-
 import dataclasses
 
 from .checked import Checked

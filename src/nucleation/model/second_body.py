@@ -1,7 +1,5 @@
 """The second body, below the interface: rigid as in the paper's simulations, or another block."""
 
-from __future__ import annotations
-
 import dataclasses
 
 from .checked import Checked

@@ -1,7 +1,5 @@
 """Values as people write them, "30 GPa" or 5um, and arrays that carry a unit, in SI units."""
 
-from __future__ import annotations
-
 import re
 from decimal import Decimal
 from functools import cache

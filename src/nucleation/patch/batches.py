@@ -1,7 +1,5 @@
 """What is measured of runs that one job makes after another: their rows of a table."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable, Sequence
 from typing import Any

@@ -5,8 +5,6 @@ Lambda and L(t) to and fro; polynomials in the patch's length pass between them,
 the run's end, as straight lines where the amplitude's exponent depends on them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 

@@ -21,8 +21,6 @@ The law ends where its own assumption does: a burst of slip at a rate of a few V
 again, the more often the shorter the patch. The drop is then one or more bursts late.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from typing import NamedTuple
 

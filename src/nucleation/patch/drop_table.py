@@ -5,8 +5,6 @@ fluctuating load, or state, would make the law's median drop there: the noise of
 those steps, in the units of a declared perturbation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import Any

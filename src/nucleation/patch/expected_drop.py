@@ -3,8 +3,6 @@
 The theory of the creeping patch (:mod:`.theory_history`) has all that the law of the drop asks for.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

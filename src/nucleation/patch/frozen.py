@@ -13,8 +13,6 @@ elements and the evolution law ``dpsi/dt = g(v, psi)``. Eliminating dv leaves th
 of :mod:`nucleation.theory.creep.linearised`, of twice the number of slipping nodes.
 """
 
-from __future__ import annotations
-
 import copy
 
 import numpy as np

@@ -6,8 +6,6 @@ hundred of them: a few, spaced evenly in patch length, find the crossing, and a 
 instants around it gives its length.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -5,8 +5,6 @@ the front, advancing at dL/dt, shakes it with the angular frequency ``2 pi (dL/d
 stirs is seen as the oscillation of the slip rate at a point well inside the patch.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from scipy.signal import savgol_filter

@@ -4,8 +4,6 @@ Beside the theory's critical length stand the two lengths of the simulated patch
 unstable, and where the force drops under a declared perturbation.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

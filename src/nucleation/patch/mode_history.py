@@ -17,8 +17,6 @@ Left out is what freezing leaves out: dl/dt, and the nodes at the front that beg
 (docs/patch_stability.md). Either changes growth by some 0.2 1/s, where Re Lambda comes to 3 1/s.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The table of two deformable bodies: lengths of the patch over the theory of the own far sides."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

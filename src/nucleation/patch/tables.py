@@ -1,7 +1,5 @@
 """Tables of what is read from the patches of many runs: their stability, and the kicks of twins."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

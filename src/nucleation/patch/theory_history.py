@@ -6,8 +6,6 @@ Lambda at each length, and the left eigenvector, which says how each kind of for
 displacement U of the edge acts through the slip ``p U``, ``(K1 + f S2) p = 0``, that goes with it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..model.parameters import Parameters

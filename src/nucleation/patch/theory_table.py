@@ -1,7 +1,5 @@
 """L_s by the theory of the creeping patch beside L_s of simulations: a row for each fault."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import replace

@@ -11,8 +11,6 @@ which other modes do not enter; its logarithm's slope is growth rate and frequen
 grows by some per cent meanwhile, it is compared with the frozen patch's mean over the same time.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections import deque
 from collections.abc import Iterable

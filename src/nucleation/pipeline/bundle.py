@@ -7,8 +7,6 @@ and checksums of all members are looked at before anything is written, and :func
 entries of the store alone. Nothing in them is followed or executed.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import hashlib

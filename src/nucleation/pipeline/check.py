@@ -4,8 +4,6 @@ What each result has to be is known from the rules (:mod:`.steps`); what it is, 
 from the links of a directory of results into it (:mod:`.view`).
 """
 
-from __future__ import annotations
-
 import dataclasses
 import os
 import sys

@@ -7,8 +7,6 @@ module that is moved or renamed changes nothing. The versions of the libraries t
 imports are part of it. docs/reuse.md says where the line is drawn.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import importlib

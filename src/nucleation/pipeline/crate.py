@@ -4,8 +4,6 @@ https://w3id.org/ro/crate/1.1: a flat list of entities that refer to each other.
 its files, the code that made them, its authors and licence, and the paper.
 """
 
-from __future__ import annotations
-
 import json
 import mimetypes
 import subprocess

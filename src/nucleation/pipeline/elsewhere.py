@@ -3,8 +3,6 @@
 What is there may be damaged, foreign or out of reach: it is said in a line, and not taken.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import json

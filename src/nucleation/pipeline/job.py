@@ -4,8 +4,6 @@ A job says in its log what happens. It refuses to run other code than it was pla
 only what is what it was asked for, and leaves a link to its result for Snakemake.
 """
 
-from __future__ import annotations
-
 import contextlib
 import gc
 import importlib

@@ -4,8 +4,6 @@ It is known before anything is computed. :mod:`.store` keeps results under their
 them bear the key in their names. Times of files play no part, nor do Snakemake's notes.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import hashlib
 import json

@@ -6,8 +6,6 @@ in a traceback there, and of one with the key ``__use_yte__`` it runs expression
 core at all it waits forever.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import sys

@@ -1,7 +1,5 @@
 """A release in one directory: results, article, report, source and wheel, with their checksums."""
 
-from __future__ import annotations
-
 import hashlib
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Simulations of jobs: from a store, or made, from a checkpoint on."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path

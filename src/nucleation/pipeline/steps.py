@@ -6,8 +6,6 @@ file to Snakemake; what it lacks is a link ``.links/NAME.KEY.nc`` that a job has
 of Snakemake decides what is current, and a dry run lists what will be computed.
 """
 
-from __future__ import annotations
-
 import contextlib
 import shlex
 import sys

@@ -6,8 +6,6 @@ directory of results is ``store/`` in it, and results are made there. Others (:m
 are asked first: a shared directory, or a bucket.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -5,8 +5,6 @@ from what lies here. A record in the store says what each target shows, and so w
 :func:`nucleation.pipeline.check.unused` has to keep.
 """
 
-from __future__ import annotations
-
 import datetime
 import hashlib
 import json

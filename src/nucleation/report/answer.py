@@ -1,7 +1,5 @@
 """The answer with which the report opens: how long the patch is when the force drops."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

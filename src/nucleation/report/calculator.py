@@ -4,8 +4,6 @@ The page computes L_c, L_s and the lengths in use by the report's own code (``th
 ``stability.js``); what they are called, their sources and limits come from the library.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Captions: reStructuredText templates, the same that Snakemake's own report shows."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

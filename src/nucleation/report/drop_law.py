@@ -5,8 +5,6 @@ mode's amplitude per strength over the patch's length, and evaluates it for any 
 formula as :meth:`nucleation.patch.delay.Growth.drop`.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Iterable
 from typing import Any

@@ -1,7 +1,5 @@
 """Putting files and arrays into a page: data addresses and typed arrays."""
 
-from __future__ import annotations
-
 import base64
 import json
 import mimetypes

@@ -1,7 +1,5 @@
 """The sliders over the theory's curve: what they vary, in which unit and range."""
 
-from __future__ import annotations
-
 import dataclasses
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The faults of a table of lengths: what differs to the theory, each with a look of its own."""
 
-from __future__ import annotations
-
 import string
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """The map of lengths in the page: ratios over height and weakening, to hover over and to slice."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The report's part on studies of one's own: faults, runs, what had no event, warnings."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

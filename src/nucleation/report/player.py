@@ -1,7 +1,5 @@
 """The data of the player: the run through nucleation, thinned to what a page can show."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray

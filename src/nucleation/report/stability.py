@@ -8,8 +8,6 @@ Chebyshev nodes of log(zeta/a), nu, f, f beta and ``t = (r - 1)/(r + 1)``, ``r =
 the page lays a polynomial through them. Beyond both ends of h the ratio hardly changes any more.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """Tables of the report: verdicts, lengths with their cost, points of the theory's plot, CSV."""
 
-from __future__ import annotations
-
 import html
 import math
 import re

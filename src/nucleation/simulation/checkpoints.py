@@ -5,8 +5,6 @@ a fingerprint of the parameters and the code that made them. It is plain numbers
 executes nothing.
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 import os

@@ -1,7 +1,5 @@
 """The usual composition of a run, one block or two, friction, the drive, BDF; and its start."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..fem.bodies import body_of
@@ -12,6 +10,9 @@ from .forcing import drive_of
 from .interface import Interface, InterfaceSolution
 from .state import State
 from .step import Dynamics, StepReport
+
+NEWTON = 1e-3
+"""Of Newton's tolerance over the step's, at most; nor is it above a perturbation's strength."""
 
 
 def composed(parameters: Parameters) -> Dynamics:
@@ -24,14 +25,18 @@ def composed(parameters: Parameters) -> Dynamics:
 def interface_of(parameters: Parameters, grid: Grid) -> Interface:
     """The frictional interface with what varies along it."""
     varied, loading = parameters.heterogeneity, parameters.loading
+    tolerance = Interface.tolerance  # quiet runs live on round-off
+    if parameters.perturbation.acts:
+        declared = min(NEWTON * parameters.stepping.tolerance, parameters.perturbation.strength)
+        tolerance = max(tolerance, declared)
     if varied.varies == "none":
-        return Interface(parameters.friction)
+        return Interface(parameters.friction, tolerance)
     factor = varied.factor(grid.x, grid.length, grid.periodic)
     friction = varied.friction(parameters.friction, loading.velocity, factor)
     if varied.varies != "normal_stress":
-        return Interface(friction)
+        return Interface(friction, tolerance)
     extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
-    return Interface(friction, extra_normal=extra)
+    return Interface(friction, tolerance, extra_normal=extra)
 
 
 def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:

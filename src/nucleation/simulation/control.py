@@ -1,7 +1,5 @@
 """Control of the step size: from one accepted step to the next, or the reason why there is none."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

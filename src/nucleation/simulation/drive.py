@@ -7,8 +7,6 @@ the same in a run that goes on from a checkpoint. Drives that are not steady are
 :meth:`Drive.load`, a strength that varies along x, a forcing of the state.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from typing import ClassVar, Protocol
 

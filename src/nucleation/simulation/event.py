@@ -7,8 +7,6 @@ fast somewhere: a slow decrease, as in an oscillation of the creeping patch that
 event, nor is a force that follows a fluctuating load.
 """
 
-from __future__ import annotations
-
 from collections import deque
 
 import numpy as np

@@ -4,8 +4,6 @@ Each is a function of time alone, without memory: a restart needs nothing of it.
 U''(t) of a fluctuating velocity are exact, not sums over steps.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from typing import Any
 

@@ -5,8 +5,6 @@ and an iteration had some seventy. These do the same arithmetic in the same orde
 `fastmath`, so that not a bit is different. What calls a friction law or a transform is not here.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit
 

@@ -1,7 +1,5 @@
 """How a run ended. It uses nothing, for what reads records must not load what makes them."""
 
-from __future__ import annotations
-
 import enum
 
 

@@ -18,8 +18,6 @@ Philox and the inverse of the normal distribution: any part of a realisation can
 the parts before it, the same on every mesh, with every step and after every restart.
 """
 
-from __future__ import annotations
-
 from collections import OrderedDict
 
 import numpy as np

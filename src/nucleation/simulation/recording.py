@@ -1,7 +1,5 @@
 """Recording a run: interface fields at adaptive times, the drive at every step, bulk snapshots."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -4,8 +4,6 @@
 go on from arrays stored earlier, to the last bit as if they had never stopped.
 """
 
-from __future__ import annotations
-
 import resource
 import sys
 import time

@@ -7,8 +7,6 @@ each other (:func:`nucleation.simulation.composition.composed` has the usual one
 scheme (:mod:`nucleation.stepping.scheme`).
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections import OrderedDict
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The step-size ladder: few values of the leading coefficient serve a whole run."""
 
-from __future__ import annotations
-
 import math
 
 RUNGS_PER_OCTAVE = 4

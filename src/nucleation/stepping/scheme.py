@@ -5,8 +5,6 @@ derivative, and for slip and state at the interface. A scheme says with which co
 linear multistep formula is another class with the attributes and methods of :class:`BDF`.
 """
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

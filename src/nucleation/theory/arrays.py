@@ -1,7 +1,5 @@
 """The linear theory over arrays of parameters, as :mod:`nucleation.api` offers it."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

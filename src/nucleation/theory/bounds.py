@@ -8,8 +8,6 @@ products and one quotient, by the arithmetic of intervals. The bounds close line
 interval; where layers are thick they are close whatever the interval.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Closed forms of the paper: critical lengths of special systems."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -4,8 +4,6 @@ The critical wavenumber k_c is the largest one with ``Re Lambda = 0``; how it is
 system or of thousands, says :mod:`.crossings`.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from collections.abc import Iterable, Sequence

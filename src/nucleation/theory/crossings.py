@@ -26,8 +26,6 @@ The largest crossing is not missed:
 - Where all ``Hk < 1e-3``, G1 and G2 are powers of k.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

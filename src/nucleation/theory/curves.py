@@ -1,7 +1,5 @@
 """The dataset of the linear theory: all curves of Figures 2, 3 and S1."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

@@ -1,7 +1,5 @@
 """Rough measures of a run from its parameters alone: process zone, time until nucleation."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -21,8 +21,6 @@ These are, by our own derivation, the two scenarios of the linear part of Viesca
 arXiv:2512.18729) as its abstract states them; neither their equations nor their fits are used here.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import Any
 

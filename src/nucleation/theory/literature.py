@@ -6,8 +6,6 @@ arrays or DataArrays. What is computed outside its range of validity is NaN. In 
 to be ``nu/(1 + nu)``.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any

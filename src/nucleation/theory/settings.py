@@ -1,7 +1,5 @@
 """Where the theory's curves are computed, as the configuration says."""
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

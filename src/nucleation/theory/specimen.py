@@ -1,7 +1,5 @@
 """Backwards: at which value of one parameter a nucleation length fits into a specimen."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any, NamedTuple

@@ -16,8 +16,6 @@ So nothing is lost when M is singular (a free body translates as a whole for Hk 
 pair is ill-conditioned.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

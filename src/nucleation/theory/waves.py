@@ -1,7 +1,5 @@
 """Functions of a layer's number ``q = |k| H``, from which nothing overflows and nothing cancels."""
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np

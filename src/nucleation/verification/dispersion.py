@@ -7,8 +7,6 @@ wavenumber. The amplitude that multiplies ``exp(-i k x)`` in log(v) then follows
 intervals obey a linear recurrence, which gives the roots without any guess.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any

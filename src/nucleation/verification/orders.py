@@ -8,8 +8,6 @@ with fields so slow that waves cross the block many times within a step: there t
 slip and state by BDF3, and the order in dt is three.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

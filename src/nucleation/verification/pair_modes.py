@@ -8,8 +8,6 @@ Eq. (5), so each gives, without any theory of the bodies, the elastic response t
 Between layers higher than a wavelength that is the response of half-spaces, Eqs. (7) and (8).
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

@@ -7,8 +7,6 @@ with lengths in units of 1/k and stresses in units of k times the upper body's s
 dimension is left.
 """
 
-from __future__ import annotations
-
 import dataclasses
 
 import numpy as np

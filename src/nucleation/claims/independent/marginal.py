@@ -4,8 +4,6 @@ In units of V/ell the growth rate solves ``a x^2 + (g - zeta) x + g = 0`` with
 ``g = mu k ell (G1 - i f G2) / sigma0``.
 """
 
-from __future__ import annotations
-
 import cmath
 from collections.abc import Callable
 

@@ -4,8 +4,6 @@ Nothing here is rearranged for accuracy; arguments are moderate. Lengths in unit
 where only Hk matters.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

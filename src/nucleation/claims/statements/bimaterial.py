@@ -1,7 +1,5 @@
 """Claims of Sect. 4 (bimaterial interfaces)."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Claims on the course of the simulations and on how they were made: Sects. 3, 5 and Text S2."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

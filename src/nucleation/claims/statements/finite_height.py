@@ -1,7 +1,5 @@
 """Claims of Sect. 5's theory (a block on a rigid base) and of Text S1."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

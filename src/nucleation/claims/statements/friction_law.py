@@ -1,7 +1,5 @@
 """Claims on the friction law: Sect. 5's values, Table S1, Text S2.1 and Fig. S1."""
 
-from __future__ import annotations
-
 import math
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Claims on the critical lengths of the simulations: Sect. 5, Figs. 3 and S2."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any

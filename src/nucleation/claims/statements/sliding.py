@@ -1,7 +1,5 @@
 """Claims of Sect. 2 (the conventional approach) and Sect. 3 (homogeneous sliding)."""
 
-from __future__ import annotations
-
 import dataclasses
 import math
 

@@ -8,8 +8,6 @@ claims do not wait for these simulations. A length is the mean of a fault's real
 range theirs.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

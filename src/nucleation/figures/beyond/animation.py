@@ -1,7 +1,5 @@
 """The animation of creep, nucleation and rupture, as a GIF."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any

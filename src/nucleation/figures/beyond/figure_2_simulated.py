@@ -1,7 +1,5 @@
 """Figure 2 with simulations of high blocks beside its curves, for either sense of the contrast."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps

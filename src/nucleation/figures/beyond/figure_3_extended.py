@@ -1,7 +1,5 @@
 """Figure 3 with more lengths: where the patch turns unstable, and the drop from noisy to quiet."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Where the force drops under a declared perturbation: simulations, the law, meshes' own noise."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Laboratory faults: their length, the nucleation length observed and what the theory says."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

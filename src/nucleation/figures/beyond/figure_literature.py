@@ -1,7 +1,5 @@
 """The literature's lengths: simulated in their own settings, over their formulas."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """The map: the patch's two lengths over the theory's, over the block's height and the weakening."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

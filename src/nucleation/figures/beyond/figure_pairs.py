@@ -1,7 +1,5 @@
 """Two deformable bodies: lengths of the patch against height, and over the theory of each run."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """The linear stability of the creeping patch: growth against length, twins, and the mode."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The theory of the creeping patch against simulations: lengths, and the creep behind them."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """Sensitivity of the critical length to parameters and definitions."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

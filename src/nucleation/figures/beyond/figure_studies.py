@@ -1,7 +1,5 @@
 """Any study's lengths: simulations against theory over what the study varies."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any

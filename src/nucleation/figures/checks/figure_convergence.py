@@ -1,7 +1,5 @@
 """Refinement of mesh and steps, with a declared perturbation and without."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

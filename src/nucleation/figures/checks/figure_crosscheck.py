@@ -1,7 +1,5 @@
 """The crosscheck: the same runs by the project's solver and by FreeFem++, side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Dispersion: growth and frequency of single modes, time integration against Eq. (5)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

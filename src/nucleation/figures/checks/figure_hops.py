@@ -1,7 +1,5 @@
 """Why a coarse mesh nucleates early: the front's hops from node to node perturb the patch."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

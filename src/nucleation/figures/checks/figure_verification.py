@@ -1,7 +1,5 @@
 """Verification: errors of manufactured solutions against element size and time step."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """Figure 1: the two set-ups, long bodies in sliding contact and the block pushed from its side."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figure 2: the critical length of bimaterial interfaces against the contrast (Eq. 9)."""
 
-from __future__ import annotations
-
 from itertools import cycle
 
 import xarray as xr

@@ -1,7 +1,5 @@
 """Figure 3: the critical length against the block's height, theory and simulations."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Figure S1: steady-state friction, the full law and its logarithmic expansion."""
 
-from __future__ import annotations
-
 import xarray as xr
 from matplotlib.figure import Figure
 

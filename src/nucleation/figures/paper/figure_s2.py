@@ -1,7 +1,5 @@
 """Figure S2: space-time image of the interfacial shear stress, and the driving force."""
 
-from __future__ import annotations
-
 import json
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Table S1: the parameters of the friction law, in the paper's order."""
 
-from __future__ import annotations
-
 import csv
 import io
 from fractions import Fraction

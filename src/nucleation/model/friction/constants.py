@@ -5,8 +5,6 @@ slip rate V. The simulations need a full, regularised law of :mod:`nucleation.mo
 each of them finds its own parameters from these constants.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..quantities import ParameterError, Quantity

@@ -4,8 +4,6 @@ The laws are the modules of :mod:`nucleation.model.friction.evolutions`, which d
 but the functions of :class:`StateEvolution`.
 """
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

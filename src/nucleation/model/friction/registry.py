@@ -9,8 +9,6 @@ No module imports them by statement: what a run depends on is the laws that it u
 there are, and a new file leaves the runs of the others as they are. :func:`plugins` names them.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import importlib
 import os

@@ -14,8 +14,6 @@ dL/dt and the slip rate along the patch,
 The three are repeated until they agree. Nothing is fitted and there is no time step.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

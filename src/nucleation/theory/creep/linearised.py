@@ -9,8 +9,6 @@ vectors of the half as large
     T(Lambda) = A - Lambda + diag(b g_v Lambda / (Lambda - g_psi)).
 """
 
-from __future__ import annotations
-
 import dataclasses
 from functools import cached_property
 from typing import NamedTuple

@@ -21,8 +21,6 @@ what layers differ from half-spaces is integrated up to ``kH = CUT``, where noth
 No box and no mesh is involved.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from functools import lru_cache
 

@@ -3,8 +3,6 @@
 Lengths along the fault in m, slip in D, slip rates in V, stresses in sigma0, times in D/V.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -11,8 +11,6 @@ line by line in ``docs/patch_theory.md``; here it is solved in Chebyshev polynom
 by its power series and by shooting.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

@@ -6,8 +6,6 @@ patch is some elements long until the growing oscillation of the patch, which ev
 front from node to node shakes, begins to tell the two apart.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np

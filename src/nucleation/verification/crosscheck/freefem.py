@@ -5,8 +5,6 @@ and ``pair.edp`` solve the same problems as :mod:`nucleation.simulation.run` wit
 time integration of their own; they take all numbers from their command line.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Which runs are made by both solvers, and on which meshes and steps."""
 
-from __future__ import annotations
-
 import dataclasses
 
 from ...datasets.variables import Variable

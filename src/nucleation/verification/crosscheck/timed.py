@@ -1,7 +1,5 @@
 """Runs of the project's own solver with the time that their steps took."""
 
-from __future__ import annotations
-
 import time
 
 import xarray as xr

@@ -4,8 +4,6 @@ Fields are sums of products ``amplitude X(x) Y(y) T(t)``. Their body forces and 
 integrated against the bilinear basis by Gauss quadrature, far more accurate than the elements.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from typing import TypeAlias

@@ -1,7 +1,5 @@
 """The aging (Dieterich) law, ``g(omega) = 1 - omega``: the state grows with time at rest."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -1,7 +1,5 @@
 """The slip (Ruina) law, ``g(omega) = -omega log(omega)``: the state changes by slip alone."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -8,8 +8,6 @@ thermally activated jumps in both directions (Rice, Lapusta and Ranjith, 2001) m
 which is odd in v and differs from the logarithm only where f is not large against a.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from typing import ClassVar, Self
 

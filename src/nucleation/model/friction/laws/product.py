@@ -7,8 +7,6 @@ The friction coefficient (Eq. S-f, first equation of Text S2.1) is
 which is the paper's law for ``v >= 0``, continued as an odd function of the slip rate.
 """
 
-from __future__ import annotations
-
 import dataclasses
 from typing import ClassVar, Self
 
