@@ -20,9 +20,10 @@ from ...analysis.definitions import ExtractionSettings
 from ...datasets.variables import Variable, annotate, some
 from ...model.parameters import Parameters
 from ...model.quantities import ParameterError
+from ...simulation.event import FAST
 from ...simulation.realisation import Series, Sheet
 from ...simulation.recorded import RECORDED
-from .plan import FIXED, KINDS, TIMES, CrosscheckSettings
+from .plan import FIXED, KINDS, LOADINGS, TIMES, CrosscheckSettings
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # where Debian has them; the program looks elsewhere
@@ -32,7 +33,7 @@ MISSING = (
 )
 MOST_STEPS = 200_000  # a run that needs more has failed
 UNUSED = (
-    "material.plane",
+    "material.plane", "loading.kind",
     "loading.initial_shear_stress", "loading.stress_rate", "heterogeneity.shape",
     "heterogeneity.centre", "heterogeneity.width", "heterogeneity.change",
     "stepping.tolerance", "stepping.shortest_step", "stepping.event_drop",
@@ -69,20 +70,23 @@ def arguments(
     Raises
     ------
     FreeFemError
-        The script can't do what a parameter asks for, see :data:`FIXED` and :data:`KINDS`.
+        The script can't do what a parameter asks for, see :data:`FIXED` and what follows it.
     """
     named = parameters.named()
     for name, only in FIXED.items():
         if named[name] != only:
             raise FreeFemError(f"the script for FreeFem++ has {name} = {only} only")
-    if parameters.perturbation.kind not in KINDS:
-        raise FreeFemError(f"the script for FreeFem++ has kind = {', '.join(KINDS)} only")
+    for name, some_of in {"perturbation.kind": KINDS, "loading.kind": LOADINGS}.items():
+        if named[name] not in some_of:
+            raise FreeFemError(f"the script for FreeFem++ has {name} = {', '.join(some_of)} only")
     unused = (*FIXED, *UNUSED)
     taken = [name for name in named if name not in unused and not name.startswith("second_body.")]
     values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
     values["poisson_ratio"] = parameters.material.in_plane_ratio
     values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
-    values |= {"drop": extraction.drop, "most_steps": MOST_STEPS}
+    values |= {"drop": extraction.drop, "fast": FAST, "most_steps": MOST_STEPS}
+    values["loading"] = parameters.loading.kind
+    values["loading"] = parameters.loading.kind
     below = parameters.below
     if below is not None:
         if below.mesh.grading != 1.0:

@@ -14,12 +14,18 @@ from ...theory.critical import run_length, theory_length
 
 FIXED = {
     "friction.law": "product", "friction.evolution": "aging", "mesh.grading": 1.0,
-    "loading.initial_stress": "no_slip", "loading.kind": "edge", "heterogeneity.varies": "none",
+    "loading.initial_stress": "no_slip", "heterogeneity.varies": "none",
 }  # fmt: skip
 """Parameters for which the script has this one value, by full name."""
 
 KINDS = ("none", *IN_TIME)
 """Perturbations that the script has."""
+
+LOADINGS = ("edge", "top")
+"""Loadings that the script has."""
+
+LOADINGS = ("edge", "top")
+"""Loadings that the script has."""
 
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
 PAIR = "pair"  # name of the run of two blocks
