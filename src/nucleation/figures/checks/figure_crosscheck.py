@@ -76,6 +76,8 @@ def described(parameters: Parameters) -> tuple[str, str]:
         return f"$H={height:g}$ m", ""
     second = below.geometry.height
     heights = f"{height:g}$ m" if second == height else f"{height:g}$ on {second:g} m"
+    if parameters.loading.kind == "top":
+        return f"two blocks, $H={heights}", "upper block moved\nat its top"
     ratio = below.material.shear_modulus / parameters.material.shear_modulus
     return f"two blocks, $H={heights}", f"lower block {below.bottom},\n$\\mu_2={ratio:.3g}\\,\\mu$"
 
@@ -119,6 +121,7 @@ def _draw_differences(
         (forces, style.BLUE, "$f_d(t)$"),
     ):
         own, freefem = (np.interp(time, *curve) for curve in curves)
+        own[own == 0.0] = np.nan  # no patch yet
         axes.plot(time, PERCENT * (freefem / own - 1.0), color=colour, linewidth=0.9, label=name)
     axes.axhline(0.0, color=style.GUIDE, linewidth=0.6, zorder=0)
     axes.set_ylim(-LARGEST_DIFFERENCE, LARGEST_DIFFERENCE)

@@ -55,7 +55,7 @@ def compare(
     All of :data:`COLUMNS` but ``id``. Times in s, lengths in m; the time of a step is the median
     processor time of the run's steps. Root mean squares and largest differences of L(t) and f_d(t)
     are relative; the largest difference of L(t) is given in elements as well. NaN where a run has
-    no event or is too short.
+    no event or is too short, or has no patch before 0.9 of the onset.
     """
     records = Record(own, settings), Record(theirs, settings)
     parameters = records[0].parameters
@@ -68,7 +68,9 @@ def compare(
         for run in (own, theirs)
     )
     dx = parameters.geometry.length / parameters.mesh.n_x
-    difference, force_difference = patch_freefem / patch - 1.0, force_freefem / force - 1.0
+    there = (patch > 0.0) & (patch_freefem > 0.0)
+    difference = patch_freefem[there] / patch[there] - 1.0
+    force_difference = force_freefem / force - 1.0
     return {
         "height": parameters.geometry.height,
         "n_x": parameters.mesh.n_x,
@@ -78,10 +80,10 @@ def compare(
         "length": measured["length"],
         "length_freefem": measured_freefem["length"],
         "patch_length_rms": _rms(difference),
-        "patch_length_largest": float(np.abs(difference).max()),
-        "patch_length_elements": float(np.abs(patch_freefem - patch).max() / dx),
+        "patch_length_largest": _largest(difference),
+        "patch_length_elements": _largest((patch_freefem - patch)[there] / dx),
         "driving_force_rms": _rms(force_difference),
-        "driving_force_largest": float(np.abs(force_difference).max()),
+        "driving_force_largest": _largest(force_difference),
         "step_seconds": _seconds_per_step(own),
         "step_seconds_freefem": _seconds_per_step(theirs),
         "steps": own.attrs["steps"],
@@ -94,7 +96,11 @@ def _seconds_per_step(record: xr.Dataset) -> float:
 
 
 def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))
+    return float(np.sqrt(np.mean(values**2))) if values.size else np.nan
+
+
+def _largest(values: Array) -> float:
+    return float(np.abs(values).max()) if values.size else np.nan
 
 
 def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:

@@ -83,9 +83,8 @@ def arguments(
     taken = [name for name in named if name not in unused and not name.startswith("second_body.")]
     values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
     values["poisson_ratio"] = parameters.material.in_plane_ratio
-    values |= {name: getattr(settings, name) for name in ("longest_step", "slip_per_step")}
+    values |= {"slip_per_step": settings.slip_per_step, "loading": parameters.loading.kind}
     values |= {"drop": extraction.drop, "fast": FAST, "most_steps": MOST_STEPS}
-    values["loading"] = parameters.loading.kind
     values["loading"] = parameters.loading.kind
     below = parameters.below
     if below is not None:
@@ -133,8 +132,8 @@ def run(
     ----------
     scripts : the directory of the FreeFem++ scripts.
     directory : an existing directory for its plain-text records.
-    parameters : the simulation; of its stepping, the end is used.
-    settings : the time steps of the script.
+    parameters : the simulation; of its stepping, the end and the longest step are used.
+    settings : the steps of the script in the event.
     extraction : the drop of the force that makes an event.
 
     Returns

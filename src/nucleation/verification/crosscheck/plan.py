@@ -29,6 +29,7 @@ LOADINGS = ("edge", "top")
 
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
 PAIR = "pair"  # name of the run of two blocks
+TOP = "top"  # name of the run of two blocks that is loaded at its top
 
 TIMES = {"elapsed_time": Variable("s", "processor time since the start of the run")}
 """What either solver's record has of its cost."""
@@ -36,7 +37,7 @@ TIMES = {"elapsed_time": Variable("s", "processor time since the start of the ru
 
 @dataclasses.dataclass(frozen=True)
 class CrosscheckSettings(Checked):
-    """The runs made with the independent solver as well, and its time steps."""
+    """The runs made with the independent solver as well, and its steps in the event."""
 
     heights: tuple[float, ...] = quantity(
         "block heights of the runs made with both solvers", unit="m", low=0.0, high=1e6,
@@ -61,10 +62,6 @@ class CrosscheckSettings(Checked):
                         closed="both", symbol="N_x", default=400)  # fmt: skip
     n_y: int = quantity("number of elements along y of both solvers", low=2, high=10000,
                         closed="both", symbol="N_y", default=8)  # fmt: skip
-    longest_step: float = quantity(
-        "longest time step of the independent solver over the memory time D/V", low=0.0, high=1.0,
-        closed="high", default=0.1,
-    )  # fmt: skip
     slip_per_step: float = quantity(
         "largest slip within a step of the independent solver over D", low=0.0, high=1.0,
         closed="high", default=0.2,
@@ -87,6 +84,21 @@ class CrosscheckSettings(Checked):
                              closed="both", default=300)  # fmt: skip
     pair_n_y: int = quantity("number of elements along y in either block of that run", low=2,
                              high=10000, closed="both", default=6)  # fmt: skip
+    top_height: float = quantity(
+        "height of both blocks of the run that is loaded at its top", unit="m", low=0.0, high=1e6,
+        default=0.1,
+    )  # fmt: skip
+    top_length: float = quantity(
+        "length of those blocks", unit="m", low=0.0, high=1e9, default=1.5
+    )
+    top_n_x: int = quantity("number of elements along x in that run, an even number", low=8,
+                            high=100000, closed="both", default=240)  # fmt: skip
+    top_n_y: int = quantity("number of elements along y in either block of that run", low=2,
+                            high=10000, closed="both", default=12)  # fmt: skip
+    top_longest_step: float = quantity(
+        "longest time step of both solvers in that run over the memory time D/V, as its load has "
+        "no sharp maximum", low=0.0, high=1.0, closed="high", default=0.02,
+    )  # fmt: skip
     timing_n_x: int = quantity("number of elements along x of the mesh on which steps are timed",
                                low=8, high=100000, closed="both", default=400)  # fmt: skip
     timing_n_y: int = quantity("number of elements along y of the mesh on which steps are timed",
@@ -112,8 +124,8 @@ def runs(
         "perturbation.kind": settings.perturbation, "perturbation.strength": settings.strength,
         "perturbation.seed": settings.seed,
     }  # fmt: skip
-    ending = {"stepping.time_after_event": settings.time_after_event}
-    common = base.replaced(FIXED | declared | ending)
+    edge = {"stepping.time_after_event": settings.time_after_event, "loading.kind": "edge"}
+    common = base.replaced(FIXED | declared | edge)
     found = {}
     for height in settings.heights:
         length = _block_length(height, base.material, interface, settings)
@@ -125,6 +137,7 @@ def runs(
         "stepping.end_time": settings.timing_end,
     }  # fmt: skip
     found[PAIR] = _pair(common, settings, interface)
+    found[TOP] = _top(common, settings)
     return found | {TIMING: found[f"H{settings.heights[0]:g}"].replaced(timing)}
 
 
@@ -141,6 +154,17 @@ def _pair(
     )
     length = settings.length_over_critical * run_length(both, interface)
     return both.replaced({"geometry.length": float(f"{length:.4g}")})
+
+
+def _top(common: Parameters, settings: CrosscheckSettings) -> Parameters:
+    """Two blocks that are alike, up to the event: then a corner lifts off."""
+    below = SecondBody(kind="deformable", bottom="clamped")
+    changes = {
+        "geometry.height": settings.top_height, "geometry.length": settings.top_length,
+        "mesh.n_x": settings.top_n_x, "mesh.n_y": settings.top_n_y, "loading.kind": "top",
+        "stepping.longest_step": settings.top_longest_step, "stepping.time_after_event": 0.0,
+    }  # fmt: skip
+    return dataclasses.replace(common, second_body=below).replaced(changes)
 
 
 def _block_length(
