@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from fem.assembled_problem import AssembledBlock
 
-from nucleation.fem.bodies import body_of
+from nucleation.fem.bodies import body_of, period_of
 from nucleation.fem.grid import Grid
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
@@ -59,3 +59,23 @@ def test_dense_blocks_are_those_of_apply():
         np.testing.assert_allclose(coupling[:, k], normal, atol=1e-9 * stiffness.max())
     np.testing.assert_allclose(stiffness, stiffness.T, atol=1e-9 * stiffness.max())
     np.testing.assert_allclose(operator.diagonal, stiffness.diagonal())
+
+
+@pytest.mark.parametrize("s", [0.0, 1e6])
+@pytest.mark.parametrize("mode", [np.cos, np.sin])
+def test_far_from_its_sides_a_mode_of_slip_meets_the_stiffness_of_a_period(mode, s):
+    """Free sides carry no shear stress, so modes are no modes there; that decays over H."""
+    n, dx = 21, 0.025  # elements to a wavelength, their length; H is 8 of them
+    period = PARAMETERS.replaced({"height": 0.2, "length": n * dx, "n_x": n, "n_y": 8})
+    phase = 2.0 * np.pi * np.arange(12 * n + 1) / n
+    exact = period_of(period).operator(s).apply(mode(phase[1 : n + 1]))
+    differences = []
+    for wavelengths in (4, 8, 12):
+        elements = wavelengths * n
+        block = body_of(period.replaced({"length": elements * dx, "n_x": elements}))
+        forces = block.operator(s).apply(mode(phase[: elements + 1]))
+        middle = slice(elements // 2 + 1, elements // 2 + 1 + n)
+        pairs = zip(forces, (exact[0], exact[1][1:]), strict=True)
+        differences.append([np.abs(a[middle] - b).max() / np.abs(b).max() for a, b in pairs])
+    assert np.all(np.array(differences).T < [1e-2, 1e-6, 1e-10])
+    assert min(differences[0]) > 1e-6  # of the sides, not of round-off
