@@ -83,7 +83,7 @@ def arguments(
     taken = [name for name in named if name not in unused and not name.startswith("second_body.")]
     values = {name.partition(".")[2]: named[name] for name in taken}  # as the script calls them
     values["poisson_ratio"] = parameters.material.in_plane_ratio
-    values |= {"slip_per_step": settings.slip_per_step, "loading": parameters.loading.kind}
+    values["slip_per_step"] = settings.slip_per_step
     values |= {"drop": extraction.drop, "fast": FAST, "most_steps": MOST_STEPS}
     values["loading"] = parameters.loading.kind
     below = parameters.below

@@ -24,9 +24,6 @@ KINDS = ("none", *IN_TIME)
 LOADINGS = ("edge", "top")
 """Loadings that the script has."""
 
-LOADINGS = ("edge", "top")
-"""Loadings that the script has."""
-
 TIMING = "timing"  # name of the run that times steps on the paper's mesh
 PAIR = "pair"  # name of the run of two blocks
 TOP = "top"  # name of the run of two blocks that is loaded at its top
