@@ -85,9 +85,7 @@ class CrosscheckSettings(Checked):
         "height of both blocks of the run that is loaded at its top", unit="m", low=0.0, high=1e6,
         default=0.1,
     )  # fmt: skip
-    top_length: float = quantity(
-        "length of those blocks", unit="m", low=0.0, high=1e9, default=1.5
-    )
+    top_length: float = quantity("length of those blocks", unit="m", low=0.0, high=1e9, default=1.5)
     top_n_x: int = quantity("number of elements along x in that run, an even number", low=8,
                             high=100000, closed="both", default=240)  # fmt: skip
     top_n_y: int = quantity("number of elements along y in either block of that run", low=2,
