@@ -21,7 +21,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.utils import min_version
 
-min_version("9.0")
+min_version("9.12")
 
 BASE = Path(workflow.current_basedir)  # of this file, also where it is a module of another
 

@@ -285,6 +285,7 @@ SHORT = {"height": 0.005, "geometry.length": 0.9, "n_x": 16, "mesh.n_y": 2, "end
 
 def test_an_interrupted_run_keeps_its_record(capsys):
     """Ctrl-C ends a run after its step; what follows is not interrupted."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # background shells ignore it
     parameters, steps = api.Parameters().replaced(SHORT), []
 
     def interrupt(instant):

@@ -167,7 +167,8 @@ def _kinds(
         text = f"${symbol}={value:.4g}$" if symbol else f"{named(name)} {value:.4g}"
         return text if entry.unit == "1" else f"{text} {entry.unit}"
 
-    marks = [", ".join(said(name, varied[name][i]) for name in names) for i in range(runs)]
+    given = [[(name, varied[name][i]) for name in names] for i in range(runs)]
+    marks = [", ".join(said(*one) for one in row if one[1] is not None) for row in given]
     return [
         (mark, np.array([i for i in range(runs) if marks[i] == mark]))
         for mark in dict.fromkeys(marks)
