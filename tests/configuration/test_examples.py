@@ -17,7 +17,7 @@ NAMES = [path.stem for path in EXAMPLES]
 
 
 def test_examples_are_there():
-    assert {"crustal_fault", "granite_laboratory", "length_map"} <= set(NAMES)
+    assert {"crustal_fault", "granite_laboratory", "length_map", "rock"} <= set(NAMES)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=NAMES)
@@ -45,3 +45,13 @@ def test_shortest_run_of_the_map_nucleates():
     found = extract(simulate(parameters), config.extraction)
     assert math.isfinite(found["onset_time"])
     assert 0.4 < found["length"] / run.theory_length < 1.3
+
+
+@pytest.mark.slow
+def test_rock_nucleates_under_a_load_far_from_the_fault():
+    """The lowest blocks that a top moves, on elements twice as large as the example's."""
+    config = load(CONFIG / "examples" / "rock.yaml")
+    (run,) = (x for x in config.runs if "H0.25" in x.id and "loadingtop" in x.id)
+    parameters = dataclasses.replace(run.parameters, mesh=Mesh(120, 8, 6.0))
+    length = extract(simulate(parameters), config.extraction)["length"]
+    assert length == pytest.approx(0.837, rel=0.05)
