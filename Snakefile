@@ -39,7 +39,7 @@ from nucleation.configuration.advice import advise
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.configuration.load import configure
 from nucleation.configuration.roles import (
-    JUDGED, LONGER, PAIRS as PAIR_ROLES, PAPERS, REFINEMENTS, ROLES, forgotten,
+    JUDGED, LONGER, PAIRS as PAIR_ROLES, PAPERS, REFINEMENTS, ROLES,
 )  # fmt: skip
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
@@ -84,7 +84,7 @@ except (ParameterError, StoreError, DatasetError) as error:
 FIRST = "NUCLEATION_WARNED" not in os.environ  # and not the same again in each job
 if FIRST:
     os.environ["NUCLEATION_WARNED"] = "yes"
-    for warning in [*forgotten(config, settings), *advise(settings.runs)]:
+    for warning in advise(settings.runs):
         logger.warning(f"Warning: {warning}")
 
 RESULTS = settings.results

@@ -1,14 +1,12 @@
 """What studies are for: roles with their requirements, and names that say nothing."""
 
 import copy
-import re
 
 import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
 
 from nucleation.configuration.load import configure, load
-from nucleation.configuration.roles import OWN, PAIRS, REFINEMENTS, ROLES, forgotten
-from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.configuration.roles import OWN, PAIRS, REFINEMENTS, ROLES
 from nucleation.figures import catalogue
 
 TALL = {"height": 0.1}
@@ -48,11 +46,11 @@ BAD = {
     ),
     "not the height of a figure": (
         study(TALL, role="paper"),
-        ["studies.s.role = paper needs a run with height = 0.005 m, law = aging, phi0 = 1 s",
+        ["studies.s.role = paper needs a run with height = 0.005 m, evolution = aging, phi0 = 1 s",
          "figures.space_time_height"],
     ),
     "not its state": (
-        study({"height": 0.005, "phi0": 3.0}, TALL, role="paper"), ["height = 0.005 m, law"],
+        study({"height": 0.005, "phi0": 3.0}, TALL, role="paper"), ["height = 0.005 m, evolution"],
     ),
     "not the height of the hops": (
         study(TALL, role="convergence_quiet"), ["role = convergence_quiet needs a run with height"],
@@ -106,25 +104,6 @@ def test_figures_stand_on_roles_that_there_are():
     assert asked | {*PAIRS, *REFINEMENTS} <= set(ROLES)
     found = {own.role for own in load(CONFIG / "quick.yaml").studies.values()}
     assert catalogue.drawable(found) == list(catalogue.FIGURES)
-
-
-def test_configuration_of_earlier_versions_is_told_of_roles():
-    values = read_yaml(CONFIG / "quick.yaml")
-    settings = configure(values)
-    assert forgotten(values, settings) == []
-    old = copy.deepcopy(values)
-    del old["studies"]["literature"]  # which needs its role
-    roles = {name: own.pop("role") for name, own in old["studies"].items()}
-    (line,) = forgotten(old, configure(old))
-    told = re.findall(r"role: (\w+) in studies\.(\w+)", line)
-    assert {name: role for role, name in told} == roles
-    old["studies"]["map"]["role"] = OWN
-    assert forgotten(old, configure(old)) == []
-
-
-def test_a_name_whose_study_could_not_have_the_role_is_not_told_of():
-    values = {"studies": {"map": {"runs": [TALL]}, "granite": {"runs": [TALL | {"phi0": 2.0}]}}}
-    assert forgotten(values, configure(values)) == []
 
 
 def test_page_has_every_role():

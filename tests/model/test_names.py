@@ -5,7 +5,7 @@ import pytest
 from nucleation.model.names import Names
 from nucleation.model.parameters import GROUPS, Parameters, names
 from nucleation.model.quantities import ParameterError, Quantity
-from nucleation.theory.arrays import ALIASES
+from nucleation.theory.arrays import aliases
 
 HEIGHT = Quantity("height", unit="m")
 TWO = Names(
@@ -58,7 +58,7 @@ def test_names_of_a_run():
 
 
 def test_the_theory_has_the_same_names_for_the_same_parameters():
-    for other, name in ALIASES.items():
+    for other, name in aliases().items():
         assert names().full(other) == names().full(name)
 
 

@@ -34,9 +34,11 @@ def html(content, two_faults):
     return page.build(mine)
 
 
-def test_it_begins_with_the_study_and_has_no_verdicts_of_the_paper(html):
+def test_it_begins_with_the_study_and_has_no_verdicts_of_the_paper(html, two_faults):
     headings = re.findall(r"<h2[^>]*>(.*?)</h2>", html)
-    assert headings[:2] == ["The 2 faults", "Study mine"]
+    assert headings[:2] == ["Study mine", "The 2 faults"]
+    answer = re.search(r'<p class="answer"><b>(.*) m</b></p>', html)
+    assert answer and float(answer[1]) == pytest.approx(float(two_faults["length"][0]), rel=5e-3)
     assert "What was replicated" not in html and "data-kind=" not in html
     assert "mesh too coarse (x): by far" in html
     assert "1 of 2 runs had no event" in html and "<li>stiff: " in html

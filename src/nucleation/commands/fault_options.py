@@ -10,12 +10,21 @@ from typing import Any
 import click
 
 from ..commands import units
-from ..model.parameters import Parameters, names
+from ..model.friction.law import Friction
+from ..model.friction.registry import LAWS
+from ..model.parameters import names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
-from ..theory.uncertainty import Range, parse_range
-from .options import merged_parameters, second_body_option, source_options, sourced, words
+from ..theory.uncertainty import parse_range
+from .options import (
+    merged_parameters,
+    parameter_options,
+    second_body_option,
+    source_options,
+    sourced,
+    words,
+)  # fmt: skip
 from .system import of_parameters
 from .text import plain
 
@@ -43,6 +52,7 @@ def fault_options(function: Callable[..., Any]) -> Callable[..., Any]:
     ratio = names()["zeta_over_a"]
     options += [
         units.option("--zeta-over-a", key="zeta_over_a", entry=ratio),
+        parameter_options(("evolution", "friction_law")),
         second_body_option,
         click.option(
             "--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10"
@@ -56,9 +66,11 @@ def fault_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 def fault_values(
     per_decade: bool, file: Path | None, run_id: str | None, config: str,
-    second_body: str | None, optional: str = "", **options: Any,
+    second_body: str | None, optional: str = "", ranges: bool = False, **options: Any,
 ) -> dict[str, Any]:  # fmt: skip
     """The parameters of :class:`~nucleation.theory.fault.Fault` that options and files give.
+
+    Of `ranges` those of a file are returned as they are; without, they are refused.
 
     Raises
     ------
@@ -67,13 +79,11 @@ def fault_values(
     """
     known = names()
     own = {k: v for k, v in options.items() if v is not None}
-    if ranges := [name for name, value in own.items() if isinstance(value, Range)]:
-        raise ParameterError(f"{ranges[0]}: only `nucleation length` takes a range")
     if per_decade:
         own |= {k: own[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in own}
     by_study = {known.short(known.full(k)): v for k, v in own.items() if k != "far_side"}
-    base, given = sourced(file, run_id, config, {"second_body": second_body, **by_study})
-    law = {"friction_law", *(base or Parameters()).friction.set_by_expansion}
+    base, given = sourced(file, run_id, config, {"second_body": second_body, **by_study}, ranges)
+    law = {name for law in LAWS for name in Friction(law=law).set_by_expansion}
     if base is not None or law & given.keys():
         found = of_parameters(merged_parameters(base, given))
     else:
@@ -123,6 +133,8 @@ def assumed_line(given: Mapping[str, Any]) -> list[str]:
     assumed = []
     if "second_shear_modulus" not in given:
         assumed.append("the second body is like the first")
+    elif "second_height" not in given and math.isfinite(given["second_shear_modulus"]):
+        assumed.append("the second body is as high as the first")
     if "height" not in given:
         assumed.append("half-spaces")
     elif "far_side" not in given:

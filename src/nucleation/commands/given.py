@@ -9,7 +9,7 @@ from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, check
-from ..model.units import parse
+from ..theory.uncertainty import parse_range
 
 KNOWN = 30  # names listed in a message
 
@@ -66,7 +66,7 @@ def _file_value(path: Path, key: str, value: Any) -> Any:
     entry = study_parameters()[key]
     try:
         if isinstance(value, str):
-            return parse(key, value, entry)
+            return parse_range(key, value, entry)
         check(key, value, entry)
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None

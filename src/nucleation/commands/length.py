@@ -1,6 +1,5 @@
 """``nucleation length``: the theory's critical length of a fault beside the lengths in use."""
 
-import dataclasses
 import json
 import textwrap
 from pathlib import Path
@@ -26,9 +25,10 @@ from ..theory.literature_table import (
     of_two_materials,
     values_of,
 )
-from ..theory.uncertainty import parse_range
+from ..theory.uncertainty import Range, parse_range
 from .fault_options import assumed_line, doubts_told, fault_options, fault_values, given_of
-from .system import BEGINS, system_line
+from .options import scales
+from .system import BEGINS, system_line, systems_of_lengths
 from .text import plain
 from .uncertainty import print_quantiles, samples_option, take_uncertain
 
@@ -71,9 +71,12 @@ def command(
       nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
           --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
     """
+    chosen = {"law": options["friction_law"], "evolution": options["evolution"]}
+    law = Friction(**{name: value for name, value in chosen.items() if value is not None})
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
-    given = fault_values(**options)
+    given = fault_values(**options, ranges=True)
+    uncertain = {k: v for k, v in given.items() if isinstance(v, Range)} | uncertain
     if uncertain:
         if density is not None:
             raise ParameterError("density is not allowed beside ranges and samples")
@@ -90,7 +93,7 @@ def command(
     print_as = _as_json if as_json else _as_text
     said = [system_line(fault, loading), *assumed_line(given)]
     found = {k: float(lengths[k]) for k in lengths}
-    click.echo(print_as(said, fault, mode, found, density, loading))
+    click.echo(print_as(said, fault, mode, found, density, loading, law))
     return DONE if np.isfinite(mode.length) else STABLE
 
 
@@ -107,7 +110,7 @@ def _over_rate(fault: Fault, mode: CriticalMode) -> float:
 
 def _as_json(
     said: list[str], fault: Fault, mode: CriticalMode, lengths: dict[str, float],
-    density: float | None, loading: str,
+    density: float | None, loading: str, law: Friction,
 ) -> str:  # fmt: skip
     return json.dumps(
         {
@@ -120,7 +123,7 @@ def _as_json(
                 "critical_frequency_over_rate": plain(_over_rate(fault, mode)),
                 "speed_over_shear_wave": plain(_speed_ratio(fault, mode, density)),
                 "loading": loading,
-                **{name: plain(value) for name, value in _stability(fault, loading).items()},
+                **{name: plain(value) for name, value in _stability(fault, loading, law).items()},
             },
             "lengths": [
                 {"key": length.key, "length": plain(lengths[length.key]), **length.words()}
@@ -133,22 +136,19 @@ def _as_json(
 
 def _as_text(
     said: list[str], fault: Fault, mode: CriticalMode, lengths: dict[str, float],
-    density: float | None, loading: str,
+    density: float | None, loading: str, law: Friction,
 ) -> str:  # fmt: skip
     lines = [
         *(line for text in said for line in textwrap.wrap(text, 95, subsequent_indent="  ")),
         "",
         *_theory_lines(fault, mode, density),
-        *_patch_lines(fault, float(mode.length), loading),
+        *_patch_lines(fault, float(mode.length), loading, law),
     ]
     one_material = (fault.shear_modulus, fault.poisson_ratio) == (
         fault.second_shear_modulus, fault.second_poisson_ratio,
     )  # fmt: skip
-    systems = list(dict.fromkeys(length.system for length in LENGTHS))
-    systems.remove(TWO_MATERIALS)
-    if not one_material and np.isfinite(float(fault.second_shear_modulus)):
-        systems.insert(1, TWO_MATERIALS)  # after the fault's own, before those of its first body
-    for system in systems:
+    differ = not one_material and np.isfinite(float(fault.second_shear_modulus))
+    for system in systems_of_lengths(bool(differ)):
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
             if length.system == system:
@@ -186,7 +186,7 @@ def _theory_lines(fault: Fault, mode: CriticalMode, density: float | None) -> li
     return lines
 
 
-def _stability(fault: Fault, loading: str) -> dict[str, float]:
+def _stability(fault: Fault, loading: str, law: Friction) -> dict[str, float]:
     """L_s with constant a and b, its frequency and error, and L_s as simulations have friction."""
     length, frequency, error = (float(value) for value in stability_values(fault, None, loading))
     found = {
@@ -197,18 +197,18 @@ def _stability(fault: Fault, loading: str) -> dict[str, float]:
     given = fault.velocity is not None and fault.friction is not None
     if given and loading == "edge" and np.isfinite(length):
         try:
-            simulated = float(stability_values(fault, Friction())[0])
+            simulated = float(stability_values(fault, law)[0])
             found["stability_length_as_simulated"] = simulated
         except ParameterError:
-            pass  # the usual law can't have these constants
+            pass  # the law can't have these constants
     return found
 
 
-def _patch_lines(fault: Fault, critical: float, loading: str) -> list[str]:
+def _patch_lines(fault: Fault, critical: float, loading: str, law: Friction) -> list[str]:
     """L_s, what it means, and what friction's own scales make of it."""
     if not np.isfinite(critical):
         return []
-    found, flat = _stability(fault, loading), dataclasses.asdict(Friction())
+    found = _stability(fault, loading, law)
     head = ["", f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"]
     length = found["stability_length"]
     if not np.isfinite(length):
@@ -226,9 +226,8 @@ def _patch_lines(fault: Fault, critical: float, loading: str) -> list[str]:
     if not abs(own / length - 1.0) < NOTEWORTHY:
         said = "none up to 3 L_c" if np.isnan(own) else f"{own:.4g} m, {own / critical:.3g} L_c,"
         lines.append(
-            f"         {said} with the usual law of `simulate` and `drop`, whose a and b change\n"
-            f"         along the patch: v* = {flat['slip_rate_scale']:g} m/s, "
-            f"v0 = {flat['regularisation_slip_rate']:g} m/s, V = {float(fault.velocity):g} m/s"
+            f"         {said} with the law of `simulate` and `drop`, {law.law}, whose a and b\n"
+            f"         change along the patch: {scales(law, float(fault.velocity))}"
         )
     return lines
 

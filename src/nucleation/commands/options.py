@@ -17,6 +17,7 @@ from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES, Fault
+from ..theory.uncertainty import Range
 from . import units
 from .given import of_dataset, of_file, of_run
 from .system import of_parameters, system_line
@@ -136,8 +137,9 @@ def source_options(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def sourced(
-    file: Path | None, run_id: str | None, config: str, options: Mapping[str, Any]
-) -> tuple[Parameters | None, dict[str, Any]]:
+    file: Path | None, run_id: str | None, config: str, options: Mapping[str, Any],
+    ranges: bool = False,
+) -> tuple[Parameters | None, dict[str, Any]]:  # fmt: skip
     """The parameters of a run or a dataset, if one is named, and those that are given."""
     if file and run_id:
         raise ParameterError("--parameters and --run can't be combined")
@@ -153,7 +155,11 @@ def sourced(
         if "second_body" in values:
             values |= second_body(values.pop("second_body"))
     usual = {} if base else {"second_body": "deformable"}
-    return base, usual | given | own
+    found = usual | given | own
+    uncertain = [name for name, value in found.items() if isinstance(value, Range)]
+    if uncertain and not ranges:
+        raise ParameterError(f"{uncertain[0]}: only `nucleation length` takes a range")
+    return base, found
 
 
 BODIES_AND_LOAD = {
@@ -167,17 +173,21 @@ FRICTION = {
 """The parameters of a fault that the paper has values for, and by which names each is given."""
 
 
+def scales(law: Friction, velocity: float) -> str:
+    """The slip rates of a law and V, in words."""
+    scale = getattr(law, "slip_rate_scale", getattr(law, "reference_slip_rate", None))
+    rates = {"v*": scale, "v0": law.regularisation_slip_rate, "V": velocity}
+    return ", ".join(f"{name} = {x:.3g}" for name, x in rates.items() if x is not None) + " m/s"
+
+
 def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, Any]) -> list[str]:
     """The system of a run, its friction, and what was assumed, a line each."""
     law, v = parameters.friction, parameters.loading.velocity
     f, a, zeta = law.expansion(v)
-    scale = getattr(law, "slip_rate_scale", getattr(law, "reference_slip_rate", None))
-    scales = {"v*": scale, "v0": law.regularisation_slip_rate, "V": v}
-    shown = ", ".join(f"{name} = {x:.3g}" for name, x in scales.items() if x is not None)
     lines = [
         system_line(Fault(**of_parameters(parameters)), parameters.loading.kind),
         f"Friction: {law.law} law, {law.evolution}; at V: f = {f:.4g}, a = {a:.4g}, "
-        f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; {shown} m/s.",
+        f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; {scales(law, v)}.",
     ]
     own = {name: {name} for name in law.set_by_expansion}
     asked = BODIES_AND_LOAD | (own if own.keys() & given.keys() else FRICTION)

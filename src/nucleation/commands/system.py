@@ -5,6 +5,7 @@ from typing import Any
 
 from ..model.parameters import Parameters
 from ..theory.fault import Fault
+from ..theory.literature_table import LENGTHS, TWO_MATERIALS
 from ..theory.transfer import RigidBody, bodies_of
 
 
@@ -37,6 +38,14 @@ def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
         return f"a half-space {own}"
     side = {"traction": "free", "velocity": "moved"}.get(str(far_side), far_side)
     return f"a layer {float(height):.4g} m high with its far side {side} {own}"
+
+
+def systems_of_lengths(differ: bool) -> list[str]:
+    """Of which the lengths in use are, as they are listed: the fault's own, of the pair if its
+    materials `differ`, of its first body."""
+    systems = list(dict.fromkeys(length.system for length in LENGTHS))
+    systems.remove(TWO_MATERIALS)
+    return [*systems[:1], *[TWO_MATERIALS] * differ, *systems[1:]]
 
 
 BEGINS = {

@@ -17,7 +17,7 @@ from ..theory.literature_table import LENGTHS, THIS_FAULT, TWO_MATERIALS
 from ..theory.uncertainty import QUANTILES, Range, length_quantiles
 from . import DONE, STABLE
 from .fault_options import assumed_line, doubts_told, given_of
-from .system import system_line
+from .system import system_line, systems_of_lengths
 from .text import plain
 
 samples_option = click.option(
@@ -42,7 +42,8 @@ def take_uncertain(
             raise ParameterError(f"{name} is given twice: as an option and in {samples}")
         uncertain[name] = values
     medians = options | {name: float(np.median(values)) for name, values in uncertain.items()}
-    if "a" in uncertain and medians.get("zeta") is None and medians.get("b") is None:
+    given = any(medians.get(name) is not None for name in ("zeta", "b", "file"))
+    if "a" in uncertain and not given:
         raise ParameterError("zeta or b is needed beside an uncertain a: which one stays as it is?")
     if options.get("per_decade"):
         for name in uncertain.keys() & {"a", "b", "zeta"}:
@@ -100,24 +101,20 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     wrapped = [textwrap.fill(text, 95, subsequent_indent="  ") for text in (*said, drawn)]
     head = "".join(f"{share:>10.0%}" for share in QUANTILES)
     lines = [*wrapped[:-1], "", wrapped[-1], "", f"{'quantiles (m)':<32}{head}   share"]
-    systems = {length.key: length.system for length in LENGTHS}
-    head, nowhere = "", []
+    systems, nowhere = {length.key: length.system for length in LENGTHS}, []
     first = (middle.shear_modulus, middle.poisson_ratio)
     second = (middle.second_shear_modulus, middle.second_poisson_ratio)
     differ = first != second or any(name.startswith("second_") for name in uncertain)
     differ &= bool(np.isfinite(middle.second_shear_modulus))
-    for key, title, values, share in _rows(found):
-        system = systems.get(key, THIS_FAULT)
-        if system == TWO_MATERIALS and not differ:
-            continue
-        if share == 0.0:
-            nowhere.append(f"{title}{' (two materials)' if system == TWO_MATERIALS else ''}")
-            continue
-        if system != head:
-            lines += [f"for {system}:"]
-            head = system
-        row = "".join(f"{value:>10.4g}" for value in values)
-        lines.append(f"  {title:<30}{row}{share:>8.1%}")
+    for system in systems_of_lengths(differ):
+        rows = [row for row in _rows(found) if systems.get(row[0], THIS_FAULT) == system]
+        two = " (two materials)" if system == TWO_MATERIALS else ""
+        nowhere += [f"{title}{two}" for _, title, _, share in rows if share == 0.0]
+        if there := [row[1:] for row in rows if row[3] > 0.0]:
+            lines.append(f"for {system}:")
+        for title, values, share in there:
+            row = "".join(f"{value:>10.4g}" for value in values)
+            lines.append(f"  {title:<30}{row}{share:>8.1%}")
     if nowhere:
         lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
     lines += ["", "share: of the draws in which the length exists; all are full lengths"]

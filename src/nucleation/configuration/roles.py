@@ -152,7 +152,8 @@ def _not_shown(
         height = getattr(figures, key)
         if ROLES[role].usual:
             found = shown(runs, height, base) is not None
-            which = f", law = {base.friction.evolution}, phi0 = {base.loading.initial_state:g} s"
+            law, age = base.friction.evolution, base.loading.initial_state
+            which = f", evolution = {law}, phi0 = {age:g} s"
         else:
             found, which = any(run.value("height") == height for run in runs), ""
         if not found:
@@ -160,30 +161,3 @@ def _not_shown(
                 f"studies.{name}.role = {role} needs a run with height = {height:g} m{which}: "
                 f"figures.{key} names it"
             )
-
-
-def forgotten(values: Mapping[str, Any], settings: Any) -> list[str]:
-    """A warning about studies that went by their names, if no study says a role.
-
-    Parameters
-    ----------
-    values : as it stands in the file.
-    settings : the same, checked.
-    """
-    if any("role" in study for study in values["studies"].values()):
-        return []
-    found = []
-    for name, study in settings.studies.items():
-        role = "convergence" if name.startswith("convergence_") and name not in ROLES else name
-        runs = settings.runs_of(name)
-        if role in ROLES and not [
-            *_problems(name, role, study, runs),
-            *_not_shown(name, role, runs, settings.figures, settings.base),
-        ]:
-            found.append(f"role: {role} in studies.{name}")
-    if not found:
-        return []
-    return [
-        "names of studies say no longer what they are for (docs/studies.md): it takes "
-        f"{', '.join(found)}; or role: {OWN}, if they are studies of your own"
-    ]

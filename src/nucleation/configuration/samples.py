@@ -10,7 +10,7 @@ import numpy as np
 
 from ..model.quantities import ParameterError
 from ..model.units import rescaled
-from ..theory.arrays import ALIASES
+from ..theory.arrays import aliases
 from ..theory.uncertainty import SAMPLED
 from ..types import Array
 
@@ -68,7 +68,7 @@ def read_samples(path: Path | str) -> dict[str, Array]:
 def _column(path: Path | str, text: str) -> tuple[str, str]:
     """A column's parameter and unit."""
     parts = _HEADER.fullmatch(text)
-    name = ALIASES.get(parts[1], parts[1]) if parts else ""
+    name = aliases().get(parts[1], parts[1]) if parts else ""
     if parts is None or name not in SAMPLED:
         close = difflib.get_close_matches(name, SAMPLED, n=1)
         hint = f"did you mean {close[0]}?" if close else f"known: {', '.join(SAMPLED)}"

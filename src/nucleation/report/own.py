@@ -63,10 +63,27 @@ def sections(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
                 "description": description,
                 "rows": [_row(row, letters[i]) for i, row in zip(chosen, rows, strict=True)],
                 "quiet": without_event(rows),
+                "answer": _answer(rows),
                 "warnings": own.warnings.get(study, []),
             }
         )
     return result
+
+
+def _answer(rows: list[dict[str, Any]]) -> dict[str, str] | None:
+    """Ends of the runs' lengths (m), L_c and L_s (m), and their ratios; None without an event."""
+    found = [row for row in rows if np.isfinite(row["length"])]
+    if not found:
+        return None
+
+    def ends(values: list[float]) -> str:
+        known = [value for value in values if np.isfinite(value)]
+        texts = dict.fromkeys(f"{end:.3g}" for end in (min(known), max(known))) if known else ()
+        return " to ".join(texts)
+
+    lengths = {"length": "length", "critical": "theory_length", "stability": "creep_length"}
+    said = {name: ends([row[column] for row in found]) for name, column in lengths.items()}
+    return said | {"ratio": ends([row["length"] / row["theory_length"] for row in found])}
 
 
 def _row(row: dict[str, Any], letter: str) -> list[Cell]:

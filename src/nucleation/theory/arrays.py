@@ -1,14 +1,16 @@
 """The linear theory over arrays of parameters, as :mod:`nucleation.api` offers it."""
 
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..model.parameters import names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import magnitude
 from .critical import stability_reason
 from .crossings import largest_crossings, marginal_frequencies
-from .fault import Fault, Values, labelled, takes_fault
+from .fault import QUANTITIES, Fault, Values, labelled, takes_fault
 from .spectrum import Systems
 from .transfer import as_wavenumber
 
@@ -174,24 +176,30 @@ def reason_of_stability(fault: Fault) -> str:
     return reasons[0]
 
 
-ALIASES = {
-    "characteristic_slip_distance": "slip_distance", "friction_coefficient": "friction",
-    "f": "friction", "direct_effect": "a", "poisson": "poisson_ratio",
-    "applied_stress": "normal_stress",
-}  # fmt: skip
-"""What simulations, studies and their tables call parameters of a fault."""
+@cache
+def aliases() -> dict[str, str]:
+    """What else simulations and studies call the parameters of :class:`Fault`."""
+    known = names()
+    found: dict[str, str] = {}
+    for name in QUANTITIES.keys() - {"far_side"}:
+        full = known.full(name)
+        found |= dict.fromkeys({full, known.short(full), *known.others(full)} - {name}, name)
+    return found
 
 
 def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Keywords, some of which may be :data:`ALIASES`, by the names of :class:`Fault`."""
-    for alias, name in ALIASES.items():
-        if alias in parameters and name in parameters:
-            raise ParameterError(f"{alias} is not allowed beside {name}, which is the same")
-    return {ALIASES.get(k, k): value for k, value in parameters.items()}
+    """Keywords, some of which may be :func:`aliases`, by the names of :class:`Fault`."""
+    found: dict[str, Any] = {}
+    for key, value in parameters.items():
+        name = aliases().get(key, key)
+        if name in found:
+            raise ParameterError(f"{key} is not allowed beside {name}, which is the same")
+        found[name] = value
+    return found
 
 
 def fault_of(parameters: dict[str, Any]) -> Fault:
-    """The fault of keywords, some of which may be :data:`ALIASES`."""
+    """The fault of keywords, some of which may be :func:`aliases`."""
     try:
         return Fault(**without_aliases(parameters))
     except TypeError as error:  # a keyword that is missing or unknown
