@@ -63,7 +63,8 @@ def draw(
         title, below = described(records[0].parameters)
         column[0].set_title(title, pad=3.0)
         if below:
-            column[0].legend([], [], title=below, title_fontsize=style.SMALL, loc="lower right")
+            place = "center" if "top" in below else "lower right"
+            column[0].legend([], [], title=below, title_fontsize=style.SMALL, loc=place)
         column[2].set_xlabel("Time $t$ (s)")
     _label(panels)
     return figure
@@ -77,9 +78,9 @@ def described(parameters: Parameters) -> tuple[str, str]:
     second = below.geometry.height
     heights = f"{height:g}$ m" if second == height else f"{height:g}$ on {second:g} m"
     if parameters.loading.kind == "top":
-        return f"two blocks, $H={heights}", "upper block moved\nat its top"
+        return f"$H={heights}", "two blocks,\nmoved at\nthe top"
     ratio = below.material.shear_modulus / parameters.material.shear_modulus
-    return f"two blocks, $H={heights}", f"lower block {below.bottom},\n$\\mu_2={ratio:.3g}\\,\\mu$"
+    return f"$H={heights}", f"two blocks,\nlower {below.bottom},\n$\\mu_2={ratio:.3g}\\,\\mu$"
 
 
 def _draw_both(
@@ -134,7 +135,7 @@ def _label(panels: np.ndarray) -> None:
     for axes, name in zip(panels[:, 0], names, strict=True):
         axes.set_ylabel(name)
     panels[0, 0].legend(loc="lower right")
-    panels[2, 0].legend(loc="lower left", ncols=2)
+    panels[2, 0].legend(loc="lower left", ncols=2, columnspacing=1.0, handlelength=1.0)
     for axes, letter in zip(panels.flat, "abcdefghijklmnopqrstuvwxyz", strict=False):
         axes.set_title(f"({letter})", loc="left", pad=3.0)
     figure = panels[0, 0].figure
