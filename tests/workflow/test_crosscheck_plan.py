@@ -8,9 +8,9 @@ from nucleation.verification.crosscheck import freefem
 
 
 def test_plan(workflow, freefem_program):
-    """Four runs by both solvers, one of them of two blocks."""
+    """Five runs by both solvers, two of them of two blocks."""
     once = ("compare_crosscheck", "draw_figure_crosscheck")
-    expected = {"crosscheck_own": 4, "crosscheck_freefem": 4, **dict.fromkeys(once, 1)}
+    expected = {"crosscheck_own": 5, "crosscheck_freefem": 5, **dict.fromkeys(once, 1)}
     assert workflow.planned("crosscheck") == expected
 
 
