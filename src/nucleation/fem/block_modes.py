@@ -55,6 +55,10 @@ class BlockModes(SeparableBody):
         """Nodal values at i = 0..n_x - 1 (last axis) of cosine amplitudes."""
         return 0.5 * fft.dct(amplitudes, type=2)
 
+    def cosine_amplitudes(self, nodal: Array) -> Array:
+        """Amplitudes of nodal values at i = 0..n_x - 1 (last axis) in the cosine basis."""
+        return fft.dct(nodal, type=3) / self.grid.n_x
+
     def interface_forces(self, modal: Array) -> tuple[Array, Array]:
         """Nodal forces whose generalised forces per mode are ``modal * n_x/2``, (2, ..., n_x).
 

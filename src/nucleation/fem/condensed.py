@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array
-from .field import Field, Motion, Terms
+from .field import Field, Motion, Motions, Terms
 from .grid import Grid
 
 
@@ -135,6 +135,9 @@ class Body(Protocol):
         self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
     ) -> Motion:
         """The motion at a new displacement, its rate by ``u = sum_i past_i u_i + beta du/dt``."""
+
+    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+        """The motions without what grows from rounding alone; see :meth:`.pair.Pair.settled`."""
 
     def nodal_values(self, field: Field) -> tuple[Array, Array]:
         """Nodal w_x and u_y of the (upper) body, levels from the interface up."""

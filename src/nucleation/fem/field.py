@@ -66,3 +66,7 @@ class Motion:
             Field.from_arrays(f"{name}_velocity", arrays),
             float(arrays[f"{name}_momentum"]),
         )
+
+
+Motions = tuple[Motion, ...]
+"""Of a body at some instants, the newest first."""

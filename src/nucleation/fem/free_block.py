@@ -24,7 +24,7 @@ from ..model.material import Material
 from ..types import Array
 from .block import Block
 from .condensed import Balance, Expectation, Response
-from .field import Field, Motion, Terms
+from .field import Field, Motion, Motions, Terms
 from .grid import Grid
 from .pair import Pair
 
@@ -144,6 +144,10 @@ class FreeBlock:
     def whole(self, odd: Array, even: Array) -> Array:
         """Nodal values (last axis) of a part that is odd and one that is even, at i = 0..n_x/2."""
         return np.concatenate(((even - odd)[..., :0:-1], even + odd), axis=-1)
+
+    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+        """The motions themselves: its second body has to be clamped."""
+        return motions
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of the block at rest, seen from its top that moves at a velocity (m/s)."""

@@ -9,6 +9,7 @@ where no force acts on it, the corner stays.
 
 from __future__ import annotations
 
+import dataclasses
 from functools import cached_property
 
 import numpy as np
@@ -16,9 +17,11 @@ import numpy as np
 from ..types import Array
 from .block import Block
 from .condensed_nodes import CondensedOnNodes
-from .field import Field
+from .field import Field, Motions
 from .right_edge import EdgeValues, inverse_within
 from .series import Series, TwoBodies
+
+LIFTED = 100.0  # times what has slid: a translation along y that has grown from rounding
 
 
 class Pair(TwoBodies[Block]):
@@ -34,6 +37,36 @@ class Pair(TwoBodies[Block]):
         if self.lower.far_side != "free":
             below = self.lower.zero_field()
         return self.joined(self.upper.top_load(normal_stress), below)
+
+    @cached_property
+    def _risen(self) -> Field:
+        """Both blocks moved up by one metre."""
+        level = self.upper.cosine_amplitudes(np.ones(self.grid.n_x))
+        fields = []
+        for block, sign in ((self.upper, 1.0), (self.lower, -1.0)):  # that one is mirrored
+            field = block.zero_field()
+            field.modes[:, 1], field.edge[:] = sign * level, sign
+            fields.append(field)
+        return self.joined(*fields)
+
+    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+        """The same motions seen from a corner that does not rise, if no far side holds the pair.
+
+        Nothing feels a translation along y, so that rounding is all that acts on it, and makes it
+        grow without end over minutes. Once it is :data:`LIFTED` times what has slid (m), it is
+        taken out with its velocity; the second motion is a step (s) older than the first.
+        """
+        rise, rate = (float(f.edge[0]) for f in (motions[0].displacement, motions[0].velocity))
+        if self.lower.far_side != "free" or not abs(rise) > LIFTED * slid:
+            return motions
+        return tuple(
+            dataclasses.replace(
+                motion,
+                displacement=motion.displacement.plus(self._risen.times(age * rate - rise)),
+                velocity=motion.velocity.plus(self._risen.times(-rate)),
+            )
+            for motion, age in zip(motions, (0.0, step), strict=False)
+        )
 
 
 class PairOperator(CondensedOnNodes):

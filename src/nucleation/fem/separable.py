@@ -17,7 +17,7 @@ from ..model.material import Material
 from ..types import Array
 from . import kernels
 from .condensed import Response
-from .field import Field, Motion, Terms
+from .field import Field, Motion, Motions, Terms
 from .grid import Grid
 from .matrices import Tridiagonal, element_matrices
 
@@ -157,6 +157,10 @@ class SeparableBody(ABC):
         """
         velocity = rate_of_change(past, beta, displacement, motions)
         return Motion(displacement, velocity, self.momentum_x(velocity))
+
+    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+        """The motions themselves: what holds the body holds it along y too."""
+        return motions
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of a body at rest, seen from its driven edge (velocity in m/s)."""

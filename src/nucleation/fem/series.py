@@ -21,7 +21,7 @@ import numpy as np
 
 from ..types import Array
 from . import kernels
-from .field import Field, Motion, Terms
+from .field import Field, Motion, Motions, Terms
 from .grid import Grid
 from .separable import SeparableBody, SeparableOperator, rate_of_change
 
@@ -115,6 +115,10 @@ class TwoBodies(Generic[Layer]):
         """The motion at a new displacement; its momentum is the driven body's alone."""
         velocity = rate_of_change(past, beta, displacement, motions)
         return Motion(displacement, velocity, self.momentum_x(velocity))
+
+    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+        """The motions themselves: unless one kind of pair says otherwise."""
+        return motions
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """The motion of the pair at rest, seen from the driven edge (velocity in m/s)."""

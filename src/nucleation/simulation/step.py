@@ -111,9 +111,10 @@ class Dynamics:
         self, state: State, time: float, solution: InterfaceSolution, motion: Motion, memory: Array
     ) -> State:
         """The state with new values before the past ones that the scheme still needs."""
-        most = self.scheme.instants
+        most, slid = self.scheme.instants, float(np.abs(solution.w).max())
+        motions = (motion, *state.motions[: self.scheme.levels - 1])
         return State(
-            (motion, *state.motions[: self.scheme.levels - 1]),
+            self.body.settled(motions, time - state.time, slid),
             pushed(time, state.past_times, most),
             pushed(solution.slip_rate, state.past_slip_rates, most),
             pushed(solution.log_state, state.past_log_states, most),
