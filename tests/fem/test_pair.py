@@ -1,13 +1,20 @@
 """Two blocks on one another against the assembled matrix, and what must hold for any pair."""
 
+import itertools
+
 import numpy as np
 import pytest
 from fem.assembled_pair import AssembledPair
 
+from nucleation.fem import pair
 from nucleation.fem.block import Block
+from nucleation.fem.field import Motion
 from nucleation.fem.grid import Grid
 from nucleation.fem.pair import Pair
 from nucleation.model.material import Material
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.model.second_body import SecondBody
+from nucleation.simulation.run import run
 from nucleation.theory.transfer import Body, transfer_functions
 
 UPPER = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)
@@ -154,6 +161,44 @@ def test_bonded_identical_blocks_expand_as_one_under_the_load():
     np.testing.assert_allclose(
         y - y[:1], np.tile(-(1 - nu) * across * grids[0].y[:, None], 13), atol=1e-14
     )
+
+
+def test_a_translation_that_has_grown_from_rounding_is_taken_out():
+    """All nodes of both blocks move by what the corner has risen, at each instant its own."""
+    rng, step = np.random.default_rng(3), 0.1
+    body = pair_of(GRIDS[0])
+    motions = tuple(Motion(random_field(body, rng), random_field(body, rng), 0.0) for _ in "ab")
+    rise, rate = (float(f.edge[0]) for f in (motions[0].displacement, motions[0].velocity))
+    settled = body.settled(motions, step, 1e-3 * abs(rise))
+    for age, old, new in zip((0.0, step), motions, settled, strict=True):
+        for moved, f, g in (
+            (rise - age * rate, old.displacement, new.displacement),
+            (rate, old.velocity, new.velocity),
+        ):
+            for values in (body.nodal_values, body.nodal_values_below):
+                (x, y), (x_new, y_new) = values(f), values(g)
+                np.testing.assert_array_equal(x, x_new)
+                np.testing.assert_allclose(y - y_new, moved, atol=1e-13)
+    assert body.settled(motions, step, 0.1 * abs(rise)) is motions
+    assert pair_of(GRIDS[0], "roller").settled(motions, step, 0.0) is motions
+
+
+def test_what_is_taken_out_is_not_felt(monkeypatch):
+    """A run of a free pair, from which every step takes the translation, or none does."""
+    parameters = Parameters(
+        geometry=Geometry(0.01, 0.4), mesh=Mesh(40, 3), stepping=Stepping(end_time=1.0),
+        second_body=SecondBody(kind="deformable"),
+    )  # fmt: skip
+
+    def last(lifted):
+        monkeypatch.setattr(pair, "LIFTED", lifted)
+        *_, instant = itertools.takewhile(lambda one: one.state.time < 1.0, run(parameters))
+        return instant.state
+
+    never, always = last(np.inf), last(0.0)
+    assert always.displacement.edge[0] == 0.0 != never.displacement.edge[0]
+    np.testing.assert_allclose(always.past_w, never.past_w, rtol=1e-9)
+    np.testing.assert_allclose(always.past_log_states, never.past_log_states, rtol=1e-9)
 
 
 def test_other_elements_along_x_are_refused():
