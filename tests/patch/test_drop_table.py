@@ -100,7 +100,7 @@ def test_floors_are_the_quiet_rows_without_what_they_lack(table):
 
 def test_figure_has_every_realisation_and_group(table):
     figure = figure_drop.draw(table)
-    assert len(list(figure_drop.groups(table))) == 2
+    assert len(figure_drop.ensembles(table)) == 2
     load = figure.axes[0]
     drawn = [tuple(line.get_ydata()) for line in load.lines]
     assert any(np.allclose(y, [0.32 / 0.45]) for y in drawn if len(y) == 1)

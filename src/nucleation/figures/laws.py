@@ -3,7 +3,7 @@
 The paper's two laws look as in its Figure 3; every other law of a table takes the next free marker.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..model.friction.registry import USUAL_EVOLUTION
-from . import style
+from . import points, style
 
 USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
 
@@ -47,6 +47,13 @@ def looks(laws: Iterable[str]) -> dict[tuple[str, bool], Look]:
             label = f"{law.replace('_', ' ')} law"
             found[law, aged] = Look(marker, 6.6, style.OLD_AGE if aged else colour, label)
     return found
+
+
+def kinds(table: xr.Dataset) -> Iterator[tuple[tuple[str, bool], Look, xr.Dataset]]:
+    """Law and whether the initial state differs, the look, and the rows of each kind."""
+    names = table["evolution"].values.astype(str)
+    for (law, old), look in looks(names).items():
+        yield (law, old), look, points.where(table, (names == law) & (aged(table) == old))
 
 
 def aged(table: xr.Dataset) -> NDArray[np.bool_]:

@@ -122,6 +122,18 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+def column(height: float) -> tuple[Figure, Axes]:
+    """A figure one column wide with one panel; `height` in centimetres."""
+    figure = new_figure(SINGLE_COLUMN, height * CENTIMETRE)
+    return figure, figure.add_subplot()
+
+
+def panels(rows: int, columns: int, height: float, **how: Any) -> tuple[Figure, Any]:
+    """A figure two columns wide with its panels; `height` in centimetres."""
+    figure = new_figure(DOUBLE_COLUMN, height * CENTIMETRE)
+    return figure, figure.subplots(rows, columns, **how)
+
+
 def look(number: int) -> tuple[str, str]:
     """Marker and colour of one of several kinds; none of 56 has another's."""
     return MARKERS[number % len(MARKERS)], COLOURS[number % len(COLOURS)]
@@ -137,10 +149,31 @@ def key(label: str, marker: str = "", line: Any = "", colour: Any = GUIDE, **loo
     return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **look)
 
 
-def letters(*panels: Axes) -> None:
-    """Letters panels, (a) first."""
+def letters(*panels: Axes, minor: bool = False, **how: Any) -> None:
+    """Letters panels, (a) first; `minor` has them minor ticks."""
     for axes, letter in zip(panels, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        axes.set_title(f"({letter})", loc="left")
+        axes.set_title(f"({letter})", loc="left", **how)
+        if minor:
+            axes.minorticks_on()
+
+
+def entries(*panels: Axes) -> dict[str, Any]:
+    """What the legend of some panels has, by label, each label once."""
+    found: dict[str, Any] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            found.setdefault(label, handle)
+    return found
+
+
+def level(axes: Axes, y: float, line: Any = "-", width: float = 0.7, **how: Any) -> None:
+    """A horizontal line that marks a value."""
+    axes.axhline(y, **{"color": GUIDE, "linestyle": line, "linewidth": width} | how)
+
+
+def band(axes: Axes, low: float, high: float, label: str) -> None:
+    """A horizontal band within which values agree."""
+    axes.axhspan(low, high, color=GUIDE, alpha=0.15, linewidth=0.0, label=label)
 
 
 def arrow(

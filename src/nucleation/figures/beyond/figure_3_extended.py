@@ -1,21 +1,22 @@
 """Figure 3 with more lengths: where the patch turns unstable, and the drop from noisy to quiet."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from ...analysis.lengths import join, over_realisations
-from ...figures import laws, style
+from ...figures import laws, points, style
 
 OLDER = ", older interface"
-RATIOS = (0.4, 1.2)
 ABOVE = 1.12  # the axes end at this multiple of the highest block
-LIMIT_HEIGHTS = (0.004, 0.13)  # m, of the logarithmic axis
+BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
+JUDGED = "converged"
 
 
 class Series(NamedTuple):
@@ -26,17 +27,20 @@ class Series(NamedTuple):
     colour: str | None  # None: the kind's own
     filled: bool
     size: float  # points
-    bars: bool  # whether it has error bars
     label: str
 
+    def look(self, kind: laws.Look) -> Any:
+        """Marker, size and colours of one kind of simulation."""
+        colour = self.colour or kind.colour
+        face = colour if self.filled else "white"
+        return {"marker": kind.marker, "ms": self.size, "color": colour, "mfc": face}
 
-DROPS = (
-    Series("length", "paper", None, True, 3.0, False, "drop, quiet, on the paper's mesh"),
-    Series("length", "converged", None, False, 4.8, True, r"drop, load steady to $10^{-5}$"),
+
+PAPERS = Series("length", "paper", None, True, 3.0, "drop, quiet, on the paper's mesh")
+STEADY = Series("length", JUDGED, None, False, 4.8, r"drop, load steady to $10^{-5}$")
+STABILITY = Series(
+    "stability_length", JUDGED, style.GREEN, True, 4.8, "patch turns unstable, $L_s$"
 )
-BAND = r"drop, load steady to $10^{-5}$ to $10^{-2}$"
-JUDGED = "converged"
-STABILITY = (JUDGED, "paper")  # growth begins: of the first of these roles that is there
 
 
 @style.styled
@@ -61,34 +65,24 @@ def draw(
         Lengths of the aging law's faults under a stronger perturbation: a band from these to those
         with the role `converged` is drawn if they are given. Those at that role's own strength are
         more realisations of its faults.
-
-    Returns
-    -------
-    Figure
-        Two columns wide.
     """
     if isinstance(noisy, xr.Dataset):
         noisy, lengths = _with_more(lengths, noisy)
     lengths = _means(lengths)
-    figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
-    left, right = figure.subplots(1, 2)
-    roles = table["role"].values.astype(str)
-    role = next((name for name in STABILITY if name in roles), STABILITY[0])
-    stability = Series(
-        "stability_length", role, style.GREEN, True, 4.8, True, "patch turns unstable, $L_s$"
-    )
-    for axes, relative in ((left, False), (right, True)):
+    figure, panels = style.panels(1, 2, 8.2)
+    stability = STABILITY
+    if JUDGED not in table["role"].values:  # growth begins: of the paper's runs
+        stability = STABILITY._replace(role="paper")
+    for axes, relative in zip(panels, (False, True), strict=True):
         _draw_theory(axes, theory, relative)
         if isinstance(noisy, xr.Dataset):
             _draw_band(axes, _means(noisy), lengths, relative)
-        for series in (*DROPS, stability):
+        for series in (PAPERS, STEADY, stability):
             _draw_series(axes, table if series is stability else lengths, series, relative)
         axes.set_xlabel("Height $H$ (m)")
-    _finish_lengths(left, theory, lengths, (*DROPS[::-1], stability), isinstance(noisy, xr.Dataset))
-    _finish_ratios(right, lengths)
-    style.letters(left, right)
-    for axes in (left, right):
-        axes.minorticks_on()
+    _finish_lengths(panels[0], theory, lengths, isinstance(noisy, xr.Dataset))
+    _finish_ratios(panels[1], lengths)
+    style.letters(*panels, minor=True)
     return figure
 
 
@@ -100,13 +94,14 @@ def _means(table: xr.Dataset) -> xr.Dataset:
 
 def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
     """The stronger perturbed runs alone, and the others among those judged."""
-    judged = lengths["role"].values.astype(str) == JUDGED
-    more = np.isin(noisy["strength"].values, lengths["strength"].values[judged])
-    own = noisy.isel(run=np.flatnonzero(more))
-    same = {name: ("run", np.resize(lengths[name].values[judged], own.sizes["run"]))
-            for name in ("study", "role")}  # fmt: skip
-    own = own.assign(same)
-    return noisy.isel(run=np.flatnonzero(~more)), join([lengths, own])
+    judged = points.where(lengths, role=JUDGED)
+    more = np.isin(noisy["strength"].values, judged["strength"].values)
+    own = points.where(noisy, more)
+    same = {
+        name: ("run", np.resize(judged[name].values, own.sizes["run"]))
+        for name in ("study", "role")
+    }
+    return points.where(noisy, ~more), join([lengths, own.assign(same)])
 
 
 def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
@@ -119,76 +114,55 @@ def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
 
 def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: bool) -> None:
     """From the drop under the stronger perturbation to that under the role `converged`'s."""
-    quiet = lengths.isel(run=np.flatnonzero(lengths["role"].values == "converged"))
-    quiet = quiet.isel(run=np.flatnonzero(laws.usual(quiet)))
+    quiet = points.where(lengths, role=JUDGED)
+    quiet = points.where(quiet, laws.usual(quiet))
     heights = np.intersect1d(noisy["height"].values, quiet["height"].values)
     ends = []
     for runs in (noisy, quiet):
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
         scale = runs["theory_length"].values[order] if relative else 1.0
         ends.append(runs["length"].values[order] / scale)
-    strong, weak = ends
-    axes.fill_between(heights, strong, weak, color=style.AGING, alpha=0.2, linewidth=0.0)
+    axes.fill_between(heights, ends[0], ends[1], color=style.AGING, alpha=0.2, linewidth=0.0)
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
-    """One set of lengths, a marker for each law and initial state."""
-    law, aged = table["evolution"].values.astype(str), laws.aged(table)
-    chosen = table["role"].values.astype(str) == series.role
-    chosen &= np.isfinite(table[series.column].values)
-    scale = table["theory_length"].values if relative else np.ones(law.size)
-    for (name, old), kind in laws.looks(law).items():
-        runs = np.flatnonzero(chosen & (law == name) & (aged == old))
-        if not runs.size:
+    """One set of lengths, a marker for each law and initial state; quiet runs have no bars."""
+    for (_, old), kind, runs in laws.kinds(table):
+        runs = points.where(runs, np.isfinite(runs[series.column].values), role=series.role)
+        if not runs.sizes["run"]:
             continue
-        middle, low, high = (
-            (table[series.column + end].values / scale)[runs] for end in ("", "_low", "_high")
-        )
-        colour = series.colour or kind.colour
-        below, above = np.clip(np.nan_to_num([middle - low, high - middle]), 0.0, None)
-        axes.errorbar(
-            table["height"].values[runs], middle, yerr=(below, above) if series.bars else None,
-            linestyle="none", marker=kind.marker, markersize=series.size, color=colour,
-            markerfacecolor=colour if series.filled else "white", elinewidth=0.8,
-            label=f"{series.label}, {kind.label}{OLDER * old}",
-        )  # fmt: skip
+        if series is PAPERS:
+            runs = runs.assign(length_low=runs["length"], length_high=runs["length"])
+        scale = runs["theory_length"].values if relative else 1.0
+        look = series.look(kind) | {"elinewidth": 0.8}
+        label = f"{series.label}, {kind.label}{OLDER * old}"
+        points.draw(axes, runs["height"].values, runs, series.column, scale, label=label, **look)
 
 
-def _finish_lengths(
-    axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, drawn: tuple[Series, ...], band: bool
-) -> None:
+def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: bool) -> None:
     highest = ABOVE * float(lengths["height"].max())
     top = np.interp(highest, theory["height"].values, theory["critical_length"].values)
-    axes.set_xlim(0.0, highest)
-    axes.set_ylim(0.0, 1.6 * float(top))
-    axes.set_ylabel("Length $L$ (m)")
-    handles: list[Artist] = [
-        axes.plot([], [], dashes, color=style.THEORY, linewidth=1.2, label=label)[0]
-        for dashes, label in (("-", "theory $L_c$"), ("--", "theory $L_c/2$"))
-    ]
+    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.6 * float(top)), ylabel="Length $L$ (m)")
     shown = laws.usual_law(lengths)
     usual = laws.looks([shown])[shown, False]
-    for series in drawn:
-        colour = series.colour or usual.colour
-        handles += axes.plot(
-            [], [], usual.marker, color=colour, markersize=series.size, label=series.label,
-            markerfacecolor=colour if series.filled else "white",
-        )  # fmt: skip
+    handles: list[Artist] = [
+        style.key(label, "", dashes, style.THEORY, linewidth=1.2)
+        for dashes, label in (("-", "theory $L_c$"), ("--", "theory $L_c/2$"))
+    ]
+    for series in (STEADY, PAPERS, STABILITY):
+        look = series.look(usual)
+        handles.append(style.key(series.label, colour=look.pop("color"), **look))
     if band:
-        handles.append(axes.fill_between([], [], [], color=style.AGING, alpha=0.2, label=BAND))
+        handles.append(Patch(color=style.AGING, alpha=0.2, label=BAND))
     axes.legend(handles=handles, loc="upper left", labelspacing=0.3)
 
 
 def _finish_ratios(axes: Axes, lengths: xr.Dataset) -> None:
-    axes.set_xscale("log")
-    axes.set_xlim(*LIMIT_HEIGHTS)
-    axes.set_ylim(*RATIOS)
+    axes.set(xscale="log", xlim=(0.004, 0.13), ylim=(0.4, 1.2))
     axes.set_ylabel("Length over theory $L/L_c$")
-    law, aged = lengths["evolution"].values.astype(str), laws.aged(lengths)
     handles = [
-        axes.plot([], [], kind.marker, color=style.GUIDE, markersize=4.8,
-                  label=kind.label + OLDER * old)[0]
-        for (name, old), kind in laws.looks(law).items()
-        if ((law == name) & (aged == old)).any()
-    ]  # fmt: skip
+        style.key(kind.label + OLDER * old, kind.marker, markersize=4.8)
+        for (_, old), kind, runs in laws.kinds(lengths)
+        if runs.sizes["run"]
+    ]
     axes.legend(handles=handles, loc="upper left", labelspacing=0.3)

@@ -1,5 +1,7 @@
 """The map: the patch's two lengths over the theory's, over the block's height and the weakening."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -12,97 +14,69 @@ from ...patch.map_table import mean_over_seeds
 
 RATIOS = (0.45, 1.0)  # of the colours
 CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2)
-SLICES = 3  # weakenings of which lengths are shown over height
-ROOM = 2.0  # of the panel of lengths
-MARKERS = ("o", "s", "^")
+SLICES = (("o", style.VERMILLION), ("s", style.BLUE), ("^", style.GREEN))
+"""Looks of the weakenings of which lengths are shown over height."""
 
 
 @style.styled
 def draw(grid: xr.Dataset) -> Figure:
     """Draw ratios of lengths as images with contours, and lengths over height.
 
-    Parameters
-    ----------
-    grid : Dataset
-        Of :func:`nucleation.patch.map_table.on_grid`.
-
-    Returns
-    -------
-    Figure
-        Two columns wide: stability, the drop at the weakest and the strongest perturbation, and
-        lengths over height for some weakenings.
+    Of stability, of the drop at the weakest and the strongest perturbation, and lengths over height
+    for some weakenings. `grid` is that of :func:`nucleation.patch.map_table.on_grid`.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 13.0 * style.CENTIMETRE)
-    (stable, quiet), (noisy, slices) = figure.subplots(2, 2)
-    strengths = grid["strength"].values
+    figure, ((stable, quiet), (noisy, slices)) = style.panels(2, 2, 13.0)
     stability = mean_over_seeds(grid, "stability_ratio").isel(strength=0)
     drop = mean_over_seeds(grid, "length_ratio")
-    shown = [
-        (stable, stability, r"patch turns unstable, $L_s/L_c$"),
-        (quiet, drop.isel(strength=0), rf"drop, load {_power(strengths[0])}, $L/L_c$"),
-        (noisy, drop.isel(strength=-1), rf"drop, load {_power(strengths[-1])}, $L/L_c$"),
-    ]
-    for (axes, ratio, title), letter in zip(shown, "abc", strict=True):
+    weak, strong = (rf"$10^{{{np.log10(grid['strength'].values[i]):.0f}}}$" for i in (0, -1))
+    for axes, ratio, title in (
+        (stable, stability, r"(a) patch turns unstable, $L_s/L_c$"),
+        (quiet, drop.isel(strength=0), rf"(b) drop, load {weak}, $L/L_c$"),
+        (noisy, drop.isel(strength=-1), rf"(c) drop, load {strong}, $L/L_c$"),
+    ):
         image = _draw_ratio(axes, ratio)
-        axes.set_title(f"({letter}) {title}", loc="left")
-    figure.colorbar(
-        image, ax=[quiet, slices], label="(a) to (c): length over theory", extend="both"
-    )
+        axes.set_title(title, loc="left")
+    label = "(a) to (c): length over theory"
+    figure.colorbar(image, ax=[quiet, slices], label=label, extend="both")
     _draw_slices(slices, grid, stability, drop.isel(strength=0))
     slices.set_title("(d) lengths over height", loc="left")
     return figure
 
 
-def _power(strength: float) -> str:
-    """A strength as a power of ten."""
-    return rf"$10^{{{np.log10(strength):.0f}}}$"
-
-
-def _draw_ratio(axes: Axes, ratio: xr.DataArray):  # type: ignore[no-untyped-def]
+def _draw_ratio(axes: Axes, ratio: xr.DataArray) -> Any:
     """An image of a ratio over height and weakening, with contours; grey where there is none."""
-    height, weakening = ratio["height"].values, ratio["zeta_over_a"].values
     values = ratio.transpose("zeta_over_a", "height").values
+    over = ratio["height"].values, ratio["zeta_over_a"].values, values
     axes.set_facecolor("#D9D9D9")
-    image = axes.pcolormesh(
-        height, weakening, values, norm=Normalize(*RATIOS), cmap=style.SEQUENCE, shading="nearest",
-        rasterized=True,
-    )  # fmt: skip
+    look: Any = {"norm": Normalize(*RATIOS), "shading": "nearest", "rasterized": True}
+    image = axes.pcolormesh(*over, cmap=style.SEQUENCE, **look)
     if min(values.shape) > 1 and np.isfinite(values).any():
-        lines = axes.contour(
-            height, weakening, values, levels=CONTOURS, colors="white", linewidths=0.7
-        )
+        lines = axes.contour(*over, levels=CONTOURS, colors="white", linewidths=0.7)
         axes.clabel(lines, fmt="%g", fontsize=style.SMALL)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)")
     axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)))
     axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.set_xlabel("Block height $H$ (m)")
     axes.set_ylabel(r"Weakening $\zeta/a$")
     return image
 
 
 def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray) -> None:
     """Theory, stability and drop over height for some weakenings."""
-    weakenings = grid["zeta_over_a"].values
-    chosen = np.unique(np.linspace(0, weakenings.size - 1, SLICES + 2)[1:-1].round().astype(int))
-    colours = (style.VERMILLION, style.BLUE, style.GREEN)
-    height = grid["height"].values
-    for i, marker, colour in zip(chosen, MARKERS, colours, strict=False):
+    weakenings, height = grid["zeta_over_a"].values, grid["height"].values
+    places = np.linspace(0, weakenings.size - 1, len(SLICES) + 2)[1:-1]
+    for i, (marker, colour) in zip(np.unique(places.round().astype(int)), SLICES, strict=False):
         theory = grid["theory_length"].values[:, i]
         axes.plot(height, theory, color=colour, label=rf"$\zeta/a = {weakenings[i]:.2g}$")
         for ratio, face in ((drop, colour), (stability, "white")):
-            axes.plot(
-                height, ratio.isel(zeta_over_a=i).values * theory, marker, color=colour,
-                markerfacecolor=face, markersize=3.5, linestyle="none",
-            )  # fmt: skip
-    axes.plot([], [], color=style.GUIDE, label="theory $L_c$")
-    axes.plot([], [], "o", color=style.GUIDE, markersize=3.5, label="drop")
-    axes.plot([], [], "o", color=style.GUIDE, markersize=3.5, label="patch unstable", **style.OPEN)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("Block height $H$ (m)")
-    axes.set_ylabel("Length (m)")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low / ROOM, high)  # for the legend
-    axes.legend(fontsize=style.SMALL, loc="lower right", ncols=2)
+            length = ratio.isel(zeta_over_a=i).values * theory
+            axes.plot(height, length, marker, color=colour, markerfacecolor=face, markersize=3.5)
+    handles = [
+        *style.entries(axes).values(),
+        style.key("theory $L_c$", "", "-"),
+        style.key("drop", "o", markersize=3.5),
+        style.key("patch unstable", "o", markersize=3.5, **style.OPEN),
+    ]
+    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
+    axes.set_ylim(bottom=axes.get_ylim()[0] / 2.0)  # for the legend
+    axes.legend(handles=handles, fontsize=style.SMALL, loc="lower right", ncols=2)

@@ -1,6 +1,7 @@
 """The linear stability of the creeping patch: growth against length, twins, and the mode."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -9,14 +10,16 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from ...figures import laws, style
+from ...figures import laws, points, style
 
 SHOWN = ("converged", "paper")  # the role whose patches are shown: the first that is there
-LENGTHS = (0.3, 0.8)  # patch lengths shown, over the theory's
-GROWTH_RANGE = (-6.0, 4.5)  # 1/s
-FREQUENCY_RANGE = (4.0, 20.0)  # 1/s
 LEGEND_HEIGHTS = 3  # heights that the legend names, out of those drawn
 DARKEST = 0.9  # part of the sequence of colours in use: its end is too light for lines
+PANELS = (
+    ("growth", (-6.0, 4.5), r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)"),
+    ("frequency", (4.0, 20.0), r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)"),
+)
+"""Property of the oscillating mode, range (1/s), name."""
 
 
 @style.styled
@@ -33,118 +36,70 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
         ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.
     twins : Dataset
         On ``twin``: ``evolution``, ``height``, ``twin_length``, ``theory_length`` (m),
-        ``twin_growth``
-        and ``twin_frequency`` (1/s); those of the usual law are drawn.
-
-    Returns
-    -------
-    Figure
-        Two columns wide.
+        ``twin_growth`` and ``twin_frequency`` (1/s); those of the usual law are drawn.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 6.6 * style.CENTIMETRE)
-    growth, frequency, shape = figure.subplots(1, 3)
-    shown = _shown(table)
-    heights = table["height"].values[shown]
-    colours = _Colours(heights)
-    for i in shown:
-        _draw_patch(growth, patches[i], "oscillation_growth", table.isel(run=i), colours)
-        _draw_patch(frequency, patches[i], "oscillation_frequency", table.isel(run=i), colours)
-        _draw_mode(shape, patches[i], table.isel(run=i), colours)
-    _draw_twins(growth, twins, "twin_growth", colours)
-    _draw_twins(frequency, twins, "twin_frequency", colours)
-    _finish_growth(growth)
-    _finish_frequency(frequency, np.unique(heights), colours, twins.sizes["twin"] > 0)
+    figure, (growth, frequency, shape) = style.panels(1, 3, 6.6)
+    shown = _shown(table.assign(patch=("run", np.arange(len(patches)))))
+    heights = np.unique(shown["height"].values)
+    norm, sequence = LogNorm(heights.min(), heights.max()), colormaps[style.SEQUENCE]
+
+    def colour(height: xr.DataArray | float) -> Any:
+        return sequence(DARKEST * float(np.clip(norm(float(height)), 0.0, 1.0)))
+
+    for row in (shown.isel(run=i) for i in range(shown.sizes["run"])):
+        _draw_patch(
+            (growth, frequency, shape), patches[int(row["patch"])], row, colour(row["height"])
+        )
+    usual = twins["evolution"].values.astype(str) == laws.usual_law(twins)
+    for axes, (name, limits, label) in zip((growth, frequency), PANELS, strict=True):
+        for i in np.flatnonzero(usual):
+            twin = twins.isel(twin=i)
+            look: Any = {"ms": 4.6, "mfc": "none", "mew": 1.0, "color": colour(twin["height"])}
+            ratio = float(twin["twin_length"] / twin["theory_length"])
+            axes.plot(ratio, float(twin[f"twin_{name}"]), "o", **look)
+        axes.set(xlim=(0.3, 0.8), ylim=limits, ylabel=label)
+        axes.set_xlabel("Patch length over theory $L/L_c$")
+    style.level(growth, 0.0)
+    growth.axvline(0.5, color=style.THEORY, linewidth=1.0, linestyle="--")
+    growth.text(0.49, 3.4, "$L_c/2$", color=style.THEORY, fontsize=style.SMALL, ha="right")
+    named = np.linspace(0, heights.size - 1, min(LEGEND_HEIGHTS, heights.size)).round().astype(int)
+    for height in heights[named]:
+        frequency.plot([], [], "-", color=colour(height), label=f"$H={height:g}$ m")
+    if twins.sizes["twin"]:
+        frequency.plot([], [], "o", color="black", markerfacecolor="none", label="twin runs")
+    frequency.legend(loc="lower left", labelspacing=0.3)
     _finish_shape(shape)
-    style.letters(growth, frequency, shape)
-    for axes in (growth, frequency, shape):
-        axes.minorticks_on()
+    style.letters(growth, frequency, shape, minor=True)
     return figure
 
 
-class _Colours:
-    """Colours by height."""
-
-    def __init__(self, heights: np.ndarray) -> None:
-        self._norm = LogNorm(heights.min(), heights.max())
-        self._shades = colormaps[style.SEQUENCE]
-
-    def __getitem__(self, height: float) -> tuple[float, ...]:
-        return self._shades(DARKEST * float(np.clip(self._norm(height), 0.0, 1.0)))
-
-
-def _shown(table: xr.Dataset) -> np.ndarray:
+def _shown(table: xr.Dataset) -> xr.Dataset:
     """The runs with the usual law and the usual initial state, of the role that is shown."""
-    usual = laws.usual(table)
-    roles = table["role"].values.astype(str)
-    chosen = (np.flatnonzero(usual & (roles == name)) for name in SHOWN)
-    return next((runs for runs in chosen if runs.size), np.flatnonzero(usual))
+    usual = points.where(table, laws.usual(table))
+    role = next((name for name in SHOWN if name in usual["role"].values), None)
+    return points.where(usual, role=role) if role else usual
 
 
-def _draw_patch(
-    axes: Axes, patch: xr.Dataset, name: str, row: xr.Dataset, colours: _Colours
-) -> None:
-    """A property of the oscillating mode of every frozen instant."""
-    axes.plot(
-        patch["patch_length"].values / float(row["theory_length"]), patch[name].values, ".",
-        markersize=1.8, color=colours[float(row["height"])], rasterized=True,
-    )  # fmt: skip
-
-
-def _draw_twins(axes: Axes, twins: xr.Dataset, name: str, colours: _Colours) -> None:
-    """What the twin runs of the usual law measure of the same property."""
-    for i in np.flatnonzero(twins["evolution"].values.astype(str) == laws.usual_law(twins)):
-        axes.plot(
-            float(twins["twin_length"][i] / twins["theory_length"][i]), float(twins[name][i]), "o",
-            markersize=4.6, markerfacecolor="none", markeredgewidth=1.0,
-            color=colours[float(twins["height"][i])],
-        )  # fmt: skip
-
-
-def _draw_mode(axes: Axes, patch: xr.Dataset, row: xr.Dataset, colours: _Colours) -> None:
-    """Modulus of the slip of the mode that begins to grow, over the patch's length then."""
+def _draw_patch(panels: Sequence[Axes], patch: xr.Dataset, row: xr.Dataset, colour: Any) -> None:
+    """Properties of the mode of every frozen instant; its modulus where it begins to grow."""
+    *properties, shape = panels
+    ratio, look = patch["patch_length"].values / float(row["theory_length"]), {"color": colour}
+    for axes, (name, *_) in zip(properties, PANELS, strict=True):
+        axes.plot(ratio, patch[f"oscillation_{name}"].values, ".", ms=1.8, rasterized=True, **look)
     length = float(row["stability_length"])
-    if not np.isfinite(length):
-        return
-    axes.plot(
-        patch["x"].values / length,
-        np.hypot(patch["mode_real"].values, patch["mode_imaginary"].values),
-        color=colours[float(row["height"])], linewidth=1.0,
-    )  # fmt: skip
-
-
-def _finish_growth(axes: Axes) -> None:
-    axes.axhline(0.0, color=style.GUIDE, linewidth=0.7)
-    axes.axvline(0.5, color=style.THEORY, linewidth=1.0, linestyle="--")
-    axes.text(0.49, 3.4, "$L_c/2$", color=style.THEORY, fontsize=style.SMALL, ha="right")
-    axes.set_xlim(*LENGTHS)
-    axes.set_ylim(*GROWTH_RANGE)
-    axes.set_xlabel("Patch length over theory $L/L_c$")
-    axes.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)")
-
-
-def _finish_frequency(axes: Axes, heights: np.ndarray, colours: _Colours, twins: bool) -> None:
-    axes.set_xlim(*LENGTHS)
-    axes.set_ylim(*FREQUENCY_RANGE)
-    axes.set_xlabel("Patch length over theory $L/L_c$")
-    axes.set_ylabel(r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
-    named = np.linspace(0, heights.size - 1, min(LEGEND_HEIGHTS, heights.size)).round().astype(int)
-    for height in heights[named]:
-        axes.plot([], [], "-", color=colours[height], label=f"$H={height:g}$ m")
-    if twins:
-        axes.plot([], [], "o", color="black", markerfacecolor="none", label="twin runs")
-    axes.legend(loc="lower left", labelspacing=0.3)
+    if np.isfinite(length):
+        modulus = np.hypot(patch["mode_real"].values, patch["mode_imaginary"].values)
+        shape.plot(patch["x"].values / length, modulus, linewidth=1.0, **look)
 
 
 def _finish_shape(axes: Axes) -> None:
     """The homogeneous mode of the theory: a wave of constant modulus, whole in the patch."""
     x = np.linspace(0.0, 1.0, 201)
     axes.plot(x, np.sin(2.0 * np.pi * x), "--", color=style.THEORY, linewidth=1.1)
-    axes.axhline(0.0, color=style.GUIDE, linewidth=0.7)
-    axes.text(0.05, -0.15, "patch, $L=L_s$:\nhalf a wavelength\n(modulus)", fontsize=style.SMALL,
-              va="top")  # fmt: skip
-    axes.text(0.95, -1.08, "theory, $L=L_c$: one wavelength", color=style.THEORY,
-              fontsize=style.SMALL, ha="right", va="top")  # fmt: skip
-    axes.set_xlim(0.0, 1.0)
-    axes.set_ylim(-1.35, 1.15)
-    axes.set_xlabel("Position over patch length $x/L$")
-    axes.set_ylabel("Slip in the mode")
+    style.level(axes, 0.0)
+    look: Any = {"fontsize": style.SMALL, "va": "top"}
+    axes.text(0.05, -0.15, "patch, $L=L_s$:\nhalf a wavelength\n(modulus)", **look)
+    theory = "theory, $L=L_c$: one wavelength"
+    axes.text(0.95, -1.08, theory, color=style.THEORY, ha="right", **look)
+    axes.set(xlim=(0.0, 1.0), ylim=(-1.35, 1.15))
+    axes.set(xlabel="Position over patch length $x/L$", ylabel="Slip in the mode")

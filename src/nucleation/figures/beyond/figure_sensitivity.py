@@ -7,49 +7,38 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...figures import style
+from ...figures import points, style
 
 PERCENT = 1e2
-BASE = "base"
 SPREAD = 0.5  # of the markers of one row, over the distance of rows
-ROW = 0.47 * style.CENTIMETRE
 
-SYMBOLS = {
-    "rho": r"\rho", "sigma0": r"\sigma_0", "tau0": r"\tau_0", "mu": r"\mu", "nu": r"\nu",
-    "phi0": r"\phi_0",
-}  # fmt: skip
+LETTERS = {"rho": r"\rho", "mu": r"\mu", "nu": r"\nu"}
+SYMBOLS = LETTERS | {"sigma0": r"\sigma_0", "tau0": r"\tau_0", "phi0": r"\phi_0"}
 """How the symbols of declarations are typeset, where they are not single letters."""
+
+PANELS = (
+    ("length_change", "(a) critical length $L_c$"),
+    ("ratio_change", "(b) $L_c$ over the theory's"),
+)
 
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
     """Draw relative changes of L_c, and of L_c over the theory's, one row for each variation.
 
-    Parameters
-    ----------
-    table : Dataset
-        From :func:`nucleation.analysis.sensitivity.sensitivity_table`.
-
-    Returns
-    -------
-    Figure
-        Two columns wide, two panels.
+    `table` is that of :func:`nucleation.analysis.sensitivity.sensitivity_table`.
     """
-    shown = table.isel(run=np.flatnonzero(table["variation"].values != BASE))
+    shown = points.where(table, table["variation"].values != "base")
     rows = list(dict.fromkeys(shown["variation"].values.tolist()))
-    figure = style.new_figure(style.DOUBLE_COLUMN, (len(rows) + 4) * ROW)
-    left, right = figure.subplots(1, 2, sharey=True)
-    for axes, name, title in (
-        (left, "length_change", "(a) critical length $L_c$"),
-        (right, "ratio_change", "(b) $L_c$ over the theory's"),
-    ):
+    figure, panels = style.panels(1, 2, 0.47 * (len(rows) + 4), sharey=True)
+    for axes, (name, title) in zip(panels, PANELS, strict=True):
         _draw_changes(axes, shown, rows, name)
         axes.set_title(title, loc="left")
         axes.set_xlabel("Change against the base (%)")
-    left.set_yticks(range(len(rows)), [label(row) for row in rows])
-    left.set_ylim(len(rows) - 0.5, -0.5)
-    handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles))
+    panels[0].set_yticks(range(len(rows)), [label(row) for row in rows])
+    panels[0].set_ylim(len(rows) - 0.5, -0.5)
+    handles = panels[0].get_legend_handles_labels()[0]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 
@@ -67,18 +56,14 @@ def label(variation: str) -> str:
 
 
 def _draw_changes(axes: Axes, shown: xr.Dataset, rows: list[str], name: str) -> None:
-    heights = np.unique(shown["height"].values).tolist()
-    shifts = SPREAD * (np.arange(len(heights)) - 0.5 * (len(heights) - 1)) / max(len(heights), 2)
-    place = {row: i for i, row in enumerate(rows)}
     for i in range(0, len(rows), 2):
         axes.axhspan(i - 0.5, i + 0.5, color="0.95", zorder=0)
-    for i, (height, shift) in enumerate(zip(heights, shifts, strict=True)):
+    heights = list(points.groups(shown.sortby("height"), "height"))
+    for i, own in enumerate(heights):
         marker, colour = style.look(i)
-        of_height = shown.isel(run=np.flatnonzero(shown["height"].values == height))
-        at = np.array([place[row] for row in of_height["variation"].values.tolist()])
-        axes.plot(
-            PERCENT * of_height[name].values, at + shift, marker, color=colour, markersize=3.8,
-            label=f"$H={height:g}$ m",
-        )  # fmt: skip
+        shift = SPREAD * (i - 0.5 * (len(heights) - 1)) / max(len(heights), 2)
+        at = np.array([rows.index(row) for row in own["variation"].values.tolist()]) + shift
+        label = f"$H={float(own['height'][0]):g}$ m"
+        axes.plot(PERCENT * own[name].values, at, marker, color=colour, ms=3.8, label=label)
     axes.axvline(0.0, color=style.GUIDE, linewidth=0.7)
     axes.tick_params(axis="y", length=0)

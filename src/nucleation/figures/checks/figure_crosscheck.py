@@ -1,6 +1,7 @@
 """The crosscheck: the same runs by the project's solver and by FreeFem++, side by side."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,12 +14,16 @@ from ...figures import style
 from ...model.parameters import Parameters
 from ...verification.crosscheck import plan
 
-OWN, FREEFEM = style.BLACK, style.VERMILLION
 KILO = 1e3
 PERCENT = 1e2
-DASHES = (0, (3.0, 2.0))  # of FreeFem++, over the other solver's line
 FIRST = 0.5  # s; before, the patch has few elements
 LARGEST_DIFFERENCE = 8.0  # per cent, shown
+OWN: Any = {"color": style.BLACK, "lw": 1.5, "label": "this project"}
+FREEFEM: Any = {"color": style.VERMILLION, "ls": (0, (3, 2)), "lw": 1.1, "label": "FreeFem++"}
+SOLVERS = (("", OWN, "o"), ("_freefem", FREEFEM, "s"))
+"""End of a column's name, line, and mark of the onset."""
+
+Curves = list[tuple[np.ndarray, np.ndarray]]
 
 
 @style.styled
@@ -41,32 +46,34 @@ def draw(
         and ``length_freefem`` (m).
     settings : ExtractionSettings
         The slip rate at the edge of the patch.
-
-    Returns
-    -------
-    Figure
-        Two columns wide.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 13.2 * style.CENTIMETRE)
-    panels = figure.subplots(
-        3, len(pairs), sharex="col", squeeze=False, height_ratios=(1.35, 1.35, 1.0)
-    )
-    for i, (column, (own, freefem)) in enumerate(zip(panels.T, pairs, strict=True)):
-        records, row = (Record(own, settings), Record(freefem, settings)), table.isel(run=i)
-        lengths = [(run.time, run.lengths) for run in records]
-        forces = [
-            (run["step_time"].values, -run["driving_force"].values / KILO) for run in (own, freefem)
-        ]
-        _draw_both(column[0], lengths, row, "length")
-        _draw_both(column[1], forces, row)
-        _draw_differences(column[2], lengths, forces, row)
+    layout: Any = {"sharex": "col", "squeeze": False, "height_ratios": (1.35, 1.35, 1.0)}
+    figure, panels = style.panels(3, len(pairs), 13.2, **layout)
+    for i, ((length, force, difference), runs) in enumerate(zip(panels.T, pairs, strict=True)):
+        records, row = [Record(run, settings) for run in runs], table.isel(run=i)
+        lengths = [(record.time, record.lengths) for record in records]
+        forces = [(run["step_time"].values, -run["driving_force"].values / KILO) for run in runs]
+        for axes, curves in ((length, lengths), (force, forces)):
+            for (time, values), (_, line, _) in zip(curves, SOLVERS, strict=True):
+                axes.plot(time, values, **line)
+            axes.set_xlim(0.0, 1.02 * max(time[-1] for time, _ in curves))
+            axes.set_ylim(0.0, None)
+        for end, line, marker in SOLVERS:
+            onset = row[f"onset_time{end}"], row[f"length{end}"]
+            length.plot(*onset, marker, color=line["color"], ms=4.5, **style.OPEN)
+        _draw_differences(difference, lengths, forces, row)
         title, below = described(records[0].parameters)
-        column[0].set_title(title, pad=3.0)
+        length.set_title(title, pad=3.0)
         if below:
             place = "center" if "top" in below else "lower right"
-            column[0].legend([], [], title=below, title_fontsize=style.SMALL, loc=place)
-        column[2].set_xlabel("Time $t$ (s)")
-    _label(panels)
+            length.legend([], [], title=below, title_fontsize=style.SMALL, loc=place)
+    names = ("Patch length $L$ (m)", "Applied force $-f_d$ (kN/m)", "Difference (%)")
+    for axes, name in zip(panels[:, 0], names, strict=True):
+        axes.set_ylabel(name)
+    panels[0, 0].legend(loc="lower right")
+    panels[2, 0].legend(loc="lower left", ncols=2, columnspacing=1.0, handlelength=1.0)
+    style.letters(*panels.flat, minor=True, pad=3.0)
+    figure.align_ylabels(panels[:, 0])
     return figure
 
 
@@ -83,69 +90,26 @@ def described(parameters: Parameters) -> tuple[str, str]:
     return f"$H={heights}", f"two blocks,\nlower {below.bottom},\n$\\mu_2={ratio:.3g}\\,\\mu$"
 
 
-def _draw_both(
-    axes: Axes,
-    curves: Sequence[tuple[np.ndarray, np.ndarray]],
-    row: xr.Dataset,
-    marked: str | None = None,
-) -> None:
-    """Both solvers' curves; open marks at the onsets if the table has the value there."""
-    kinds = (
-        ("", OWN, "-", 1.5, "this project", "o"),
-        ("_freefem", FREEFEM, DASHES, 1.1, "FreeFem++", "s"),
-    )
-    for (time, values), (end, colour, dashes, width, name, marker) in zip(
-        curves, kinds, strict=True
-    ):
-        axes.plot(time, values, color=colour, linestyle=dashes, linewidth=width, label=name)
-        if marked:
-            axes.plot(
-                row[f"onset_time{end}"], row[f"{marked}{end}"], marker, color=colour,
-                markerfacecolor="white", markersize=4.5,
-            )  # fmt: skip
-    axes.set_xlim(0.0, 1.02 * max(time[-1] for time, _ in curves))
-    axes.set_ylim(0.0, None)
-    axes.minorticks_on()
-
-
-def _draw_differences(
-    axes: Axes,
-    lengths: Sequence[tuple[np.ndarray, np.ndarray]],
-    forces: Sequence[tuple[np.ndarray, np.ndarray]],
-    row: xr.Dataset,
-) -> None:
+def _draw_differences(axes: Axes, lengths: Curves, forces: Curves, row: xr.Dataset) -> None:
     """FreeFem++ over this project, minus one, up to the earlier onset."""
     end = min(float(row["onset_time"]), float(row["onset_time_freefem"]))
     time = np.linspace(FIRST, end, 1500)
-    for curves, colour, name in (
-        (lengths, style.GREEN, "$L(t)$"),
-        (forces, style.BLUE, "$f_d(t)$"),
-    ):
+    kinds = ((lengths, style.GREEN, "$L(t)$"), (forces, style.BLUE, "$f_d(t)$"))
+    for curves, colour, name in kinds:
         own, freefem = (np.interp(time, *curve) for curve in curves)
         own[own == 0.0] = np.nan  # no patch yet
         axes.plot(time, PERCENT * (freefem / own - 1.0), color=colour, linewidth=0.9, label=name)
-    axes.axhline(0.0, color=style.GUIDE, linewidth=0.6, zorder=0)
-    axes.set_ylim(-LARGEST_DIFFERENCE, LARGEST_DIFFERENCE)
-    axes.minorticks_on()
-
-
-def _label(panels: np.ndarray) -> None:
-    """Names of the axes in the first column, legends in it, panel letters."""
-    names = ("Patch length $L$ (m)", "Applied force $-f_d$ (kN/m)", "Difference (%)")
-    for axes, name in zip(panels[:, 0], names, strict=True):
-        axes.set_ylabel(name)
-    panels[0, 0].legend(loc="lower right")
-    panels[2, 0].legend(loc="lower left", ncols=2, columnspacing=1.0, handlelength=1.0)
-    for axes, letter in zip(panels.flat, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        axes.set_title(f"({letter})", loc="left", pad=3.0)
-    figure = panels[0, 0].figure
-    figure.align_ylabels(panels[:, 0])
+    style.level(axes, 0.0, width=0.6, zorder=0)
+    axes.set(ylim=(-LARGEST_DIFFERENCE, LARGEST_DIFFERENCE), xlabel="Time $t$ (s)")
 
 
 def draw_runs(
-    ids: Sequence[str], own: Sequence[xr.Dataset], freefem: Sequence[xr.Dataset],
-    table: xr.Dataset, settings: ExtractionSettings,
-) -> Figure:  # fmt: skip
+    ids: Sequence[str],
+    own: Sequence[xr.Dataset],
+    freefem: Sequence[xr.Dataset],
+    table: xr.Dataset,
+    settings: ExtractionSettings,
+) -> Figure:
     """The step ``draw_figure_crosscheck``: all runs but the one that times steps."""
     shown = [i for i, name in enumerate(ids) if name != plan.TIMING]
     records = [(own[i], freefem[i]) for i in shown]

@@ -22,11 +22,6 @@ def draw(dispersion: xr.Dataset) -> Figure:
     dispersion : Dataset
         From :func:`nucleation.verification.dispersion.dispersion_dataset`: rates (1/s) on (height,
         mode, branch) and (height, curve, branch), wavenumbers (1/m), ``memory_time`` (s).
-
-    Returns
-    -------
-    Figure
-        Two columns wide: growth rates on the left, frequencies on the right.
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 9.6 * style.CENTIMETRE)
     layout: Any = figure.get_layout_engine()

@@ -25,11 +25,6 @@ def draw(hops: Sequence[xr.Dataset], patch: xr.Dataset) -> Figure:
     patch : Dataset
         The stability of that height's patch: ``patch_length`` (m), ``oscillation_frequency``
         (1/s) on ``instant``, and ``stability_length`` (m).
-
-    Returns
-    -------
-    Figure
-        Two columns wide, three panels.
     """
     figure = style.new_figure(style.DOUBLE_COLUMN, 10.0 * style.CENTIMETRE)
     panels = figure.subplot_mosaic("aa;bc", height_ratios=(1.1, 1.0))

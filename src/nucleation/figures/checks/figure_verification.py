@@ -35,14 +35,8 @@ def draw(convergence: xr.Dataset) -> Figure:
         From :func:`nucleation.verification.orders.convergence_dataset`: dimensionless errors on
         (problem, refinement, level); ``element_size`` (m), ``step_size`` and
         ``quasi_static_step_size`` (s) on level.
-
-    Returns
-    -------
-    Figure
-        Two columns wide: refined mesh, refined step, and the latter for quasi-static fields.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 8.2 * style.CENTIMETRE)
-    panels = figure.subplots(1, len(PANELS), sharey=True)
+    figure, panels = style.panels(1, len(PANELS), 8.2, sharey=True)
     for axes, (refinement, name, unit, label, title, order) in zip(panels, PANELS, strict=True):
         spacing = convergence[name].values / unit
         axes.set_title(title, loc="left")

@@ -17,15 +17,8 @@ Pair = tuple[float, float]
 
 @style.styled
 def draw() -> Figure:
-    """Draw the sketch of both systems; it depends on no data.
-
-    Returns
-    -------
-    Figure
-        Two columns wide: long bodies on the left, the finite block on a rigid base on the right.
-    """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 5.9 * style.CENTIMETRE)
-    left, right = figure.subplots(1, 2)
+    """Draw the sketch of both systems; it depends on no data."""
+    figure, (left, right) = style.panels(1, 2, 5.9)
     for axes in (left, right):
         axes.set_axis_off()
     _long_bodies(left)

@@ -18,14 +18,8 @@ def draw(theory: xr.Dataset) -> Figure:
     ----------
     theory : Dataset
         With ``bimaterial_length_ratio(zeta_over_a, f_beta)``, dimensionless.
-
-    Returns
-    -------
-    Figure
-        One column wide.
     """
-    figure = style.new_figure(style.SINGLE_COLUMN, 6.6 * style.CENTIMETRE)
-    axes = figure.add_subplot()
+    figure, axes = style.column(6.6)
     ratio = theory["bimaterial_length_ratio"].sortby("zeta_over_a", ascending=False)
     values = ratio["zeta_over_a"].values
     for shade, dashes, value in zip(

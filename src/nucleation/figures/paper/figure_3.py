@@ -1,7 +1,7 @@
 """Figure 3: the critical length against the block's height, theory and simulations."""
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...analysis.lengths import over_realisations, row
-from ...figures import slip_rate_snapshots, style
-from ...figures.laws import Look, aged, looks
+from ...figures import laws, points, slip_rate_snapshots, style
+from ...figures.laws import Look
 
 
 class Study(NamedTuple):
@@ -60,14 +60,8 @@ def draw(
         Its entry of `lengths`, of which ``onset_time`` (s) and ``length`` (m) are marked.
     studies : mapping
         The studies to draw, by role.
-
-    Returns
-    -------
-    Figure
-        Two columns wide.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 12.4 * style.CENTIMETRE)
-    axes = figure.add_subplot()
+    figure, axes = style.panels(1, 1, 12.4)
     draw_theory(axes, theory)
     drawn = list(_series(over_realisations(lengths), studies))
     for series in drawn:
@@ -111,38 +105,23 @@ def _inset_height(axes: Axes, drawn: list[Series]) -> float:
 
 def _series(lengths: xr.Dataset, studies: Mapping[str, Study]) -> Iterator[Series]:
     """The sets of points that share role, law and initial state: style, label and entries."""
-    law, phi0 = lengths["evolution"].values.astype(str), lengths["phi0"].values
-    roles, old = lengths["role"].values.astype(str), aged(lengths)
-    usable = np.isfinite(lengths["length"].values)
+    usable = points.where(lengths, np.isfinite(lengths["length"].values))
     for role, study in studies.items():
-        for (evolution, is_old), kind in looks(law).items():
-            own = usable & (roles == role) & (law == evolution) & (old == is_old)
-            for age in np.unique(phi0[own]):
-                chosen = own & (phi0 == age)
-                state = f", $\\phi(t\\!=\\!0)={_number(age)}$ s" if is_old else ""
-                label = f"FEM, {kind.label}{state}{study.suffix}"
-                yield study, label, kind, lengths.isel(run=np.flatnonzero(chosen))
+        for (_, old), kind, runs in laws.kinds(usable):
+            own = points.where(runs, role=role).sortby("phi0")
+            for same in points.groups(own, "phi0"):
+                age = _number(float(same["phi0"][0]))
+                state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
+                yield study, f"FEM, {kind.label}{state}{study.suffix}", kind, same
 
 
 def _draw_points(axes: Axes, study: Study, label: str, kind: Look, runs: xr.Dataset) -> None:
     """One set of points with error bars from the lowest to the highest length."""
-    length = runs["length"].values
-    below = np.nan_to_num(length - runs["length_low"].values)
-    above = np.nan_to_num(runs["length_high"].values - length)
-    axes.errorbar(
-        runs["height"].values,
-        length,
-        yerr=np.clip([below, above], 0.0, None),
-        linestyle="none",
-        marker=kind.marker,
-        markersize=kind.size,
-        color=kind.colour,
-        markerfacecolor=kind.colour if study.filled else "white",
-        elinewidth=0.9,
-        label=label,
-        zorder=4.0 - 0.1 * kind.size,
-        transform=style.aside(axes, -BESIDE if study.filled else BESIDE),
-    )
+    look: Any = {"marker": kind.marker, "markersize": kind.size, "color": kind.colour}
+    look["markerfacecolor"] = kind.colour if study.filled else "white"
+    look["transform"] = style.aside(axes, -BESIDE if study.filled else BESIDE)
+    order = 4.0 - 0.1 * kind.size
+    points.draw(axes, runs["height"].values, runs, "length", label=label, zorder=order, **look)
 
 
 def _number(value: float) -> str:

@@ -15,14 +15,8 @@ def draw(theory: xr.Dataset) -> Figure:
     theory : Dataset
         With ``steady_friction(slip_rate)`` and ``steady_friction_logarithmic(slip_rate)``,
         dimensionless, the slip rate in m/s, and ``velocity`` (m/s) as variable or attribute.
-
-    Returns
-    -------
-    Figure
-        One column wide.
     """
-    figure = style.new_figure(style.SINGLE_COLUMN, 6.4 * style.CENTIMETRE)
-    axes = figure.add_subplot()
+    figure, axes = style.column(6.4)
     rate = theory["slip_rate"].values
     full = theory["steady_friction"].values
     velocity = float(theory["velocity"] if "velocity" in theory else theory.attrs["velocity"])

@@ -31,15 +31,8 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     row : Dataset
         The simulation's entry of the lengths: ``onset_time`` (s), and ``length``,
         ``length_low`` and ``length_high`` (m).
-
-    Returns
-    -------
-    Figure
-        Two columns wide: on the left all of the record, on the right the event in milliseconds.
-        Only x that the slip reached, and some beyond, is shown.
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 10.2 * style.CENTIMETRE)
-    panels = figure.subplots(2, 2, sharex="col", width_ratios=(2.1, 1.0))
+    figure, panels = style.panels(2, 2, 10.2, sharex="col", width_ratios=(2.1, 1.0))
     panels[0, 1].sharey(panels[0, 0])
     ratio = simulation["shear_stress"] / _normal_stress(simulation)
     ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
