@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from theory.test_literature import crack_coefficients
 
 from nucleation.analysis import literature
 from nucleation.figures.beyond import figure_literature
@@ -23,6 +24,15 @@ def test_a_zone_of_known_width_is_read_at_the_slip_rate_asked_for(name, factor):
     found = literature.zone_length(simulation, 1e-4, literature.DEFINITIONS[name])
     assert found == pytest.approx(factor * 0.15, rel=1e-3)
     assert np.isnan(literature.zone_length(simulation, 1e-2, literature.DEFINITIONS[name]))
+
+
+def test_the_fixed_length_is_read_from_the_part_of_it_that_its_solution_has_at_half_the_maximum():
+    """The edges of ``|x| < 1.3774 L_b`` are beyond what a slip rate shows."""
+    n, c = crack_coefficients(1.3774)
+    x = np.linspace(0.0, 0.999, 2000)
+    v = np.sin(np.outer(np.arccos(x), n)) @ c
+    part = literature.DEFINITIONS["rubin_ampuero_localised"].part
+    assert part == pytest.approx(np.interp(-0.5, -v / v[0], x), rel=1e-3)
 
 
 def test_every_length_in_use_has_a_row_and_those_without_a_run_a_reason():

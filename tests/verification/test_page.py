@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from verification.verification_page import rows
 
-from nucleation.model.parameters import Parameters
-from nucleation.verification import dispersion, orders
+from nucleation.verification import orders
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 
@@ -88,7 +87,7 @@ def test_bridge_of_two_layers_is_that_of_the_reference():
         for branch, said in zip("01", worst, strict=True):
             errors = [float(row["disagreement"]) for row in found if row["branch"] == branch]
             assert said == f"{100 * max(errors):.2f} %"
-            assert max(errors) < 0.01
+            assert max(errors) < 5e-3  # 1 % is asked for
 
 
 def vanishing(modes):
@@ -100,17 +99,3 @@ def vanishing(modes):
     fastest = np.array([max(growth[r]) for r in ratio])
     i = np.flatnonzero(np.diff(np.sign(fastest)))[0]
     return ratio[i] + (ratio[i + 1] - ratio[i]) * fastest[i] / (fastest[i] - fastest[i + 1])
-
-
-@pytest.mark.slow
-def test_reference_bridge_is_measured_today():
-    rows_now = dispersion.to_csv(dispersion.dispersion_dataset(Parameters(), [0.1], [1.25]))
-    for now in csv.DictReader(io.StringIO(rows_now)):
-        (stored,) = (
-            row
-            for row in DISPERSION
-            if (row["height"], row["wavenumber_over_critical"], row["branch"])
-            == ("0.1", "1.25", now["branch"])
-        )
-        for name in ("measured_growth", "measured_frequency", "theory_growth", "theory_frequency"):
-            assert float(now[name]) == pytest.approx(float(stored[name]), rel=1e-4)
