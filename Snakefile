@@ -55,7 +55,7 @@ from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.elsewhere import others
-from nucleation.pipeline.steps import LINKS, Steps, configfiles
+from nucleation.pipeline.steps import Steps, configfiles
 from nucleation.pipeline.store import StoreError
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
@@ -198,7 +198,7 @@ for _target in TARGETS:
             _target
         default_target: _target == DEFAULT
         input:
-            lambda wildcards, target=_target: asked(target),
+            lambda wildcards, target=_target: [*wanted(target)],
         localrule: True
         params:
             shown=lambda wildcards, target=_target: shown(target),
@@ -210,8 +210,3 @@ for _target in TARGETS:
             TARGETS[_target][0]
         script:
             "workflow/scripts/show.py"
-
-
-# What the logger plug-in counts (src/snakemake_logger_plugin_nucleation); else it is not shown.
-onstart:
-    logger.info("", extra={"simulations": {"results": RESULTS, "jobs": to_simulate(ASKED)}})

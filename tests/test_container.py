@@ -1,20 +1,14 @@
 """The recipe of the container agrees with the project: what it copies, installs and starts."""
 
-import importlib.metadata
 import json
 import re
-import runpy
 import shlex
-import tomllib
 from pathlib import Path
 
 import pytest
-from packaging.requirements import Requirement
-from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "workflow" / "container"
-REQUIREMENTS = runpy.run_path(str(FOLDER / "requirements.py"))
 
 
 def instructions():
@@ -62,29 +56,3 @@ def test_it_runs_as_nobody_of_the_host_and_starts_the_workflow():
     assert start[:3] == ["python", "-m", "nucleation.pipeline.launch"]
     for path in (word for word in start if word.startswith("/opt/nucleation/")):
         assert (ROOT / path.removeprefix("/opt/nucleation/")).exists(), path
-
-
-def needed():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())
-    return REQUIREMENTS["needed"](project, (ROOT / "environment.txt").read_text())
-
-
-def test_what_is_installed_is_pinned_hashed_and_without_tests_and_pages():
-    blocks = re.split(r"^(?=\w)", needed(), flags=re.M)[1:]
-    names = {REQUIREMENTS["name_of"](block) for block in blocks}
-    assert all(re.match(r"\S+==\S+", block) and "--hash=sha256:" in block for block in blocks)
-    assert {"numpy", "numba", "xarray", "snakemake", "plotly", "docutils"} <= names
-    assert names.isdisjoint({"pytest", "sphinx", "playwright", "mypy", "hypothesis", "ruff"})
-    assert all(block in (ROOT / "environment.txt").read_text() for block in blocks)
-
-
-def test_what_is_installed_has_all_that_it_asks_for():
-    names = {REQUIREMENTS["name_of"](b) for b in re.split(r"^(?=\w)", needed(), flags=re.M)[1:]}
-    for name in names:
-        try:
-            asked = importlib.metadata.requires(name) or []
-        except importlib.metadata.PackageNotFoundError:
-            continue  # of another system
-        for requirement in map(Requirement, asked):
-            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
-                assert canonicalize_name(requirement.name) in names, (name, str(requirement))

@@ -87,9 +87,7 @@ def test_what_is_asked_for_is_what_the_extra_brings(extra):
 def test_everything_declared_is_pinned():
     pinned = re.findall(r"^([\w.-]+)==", (ROOT / "environment.txt").read_text(), re.M)
     assert named(PROJECT["dependencies"]) | named(EXTRAS["test"]) <= set(map(normal, pinned))
-    assert {"solver", "figures", "report", "workflow", "article", "remote", "docs", "test"} == set(
-        EXTRAS
-    )
+    assert {"solver", "figures", "report", "workflow", "article", "docs", "test"} == set(EXTRAS)
 
 
 def run(*command, code=0, **options):

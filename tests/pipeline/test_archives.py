@@ -5,12 +5,11 @@ import hashlib
 import io
 import json
 import stat
-import subprocess
 import tarfile
 
 import pytest
 
-from nucleation.pipeline import bundle, crate, view
+from nucleation.pipeline import bundle, view
 from nucleation.pipeline.bundle import CHECKSUMS, BundleError
 from nucleation.pipeline.store import Store, StoreError
 
@@ -58,7 +57,7 @@ def test_archive_holds_what_is_shown(archive):
         assert all(member.isreg() and member.mode == 0o644 for member in tar)
         names = tar.getnames()
     entries = {f"store/{k}/{n}" for k in (KEY, OTHER) for n in ("entry.json", *FILES[k])}
-    described = {CHECKSUMS, "config.yaml", "ro-crate-metadata.json"}
+    described = {CHECKSUMS, "config.yaml"}
     assert {*names} == {*entries, *described, "lengths.columns.csv"}, (
         "simulations only in the store"
     )
@@ -66,67 +65,6 @@ def test_archive_holds_what_is_shown(archive):
     assert {line[66:]: line[:64] for line in checksums} == {
         name: hashlib.sha256(read(archive, name)).hexdigest() for name in {*names} - {CHECKSUMS}
     }
-
-
-def test_description_names_the_same_files(archive):
-    graph = json.loads(read(archive, "ro-crate-metadata.json"))["@graph"]
-    entities = {entity["@id"]: entity for entity in graph}
-    assert len(entities) == len(graph), "a name stands for one entity"
-    files = {name for name, entity in entities.items() if entity["@type"] == "File"}
-    with tarfile.open(archive) as tar:
-        sizes = {member.name: member.size for member in tar}
-    assert files == sizes.keys() - {CHECKSUMS, "ro-crate-metadata.json"}
-    assert {part["@id"] for part in entities["./"]["hasPart"]} == files
-    for name in files:
-        assert int(entities[name]["contentSize"]) == sizes[name]
-        assert entities[name]["sha256"] == hashlib.sha256(read(archive, name)).hexdigest()
-    assert entities[f"store/{KEY}/result.nc"]["encodingFormat"] == "application/x-netcdf"
-
-
-def references(value):
-    """All references in an entity, wherever they stand."""
-    if isinstance(value, dict):
-        return [value["@id"]] if value.keys() == {"@id"} else references(list(value.values()))
-    return [name for part in value for name in references(part)] if isinstance(value, list) else []
-
-
-def test_research_object_meets_the_specification(archive):
-    """What RO-Crate 1.1 says that must be: its sections on the root, on files, and on contexts."""
-    described = json.loads(read(archive, "ro-crate-metadata.json"))
-    assert described["@context"][0] == "https://w3id.org/ro/crate/1.1/context"
-    entities = {entity["@id"]: entity for entity in described["@graph"]}
-    descriptor, root = entities["ro-crate-metadata.json"], entities["./"]
-    assert descriptor["@type"] == "CreativeWork" and descriptor["about"] == {"@id": "./"}
-    assert descriptor["conformsTo"] == {"@id": "https://w3id.org/ro/crate/1.1"}
-    assert root["@type"] == "Dataset"
-    assert all(root[key] for key in ("name", "description", "datePublished", "license", "hasPart"))
-    named = {name for entity in entities.values() for name in references(entity)}
-    assert named - {"https://w3id.org/ro/crate/1.1"} <= entities.keys(), (
-        "all that is named is there"
-    )
-    assert entities.keys() - named == {"ro-crate-metadata.json"}, "all that is there is named"
-    assert (
-        entities[entities[root["citation"]["@id"]]["author"][0]["@id"]]["name"] == "Michael Aldam"
-    )
-
-
-def test_commit_is_that_of_the_checkout_itself(tmp_path):
-    def git(*arguments):
-        names = ["-c", "user.name=a", "-c", "user.email=a@b.example"]
-        subprocess.run(["git", "-C", tmp_path, *names, *arguments], check=True, capture_output=True)
-
-    assert crate.commit(tmp_path) == ""
-    git("init")
-    assert crate.commit(tmp_path) == "", "there is none yet"
-    (tmp_path / "a").write_text("1")
-    git("add", "a")
-    git("commit", "-m", "a")
-    git("tag", "v1")
-    assert len(crate.commit(tmp_path)) == 40
-    (tmp_path / "a").write_text("2")
-    assert crate.commit(tmp_path).endswith("-dirty")
-    (tmp_path / "below").mkdir()
-    assert crate.commit(tmp_path / "below") == "", "a release unpacked within another project"
 
 
 def test_restored_entries_are_those_that_were_packed(archive, tmp_path):

@@ -1,4 +1,4 @@
-"""The workflow runs with the oldest Snakemake that pyproject.toml allows, plug-in and all."""
+"""The workflow runs with the oldest Snakemake that pyproject.toml allows."""
 
 import os
 import re
@@ -61,7 +61,6 @@ def test_small_study(oldest, tmp_path):
     assert re.search(r"^simulate +3$", planned.stdout, re.M), planned.stdout
     done = run(*command, **given)
     assert done.returncode == 0, done.stdout
-    assert "5 of 5 simulations done (100 %)" in done.stdout
     assert len((tmp_path / "results/lengths.csv").read_text().splitlines()) == 6
     again = run(*command, "--dry-run", **given)
     assert not re.search(r"^(simulate|batch|extract) ", again.stdout, re.M), again.stdout

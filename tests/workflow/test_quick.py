@@ -40,16 +40,6 @@ def test_every_file_is_there(results):
     assert {path.name for path in results.rglob(".*")} <= {".links"}
 
 
-def test_one_line_tells_of_all_simulations(quick, results):
-    output = (quick.directory / "output.txt").read_text()
-    lines = re.findall(r"^(\d+) of (\d+) simulations done \((\d+) %\)", output, re.M)
-    made = len(list((results / "simulations").glob("*.nc")))
-    done = [int(count) for count, _, _ in lines]
-    assert {int(total) for _, total, _ in lines} == {made} and done[-1] == made
-    assert done == sorted(done) and len(lines) <= 12
-    assert "Simulations that failed" not in output
-
-
 def test_simulations_carry_their_origin_and_units(quick, results):
     for run in shared_runs(load(quick.config)):
         path = quick.dataset("simulations", run.id)

@@ -100,31 +100,6 @@ def wanted(target):
     return steps.behind(TARGETS[target][1]())
 
 
-ASKED = set()
-
-
-def asked(target):
-    """What the job of a target needs; it is noted that it was asked for."""
-    ASKED.add(target)
-    return [*wanted(target)]
-
-
-def to_simulate(targets):
-    """Simulations that targets still need: names by keys, by the logs of the jobs that make them."""
-    jobs = {}
-    for path, made in {path: made for t in targets for path, made in wanted(t).items()}.items():
-        kind, _, name = made.shown.rpartition("/")
-        if f"/{LINKS}/" in path and kind in ("simulations", "batches"):
-            log = path.replace(f"/{LINKS}/", "/logs/").removesuffix(".nc")
-            log = log if kind == "batches" or "/batches/" not in log else log.rpartition("/")[0]
-            runs = [(made.key, name)]
-            if kind == "batches":
-                runs = [(key, Path(of).name) for of, key in batched_simulations({path: made})]
-            missing = {key: of for key, of in runs if steps.store.note(key) is None}
-            jobs.setdefault(f"{log}.log", {}).update(missing)
-    return jobs
-
-
 def shown(target):
     """Names and keys of what a target shows, the results it is for first."""
     named = {made.shown: made.key for made in wanted(target).values()}

@@ -1,8 +1,8 @@
 """Results in one archive: entries of a store, and a checkout that starts from them.
 
 A plain tar file: ``store/KEY/...`` for all that the results show, copies of the tables, figures and
-texts under their plain names, the configuration, descriptions (:mod:`.crate`), and a checksum of
-each file. An archive comes from others, and a checkout runs what lies in it. So names, kinds, sizes
+texts under their plain names, the configuration, and a checksum of each file.
+An archive comes from others, and a checkout runs what lies in it. So names, kinds, sizes
 and checksums of all members are looked at before anything is written, and :func:`restore` writes
 entries of the store alone. Nothing in them is followed or executed.
 """
@@ -21,12 +21,11 @@ import tarfile
 from collections import Counter, defaultdict
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..configuration.load import load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .crate import CRATE, Packed, crate
 from .keys import PATTERN
 from .store import BAD, NOTE, STEM, Store, StoreError, read_note
 from .view import records
@@ -34,11 +33,20 @@ from .view import records
 CHECKSUMS, CONFIGURATION = "manifest-sha256.txt", "config.yaml"
 KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
 """Endings of results; none that Python, a shell or git would run."""
-DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION, CRATE)))
+DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION)))
 IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
 COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
 PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
 LARGEST_TEXT = 2**26  # bytes of what is parsed; checksums of a hundred thousand files take 15 MB
+
+
+class Packed(NamedTuple):
+    """A file of an archive: its name there, its source, size (bytes) and SHA-256."""
+
+    name: str
+    source: Path | bytes
+    size: int
+    digest: str
 
 
 class BundleError(Exception):
@@ -72,7 +80,6 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     copies = [_text(path.relative_to(results).as_posix(), path.read_bytes()) for path in paths]
     copies = [copy for copy in copies if copy.digest in digests]  # and no file of the user's own
     files = [_text(CONFIGURATION, configuration.read_bytes()), *copies, *entries]
-    files = [_text(CRATE, crate(files)), *files]
     checksums = "".join(f"{file.digest}  {file.name}\n" for file in files)
     files = [_text(CHECKSUMS, checksums.encode()), *files]
     _refuse_foreign(map(_member, files))

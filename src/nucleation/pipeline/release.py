@@ -10,8 +10,9 @@ from pathlib import Path
 
 from ..configuration.load import load
 from . import bundle
-from .crate import CHECKOUT, commit
+from .code import ROOT
 
+CHECKOUT = ROOT.parent.parent
 CHECKSUMS = "SHA256SUMS"
 SHOWN = ("replication.pdf", "replication.tex", "report.html")
 METADATA = ("CITATION.cff", "codemeta.json", ".zenodo.json")
@@ -53,6 +54,16 @@ def missing(checkout: Path = CHECKOUT) -> list[str]:
     if commit(checkout).endswith("-dirty"):
         found.append("files differ from the commit, and are not in the release")
     return found
+
+
+def commit(checkout: Path) -> str:
+    """The commit of a checkout, with "-dirty" if files differ from it; empty outside of git."""
+    git = ["git", f"--git-dir={checkout / '.git'}", f"--work-tree={checkout}"]
+    command = [*git, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*"]
+    try:
+        return subprocess.run(command, capture_output=True, text=True).stdout.strip()
+    except OSError:  # no git
+        return ""
 
 
 def main(directory: str, configuration: str = "config/config.yaml") -> None:

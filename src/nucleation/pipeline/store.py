@@ -3,10 +3,11 @@
 An entry is a directory ``KEY/`` with the files of one result, ``result.nc``, ``result.csv``, ...,
 and ``entry.json``, which names its key and the size and digest of each file. The store of a
 directory of results is ``store/`` in it, and results are made there. Others (:mod:`.elsewhere`)
-are asked first: a shared directory, or a bucket.
+are asked first.
 """
 
 import contextlib
+import functools
 import json
 import os
 import re
@@ -15,7 +16,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from ..datasets.files import flush
 from .keys import content
@@ -36,16 +37,6 @@ class StoreError(ValueError):
 
 BAD = (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError)
 """What reading a note can end in, if anybody may have written it."""
-
-
-class Other(Protocol):
-    """A store elsewhere."""
-
-    def fetch(self, key: str, into: Path) -> bool:
-        """Copy the files of an entry into an empty directory; False if there is none."""
-
-    def give(self, entry: Path) -> None:
-        """Take a copy of an entry, whole or not at all, unless it is there already."""
 
 
 def path_in(entry: Path, suffix: str) -> Path:
@@ -147,8 +138,8 @@ class Store:
             self._publish(place, key)
         return note
 
-    def take(self, key: str, others: list[Other]) -> str | None:
-        """Copy an entry from the first of other stores that has it; its name, None if none has.
+    def take(self, key: str, others: "list[Store]") -> Path | None:
+        """Copy an entry from the first of other stores that has it; which one, None if none has.
 
         What is damaged, foreign or out of reach is said in a line; what is out of reach leaves the
         list.
@@ -157,15 +148,27 @@ class Store:
             self.directory.mkdir(parents=True, exist_ok=True)
             with self._unfinished() as place:
                 try:
-                    if other.fetch(key, place):
+                    if (other.entry(key) / NOTE).is_file():
+                        _copy(other.entry(key), place)
                         read_note(place, key, whole=True)
                         self._publish(place, key)
-                        return str(other)
-                except Exception as error:  # of networks and buckets all sorts are raised
-                    print(f"Not taken from {other}: {in_a_line(error)}", file=sys.stderr)
+                        return other.directory
+                except (OSError, StoreError) as error:
+                    print(f"Not taken from {other.directory}: {in_a_line(error)}", file=sys.stderr)
                     if not isinstance(error, (StoreError, FileNotFoundError)):
                         others.remove(other)
         return None
+
+    def give(self, entry: Path) -> None:
+        """Take a copy of another store's entry, whole or not at all, unless it is there already."""
+        if not os.access(self.directory, os.W_OK):
+            return
+        with contextlib.suppress(StoreError):
+            read_note(self.entry(entry.name), whole=True)
+            return
+        note = read_note(entry)
+        about = {name: value for name, value in note.items() if name != "files"}
+        self.put(entry.name, functools.partial(_copy, entry), about)
 
     @contextlib.contextmanager
     def _unfinished(self) -> Iterator[Path]:
@@ -217,6 +220,12 @@ class Store:
         shutil.rmtree(gone, ignore_errors=True)  # left by a process that was killed here
         self.entry(key).rename(gone)
         shutil.rmtree(gone)
+
+
+def _copy(entry: Path, into: Path) -> None:
+    """Copy the files of an entry, as its note names them, into an empty directory."""
+    for name in (NOTE, *read_note(entry)["files"]):
+        shutil.copyfile(entry / name, into / name)
 
 
 def in_a_line(error: Exception) -> str:
