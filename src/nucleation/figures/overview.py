@@ -5,17 +5,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis.extraction import extract
 from ..analysis.film import film_dataset
 from ..analysis.record import Record
-from ..figures import style
+from ..figures import points, style
 from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length, critical_mode, fault_of, spectrum
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES, takes_fault
+from ..types import Array
 from .beyond import animation
 from .paper import figure_3, figure_s2
 
@@ -27,13 +27,11 @@ WIDE = 10.0  # ratio of a parameter's values from which axes are logarithmic
 @style.styled
 def draw_theory(theory: xr.Dataset) -> Figure:
     """Draw ``critical_length`` and ``thin_limit_length`` (m) against ``height`` (m)."""
-    figure = style.new_figure(style.SINGLE_COLUMN, 6.4 * style.CENTIMETRE)
-    axes = figure.add_subplot()
+    figure, axes = style.column(6.4)
     figure_3.draw_theory(axes, theory)
     height, length = theory["height"].values, theory["critical_length"].values
     axes.set(xlabel="Height $H$ (m)", ylabel="Critical length $L_c$ (m)")
-    axes.set_xlim(0.0, height.max())
-    axes.set_ylim(0.0, 1.15 * length.max())
+    axes.set(xlim=(0.0, height.max()), ylim=(0.0, 1.15 * length.max()))
     axes.legend(loc="lower right")
     return figure
 
@@ -41,18 +39,11 @@ def draw_theory(theory: xr.Dataset) -> Figure:
 @style.styled
 def draw_lengths(table: xr.Dataset) -> Figure:
     """Draw ``length`` with ``_low`` and ``_high`` (m) against ``theory_length`` (m)."""
-    figure = style.new_figure(style.SINGLE_COLUMN, 7.4 * style.CENTIMETRE)
-    axes = figure.add_subplot()
-    names = table["study"].values.astype(str)
-    for number, name in enumerate(dict.fromkeys(names)):
+    figure, axes = style.column(7.4)
+    for number, rows in enumerate(points.groups(table, "study")):
         marker, colour = style.look(number)
-        rows = table.isel(run=np.flatnonzero(names == name))
-        length = rows["length"].values
-        bars = [length - rows["length_low"].values, rows["length_high"].values - length]
-        axes.errorbar(
-            rows["theory_length"].values, length, yerr=np.clip(bars, 0.0, None), linestyle="none",
-            marker=marker, color=colour, elinewidth=0.9, label=name,
-        )  # fmt: skip
+        theory, look = rows["theory_length"].values, {"marker": marker, "color": colour}
+        points.draw(axes, theory, rows, "length", label=str(rows["study"].values[0]), **look)
     top = 1.08 * float(max(table["theory_length"].max(), table["length_high"].max()))
     axes.plot([0.0, top], [0.0, top], color=style.GUIDE, linewidth=0.9, zorder=0)
     axes.annotate("theory", (0.8 * top, 0.82 * top), color=style.GUIDE, rotation=45, ha="center")
@@ -65,24 +56,29 @@ def draw_lengths(table: xr.Dataset) -> Figure:
 @style.styled
 def draw_patch(patch: xr.Dataset) -> Figure:
     """Draw ``oscillation_growth`` and ``_frequency`` (1/s) against ``patch_length`` (m)."""
+    rate = patch["oscillation_growth"].values + 1j * patch["oscillation_frequency"].values
+    marked = {"$L_s$": float(patch["stability_length"])}
+    return _rates("Patch length $L$ (m)", patch["patch_length"].values, {"": rate}, marked)
+
+
+def _rates(label: str, over: Array, modes: dict[str, Any], marked: dict[str, float]) -> Figure:
+    """Growth and frequency of modes, by their names, with zero growth and a place marked."""
     figure = style.new_figure(style.SINGLE_COLUMN, 8.4 * style.CENTIMETRE)
     growth, frequency = figure.subplots(2, 1, sharex=True)
-    length = patch["patch_length"].values
-    growth.plot(length, patch["oscillation_growth"].values, color=style.THEORY)
-    frequency.plot(length, patch["oscillation_frequency"].values, color=style.THEORY)
-    _mark(growth, frequency, float(patch["stability_length"]), "$L_s$")
-    growth.set_ylabel(r"Growth $\mathrm{Re}\,\Lambda$ (1/s)")
-    frequency.set(xlabel="Patch length $L$ (m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
-    return figure
-
-
-def _mark(growth: Axes, frequency: Axes, place: float, name: str) -> None:
-    """Mark zero growth, and a place in both panels by its name."""
+    for (name, rate), dashes in zip(modes.items(), ("-", "--"), strict=False):
+        growth.plot(over, rate.real, dashes, color=style.THEORY, label=name)
+        frequency.plot(over, rate.imag, dashes, color=style.THEORY)
     growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
-    for axes in (growth, frequency):
-        axes.axvline(place, color=style.GUIDE, linestyle=":")
-    where = growth.get_xaxis_transform()
-    growth.annotate(name, (place, 1.0), (3.0, -10.0), where, "offset points", color=style.GUIDE)
+    for name, place in marked.items():
+        for axes in (growth, frequency):
+            axes.axvline(place, color=style.GUIDE, linestyle=":")
+        where = growth.get_xaxis_transform()
+        growth.annotate(name, (place, 1.0), (3.0, -10.0), where, "offset points", color=style.GUIDE)
+    growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)")
+    frequency.set(xlabel=label, ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
+    if len(modes) > 1:
+        growth.legend()
+    return figure
 
 
 def plot_run(record: xr.Dataset) -> Figure:
@@ -123,8 +119,7 @@ def plot_length(over: str, **fault: Any) -> Figure:
         raise ParameterError(f"{over} needs several values, in one dimension, and nothing else may")
     some = np.unique(np.linspace(0, values.size - 1, MOST_PATCHES).astype(int))
     patch = np.asarray(stability_length(**fault | {over: values[some]}))
-    figure = style.new_figure(style.SINGLE_COLUMN, 6.6 * style.CENTIMETRE)
-    axes = figure.add_subplot()
+    figure, axes = style.column(6.6)
     axes.plot(values, length, color=style.THEORY, label="$L_c$, homogeneous sliding")
     axes.plot(values[some], patch, color=style.GREEN, linestyle="--", label="$L_s$, creeping patch")
     if values.min() > 0.0 and values.max() >= WIDE * values.min():
@@ -159,16 +154,8 @@ def plot_spectrum(**fault: Any) -> Figure:
     k = SHOWN_WAVENUMBERS * float(critical)
     rates = spectrum(k, **fault)
     rates = np.asarray(getattr(rates, "magnitude", rates))
-    figure = style.new_figure(style.SINGLE_COLUMN, 8.4 * style.CENTIMETRE)
-    growth, frequency = figure.subplots(2, 1, sharex=True)
-    for root, dashes, name in zip(rates, ("-", "--"), ("faster mode", "slower mode"), strict=True):
-        growth.plot(k, root.real, dashes, color=style.THEORY, label=name)
-        frequency.plot(k, root.imag, dashes, color=style.THEORY)
-    _mark(growth, frequency, float(critical), "$k_c$")
-    growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)")
-    frequency.set(xlabel="Wavenumber $k$ (1/m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
-    growth.legend()
-    return figure
+    modes = dict(zip(("faster mode", "slower mode"), rates, strict=True))
+    return _rates("Wavenumber $k$ (1/m)", k, modes, {"$k_c$": float(critical)})
 
 
 def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:

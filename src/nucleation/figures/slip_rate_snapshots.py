@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
@@ -12,98 +11,66 @@ from ..figures import style
 
 CREEP_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the onset time
 EVENT_FRACTIONS = (0.4, 0.8)  # of the way, in log slip rate, from the onset to the peak
-EVENT_COLOURS = (style.ORANGE, style.VERMILLION)
-EVENT_DASHES = ("--", "-.")
+EVENT_LOOKS = ((style.ORANGE, "--"), (style.VERMILLION, "-."))
 LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
 SHOWN_LENGTHS = 1.4  # width of the panel in critical lengths
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
-    """Indices of the output times to show, up to the onset and after it.
+    """Indices of the output times to show, up to the onset (s) and after it, each once.
 
-    Parameters
-    ----------
-    simulation : Dataset
-        With ``slip_rate(time, x)`` (m/s).
-    onset : float
-        Time at which the event sets in (s).
-
-    Returns
-    -------
-    tuple of int arrays
-        Outputs nearest to :data:`CREEP_FRACTIONS` of the onset time; and the first outputs
-        after it whose largest slip rate has made :data:`EVENT_FRACTIONS` of its rise to the
-        first peak. An output chosen twice comes once.
+    Outputs nearest to :data:`CREEP_FRACTIONS` of the onset time; and the first outputs after it
+    whose largest slip rate has made :data:`EVENT_FRACTIONS` of its rise to the first peak.
     """
     time = simulation["time"].values
     creep = [int(np.abs(time - fraction * onset).argmin()) for fraction in CREEP_FRACTIONS]
     start = creep[-1]
-    largest = simulation["slip_rate"].max("x").values[start:]
-    rise = np.log(np.maximum(largest, LOWEST_RATE) / max(largest[0], LOWEST_RATE))
-    highest = rise.max()
-    event = [start + int(np.argmax(rise >= fraction * highest)) for fraction in EVENT_FRACTIONS]
-    after = np.unique([i for i in event if i > start])
-    return np.unique(creep), after.astype(int)
+    largest = np.maximum(simulation["slip_rate"].max("x").values[start:], LOWEST_RATE)
+    rise = np.log(largest / largest[0])
+    event = [start + int(np.argmax(rise >= part * rise.max())) for part in EVENT_FRACTIONS]
+    return np.unique(creep), np.unique([i for i in event if i > start]).astype(int)
 
 
 def draw(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None:
-    """Draw the snapshots and mark the extracted length.
+    """Draw the snapshots and mark the extracted length, in small type.
 
     Parameters
     ----------
     axes : Axes
-        The panel, small type is assumed.
+        The panel.
     simulation : Dataset
         With ``slip_rate(time, x)`` (m/s).
     row : Dataset
         With ``onset_time`` (s) and ``length`` (m).
     """
-    time = simulation["time"].values
+    time, x = simulation["time"].values, simulation["x"].values
     onset, length = float(row["onset_time"]), float(row["length"])
     if not np.isfinite(onset):  # nothing happened: only the creep can be shown
         onset = float(time[-1])
     creep, event = choose_times(simulation, onset)
+    start = time[creep[-1]]
     decimals = max(0, 3 - int(np.ceil(np.log10(onset))))
-    labels = [f"{time[i]:.{decimals}f} s" for i in creep]
-    labels[-1] = f"$t_c={time[creep[-1]]:.{decimals}f}$ s"
-    shades = colormaps[style.SEQUENCE](np.linspace(0.0, 0.85, creep.size))
-    for i, shade, label in zip(creep, shades, labels, strict=True):
-        _curve(axes, simulation, i, shade, "-", label)
-    for i, colour, dashes in zip(event, EVENT_COLOURS, EVENT_DASHES, strict=False):
-        later = 1e3 * (time[i] - time[creep[-1]])
-        _curve(axes, simulation, i, colour, dashes, f"$t_c+{later:#.3g}$ ms")
-    _limits(axes, simulation, np.concatenate([creep, event]), length)
-    if np.isfinite(length):
-        _mark_length(axes, length)
-    axes.legend(
-        title="time $t$",
-        title_fontsize=style.SMALL,
-        fontsize=style.SMALL,
-        loc="center left",
-        bbox_to_anchor=(1.0, 0.5),
-        labelspacing=0.35,
-        handlelength=1.8,
-    )
-
-
-def _curve(
-    axes: Axes, simulation: xr.Dataset, index: int, colour: Any, dashes: str, label: str
-) -> None:
-    """The slip rate at one output time; where nothing slips the logarithm leaves a gap."""
-    rate = simulation["slip_rate"].isel(time=index).values
-    shown = np.where(rate > 0.0, rate, np.nan)
-    axes.plot(simulation["x"].values, shown, dashes, color=colour, linewidth=1.1, label=label)
-
-
-def _limits(axes: Axes, simulation: xr.Dataset, shown: NDArray, length: float) -> None:
-    """Logarithmic axis from sticking to the fastest snapshot; small labels."""
+    labels = [f"{time[i]:.{decimals}f} s" for i in creep[:-1]]
+    labels += [f"$t_c={start:.{decimals}f}$ s"]
+    labels += [f"$t_c+{1e3 * (time[i] - start):#.3g}$ ms" for i in event]
+    looks: Any = [(shade, "-") for shade in style.shades(creep.size)]
+    shown = np.concatenate([creep, event])
+    for i, (colour, dashes), label in zip(shown, [*looks, *EVENT_LOOKS], labels, strict=False):
+        rate = simulation["slip_rate"].values[i]
+        moving = np.where(rate > 0.0, rate, np.nan)  # where nothing slips there is a gap
+        axes.plot(x, moving, dashes, color=colour, linewidth=1.1, label=label)
     highest = float(simulation["slip_rate"].isel(time=shown).max())
-    axes.set_yscale("log")
-    axes.set_ylim(LOWEST_RATE, 10.0 ** np.ceil(np.log10(max(3.0 * highest, 10.0 * LOWEST_RATE))))
-    axes.set_xlim(0.0, np.nanmin([SHOWN_LENGTHS * length, float(simulation["x"].max())]))
+    top = 10.0 ** np.ceil(np.log10(max(3.0 * highest, 10.0 * LOWEST_RATE)))
+    axes.set(yscale="log", ylim=(LOWEST_RATE, top))
+    axes.set_xlim(0.0, np.nanmin([SHOWN_LENGTHS * length, x.max()]))
     axes.tick_params(labelsize=style.SMALL)
     axes.set_xlabel("$x$ (m)", fontsize=8.5, labelpad=1.0)
     axes.set_ylabel("$v$ (m/s)", fontsize=8.5, labelpad=1.0)
+    if np.isfinite(length):
+        _mark_length(axes, length)
+    look: Any = {"fontsize": style.SMALL, "title_fontsize": style.SMALL, "labelspacing": 0.35}
+    place: Any = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "handlelength": 1.8}
+    axes.legend(title="time $t$", **place, **look)
 
 
 def _mark_length(axes: Axes, length: float) -> None:

@@ -213,19 +213,17 @@ def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[P
         The PDF (vector, fonts embedded) and the PNG (300 dots per inch).
     """
     stem = Path(stem)
-    metadata = {
-        "pdf": {
-            "CreationDate": None, "ModDate": None, "Producer": None, "Creator": None,
-            "Keywords": key or None,
-        },
+    unstated = dict.fromkeys(("CreationDate", "ModDate", "Producer", "Creator"))
+    metadata: dict[str, dict[str, Any]] = {
+        "pdf": unstated | {"Keywords": key or None},
         "png": {"Software": None} | ({KEY: key} if key else {}),
-    }  # fmt: skip
+    }
     paths = []
     with mpl.rc_context(STYLE):
-        for suffix in ("pdf", "png"):
+        for suffix, said in metadata.items():
             path = stem.with_name(f"{stem.name}.{suffix}")
             with replacing(path) as temporary:
-                figure.savefig(temporary, format=suffix, metadata=metadata[suffix])
+                figure.savefig(temporary, format=suffix, metadata=said)
             paths.append(path)
     figure.clear()
     return paths[0], paths[1]

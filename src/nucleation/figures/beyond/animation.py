@@ -17,6 +17,7 @@ from ...analysis.record import parameters_of
 from ...datasets.files import replacing
 from ...figures import style
 from ...model.parameters import Parameters
+from ..paper import figure_s2
 
 LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
 LEVELS = 25  # of the stress: few colours make a small file
@@ -32,15 +33,10 @@ Update = Callable[[int], object]
 
 
 def frames(film: xr.Dataset, row: xr.Dataset) -> Iterator[Image.Image]:
-    """Draw one image for every time of a film.
+    """Draw one image for every time of a film, :func:`nucleation.analysis.film.film_dataset`.
 
-    Parameters
-    ----------
-    film : Dataset
-        Of :func:`nucleation.analysis.film.film_dataset`.
-    row : Dataset
-        Its simulation's entry of the table of lengths, of which ``onset_time`` (s) and ``length``
-        (m) are marked.
+    `row` is its simulation's entry of the table of lengths, of which ``onset_time`` (s) and
+    ``length`` (m) are marked.
     """
     with mpl.rc_context(style.STYLE):
         figure, updates = _panels(film, row)
@@ -61,10 +57,8 @@ def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
     small = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     pauses = [PAUSE] * (len(small) - 1) + [LAST_PAUSE]
     with replacing(path) as temporary:
-        small[0].save(
-            temporary, format="GIF", save_all=True, append_images=small[1:], duration=pauses,
-            loop=0, optimize=True,
-        )  # fmt: skip
+        film: Any = {"save_all": True, "append_images": small[1:], "duration": pauses, "loop": 0}
+        small[0].save(temporary, format="GIF", optimize=True, **film)
 
 
 def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
@@ -72,9 +66,8 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
     parameters = parameters_of(film)
     bodies = 1.0 if parameters.below is None else 1.5  # height of their panel
     figure = style.new_figure(7.2, 4.5 * (2.15 + bodies) / 3.15)
-    grid = figure.add_gridspec(3, 2, height_ratios=(1.15, bodies, 1.0))
-    rate, block = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
-    whole, near = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
+    panels = figure.subplot_mosaic("aa;bb;cd", height_ratios=(1.15, bodies, 1.0))
+    rate, block, whole, near = panels.values()
     onset = float(row["onset_time"])
     interval = event_interval(film, onset)
     title = rate.set_title("", loc="left")
@@ -83,8 +76,8 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
         lambda i: title.set_text(_clock(float(times[i]), onset)),
         _rate_panel(rate, film, float(row["length"])),
         _block_panel(block, film, parameters),
-        _force_panel(whole, film, (0.0, float(times[-1])), 0.0, 1.0),
-        _force_panel(near, film, interval, onset if np.isfinite(onset) else 0.0, KILO),
+        _force_panel(whole, film, (0.0, float(times[-1]), 0.0, 1.0)),
+        _force_panel(near, film, (*interval, onset if np.isfinite(onset) else 0.0, KILO)),
     ]
     whole.set_xlabel("$t$ (s)", labelpad=1.0)
     whole.set_ylabel("$-f_d$ (kN/m)")
@@ -129,9 +122,8 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> Update
         while axes.collections:
             axes.collections[0].remove()
         for own in bodies:
-            drawn = axes.contourf(
-                x, y[own], ratio[i, own], colours, extend="both", cmap=style.SEQUENCE
-            )
+            field = x, y[own], ratio[i, own]
+            drawn = axes.contourf(*field, colours, extend="both", cmap=style.SEQUENCE)
         return drawn
 
     bar = axes.figure.colorbar(draw(0), ax=axes, pad=0.01, aspect=8, ticks=colours[:: LEVELS // 2])
@@ -146,26 +138,13 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> Update
     return draw
 
 
-def _force_panel(
-    axes: Axes, film: xr.Dataset, interval: tuple[float, float], origin: float, scale: float
-) -> Update:
-    """The driving force over an interval (s), with a point at the moment if it is in there."""
-    time, force = film["step_time"].values, -film["driving_force"].values / KILO
-    axes.plot((time - origin) * scale, force, color=style.DRIVE, linewidth=1.1)
+def _force_panel(axes: Axes, film: xr.Dataset, window: figure_s2.Window) -> Update:
+    """The driving force over a window, with a point at the moment if it is in there."""
+    figure_s2.draw_force(axes, film, window)
+    drawn = np.asarray(axes.lines[0].get_xydata())
     (point,) = axes.plot([], [], "o", color=style.VERMILLION)
-    low, high = ((t - origin) * scale for t in interval)
-    if high > low:
-        axes.set_xlim(low, high)
-    seen = force[(time >= interval[0]) & (time <= interval[1])]
-    margin = 0.08 * (seen.max() - seen.min())
-    if margin > 0.0:
-        axes.set_ylim(seen.min() - margin, seen.max() + margin)
-
-    def move(i: int) -> None:
-        now = float(film["time"][i])
-        point.set_data([(now - origin) * scale], [np.interp(now, time, force)])
-
-    return move
+    now = (film["time"].values - window[2]) * window[3]
+    return lambda i: point.set_data([now[i]], [np.interp(now[i], *drawn.T)])
 
 
 def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Any]:

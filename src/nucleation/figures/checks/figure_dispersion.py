@@ -11,6 +11,10 @@ from ...figures import style
 
 # marker and line: along +x and -x
 BRANCHES: tuple[tuple[str, Any], ...] = (("o", "-"), ("s", (0, (4, 1.5))))
+PANELS = (
+    ("growth", r"Growth rate $\mathrm{Re}\,\Lambda\, D/V$"),
+    ("frequency", r"Angular frequency $\mathrm{Im}\,\Lambda\, D/V$"),
+)
 
 
 @style.styled
@@ -23,29 +27,22 @@ def draw(dispersion: xr.Dataset) -> Figure:
         From :func:`nucleation.verification.dispersion.dispersion_dataset`: rates (1/s) on (height,
         mode, branch) and (height, curve, branch), wavenumbers (1/m), ``memory_time`` (s).
     """
-    figure = style.new_figure(style.DOUBLE_COLUMN, 9.6 * style.CENTIMETRE)
+    figure, panels = style.panels(1, 2, 9.6, sharex=True)
     layout: Any = figure.get_layout_engine()
     layout.set(wspace=0.05)
-    growth, frequency = figure.subplots(1, 2, sharex=True)
     heights = dispersion["height"].values
     shades = style.shades(heights.size)
-    for i, shade in enumerate(shades):
-        one = dispersion.isel(height=i)
-        for axes, name in ((growth, "growth"), (frequency, "frequency")):
-            _draw_height(axes, one, name, shade)
-    growth.axhline(0.0, color=style.GUIDE, linewidth=0.7)
-    style.letters(growth, frequency)
-    for axes in (growth, frequency):
-        axes.axvline(1.0, color=style.GUIDE, linestyle="--", linewidth=0.9)
-        axes.set_xlabel(r"Wavenumber $k/k_c$")
-        axes.minorticks_on()
-    growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda\, D/V$")
-    frequency.set_ylabel(r"Angular frequency $\mathrm{Im}\,\Lambda\, D/V$")
     modes = (dispersion["mode_wavenumber"] / dispersion["critical_wavenumber"]).values
     margin = 0.04 * (modes.max() - modes.min())
-    growth.set_xlim(modes.min() - margin, modes.max() + margin)
-    for axes in (growth, frequency):
+    for axes, (name, label) in zip(panels, PANELS, strict=True):
+        for i, shade in enumerate(shades):
+            _draw_height(axes, dispersion.isel(height=i), name, shade)
+        axes.axvline(1.0, color=style.GUIDE, linestyle="--", linewidth=0.9)
+        axes.set(xlabel=r"Wavenumber $k/k_c$", ylabel=label)
+        axes.set_xlim(modes.min() - margin, modes.max() + margin)
         _limit_to_lines(axes)
+    style.level(panels[0], 0.0)
+    style.letters(*panels, minor=True)
     _legend(figure, heights, shades)
     return figure
 
@@ -57,10 +54,8 @@ def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: tuple[float, ...
     marks = (one[f"measured_{name}"] * unit).transpose("mode", "branch").values
     for branch, (marker, dash) in enumerate(BRANCHES):
         axes.plot(curve, lines[:, branch], color=shade, linestyle=dash, linewidth=1.0)
-        axes.plot(
-            modes, marks[:, branch], marker, color=shade, markersize=3.6, markerfacecolor="white",
-            markeredgewidth=0.9,
-        )  # fmt: skip
+        look: Any = {"color": shade, "ms": 3.6, "mew": 0.9, **style.OPEN}
+        axes.plot(modes, marks[:, branch], marker, **look)
 
 
 def _limit_to_lines(axes: Axes) -> None:
@@ -68,8 +63,8 @@ def _limit_to_lines(axes: Axes) -> None:
     left, right = axes.get_xlim()
     shown = []
     for line in axes.get_lines():
-        x, y = np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
         if line.get_transform() == axes.transData:
+            x, y = np.asarray(line.get_xydata()).T
             shown.append(y[(x >= left) & (x <= right)])
     low, high = np.concatenate(shown).min(), np.concatenate(shown).max()
     axes.set_ylim(low - 0.04 * (high - low), high + 0.04 * (high - low))
