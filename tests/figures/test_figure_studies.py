@@ -50,8 +50,8 @@ def test_words_tell_curves_apart():
 
 
 def test_two_numbers_on_a_grid_are_maps():
-    x, y = np.meshgrid([0.01, 0.1, 1.0], [1.0, 2.0])
-    theory, length = np.arange(1.0, 7.0), np.array([0.5, 1, 2, 3, 4, np.nan])
+    x, y = np.meshgrid([0.01, 0.1, 1.0], [0.5, 1.0, 2.0])
+    theory, length = np.arange(1.0, 10.0), np.array([0.5, 1, 2, 3, 4, 5, 6, 7, np.nan])
     figure = draw(theory, length, height=x.ravel().tolist(), zeta_over_a=y.ravel().tolist())
     left, right, *_ = figure.axes
     assert left.get_ylabel() == r"Weakening over direct effect $\zeta/a$"
@@ -60,6 +60,16 @@ def test_two_numbers_on_a_grid_are_maps():
         np.testing.assert_allclose(image.filled(np.nan).ravel(), values)
     assert (1.0, 2.0) in points(figure)  # marked: no event
     figure.canvas.draw()
+
+
+def test_two_values_of_a_second_number_are_two_curves():
+    x, y = np.meshgrid([0.01, 0.1], [1.0, 2.0])
+    figure = draw([1, 2, 3, 4], [0.5, 1, 2, 3], height=x.ravel().tolist(),
+                  zeta_over_a=y.ravel().tolist())  # fmt: skip
+    (axes,) = figure.axes
+    assert axes.get_xlabel() == "Height $H$ (m)"
+    told = axes.get_legend_handles_labels()[1]
+    assert {r"simulation, $\zeta/a=1$", r"theory, $\zeta/a=2$"} < set(told)
 
 
 def test_three_numbers_are_points_about_equality():

@@ -83,7 +83,8 @@ def _answer(rows: list[dict[str, Any]]) -> dict[str, str] | None:
 
     lengths = {"length": "length", "critical": "theory_length", "stability": "creep_length"}
     said = {name: ends([row[column] for row in found]) for name, column in lengths.items()}
-    return said | {"ratio": ends([row["length"] / row["theory_length"] for row in found])}
+    ratios = [round(row["length"] / row["theory_length"], 2) for row in found]
+    return said | {"ratio": ends(ratios)}
 
 
 def _row(row: dict[str, Any], letter: str) -> list[Cell]:

@@ -20,6 +20,7 @@ Values = dict[str, list[float] | list[str]]
 Curves = Mapping[str, Mapping[str, Sequence[float] | Array]]
 
 DASHES = ("-", "--", "-.", ":")  # of the theory's curves, by the words of a study
+FEW_ROWS = 2  # values of one of two numbers up to which each is a curve, not a row of a map
 FEW = 6  # faults of which each has its own marker where no number is an axis
 WIDE = 4.0  # ratio of the largest to the smallest value from which an axis is logarithmic
 STRIP = 0.09  # height of the strip of runs without an event, which have no length
@@ -43,8 +44,8 @@ def draw(
 ) -> Figure:
     """Draw one study: a curve, two maps, or points about equality, by what it varies.
 
-    With one number varied: lengths (m) over it; with two on a full grid: maps of the length and of
-    its ratio to the theory's; otherwise simulations against theory, with what is varied above.
+    With one number varied: lengths (m) over it; with two on a full grid: a curve for
+    each of two values, or maps of the length and of its ratio to the theory's; otherwise simulations against theory, with what is varied above.
     Words, such as the evolution law, tell markers apart. Runs without an event stand in a strip of
     their own, counted.
 
@@ -64,9 +65,12 @@ def draw(
     numbers = [name for name, entry in entries.items() if not entry.choices]
     words = [name for name in entries if name not in numbers]
     if len(numbers) == 2 and not words:
-        grid = [np.unique(varied[name]) for name in numbers]
-        if grid[0].size * grid[1].size == table.sizes["run"]:
-            return _maps(table, varied, entries, numbers, grid)
+        grid = {name: np.unique(varied[name]) for name in numbers}
+        along, other = sorted(numbers, key=lambda name: -grid[name].size)
+        if grid[along].size * grid[other].size == table.sizes["run"]:
+            if grid[other].size > FEW_ROWS:
+                return _maps(table, varied, entries, numbers, list(grid.values()))
+            numbers, words = [along], [other]
     figure = style.new_figure(style.SINGLE_COLUMN, 0.85 * style.SINGLE_COLUMN)
     quiet = ~np.isfinite(table["length"].values)
     axes, strip = _axes(figure, int(quiet.sum()), quiet.size)
