@@ -44,10 +44,10 @@ def draw(
 ) -> Figure:
     """Draw one study: a curve, two maps, or points about equality, by what it varies.
 
-    With one number varied: lengths (m) over it; with two on a full grid: a curve for
-    each of two values, or maps of the length and of its ratio to the theory's; otherwise simulations against theory, with what is varied above.
-    Words, such as the evolution law, tell markers apart. Runs without an event stand in a strip of
-    their own, counted.
+    With one number varied: lengths (m) over it; with two on a full grid: a curve for each of two
+    values, or maps of the length and of its ratio to the theory's; otherwise simulations against
+    theory, with what is varied above. Words, such as the evolution law, tell markers apart. Runs
+    without an event stand in a strip of their own, counted.
 
     Parameters
     ----------
