@@ -80,7 +80,9 @@ def advise(runs: Iterable[Run]) -> list[str]:
     texts = []
     for (study, topic), cases in found.items():
         cases.sort(key=lambda case: -case[0].badness)
-        ids = [run.id for _, run in cases]
+        ids = list(
+            dict.fromkeys(run.id for _, run in cases)
+        )  # a run of two blocks may be there twice
         where = ids[0] if len(ids) == 1 else f"{len(ids)} runs, the worst {ids[0]}"
         others = f" [also {_listed(ids[1:])}]" if ids[1:] else ""
         texts.append(f"studies.{study}: {topic} ({where}): {cases[0][0].text}{others}")
