@@ -58,20 +58,20 @@ def files(tmp_path_factory):
             "stability_length": 0.15,
         }
     )
-    hops = xr.Dataset({"hop_time": ("hop", [1.0, 2.0]), "hop_length": ("hop", [0.1, np.nan])})
+    other = xr.Dataset({"onset_time": ("one", [1.0, 2.0]), "length": ("one", [0.1, np.nan])})
     return {
         "run": kept(folder, "run", whole, values, digest),
         "short": kept(folder, "short", simulate(short), short.to_dict()),
         "theory": kept(folder, "theory", theory, {}),
         "lengths": kept(folder, "lengths", gather([row], [whole], ExtractionSettings()), {}),
         "patch": kept(folder, "patch", patch, {}),
-        "hops": kept(folder, "hops", hops, {}),
+        "other": kept(folder, "other", other, {}),
     }
 
 
 KINDS = {
     "run": "simulation", "short": "simulation", "theory": "theory", "lengths": "table of lengths",
-    "patch": "patch's stability", "hops": "hops of the front",
+    "patch": "patch's stability", "other": "dataset",
 }  # fmt: skip
 
 
@@ -103,12 +103,12 @@ def test_summary_of_lengths(nucleation, files):
 
 
 def test_variables_of_other_datasets(nucleation, files):
-    said = nucleation("show", files["hops"]).out
-    assert "hop_time" in said and "2 hop; 1 to 2 s" in said and "2 hop; 0.1 m" in said
+    said = nucleation("show", files["other"]).out
+    assert "onset_time" in said and "2 one; 1 to 2 s" in said and "2 one; 0.1 m" in said
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if name != "hops"])
+@pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if name != "other"])
 def test_plot(nucleation, files, tmp_path, name):
     plot = tmp_path / "plot.png"
     ended = nucleation("show", files[name], "--plot", plot)

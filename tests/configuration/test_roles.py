@@ -52,9 +52,6 @@ BAD = {
     "not its state": (
         study({"height": 0.005, "phi0": 3.0}, TALL, role="paper"), ["height = 0.005 m, evolution"],
     ),
-    "not the height of the hops": (
-        study(TALL, role="convergence_quiet"), ["role = convergence_quiet needs a run with height"],
-    ),
     "two maps": (
         {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",
                             "runs": [TALL]} for name in ("one", "other")}},

@@ -30,16 +30,6 @@ def test_figure_2_has_a_curve_for_each_ratio(theory):
     assert len({line.get_linestyle() + str(line.get_color()) for line in lines}) == len(lines)
 
 
-def test_figure_2_does_not_depend_on_the_order_of_dimensions(theory):
-    turned = theory.transpose(..., "f_beta", "zeta_over_a").sortby("zeta_over_a", ascending=False)
-    for drawn, same in zip(
-        figure_2.draw(theory).axes[0].get_lines(),
-        figure_2.draw(turned).axes[0].get_lines(),
-        strict=True,
-    ):
-        np.testing.assert_array_equal(drawn.get_xydata(), same.get_xydata())
-
-
 def test_figure_s1_shows_both_laws_and_the_velocity(theory):
     (axes,) = figure_s1.draw(theory).axes
     full, logarithmic, velocity = axes.get_lines()
@@ -50,11 +40,6 @@ def test_figure_s1_shows_both_laws_and_the_velocity(theory):
     assert set(velocity.get_xdata()) == {float(theory["velocity"])}
     assert velocity.get_linestyle() == "--"
     assert (full.get_color(), logarithmic.get_color()) == (style.FULL_LAW, style.LOGARITHMIC_LAW)
-
-
-def test_figure_s1_takes_the_velocity_from_the_attributes_too(theory):
-    dataset = theory.drop_vars("velocity").assign_attrs(velocity=2e-6)
-    assert set(figure_s1.draw(dataset).axes[0].get_lines()[2].get_xdata()) == {2e-6}
 
 
 def test_table_s1_holds_the_papers_values():

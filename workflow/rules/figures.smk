@@ -36,10 +36,6 @@ DRAWN = {
     "figure_dispersion": {"dispersion": only("dispersion")},
     "figure_verification": {"convergence": only("verification")},
     "figure_convergence": {"table": only("convergence")},
-    "figure_hops": {
-        "hops": lambda wildcards: steps.several("hops", [run.id for run in hopping()]),
-        "patch": lambda wildcards: steps("patch", hopping()[0].id),
-    },
     "figure_sensitivity": {"table": only("sensitivity")},
     "figure_pairs": {"table": only("gather_pairs")},
     "figure_2_simulated": {"table": only("gather_pairs")},

@@ -1,5 +1,5 @@
 # Beyond the paper: the linear stability of each simulation's own creeping patch, twin runs that
-# confirm it, the modes of quiet runs, and hops of the front over nodes.
+# confirm it, and the modes of quiet runs.
 make_rule(
     "patch",
     call="nucleation.patch.growth:follow_patch",
@@ -69,16 +69,6 @@ make_rule(
     inputs={"twins": lambda wildcards: twins()},
     runs=as_dicts(runs_for("twin_runs")),
     message="Growth of kicks in twin runs",
-)
-
-make_rule(
-    "hops",
-    call="nucleation.patch.hops:follow_hops",
-    shows="hops/{name}",
-    inputs={"simulation": lambda wildcards: steps("simulate", wildcards.name)},
-    loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
-    settings=asdict(settings.extraction),
-    message="Hops of the front of {wildcards.name}",
 )
 
 make_rule(

@@ -129,17 +129,6 @@ def floor_runs():
     return [run for run in runs_for("quiet") if fault(run.parameters) in faults]
 
 
-def hopping():
-    """The runs whose hops are shown, from coarse to fine."""
-    height = settings.figures.space_time_height
-    runs = [
-        run for run in runs_for("convergence_quiet") if run.parameters.geometry.height == height
-    ]
-    if not runs:
-        raise WorkflowError(f"no study with role: convergence_quiet has a run of {height:g} m")
-    return sorted(runs, key=lambda run: run.parameters.mesh.n_x)
-
-
 def shown_run(height):
     """The simulation that a figure shows, by height (m)."""
     try:

@@ -242,7 +242,6 @@ KINDS = (
     Kind("sensitivity table", ("varied", "length"), _length_rows, _draw_sensitivity),
     Kind("table of refinement", ("length_difference", "length"), _length_rows, None),
     Kind("table of lengths", ("id", "onset_time", "theory_length"), _length_rows, _draw_lengths),
-    Kind("hops of the front", ("hop_time",), _variable_lines, None),
     Kind("twin runs", ("twin_growth",), _variable_lines, None),
     Kind("patch's stability", ("instant_time", "oscillation_growth"), _variable_lines, _draw_patch),
     Kind("dispersion relation", ("measured_growth",), _variable_lines, _draw_dispersion),

@@ -78,8 +78,7 @@ ROLES = {
     "twin_runs": Role("runs that are kicked, for `figure_patch_stability`", True, False),
     "convergence": Role("mesh and steps refined, for `figure_convergence`", True, False),
     "convergence_quiet": Role(
-        "the same without a perturbation, for hops and the noise of meshes", several=True,
-        runs=(QUIET,), heights=("space_time_height",),
+        "the same without a perturbation, for the noise of meshes", several=True, runs=(QUIET,)
     ),
     "sensitivity": Role("one parameter changed at a time; the first run of a height is the base"),
     "pairs": Role("two deformable bodies, for the table of pairs", several=True, runs=(PAIR,)),

@@ -87,7 +87,6 @@ FIGURES: dict[str, Entry] = {
         "Critical length against mesh and steps", CHECKS,
         ("convergence", "convergence_quiet"), (Data("convergence"),)
     ),
-    "figure_hops": Entry("Hops of the front perturb the patch", CHECKS, ("convergence_quiet",)),
     "figure_dispersion": Entry(
         "Growth of single modes: simulation and theory", CHECKS, (),
         (

@@ -14,12 +14,12 @@ def draw(theory: xr.Dataset) -> Figure:
     ----------
     theory : Dataset
         With ``steady_friction(slip_rate)`` and ``steady_friction_logarithmic(slip_rate)``,
-        dimensionless, the slip rate in m/s, and ``velocity`` (m/s) as variable or attribute.
+        dimensionless, the slip rate in m/s, and ``velocity`` (m/s).
     """
     figure, axes = style.column(6.4)
     rate = theory["slip_rate"].values
     full = theory["steady_friction"].values
-    velocity = float(theory["velocity"] if "velocity" in theory else theory.attrs["velocity"])
+    velocity = float(theory["velocity"])
     axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
     logarithmic = theory["steady_friction_logarithmic"].values
     axes.semilogx(

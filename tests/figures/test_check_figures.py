@@ -1,0 +1,241 @@
+"""The figures of checks and of sensitivity: every number is drawn, nothing is cut or overlaps."""
+
+import drawn_layout
+import made_up_checks
+import numpy as np
+import pytest
+import xarray as xr
+
+from nucleation.figures.beyond import figure_sensitivity
+from nucleation.figures.checks import (
+    figure_convergence,
+    figure_crosscheck,
+    figure_dispersion,
+    figure_verification,
+)
+from nucleation.model.parameters import Parameters
+from nucleation.verification.orders import ERRORS, REFINEMENTS
+
+HEIGHTS = (0.005, 0.02, 0.1)
+ONSETS = (10.0, 9.5)  # s
+PAIR = {"second_body": "deformable", "second_shear_modulus": 6.2e9, "second_bottom": "clamped"}
+
+
+def dataset(rows):
+    return xr.Dataset({name: ("run", [row[name] for row in rows]) for name in rows[0]})
+
+
+def sequence(refined, values, height, **fixed):
+    usual = {
+        "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
+        "strength": 1e-5, "seed": 1, "evolution": "aging", "phi0": 1.0,
+        "fault": f"{height}{fixed.get('phi0')}",
+    }  # fmt: skip
+    for i, value in enumerate(values):
+        error = 0.1 * 0.1**i if i + 1 < len(values) else 0.0
+        yield {
+            **usual, **fixed, refined: value, "refinement": refined, "height": height,
+            "length_over_theory": 0.7 - error, "length_difference": -error,
+            "onset_difference": error / 3.0,
+        }  # fmt: skip
+
+
+@pytest.fixture
+def refinements():
+    rows = []
+    for height, law, age in ((0.005, "aging", 1.0), (0.02, "aging", 1.0), (0.1, "aging", 1.0),
+                             (0.02, "slip", 1.0), (0.1, "aging", 1e3)):  # fmt: skip
+        own = {"evolution": law, "phi0": age}
+        rows += sequence("n_x", [400, 800, 1600], height, **own)
+        rows += sequence("n_y", [8, 16], height, **own)
+        rows += sequence("longest_step", [0.1, 0.05, 0.02], height, **own)
+        rows += sequence("tolerance", [1e-2, 2.5e-3], height, **own)
+    rows += sequence("n_x", [400, 800, 1600], 0.02, kind="state", longest_step=0.05)
+    quiet = {"kind": "none", "strength": 0.0, "seed": 0, "longest_step": 0.02}
+    for height in (0.005, 0.02):
+        rows += sequence("n_x", [400, 800, 1600], height, **quiet)
+    rows += sequence("longest_step", [0.1, 0.04, 0.02], 0.02, **quiet)
+    return dataset(rows)
+
+
+@pytest.fixture
+def convergence(refinements):
+    return figure_convergence.draw(refinements)
+
+
+@pytest.fixture
+def changes():
+    words = ("base", "rho x 0.5", "rho x 2", "rho = 0", "L x 2", "D x 0.5", "V x 2", "sigma0 x 2",
+             "tau0 = 0", "tau0 = 50000 Pa", "edge at 0.5 V", "edge at 0.001 V", "drop by 0.005",
+             "end of the drop")  # fmt: skip
+    return dataset(
+        [
+            {"height": h, "variation": word, "length_change": 0.01 * i, "ratio_change": 0.2 - h * i}
+            for h in HEIGHTS
+            for i, word in enumerate(words)
+        ]
+    )
+
+
+@pytest.fixture
+def sensitivity(changes):
+    return figure_sensitivity.draw(changes)
+
+
+def record(height, factor, **second):
+    """A patch that grows like the root of time, with a force that follows it."""
+    time, x = np.linspace(0.0, 11.0, 300), np.linspace(0.0, 1.0, 401)
+    root = factor * np.sqrt(time / 10.0)
+    rate = 1e-5 * np.where(x < 0.1 * root[:, None], 1.0, 1e-9)
+    steps = {"step_time": ("step", time), "driving_force": ("step", -7e4 * root)}
+    return xr.Dataset(
+        {"slip_rate": (("time", "x"), rate), **steps},
+        coords={"time": time, "x": x},
+        attrs={"parameters": Parameters().replaced({"height": height, **second}).to_json()},
+    )
+
+
+@pytest.fixture
+def crosscheck():
+    values = {"onset_time": ONSETS[0], "onset_time_freefem": ONSETS[1], "length": 0.1,
+              "length_freefem": 0.098}  # fmt: skip
+    pairs = [(record(height, 1.0), record(height, 1.02)) for height in (0.005, 0.05)]
+    pairs.append((record(0.02, 1.0, **PAIR), record(0.02, 1.03, **PAIR)))
+    return figure_crosscheck.draw(pairs, dataset([values] * 3))
+
+
+@pytest.fixture
+def verification():
+    return figure_verification.draw(made_up_checks.convergence())
+
+
+@pytest.fixture
+def dispersion():
+    return figure_dispersion.draw(made_up_checks.dispersion())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "name", ["convergence", "sensitivity", "crosscheck", "verification", "dispersion"]
+)
+def test_text_is_legible_and_neither_overlaps_nor_is_cut(name, request):
+    drawn_layout.require_legible(request.getfixturevalue(name))
+
+
+def drawn_at(axes):
+    """Places and values of the markers of an axes."""
+    return sorted(
+        (round(float(x), 2), float(y))
+        for line in axes.get_lines()
+        for x, y in line.get_xydata()
+        if np.isfinite(y)
+    )
+
+
+@pytest.mark.parametrize(("panel", "name"), [(0, "onset_difference"), (1, "length_difference")])
+def test_every_perturbed_run_but_the_finest_is_a_point_at_its_fault_or_kind(
+    refinements, convergence, panel, name
+):
+    axes = convergence.axes[panel]
+    labels = ["0.005", "0.02", "0.1", "0.1 older", "0.02 slip", "all, state"]
+    words = [text.get_text() for text in axes.get_xticklabels()]
+    assert panel == 0 or words == labels  # the upper panel has none of its own
+    declared = refinements.isel(run=np.flatnonzero(refinements["kind"].values != "none"))
+    points = drawn_at(axes)
+    assert len(points) == np.count_nonzero(declared[name])
+    for place, rows in enumerate(figure_convergence.places(declared).values()):
+        own = 100.0 * np.abs(rows[name].values)
+        near = [y for x, y in points if abs(x - place) < 0.5]
+        np.testing.assert_allclose(sorted(near), sorted(own[own > 0.0]))
+
+
+def test_runs_that_agree_are_drawn_at_the_edge(refinements):
+    same = refinements.assign(onset_difference=0.0 * refinements["onset_difference"])
+    axes = figure_convergence.draw(same).axes[0]
+    assert {y for _, y in drawn_at(axes)} == {figure_convergence.LEAST}
+
+
+@pytest.mark.parametrize(("panel", "refined"), [(2, "n_x"), (3, "longest_step")])
+def test_quiet_runs_are_dashed_beside_perturbed_ones(refinements, convergence, panel, refined):
+    axes = convergence.axes[panel]
+    for dash, kind in (("--", "none"), ("-", "normal_load")):
+        lines = [line for line in axes.get_lines() if line.get_linestyle() == dash]
+        drawn = {tuple(point) for line in lines for point in line.get_xydata()}
+        rows = refinements.to_dataframe()
+        rows = rows[(rows["refinement"] == refined) & rows["height"].isin([0.005, 0.02])]
+        rows = rows[rows["kind"].eq(kind) & rows["evolution"].eq("aging")]
+        assert drawn == set(zip(rows[refined], rows["length_over_theory"], strict=True))
+    if refined == "longest_step":
+        assert axes.get_xlim()[0] > axes.get_xlim()[1]
+
+
+def test_every_variation_is_a_row_and_every_height_a_marker(changes, sensitivity):
+    for axes, name in zip(sensitivity.axes, ("length_change", "ratio_change"), strict=True):
+        markers = [line for line in axes.get_lines() if line.get_linestyle() == "None"]
+        assert len(markers) == len(HEIGHTS)
+        drawn = np.concatenate([line.get_xdata() for line in markers])
+        expected = 100.0 * changes[name].values[changes["variation"].values != "base"]
+        np.testing.assert_allclose(np.sort(drawn), np.sort(expected))
+
+
+def test_labels_of_variations(sensitivity):
+    labels = [text.get_text() for text in sensitivity.axes[0].get_yticklabels()]
+    assert {r"$\rho\times0.5$", r"$\rho=0$", r"$\tau_0=0.05$ MPa", "edge at 0.5 $V$"} < set(labels)
+    assert labels[-1] == "end of the drop"
+
+
+def test_both_solvers_curves_onsets_and_difference(crosscheck):
+    top, force, difference = crosscheck.axes[::3]
+    assert [line.get_label() for line in force.lines] == ["this project", "FreeFem++"]
+    np.testing.assert_allclose(force.lines[1].get_ydata(), 1.02 * force.lines[0].get_ydata())
+    assert difference.lines[1].get_label() == "$f_d(t)$"
+    np.testing.assert_allclose(difference.lines[1].get_ydata(), 2.0, atol=1e-6)
+    assert difference.lines[1].get_xdata()[-1] == ONSETS[1]
+    marks = {tuple(line.get_xydata()[0]) for line in top.lines if len(line.get_xdata()) == 1}
+    assert marks == {(ONSETS[0], 0.1), (ONSETS[1], 0.098)}
+
+
+def test_two_blocks_have_a_column_and_a_legend_of_their_own(crosscheck):
+    top, _, difference = crosscheck.axes[2::3]
+    titles = [axes.get_title() for axes in crosscheck.axes[:3]]
+    assert titles == ["$H=0.005$ m", "$H=0.05$ m", "$H=0.02$ m"]
+    said = top.get_legend().get_title().get_text()
+    assert "lower clamped" in said and r"\mu_2=2\,\mu" in said
+    np.testing.assert_allclose(difference.lines[1].get_ydata(), 3.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["verification", "dispersion"])
+def test_nothing_is_cut(name, request):
+    """Within the abscissa's limits every line and marker lies well inside the axes."""
+    for axes in request.getfixturevalue(name).axes:
+        left, right = axes.get_xlim()
+        to_axes = axes.transData + axes.transAxes.inverted()
+        for line in axes.get_lines():
+            if line.get_transform() == axes.transData:
+                x, y = np.asarray(line.get_xydata()).T
+                shown = (x >= left) & (x <= right)
+                height = to_axes.transform(np.column_stack([x, y])[shown])[:, 1]
+                assert height.min() > 0.02 and height.max() < 0.98
+
+
+def test_every_mode_is_a_marker(dispersion):
+    for axes, name in zip(dispersion.axes, ("growth", "frequency"), strict=True):
+        markers = [line for line in axes.get_lines() if line.get_marker() in "os"]
+        drawn = np.sort(np.concatenate([line.get_ydata() for line in markers]))
+        expected = made_up_checks.dispersion()[f"measured_{name}"].values
+        np.testing.assert_array_equal(drawn, np.sort(expected.ravel()))
+
+
+def test_errors_and_slopes(verification):
+    for axes, refinement, order in zip(verification.axes, REFINEMENTS, (2, 2, 3), strict=True):
+        errors = made_up_checks.convergence().sel(refinement=refinement)
+        by_label = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
+        for problem in ("aging", "slip"):
+            for quantity, name in zip(("slip rate", "state"), list(ERRORS)[1:], strict=True):
+                np.testing.assert_array_equal(
+                    by_label[f"{problem} law, {quantity}"], errors[name].sel(problem=problem)
+                )
+        assert ("elastodynamics, displacement" in by_label) == (order == 2)
+        (guide,) = (line for line in axes.get_lines() if line.get_linestyle() == ":")
+        (x0, y0), (x1, y1) = guide.get_xydata()
+        assert np.log(y1 / y0) / np.log(x1 / x0) == pytest.approx(order)
