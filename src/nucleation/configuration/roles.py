@@ -48,14 +48,13 @@ class Role(NamedTuple):
     study: tuple[Need, ...] = ()
     runs: tuple[Need, ...] = ()
     heights: tuple[str, ...] = ()  # keys of the section figures: of each height a run is shown
-    usual: bool = False  # whether that run has the configuration's own evolution law and state
 
 
 ROLES = {
     OWN: Role("a study of your own: lengths, a figure, its part of the report", True, False),
     PAPERS: Role(
         "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts", study=(LENGTHS,),
-        runs=(INTERFACE,), heights=("inset_height", "space_time_height"), usual=True,
+        runs=(INTERFACE,), heights=("inset_height", "space_time_height"),
     ),
     JUDGED: Role(
         "the runs on which verdicts about lengths stand", study=(LENGTHS,), runs=(INTERFACE,),
@@ -78,7 +77,7 @@ ROLES = {
     "twin_runs": Role("runs that are kicked, for `figure_patch_stability`", True, False),
     "convergence": Role("mesh and steps refined, for `figure_convergence`", True, False),
     "convergence_quiet": Role(
-        "the same without a perturbation, for the noise of meshes", several=True, runs=(QUIET,)
+        "the same without a perturbation, for the noise of meshes", True, False, runs=(QUIET,)
     ),
     "sensitivity": Role("one parameter changed at a time; the first run of a height is the base"),
     "pairs": Role("two deformable bodies, for the table of pairs", several=True, runs=(PAIR,)),
@@ -149,14 +148,9 @@ def _not_shown(
     """The heights of which figures show a run that a study does not have."""
     for key in ROLES[role].heights:
         height = getattr(figures, key)
-        if ROLES[role].usual:
-            found = shown(runs, height, base) is not None
+        if shown(runs, height, base) is None:
             law, age = base.friction.evolution, base.loading.initial_state
-            which = f", evolution = {law}, phi0 = {age:g} s"
-        else:
-            found, which = any(run.value("height") == height for run in runs), ""
-        if not found:
             yield (
-                f"studies.{name}.role = {role} needs a run with height = {height:g} m{which}: "
-                f"figures.{key} names it"
+                f"studies.{name}.role = {role} needs a run with height = {height:g} m, "
+                f"evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
             )
