@@ -163,30 +163,6 @@ def test_results_of_the_cluster_are_the_local_ones(disturbed, stopped, local):
     assert (made.directory / "results/quick/figures/figure_3.pdf").exists()
 
 
-def test_generic_profile(slurm, workflow_type, tmp_path, local, stopped):
-    """Pairs of simulations side by side, of which one is cancelled."""
-    made = workflow_type(tmp_path, profile="generic").configured(CONFIG)
-    ids = [run.id for run in RUNS]
-    process = made.start("lengths")
-    try:
-        wait_for(lambda: len(hold(made)) == 4 or process.poll() is not None)
-        assert process.poll() is None, process.stdout.read()
-        held = hold(made)
-        pairs = [job["JobId"] for job in slurm.jobs(tmp_path) if job["NumCPUs"] == "2"]
-        assert len(pairs) == 2
-        output_of("scancel", pairs[0])
-        let_go(held)
-        output, _ = process.communicate(timeout=600)
-        assert process.returncode == 0, output
-    finally:
-        slurm.end(process, tmp_path)
-    states = {job["JobId"]: job["JobState"] for job in slurm.jobs(tmp_path)}
-    assert states.pop(pairs[0]) == "CANCELLED"
-    assert set(states.values()) == {"COMPLETED"}
-    assert sum(AGAIN in log for log in logs(made).values()) == 2
-    assert_same_variables(made, local, ids)
-
-
 def test_time_limit_leaves_time_for_a_checkpoint(stopped):
     """SIGTERM reaches a simulation's process a minute before the end, and a retry follows."""
     made, process = stopped
