@@ -12,6 +12,7 @@ import functools
 import gc
 import os
 import runpy
+import shlex
 import sys
 from dataclasses import asdict
 from math import ceil
@@ -55,7 +56,8 @@ from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
 from nucleation.pipeline.elsewhere import others
-from nucleation.pipeline.steps import Steps, configfiles
+from nucleation.pipeline.launch import configuration_files
+from nucleation.pipeline.steps import Steps
 from nucleation.pipeline.store import StoreError
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
@@ -66,7 +68,8 @@ if "studies" not in config:
     configfile: str(Path(BASE, "config", "config.yaml"))
 
 
-os.environ.setdefault("NUCLEATION_CONFIGFILES", configfiles())  # jobs have other arguments
+# Jobs have other arguments.
+os.environ.setdefault("NUCLEATION_CONFIGFILES", shlex.join(configuration_files()))
 
 
 try:

@@ -7,7 +7,6 @@ import pytest
 from nucleation.api import critical_length
 from nucleation.commands.options import second_body
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.steps import configfiles
 
 FAULT = {
     "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
@@ -137,13 +136,3 @@ def test_a_seed_or_a_strength_of_nothing_is_refused(nucleation, tmp_path, alone)
 def test_too_short_a_block_is_sent_to_specimen(nucleation, tmp_path):
     ended = nucleation("simulate", tmp_path / "run.nc", "--length", "2cm", "--dry-run")
     assert ended.code == 2 and "nucleation specimen --length 0.02m" in ended.err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "files"),
-    [(["snakemake", "x", "--configfile", "my.yaml", "--cores", "2"], "my.yaml"),
-     (["snakemake", "--configfile=a b.yaml"], "'a b.yaml'"), (["snakemake", "lengths"], ""),
-     (["snakemake", "--configfiles", "a.yaml", "b.yaml", "--", "x"], "a.yaml b.yaml")],
-)  # fmt: skip
-def test_what_makes_a_result_again_names_its_configuration(arguments, files):
-    assert configfiles(arguments) == files

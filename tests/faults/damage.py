@@ -1,15 +1,30 @@
-"""Files that are damaged or foreign: entries of stores, checkpoints, notes."""
+"""Files that are damaged, disks that are full or read-only, clocks, and others at work."""
 
-import functools
+import contextlib
+import datetime
 import os
 import random
+import resource
 import shutil
-from collections.abc import Callable
+import subprocess
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
-from harness import IDS, Place, Reference
+import pytest
+from harness import (
+    CONFIG,
+    IDS,
+    OTHER,
+    Place,
+    configure,
+    fault,
+    others,
+    require_nothing_made,
+    require_same,
+    says,
+)
 from processes import require
-from registry import FAULTS, fault
 
 from nucleation.pipeline.store import NOTE, read_note
 
@@ -40,21 +55,18 @@ def zero(path: Path, random: random.Random) -> None:
     _write(path, content)
 
 
-def _without_a_trace(path: Path, damage: Callable, random: random.Random) -> None:
-    """Damage as by a failing disk, that leaves the time of the last change as it was."""
-    before = path.stat()
-    damage(path, random)
-    os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
+DAMAGE = (truncate, flip, zero)
 
 
-def _damaged_entry(place: Place, reference: Reference, random: random.Random, damage) -> None:
+@fault
+def damaged_entry(place, reference, random):
     """Check lists it; nothing is made from it, and it is made again."""
     entry = place.store.entry(random.choice(place.store.listed()))
     path = entry / random.choice([*read_note(entry)["files"], NOTE])
-    if random.choice((True, False)):
-        _without_a_trace(path, damage, random)
-    else:
-        damage(path, random)
+    before = path.stat()
+    random.choice(DAMAGE)(path, random)
+    if random.choice((True, False)):  # as by a failing disk, that leaves its time as it was
+        os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
     listed = any(f.path == entry and f.state in ("damaged", "foreign") for f in place.findings())
     if not listed:  # a bit without meaning, in what a note says of the rest
         require(path.name == NOTE, f"check does not list the damaged {path}")
@@ -62,53 +74,6 @@ def _damaged_entry(place: Place, reference: Reference, random: random.Random, da
     if random.choice((True, False)):
         place.forget_tables()
     place.finish()
-
-
-def _bad_checkpoint(place: Place, id: str, *, refused: bool | None) -> None:
-    """Run on from a checkpoint that must be refused, or used, or (None) may be either."""
-    place.forget(id)
-    with place.unharmed():
-        place.run_alone(id)
-    said = place.log(id)
-    if refused is not None:
-        expected = "the run starts at the beginning" if refused else "the run goes on from"
-        require(expected in said, f"it does not say {expected!r}: {said}")
-
-
-def _stopped(place: Place, reference: Reference, id: str) -> Path:
-    """A checkpoint in the middle of the run."""
-    name = place.checkpoint(id).name
-    return Path(shutil.copy2(reference.checkpoints / name, place.checkpoint(id)))
-
-
-def _damaged_checkpoint(
-    place: Place, reference: Reference, random: random.Random, damage, refused: bool | None
-) -> None:
-    id = random.choice(IDS)
-    damage(_stopped(place, reference, id), random)
-    return _bad_checkpoint(place, id, refused=refused)
-
-
-@fault
-def checkpoint_of_other_parameters(place, reference, random):
-    one, other = random.sample(IDS, 2)
-    shutil.copy2(reference.checkpoints / place.checkpoint(other).name, place.checkpoint(one))
-    return _bad_checkpoint(place, one, refused=True)
-
-
-@fault
-def checkpoint_after_the_end(place, reference, random):
-    """A kill after the dataset and before the checkpoint's removal leaves one, which is used."""
-    id = random.choice(IDS)
-    _stopped(place, reference, id)
-    return _bad_checkpoint(place, id, refused=False)
-
-
-for _damage in (truncate, flip, zero):
-    FAULTS[f"{_damage.__name__}_entry"] = functools.partial(_damaged_entry, damage=_damage)
-    FAULTS[f"{_damage.__name__}_checkpoint"] = functools.partial(
-        _damaged_checkpoint, damage=_damage, refused=True if _damage is truncate else None
-    )  # not all bits matter
 
 
 @fault
@@ -121,5 +86,114 @@ def lost_notes(place, reference, random):
         notes = sorted((place.directory / ".snakemake" / "metadata").rglob("*"))
         note = random.choice([path for path in notes if path.is_file()])
         truncate(note, random)
+    with place.unharmed():
+        place.finish()
+
+
+@fault
+def full_disk(place, reference, random):
+    """Writes fail in the middle of a checkpoint, or only of the larger dataset."""
+    id = random.choice(IDS)
+    size = place.simulation(id).stat().st_size
+    limit = random.randrange(30_000, size)
+    place.forget(id)
+
+    def prepare() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    with place.unharmed():
+        done = place.start(prepare=prepare).end()
+        said = done.output + place.log(id)
+        require(done.status != 0, "it ended well without space")
+        clear = any(text in said for text in ("No space left on device", "File too large"))
+        require(clear, f"it does not say that space is lacking: {said[-1500:]}")
+        places = (place.store.directory, place.checkpoint(id).parent)
+        left = [path.name for directory in places for path in directory.glob(".*.tmp")]
+        require(not left, f"halves of files were left: {left}")
+        require(not place.simulation(id).exists(), "there is a result")
+        place.finish()
+
+
+@contextlib.contextmanager
+def read_only(directory: Path) -> Iterator[None]:
+    """A directory that can't be written to: not even by root, who may mount it so."""
+    root = os.geteuid() == 0
+    if not root:
+        directory.chmod(0o555)
+    elif subprocess.run(["mount", "--bind", directory, directory]).returncode != 0:
+        pytest.skip("root must be allowed to mount")
+    else:
+        subprocess.run(["mount", "-o", "remount,bind,ro", directory], check=True)
+    try:
+        yield
+    finally:
+        if root:
+            subprocess.run(["umount", "--lazy", directory], check=True)
+        else:
+            directory.chmod(0o755)
+
+
+@fault
+def read_only_results(place, reference, random):
+    id = random.choice(IDS)
+    place.forget(id)
+    with place.unharmed():
+        with read_only(place.results):
+            says(place.run(), "is not writable", "Read-only file system", "Permission denied")
+        place.finish()
+
+
+@fault
+def two_snakemakes(place, reference, random):
+    """The second stops and says why; the first goes on."""
+    place.forget(random.choice(IDS))
+    with place.unharmed():
+        first = place.start()
+        locks = place.directory / ".snakemake" / "locks"
+        require(first.wait_for(lambda: any(locks.glob("*"))), "it ended without a lock")
+        second = place.run()
+        running = not first.ended()
+        done = first.end()
+        require(done.status == 0, done.output)
+        if running:
+            says(second, "locked", ".snakemake/locks/")  # the second: removed as it was met
+
+
+@fault
+def two_directories_with_one_store(place, reference, random):
+    """Two working directories with other parameters and one place of results, at once."""
+    whole = others(reference.directory.parent)
+    place.forget(*IDS)
+    place.forget_tables()
+    second = Place(place.directory.parent / f"{place.directory.name}.second")
+    second.directory.mkdir()
+    for one, config in ((place, CONFIG), (second, OTHER)):
+        configure(one, {**config, "results": str(place.results)})
+    with place.unharmed():
+        first = place.start()
+        if random.choice((True, False)):
+            first.spend(random.uniform(0.0, 1.0) * reference.cpu)
+        ended = [running.end() for running in (first, second.start())]
+        for done in ended:
+            require(done.status == 0, done.output)
+        require_same(place.contents(), reference.contents | whole)
+        require(whole.keys() <= place.contents().keys(), "a result of the second is not there")
+        configure(place, CONFIG)
+        require_nothing_made(place.run())
+    shutil.rmtree(second.directory)
+    place.prune()
+
+
+DAY = datetime.timedelta(days=1).total_seconds()
+
+
+@fault
+def times_at_random(place, reference, random):
+    """As after a copy from machines whose clocks differ, or after a clock was set back."""
+    place.forget(random.choice(IDS))
+    for path in sorted(place.results.rglob("*")):
+        then = time.time() + DAY * random.choice((-20000, -1, 0, 1, 4000))
+        with contextlib.suppress(FileNotFoundError):  # a temporary one
+            os.utime(path, (then, then))
     with place.unharmed():
         place.finish()

@@ -1,4 +1,10 @@
-"""Workflows to disturb: a directory with one, and what an undisturbed one makes."""
+"""Workflows to disturb: a directory with one, and what an undisturbed one makes.
+
+A fault is a function that does what can go wrong, and then what a user would do next. It gets a
+copy of the undisturbed workflow, what an undisturbed one makes, and a source of random numbers. It
+leaves a workflow that is finished again: its datasets are compared. It raises Lost if something was
+damaged, or if it ended without a clear error.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +13,7 @@ import dataclasses
 import functools
 import math
 import os
+import random
 import re
 import shutil
 import sys
@@ -29,7 +36,6 @@ from nucleation.pipeline.running import UNFINISHED, task_of_run
 from nucleation.pipeline.steps import Task
 from nucleation.pipeline.store import NOTE, Store, StoreError, path_in, read_note
 
-SCRIPT = ROOT / "workflow" / "scripts" / "simulate.py"
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {
     "studies": {
@@ -53,28 +59,24 @@ OF_THE_MOMENT = COSTS | {"created", "content", "command"}
 
 @dataclasses.dataclass(frozen=True)
 class Reference:
-    """An undisturbed workflow, and runs stopped halfway.
+    """An undisturbed workflow.
 
     Attributes
     ----------
     directory : Path
         The finished workflow.
-    checkpoints : Path
-        A directory with the checkpoint of each simulation, stopped by a signal in its middle.
     contents : dict
         Its datasets, by key.
     shown : dict
         Keys of what is shown, by path below the results.
-    alone, workflow : float
-        Processor time (s) of one simulation's script, and of the whole workflow.
+    cpu : float
+        Processor time that it took (s).
     """
 
     directory: Path
-    checkpoints: Path
     contents: dict[str, xr.Dataset]
     shown: dict[Path, str | None]
-    alone: float
-    workflow: float
+    cpu: float
 
 
 @dataclasses.dataclass(frozen=True)
@@ -137,26 +139,12 @@ class Place:
         command = [sys.executable, "-m", "snakemake", *_asked(arguments, checkout)]
         return Running(command, self.directory, prepare, **environment)
 
-    def start_alone(
-        self, id: str, prepare: Callable[[], object] | None = None, *, stop_after: int | None = None
-    ) -> Running:
-        """Start the script of one simulation without Snakemake, to be stopped after some steps."""
-        command = [sys.executable, str(Path(__file__).with_name("alone.py")), id]
-        command += [] if stop_after is None else [str(stop_after)]
-        return Running(command, self.directory, prepare)
-
     def run(self, *arguments: str, **environment: str) -> Done:
         """Run snakemake to its end, with nothing that disturbs it on the way."""
         with tempfile.TemporaryDirectory() as place:
             asked, printed = _asked(arguments, ROOT), Path(place, "printed")
             done = warm()(asked, self.directory, printed, **{**ENVIRONMENT, **environment})
         return Done(done.returncode, done.stdout, math.nan)
-
-    def run_alone(self, id: str) -> Done:
-        """Run the script of one simulation to its end, a good one."""
-        done = self.start_alone(id).end()
-        require(done.status == 0, done.output + self.log(id))
-        return done
 
     def finish(self, *targets: str, **environment: str) -> bool:
         """What a user does next: run it again and do what messages ask for, if it stops with any.
@@ -300,25 +288,37 @@ def first_difference(one: xr.Dataset, other: xr.Dataset) -> str | None:
 
 
 def make_reference(directory: Path) -> Reference:
-    """Run the workflow undisturbed, and stop each simulation once in its middle."""
+    """Run the workflow undisturbed."""
     whole = Place(directory / "undisturbed")
     whole.directory.mkdir(parents=True)
-    (whole.directory / "config.yaml").write_text(yaml.safe_dump(CONFIG))
-    workflow = whole.start().end()
-    require(workflow.status == 0, workflow.output)
+    configure(whole, CONFIG)
+    done = whole.start().end()
+    require(done.status == 0, done.output)
     require(not list(whole.store.directory.glob(".*")), f"{LEFTOVERS['.*.tmp']}")
+    return Reference(whole.directory, whole.contents(), whole.shown(), done.cpu)
 
-    place, checkpoints = whole.copy(directory / "halfway"), directory / "stopped"
-    checkpoints.mkdir()
-    for id in IDS:
-        place.forget(id)
-        steps = int(netcdf.read(whole.simulation(id)).attrs["steps"])
-        stopped = place.start_alone(id, stop_after=steps // 2).end()
-        require(stopped.status != 0, "it did not stop")
-        require("stopped by SIGTERM" in place.log(id), "its log does not say why it stopped")
-        shutil.copy2(place.checkpoint(id), checkpoints)
-    place.checkpoint(id).unlink()
-    alone = place.run_alone(id)
-    return Reference(
-        whole.directory, checkpoints, whole.contents(), whole.shown(), alone.cpu, workflow.cpu
-    )
+
+Fault = Callable[[Place, Reference, random.Random], object]
+FAULTS: dict[str, Fault] = {}
+
+
+def fault(function: Fault) -> Fault:
+    """Enter a function into the registry."""
+    FAULTS[function.__name__] = function
+    return function
+
+
+def says(done: Done, *texts: str) -> None:
+    """Require that it stopped with one of the texts in its output."""
+    require(done.status != 0, "it ended well")
+    require(any(text in done.output for text in texts), f"no clear error: {done.output[-2000:]}")
+
+
+def disturb(name: str, reference: Reference, directory: Path, seed: str) -> None:
+    """Let one fault happen to a copy of the workflow, which must be as undisturbed in the end."""
+    place = Place(reference.directory).copy(directory)
+    try:
+        FAULTS[name](place, reference, random.Random(seed))
+        place.require_same(reference)
+    finally:
+        Running.kill_all()

@@ -1,4 +1,4 @@
-"""Kills. The moment is a random part of the processor time that an undisturbed run takes."""
+"""Kills. The moment is a random part of the processor time that an undisturbed workflow takes."""
 
 import contextlib
 import functools
@@ -6,26 +6,37 @@ import random
 import signal
 
 import psutil
-from harness import IDS, Place, Reference
-from processes import processor_time, require
-from registry import FAULTS, fault
+from damage import DAMAGE, truncate
+from harness import CONFIG, FAULTS, IDS, OTHER, Place, Reference, configure, fault
+from processes import Running, processor_time, require
+
+TERM, KILL, INT = signal.SIGTERM, signal.SIGKILL, signal.SIGINT
 
 
-def _stop_simulation(
+def _send_scripts(running: Running, number: signal.Signals) -> None:
+    for process in running.scripts():
+        with contextlib.suppress(psutil.NoSuchProcess):  # it has just ended
+            process.send_signal(number)
+
+
+def _stop_simulations(
     place: Place, reference: Reference, random: random.Random, number: signal.Signals
 ) -> None:
-    """Signals, up to three times, to a simulation's script, which is then run to its end."""
-    id = random.choice(IDS)
-    place.forget(id)
+    """A signal to the simulations' scripts: Snakemake says which job failed, and each goes on."""
+    ids = random.sample(IDS, random.choice((1, 2)))
+    place.forget(*ids)
     with place.unharmed():
-        for _ in range(random.choice((1, 1, 1, 3))):
-            moment = random.uniform(0.3, 1.0) * reference.alone
-            done = place.start_alone(id).interrupt(number, moment)
-            require(done.status != 0 or place.simulation(id).exists(), "it left no result")
+        running = place.start()
+        moment = random.uniform(0.05, 0.3) * reference.cpu
+        if running.wait_for(lambda: processor_time(running.scripts()) >= moment):
+            _send_scripts(running, number)
+        done = running.end()
+        if done.status != 0:  # or the signal came too late
+            require(any(f"{id}." in done.output for id in ids), f"no name: {done.output}")
+        place.finish()
+        for id in ids:
             begun = "starts at the beginning" in place.log(id)
             require(not begun, f"a checkpoint was refused: {place.log(id)}")
-        if not place.simulation(id).exists():
-            place.run_alone(id)
 
 
 def _stop_snakemake(
@@ -38,7 +49,7 @@ def _stop_snakemake(
     """A signal to snakemake, or to all its processes as from a terminal; then the next steps."""
     place.forget(*random.sample(IDS, random.choice((1, 2))))
     with place.unharmed():
-        moment = random.uniform(0.1, 1.0) * reference.workflow
+        moment = random.uniform(0.1, 1.0) * reference.cpu
         place.start().interrupt(number, moment, group=group)
         place.finish()
 
@@ -46,36 +57,35 @@ def _stop_snakemake(
 _stop_all = functools.partial(_stop_snakemake, group=True)
 
 for _name, _stop, _number in (
-    ("sigkill_simulation", _stop_simulation, signal.SIGKILL),
-    ("sigterm_simulation", _stop_simulation, signal.SIGTERM),
-    ("sigint_simulation", _stop_simulation, signal.SIGINT),
-    ("sighup_simulation", _stop_simulation, signal.SIGHUP),
+    ("sigkill_simulation", _stop_simulations, KILL),
+    ("sigterm_simulation", _stop_simulations, TERM),
+    ("sigint_simulation", _stop_simulations, INT),
     # snakemake alone: its simulation goes on while the next workflow begins
-    ("sigkill_snakemake", _stop_snakemake, signal.SIGKILL),
-    ("sigkill_snakemake_and_all", _stop_all, signal.SIGKILL),
-    ("sigterm_snakemake", _stop_snakemake, signal.SIGTERM),
-    ("sigterm_snakemake_and_all", _stop_all, signal.SIGTERM),
-    ("ctrl_c", _stop_all, signal.SIGINT),
+    ("sigkill_snakemake", _stop_snakemake, KILL),
+    ("sigkill_snakemake_and_all", _stop_all, KILL),
+    ("sigterm_snakemake_and_all", _stop_all, TERM),
+    ("ctrl_c", _stop_all, INT),
 ):
     FAULTS[_name] = functools.partial(_stop, number=_number)
 
 
 @fault
-def sigkill_simulation_in_workflow(place, reference, random):
-    """Snakemake is told of the failure, and says which job it was."""
-    id = random.choice(IDS)
+def damaged_checkpoint(place, reference, random):
+    """It is refused, unless the damage is of bits without meaning."""
+    id, damage = random.choice(IDS), random.choice(DAMAGE)
     place.forget(id)
     with place.unharmed():
         running = place.start()
-        moment = random.uniform(0.1, 1.0) * reference.alone
-        if running.wait_for(lambda: processor_time(running.scripts()) >= moment):
-            for process in running.scripts():
-                with contextlib.suppress(psutil.NoSuchProcess):  # it has just ended
-                    process.kill()
-        done = running.end()
-        if done.status != 0:  # or the kill came too late
-            require(f"{id}." in done.output, f"the failed job is not named: {done.output}")
-            place.finish()
+        running.wait_for(place.checkpoint(id).exists)
+        _send_scripts(running, KILL)
+        running.end()
+        left = place.checkpoint(id).exists()
+        if left:
+            damage(place.checkpoint(id), random)
+        place.finish()
+    if left and damage is truncate:
+        said = place.log(id)
+        require("the run starts at the beginning" in said, f"it was not refused: {said}")
 
 
 @fault
@@ -88,33 +98,22 @@ def job_taken_for_failed(place, reference, random):
     running.wait_for(lambda: any(path.exists() for path in made))
     with place.unharmed():
         if random.choice((True, False)):
-            for process in running.scripts():
-                with contextlib.suppress(psutil.NoSuchProcess):
-                    process.kill()
+            _send_scripts(running, KILL)
         second = place.run()  # refused by the lock, if the first goes on
-        running.signal(signal.SIGTERM)
+        running.signal(TERM)
         running.end()
         place.finish()
     require(second.status == 0 or "locked" in second.output, second.output)
 
 
 @fault
-def killed_before_renaming(place, reference, random):
-    """Halves of a checkpoint and of a dataset lie there under temporary names."""
-    id = random.choice(IDS)
-    dataset, checkpoint = place.simulation(id), place.checkpoint(id)
-    place.store.directory.joinpath(".killed.tmp").mkdir()
-    checkpoint.parent.mkdir(exist_ok=True)
-    for path, half in (
-        (dataset, place.store.directory / ".killed.tmp" / dataset.name),
-        (
-            reference.checkpoints / checkpoint.name,
-            checkpoint.with_name(f".{checkpoint.name}.1.tmp"),
-        ),
-    ):
-        content = path.read_bytes()
-        half.write_bytes(content[: random.randrange(len(content))])
-    place.forget(id)
-    found = [finding for finding in place.findings() if "half a file" in finding.reason]
-    require(len(found) == 2, "check does not list the halves")
-    place.run_alone(id)
+def scheduler_killed_and_parameters_changed(place, reference, random: random.Random):
+    """Its simulation goes on to its end; meanwhile the configuration changes, and back again."""
+    place.forget(random.choice(IDS))
+    with place.unharmed():
+        place.start().interrupt(KILL, random.uniform(0.2, 0.9) * reference.cpu)
+        configure(place, OTHER)
+        place.finish()
+        configure(place, CONFIG)
+        place.finish()
+        place.prune()

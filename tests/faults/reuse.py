@@ -1,49 +1,28 @@
-"""What has fooled the reuse of results: lost notes, copies, edits, stores that are not right."""
+"""Code that is edited, in ways that have fooled the reuse of results."""
 
 import contextlib
 import os
-import random
 import shutil
-import signal
 from collections.abc import Iterator
 from pathlib import Path
 
-from disks import read_only
 from harness import (
-    CONFIG,
     IDS,
-    OTHER,
     Place,
-    configure,
     datasets,
+    fault,
     first_difference,
     require_nothing_made,
     require_same,
     rules,
+    says,
 )
 from processes import ROOT, require
-from registry import fault, says
 
 from nucleation.datasets import netcdf
 from nucleation.pipeline.store import Store
 
 EDITED = "src/nucleation/simulation/control.py"
-
-
-@fault
-def files_of_entries_swapped(place, reference, random):
-    """Only the datasets, in entries whose notes stay: no table is made of the wrong one."""
-    _swap(*(place.simulation(id) for id in IDS))
-    listed = {found.path for found in place.findings() if found.state == "damaged"}
-    require({place.simulation(id).parent for id in IDS} <= listed, "check does not list them")
-    place.forget_tables()
-    place.finish()
-
-
-def _swap(one: Path, other: Path) -> None:
-    aside = one.rename(one.with_suffix(".aside"))
-    other.rename(one)
-    aside.rename(other)
 
 
 @contextlib.contextmanager
@@ -67,7 +46,7 @@ def code_edited_during_a_run(place, reference, random):
         file = checkout / EDITED
         text = file.read_text()
         running = place.start(checkout=checkout, NUCLEATION_STORES=str(other))
-        running.spend(random.uniform(0.0, 1.0) * reference.workflow)
+        running.spend(random.uniform(0.0, 1.0) * reference.cpu)
         file.write_text(text.replace("SAFETY = 0.85", "SAFETY = 0.5"))
         done = running.end()
         if done.status != 0:
@@ -120,28 +99,3 @@ def _other_store(place: Place) -> Iterator[Path]:
     directory.mkdir()
     yield directory
     shutil.rmtree(directory)
-
-
-@fault
-def unwritable_store(place, reference, random):
-    """A mistyped one stops it before the first job; a read-only one loses no result."""
-    place.forget(random.choice(IDS))
-    says(place.run(NUCLEATION_STORES=str(place.directory / "mistyped")), "is no directory")
-    with _other_store(place) as other, read_only(other):
-        done = place.run(NUCLEATION_STORES=str(other))
-        require(done.status == 0, f"the result was lost: {done.output[-1500:]}")
-
-
-@fault
-def scheduler_killed_and_parameters_changed(place, reference, random: random.Random):
-    """Its simulation goes on to its end; meanwhile the configuration changes, and back again."""
-    id = random.choice(IDS)
-    place.forget(id)
-    with place.unharmed():
-        moment = random.uniform(0.2, 0.9) * reference.workflow
-        place.start().interrupt(signal.SIGKILL, moment)
-        configure(place, OTHER)
-        place.finish()
-        configure(place, CONFIG)
-        place.finish()
-        place.prune()

@@ -6,16 +6,13 @@ A third of them; in CI each once (CI=true make test), and as many as wanted in m
 import os
 import random
 
-import company
 import damage
-import disks
 import kills
 import pytest
 import reuse
-from harness import make_reference
-from registry import FAULTS, disturb
+from harness import FAULTS, disturb, make_reference
 
-MODULES = (kills, disks, damage, company, reuse)
+MODULES = (kills, damage, reuse)
 """Importing one enters its faults into the registry."""
 
 SEED = os.environ.get("FAULT_SEED", "1")

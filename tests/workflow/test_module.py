@@ -40,11 +40,10 @@ use rule * from nucleation as fault_*
 STUDY = {"defaults": {"n_x": 40, "n_y": 4}, "runs": [{"height": [0.05, 0.1]}]}
 
 
-@pytest.fixture(params=["alone", "with the module"])
-def host(request, workflow, tmp_path):
+@pytest.fixture
+def host(workflow, tmp_path):
     """A workflow of somebody's own, with what it makes made once."""
-    text = OWN if request.param == "alone" else MODULE.join(OWN.split("\n\n", 1))
-    (tmp_path / "Snakefile").write_text(text)
+    (tmp_path / "Snakefile").write_text(MODULE.join(OWN.split("\n\n", 1)))
     (tmp_path / "workflow").symlink_to(ROOT / "workflow")
     (tmp_path / "in.txt").write_text("a\n")
     configure(tmp_path, 1)

@@ -65,14 +65,6 @@ def test_results_are_taken_and_wrong_ones_are_made_and_given_again(filled, tmp_p
     assert all(read_note(shared / key, whole=True) for key in Store(shared).listed())
 
 
-def test_store_that_is_not_there_is_named_before_the_first_job(filled, tmp_path, monkeypatch):
-    monkeypatch.setenv("NUCLEATION_STORES", "/no/such/store")
-    done = elsewhere(filled[1], tmp_path)("simulations")
-    assert done.returncode != 0
-    assert "the store '/no/such/store' is no directory" in done.stdout
-    assert not (tmp_path / "results").exists()
-
-
 def test_job_goes_on_without_a_store_that_its_node_lacks(filled, tmp_path, monkeypatch):
     """What jobs of a running Snakemake see: the environment of the process that began it."""
     monkeypatch.setenv("NUCLEATION_STORES", "/no/such/store")

@@ -4,93 +4,76 @@ PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
 PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map"]
 
 
-def drawn(name):
-    return [steps(f"draw_{name}")]
+def made(*rules):
+    """A function that gives the results of some rules."""
+    return lambda: [steps(rule) for rule in rules]
 
 
-def article():
-    found = [steps("write_article"), steps("evaluate_claims")]
-    return [*found, *(steps(f"draw_{name}") for name in PAPERS_FIGURES)]
+def of_studies(names):
+    return [path for name in names for path in [steps("draw_study", name), *lengths_of(name)]]
 
 
-def of_study(name):
-    return [steps("draw_study", name), *lengths_of(name)]
+def shared(results):
+    """A function that gives results of the studies that share lengths.csv."""
+    return lambda: needed(lambda _: results(SHARED), "study with table: lengths")(None)
 
 
+ARTICLE = ["write_article", "evaluate_claims", *(f"draw_{name}" for name in PAPERS_FIGURES)]
 TARGETS = {
     "paper": (
         "Every figure, table and verdict of the paper.",
-        lambda: [*article(), steps("write_table_s1"), steps("gather_lengths")],
+        made(*ARTICLE, "write_table_s1", "gather_lengths"),
     ),
     "studies": (
         "Tables and figures of all studies.",
-        lambda: [
-            *(path for study in settings.studies for path in of_study(study)),
-            *([steps("gather_lengths")] if SHARED else []),
-        ],
+        lambda: of_studies(settings.studies) + made("gather_lengths")() * bool(SHARED),
     ),
     "simulations": (
         "The simulations of the studies that share lengths.csv.",
-        lambda: needed(lambda _: made_by_jobs(*SHARED), "study with table: lengths")(None),
+        shared(lambda studies: made_by_jobs(*studies)),
     ),
-    "lengths": ("Onset and critical length of each of them.", lambda: [steps("gather_lengths")]),
-    "claims": ("A verdict on every statement of the paper.", lambda: [steps("evaluate_claims")]),
-    "article": ("The replication as a short article.", article),
+    "lengths": ("Onset and critical length of each of them.", made("gather_lengths")),
+    "claims": ("A verdict on every statement of the paper.", made("evaluate_claims")),
+    "article": ("The replication as a short article.", made(*ARTICLE)),
     "replication": (
         "The article with figures of L_s, drop and map: PDF, LaTeX and Markdown.",
-        lambda: [*article(), steps("print_article")],
+        made(*ARTICLE, "print_article"),
     ),
-    "table_s1": ("Table S1: parameters of the friction law.", lambda: [steps("write_table_s1")]),
+    "table_s1": ("Table S1: parameters of the friction law.", made("write_table_s1")),
+    **{name: (f"{TITLES[name]}.", made(f"draw_{name}")) for name in [*DRAWN, "animation"]},
+    "figure_studies": ("A figure of each study that shares lengths.csv.", shared(of_studies)),
     **{
-        name: (f"{FIGURES[name].title}.", lambda name=name: drawn(name))
-        for name in [*DRAWN, "animation"]
-    },
-    "figure_studies": (
-        "A figure of each study that shares lengths.csv.",
-        lambda: needed(
-            lambda _: [path for study in SHARED for path in of_study(study)],
-            "study with table: lengths",
-        )(None),
-    ),
-    **{
-        f"figure_study_{study}": (
-            f"Figure of the study {study}.",
-            lambda study=study: of_study(study),
-        )
+        f"figure_study_{study}": (f"Figure of the study {study}.", lambda s=study: of_studies([s]))
         for study in settings.studies
     },
     "pairs": (
         "Two deformable bodies: lengths over the theory of the own far sides, and verdicts.",
-        lambda: [steps("gather_pairs"), steps("evaluate_pairs"), steps("pair_modes")],
+        made("gather_pairs", "evaluate_pairs", "pair_modes"),
     ),
     "floors": (
         "How noisy each mesh is with its steps, as a declared strength.",
-        lambda: [steps("gather_floors")],
-    ),
-    "figure_laboratory": (
-        "Laboratory faults: lengths observed and computed.",
-        lambda: [*drawn("figure_laboratory"), steps("gather_laboratory")],
+        made("gather_floors"),
     ),
     "patch_convergence": (
         "Where patches turn unstable on refined meshes.",
         lambda: [steps("gather_patches", "patch_convergence")],
     ),
-    "figure_crosscheck": (
-        "The figure of both solvers.",
-        lambda: [steps("draw_figure_crosscheck"), steps("compare_crosscheck")],
-    ),
-    "crosscheck": (
-        "The same runs by an independent solver.",
-        lambda: [steps("draw_figure_crosscheck"), steps("compare_crosscheck")],
-    ),
-    "report": ("Everything on one page, results/report.html.", lambda: [steps("write_report")]),
+    **{
+        name: (text, made("draw_figure_crosscheck", "compare_crosscheck"))
+        for name, text in {
+            "figure_crosscheck": "The figure of both solvers.",
+            "crosscheck": "The same runs by an independent solver.",
+        }.items()
+    },
+    "report": ("Everything on one page, results/report.html.", made("write_report")),
 }
 """What each target is for, and the results it leads to; `steps.behind` adds what these stand on."""
 
 if in_role("patch_convergence"):
+    _title, _drawn = TARGETS["figure_patch_stability"]
     TARGETS["figure_patch_stability"] = (
-        TARGETS["figure_patch_stability"][0],
-        lambda: [*drawn("figure_patch_stability"), steps("gather_patches", "patch_convergence")],
+        _title,
+        lambda: _drawn() + TARGETS["patch_convergence"][1](),
     )
 
 

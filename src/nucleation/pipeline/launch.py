@@ -9,7 +9,7 @@ core at all it waits forever.
 import os
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ..configuration.load import load
 from ..model.quantities import ParameterError
@@ -18,14 +18,14 @@ NO_CORES = re.compile(r" (--cores|-c)[ =]?(0+|-\d+) ")
 OPTIONS = ("--configfile", "--configfiles")
 
 
-def configuration_files(arguments: list[str]) -> Iterator[str]:
-    """The configuration files that a command line names."""
+def configuration_files(arguments: Sequence[str] | None = None) -> Iterator[str]:
+    """The configuration files that a command line of Snakemake, by default this one, names."""
     taking = False  # an option takes all that follow, up to the next one
-    for argument in arguments:
-        option, equals, value = argument.partition("=")
+    for argument in sys.argv if arguments is None else arguments:
+        option, _, value = argument.partition("=")
         if argument.startswith("-"):
             taking = option in OPTIONS
-            if taking and equals:
+            if taking and value:
                 yield value
         elif taking:
             yield argument

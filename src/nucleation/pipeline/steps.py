@@ -7,8 +7,6 @@ of Snakemake decides what is current, and a dry run lists what will be computed.
 """
 
 import contextlib
-import shlex
-import sys
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
@@ -171,16 +169,3 @@ def _given(value: Any, wildcards: Any) -> Any:
 def _plain(paths: Any) -> str | list[str]:
     """Paths as plain texts, without what Snakemake knows of them."""
     return str(paths) if isinstance(paths, str) else [str(path) for path in paths]
-
-
-def configfiles(arguments: Sequence[str] | None = None) -> str:
-    """The files that a command line of Snakemake, by default this one, gives as configuration."""
-    found, taking = [], False
-    for word in sys.argv if arguments is None else arguments:
-        if word.startswith("-"):
-            name, _, file = word.partition("=")
-            taking = name in ("--configfile", "--configfiles")
-            found += [file] if taking and file else []
-        elif taking:
-            found.append(word)
-    return shlex.join(found)
