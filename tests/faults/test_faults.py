@@ -1,6 +1,6 @@
 """Nothing is lost: faults, each at a random moment that a seed fixes.
 
-A third of them; in CI each once (CI=true make test), and as many as wanted in make torture.
+A third of them, none of the slowest; in CI each once (CI=true make test), and as many as wanted in make torture.
 """
 
 import os
@@ -17,7 +17,7 @@ MODULES = (kills, damage, reuse)
 
 SEED = os.environ.get("FAULT_SEED", "1")
 COUNT = int(os.environ.get("FAULTS", "0"))
-ONCE = list(FAULTS) if "CI" in os.environ else list(FAULTS)[::3]
+ONCE = list(FAULTS) if "CI" in os.environ else list(FAULTS)[1::3]
 TESTED = random.Random(SEED).choices(list(FAULTS), k=COUNT) if COUNT else ONCE
 
 
