@@ -1,6 +1,7 @@
 """Nothing is lost: faults, each at a random moment that a seed fixes.
 
-A third of them, none of the slowest; in CI each once (CI=true make test), and as many as wanted in make torture.
+A third of them, none of the slowest; in CI each once (CI=true make test), and as many as wanted in
+make torture.
 """
 
 import os
