@@ -78,6 +78,6 @@ def test_every_part_counts(law, monkeypatch):
     other = dict(zip(LAWS, LAWS[::-1], strict=True))[law]
     wrong = manufactured(other, "exact", rows=5).source
     for source in (lambda self, time: 0.0 * wrong(time), lambda self, time: wrong(time)):
-        monkeypatch.setattr(dynamics.ManufacturedFriction, "source", source)
+        monkeypatch.setattr(dynamics.Manufactured, "source", source)
         found = errors(manufactured(law, "exact", 5), [-56] * 10)
         assert (np.array(found) > (1e-4, 1e-4, 1e-3)).all()

@@ -9,11 +9,9 @@ from nucleation.fem.bodies import body_of
 from nucleation.fem.field import Motion
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.step import Dynamics
-from nucleation.stepping.scheme import BDF
-from nucleation.verification.manufactured.dynamics import ManufacturedFriction, block_field
+from nucleation.verification.manufactured.dynamics import Manufactured, block_field
 from nucleation.verification.manufactured.fields import Displacement, Loads, Power, Sine, Term
-from nucleation.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, orders
+from nucleation.verification.orders import FIELDS, MESH_RUNG, MESH_STEPS, SCALE, log_state, orders
 
 pytestmark = pytest.mark.slow
 
@@ -24,7 +22,7 @@ LIFT = {  # u_y on the interface, which both blocks share
 }
 
 
-class ManufacturedPair(ManufacturedFriction):
+class ManufacturedPair(Manufactured):
     """The same loads on either block, friction between them; the lower one is held upside down.
 
     The contact's forces on the upper block are those of a single one: friction and normal force of
@@ -32,12 +30,11 @@ class ManufacturedPair(ManufacturedFriction):
     for beyond the opposite of those.
     """
 
+    body_of = staticmethod(body_of)
+
     def __init__(self, parameters, exact, below, log_state, lumped):
         super().__init__(parameters, exact, log_state, lumped)
-        self.body, self.below = body_of(parameters), below
-        self.loads_below = Loads(self.body.lower.grid, below)
-        scheme = BDF(self.body.crossing_time)
-        self.dynamics = Dynamics(self.body, self.interface(), self, scheme)
+        self.below, self.loads_below = below, Loads(self.body.lower.grid, below)
 
     def load(self, time):
         above, below = self.loads.nodal(time), self.loads_below.nodal(time)
@@ -98,9 +95,7 @@ def problem(name, law, rows):
     across = [dataclasses.replace(t, amplitude=0.7 * t.amplitude) for t in u_y]
     down = dataclasses.replace(lift, amplitude=-lift.amplitude)
     below = Displacement((tuple(along), (*across, down)), parameters.below.material)
-    steady = Term(np.log(parameters.memory_time), Power(1.0), Power(1.0), Power(1.0))
-    log_state = (steady, fields.change_of_state)
-    return ManufacturedPair(parameters, above, below, log_state, fields.lumped)
+    return ManufacturedPair(parameters, above, below, log_state(fields, parameters), fields.lumped)
 
 
 def errors(solved, *rungs):

@@ -8,9 +8,12 @@ with fields so slow that waves cross the block many times within a step: there t
 slip and state by BDF3, and the order in dt is three.
 """
 
+import itertools
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import ArrayLike
 
@@ -21,7 +24,7 @@ from ..model.parameters import Geometry, Loading, Mesh, Parameters
 from ..simulation.recorded import RECORDED
 from ..stepping.scheme import BDF
 from ..types import Array
-from .manufactured.dynamics import Manufactured, ManufacturedFriction
+from .manufactured.dynamics import Manufactured
 from .manufactured.fields import Displacement, Factor, Power, Sine, Term
 
 PROBLEMS = ("elastodynamics", "aging", "slip")
@@ -64,50 +67,44 @@ class Fields(NamedTuple):
 
     displacement: Displacement
     velocity: float  # m/s, V: of the order of the displacement's own velocity
-    change_of_state: Term  # added to the psi = log(D/V) of steady sliding
-    lumped: bool  # of ManufacturedFriction
+    state: Factor  # in time, of what is added to the psi = log(D/V) of steady sliding
+    lumped: bool = True  # of Manufactured
+
+
+def _displacement(w_x: Sequence[Factor], u_y: Sequence[Factor]) -> Displacement:
+    """The displacement with these factors in x, y and t."""
+    return Displacement(((Term(SCALE, *w_x),), (Term(2 * SCALE, *u_y), COMPRESSION)), MATERIAL)
 
 
 def _bilinear(along: Factor, across: Factor) -> Displacement:
     """The same field bilinear in space with these factors in time, of w_x and u_y."""
-    w_x = Term(SCALE, Power(0.0, 1.0), Power(1.0, 0.7), along)
-    u_y = Term(2 * SCALE, Power(1.0, 0.6), Power(0.0, 1.0), across)
-    return Displacement(((w_x,), (u_y, COMPRESSION)), MATERIAL)
+    return _displacement(
+        (Power(0.0, 1.0), Power(1.0, 0.7), along), (Power(1.0, 0.6), Power(0.0, 1.0), across)
+    )
 
 
+QUADRATIC = Power(1.0, -6e2, 4e5)  # of the state
 FIELDS = {
     "mesh": Fields(
-        Displacement(
-            (
-                (Term(SCALE, Sine(2.1), Sine(1.7, 1.9), Power(1.0, 1e3, 5e5)),),
-                (Term(2 * SCALE, Sine(1.9, 2.0), Sine(2.3), Power(1.0, -7e2, 6e5)), COMPRESSION),
-            ),
-            MATERIAL,
+        _displacement(
+            (Sine(2.1), Sine(1.7, 1.9), Power(1.0, 1e3, 5e5)),
+            (Sine(1.9, 2.0), Sine(2.3), Power(1.0, -7e2, 6e5)),
         ),
         2e-3,
-        Term(0.5, Sine(3.0, 1.0), Power(1.0), Power(1.0, -6e2, 4e5)),
+        QUADRATIC,
         lumped=False,
     ),
-    "step": Fields(
-        _bilinear(Sine(1e4, 0.3), Sine(1.5e4, 1.1)),
-        2e-2,
-        Term(0.5, Sine(3.0, 1.0), Power(1.0), Sine(1.2e4, 0.5)),
-        lumped=True,
-    ),
-    "quasi_static_step": Fields(
-        _bilinear(Sine(4.0, 0.3), Sine(6.0, 1.1)),
-        8e-6,
-        Term(0.5, Sine(3.0, 1.0), Power(1.0), Sine(5.0, 0.5)),
-        lumped=True,
-    ),
+    "step": Fields(_bilinear(Sine(1e4, 0.3), Sine(1.5e4, 1.1)), 2e-2, Sine(1.2e4, 0.5)),
+    "quasi_static_step": Fields(_bilinear(Sine(4.0, 0.3), Sine(6.0, 1.1)), 8e-6, Sine(5.0, 0.5)),
     # bilinear and quadratic at once: solved exactly
-    "exact": Fields(
-        _bilinear(Power(1.0, 8e2, 7e5), Power(1.0, -5e2, 7e5)),
-        2e-3,
-        Term(0.5, Sine(3.0, 1.0), Power(1.0), Power(1.0, -6e2, 4e5)),
-        lumped=True,
-    ),
+    "exact": Fields(_bilinear(Power(1.0, 8e2, 7e5), Power(1.0, -5e2, 7e5)), 2e-3, QUADRATIC),
 }
+
+
+def log_state(fields: Fields, parameters: Parameters) -> tuple[Term, Term]:
+    """Terms of psi = log(phi)."""
+    steady = Term(np.log(parameters.memory_time), Power(1.0), Power(1.0), Power(1.0))
+    return steady, Term(0.5, Sine(3.0, 1.0), Power(1.0), fields.state)
 
 
 def manufactured(problem: str, name: str, rows: int, grading: float = GRADING) -> Manufactured:
@@ -120,19 +117,14 @@ def manufactured(problem: str, name: str, rows: int, grading: float = GRADING) -
     grading : height of the top row of elements over that of the bottom row.
     """
     fields = FIELDS[name]
-    law = "aging" if problem == "elastodynamics" else problem
-    parameters = Parameters(
-        MATERIAL,
-        Friction(characteristic_slip_distance=DISTANCE, evolution=law),
-        Loading(velocity=fields.velocity),
-        GEOMETRY,
-        Mesh(n_x=2 * rows, n_y=rows, grading=grading),
+    alone = problem == "elastodynamics"
+    friction = Friction(
+        characteristic_slip_distance=DISTANCE, evolution="aging" if alone else problem
     )
-    if problem == "elastodynamics":
-        return Manufactured(parameters, fields.displacement)
-    steady = Term(np.log(parameters.memory_time), Power(1.0), Power(1.0), Power(1.0))
-    log_state = (steady, fields.change_of_state)
-    return ManufacturedFriction(parameters, fields.displacement, log_state, fields.lumped)
+    loading, mesh = Loading(velocity=fields.velocity), Mesh(2 * rows, rows, grading)
+    parameters = Parameters(MATERIAL, friction, loading, GEOMETRY, mesh)
+    terms = () if alone else log_state(fields, parameters)
+    return Manufactured(parameters, fields.displacement, terms, fields.lumped)
 
 
 def errors(problem: Manufactured, rungs: ArrayLike) -> tuple[float, float, float]:
@@ -183,20 +175,17 @@ def convergence_dataset() -> xr.Dataset:
     """
     found = np.full((len(PROBLEMS), len(REFINEMENTS), len(ROWS), len(ERRORS)), np.nan)
     for i, problem in enumerate(PROBLEMS):
-        known = 1 if problem == "elastodynamics" else len(ERRORS)
-        found[i, 0, :, :known] = mesh_errors(problem)[:, :known]
-        for j, name in enumerate(REFINEMENTS[1:], start=1):
-            if problem != "elastodynamics" or name == "step":
-                found[i, j, :, :known] = step_errors(problem, name)[:, :known]
-    on = ("problem", "refinement", "level")
+        alone = problem == "elastodynamics"
+        for j, name in enumerate(REFINEMENTS[: 2 if alone else 3]):
+            measured = mesh_errors(problem) if name == "mesh" else step_errors(problem, name)
+            found[i, j] = np.where([True, not alone, not alone], measured, np.nan)
     sizes = [GEOMETRY.length / (2.0 * np.array(ROWS)), *map(step_sizes, REFINEMENTS[1:])]
-    dataset = xr.Dataset(
-        {
-            **{name: (on, found[..., i]) for i, name in enumerate(ERRORS)},
-            **{name: ("level", size) for name, size in zip(SPACINGS, sizes, strict=True)},
-        },
-        {"problem": list(PROBLEMS), "refinement": list(REFINEMENTS)},
-    )
+    errors_on = {
+        name: (("problem", "refinement", "level"), found[..., i]) for i, name in enumerate(ERRORS)
+    }
+    levels = {name: ("level", size) for name, size in zip(SPACINGS, sizes, strict=True)}
+    coordinates = {"problem": list(PROBLEMS), "refinement": list(REFINEMENTS)}
+    dataset = xr.Dataset(errors_on | levels, coordinates)
     return annotate(dataset, COORDINATES | SPACINGS | ERRORS)
 
 
@@ -207,18 +196,16 @@ def step_sizes(name: str) -> Array:
 
 def to_csv(dataset: xr.Dataset) -> str:
     """The errors and their orders as comma-separated text, a line per problem and level."""
-    lines = ["problem,refinement,spacing," + ",".join(f"{n},{n}_order" for n in ERRORS)]
-    for problem in PROBLEMS:
-        for refinement, spacing in zip(REFINEMENTS, SPACINGS, strict=True):
-            values = dataset.sel(problem=problem, refinement=refinement)
-            columns = [dataset[spacing].values]
-            for name in ERRORS:
-                columns += [values[name].values, np.append(np.nan, orders(values[name].values))]
-            for row in zip(*columns, strict=True):
-                if np.isfinite(row[1]):
-                    numbers = ("" if np.isnan(x) else f"{x:.6g}" for x in row)
-                    lines.append(f"{problem},{refinement}," + ",".join(numbers))
-    return "\n".join(lines) + "\n"
+    tables = []
+    for problem, refinement in itertools.product(PROBLEMS, REFINEMENTS):
+        own = dataset.sel(problem=problem, refinement=refinement)
+        spacing = own[dict(zip(REFINEMENTS, SPACINGS, strict=True))[refinement]].values
+        columns = {"problem": problem, "refinement": refinement, "spacing": spacing}
+        for name in ERRORS:
+            columns[name] = own[name].values
+            columns[f"{name}_order"] = np.append(np.nan, orders(own[name].values))
+        tables.append(pd.DataFrame(columns).dropna(subset="displacement_error"))
+    return pd.concat(tables).to_csv(index=False, float_format="%.6g")
 
 
 def files() -> dict[str, Any]:

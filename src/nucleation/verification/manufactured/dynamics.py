@@ -59,34 +59,51 @@ class GivenDisplacement:
 
 
 class Manufactured(Drive):
-    """The solver's own step under the loads of a displacement, with its interface prescribed.
+    """The solver's own step under the loads of a displacement, the drive of its own `dynamics`.
 
-    It is the drive of its own :attr:`dynamics`.
+    Parameters
+    ----------
+    parameters, exact : of the block, and its displacement; with friction it has a compressive
+        sigma_yy at y = 0.
+    log_state : psi = log(phi) as a sum of terms, in which y = 0. Without one the interface's
+        displacement is prescribed.
+    lumped : whether the applied traction counts friction node by node as the solver does. Then
+        the nodal values of fields bilinear in space solve the solver's equations exactly. If not,
+        friction is integrated along x, and the solver's lumping shows as an error of order h^2.
     """
 
     body: Any  # a block, or a pair in what derives from it
     velocity = 0.0
     moves = True
 
-    def __init__(self, parameters: Parameters, exact: Displacement) -> None:
-        self.grid = Grid.of(parameters.geometry, parameters.mesh)
-        self.body = Block(self.grid, parameters.material)
+    def __init__(
+        self, parameters: Parameters, exact: Displacement, log_state: tuple[Term, ...] = (),
+        lumped: bool = True,
+    ) -> None:  # fmt: skip
+        self.log_state, self.lumped = log_state, lumped
         self.friction, self.velocity = parameters.friction, parameters.loading.velocity
+        self.body = self.body_of(parameters)
+        self.grid = self.body.grid
         self.exact, self.loads = exact, Loads(self.grid, exact)
-        scheme = BDF(self.body.crossing_time)
-        self.dynamics = Dynamics(self.body, self.interface(), self, scheme)
+        held = Interface(self.friction, NEWTON_TOLERANCE)
+        interface: Solver = held if log_state else GivenDisplacement(self.friction, self)
+        self.dynamics = Dynamics(self.body, interface, self, BDF(self.body.crossing_time))
 
-    def interface(self) -> Solver:
-        """What holds the block."""
-        return GivenDisplacement(self.friction, self)
+    def body_of(self, parameters: Parameters) -> Any:
+        """The elastic body."""
+        return Block(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
 
     def at(self, time: float) -> Imposed:
-        """What is imposed on driven edge and interface at a time (s)."""
-        return Imposed(time, self.velocity * time, self.velocity)
+        """What is imposed on driven edge and interface at a time (s): the state has a source."""
+        source = self.source(time) if self.log_state else None
+        return Imposed(time, self.velocity * time, self.velocity, state_forcing=source)
 
     def load(self, time: float) -> Field:
-        """The load (N/m) of the displacement at a time (s)."""
-        return self.loads.field(self.loads.nodal(time))
+        """The load (N/m) of displacement and applied traction at a time (s)."""
+        forces = self.loads.nodal(time)
+        if self.log_state:
+            forces[0, 0] += self.applied_force(time)
+        return self.loads.field(forces)
 
     def run(self, *rungs: int) -> tuple[State, StepReport]:
         """Integrate from the exact start, a step per rung; return the last state and report."""
@@ -112,8 +129,9 @@ class Manufactured(Drive):
         return own if by_t else self.velocity + own
 
     def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
-        """Exact psi = log(phi) at x (m), or its derivative in time: without friction, none."""
-        return np.zeros_like(x)
+        """Exact psi = log(phi) at x (m), or its derivative in time (1/s)."""
+        terms = (term(x, np.zeros_like(x), time, by_t=by_t) for term in self.log_state)
+        return sum(terms, np.zeros_like(x))
 
     def exact_motion(self, time: float) -> Motion:
         """The body's motion at a time (s)."""
@@ -149,52 +167,7 @@ class Manufactured(Drive):
     def _interface_mean(self, error: Array) -> float:
         return float(np.sqrt(error**2 @ self.grid.nodal_lengths / self.grid.length))
 
-
-def block_field(block: Block, values: Array) -> Field:
-    """Nodal values (2, n_y + 1, n_x + 1) as a field of a block."""
-    grid = block.grid
-    modes = np.empty((grid.n_y + 1, 2, grid.n_x))
-    modes[:, 0] = block.sine_amplitudes(values[0, :, 1:])
-    modes[:, 1] = fft.dct(values[1, :, :-1], type=3) / grid.n_x
-    return Field(modes, values[1, :, -1].copy())
-
-
-class ManufacturedFriction(Manufactured):
-    """The same with rate-and-state friction and a chosen state variable.
-
-    Parameters
-    ----------
-    parameters, exact : of the block, and its displacement, with a compressive sigma_yy at y = 0.
-    log_state : psi = log(phi) as a sum of terms, in which y = 0.
-    lumped : whether the applied traction counts friction node by node as the solver does. Then
-        the nodal values of fields bilinear in space solve the solver's equations exactly. If not,
-        friction is integrated along x, and the solver's lumping shows as an error of order h^2.
-    """
-
-    def __init__(
-        self, parameters: Parameters, exact: Displacement, log_state: tuple[Term, ...],
-        lumped: bool,
-    ) -> None:  # fmt: skip
-        super().__init__(parameters, exact)
-        self.log_state, self.lumped = log_state, lumped
-
-    def interface(self) -> Solver:
-        """The simulation's own interface."""
-        return Interface(self.friction, NEWTON_TOLERANCE)
-
-    def at(self, time: float) -> Imposed:
-        """What is imposed on driven edge and interface at a time (s): the state has a source."""
-        return dataclasses.replace(super().at(time), state_forcing=self.source(time))
-
-    def load(self, time: float) -> Field:
-        """The load (N/m) of displacement and applied traction at a time (s)."""
-        forces = self.loads.nodal(time)
-        forces[0, 0] += self.applied_force(time)
-        return self.loads.field(forces)
-
-    def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
-        """Exact psi = log(phi) at x (m), or its derivative in time (1/s)."""
-        return sum(term(x, np.zeros_like(x), time, by_t=by_t) for term in self.log_state)  # type: ignore[return-value]
+    # -- what friction asks for ------------------------------------------------------------------
 
     def friction_coefficient(self, x: Array, time: float) -> Array:
         """f(v, phi) of the exact slip rate and state at x (m)."""
@@ -217,3 +190,12 @@ class ManufacturedFriction(Manufactured):
         state = np.exp(self.exact_log_state(x, time))
         own = self.friction.state_rate(self.exact_slip_rate(x, time), state) / state
         return self.exact_log_state(x, time, by_t=1) - own
+
+
+def block_field(block: Block, values: Array) -> Field:
+    """Nodal values (2, n_y + 1, n_x + 1) as a field of a block."""
+    grid = block.grid
+    modes = np.empty((grid.n_y + 1, 2, grid.n_x))
+    modes[:, 0] = block.sine_amplitudes(values[0, :, 1:])
+    modes[:, 1] = fft.dct(values[1, :, :-1], type=3) / grid.n_x
+    return Field(modes, values[1, :, -1].copy())
