@@ -44,22 +44,24 @@ class Layers(NamedTuple):
     bottom: str = "free"
     height: float | None = None  # m; a half-space's without one
 
+    def materials(self, height: float, second_height: float) -> dict[str, Any]:
+        """What is varied, by the names of parameters and of columns; heights in m."""
+        return {
+            "height": height,
+            "second_height": second_height,
+            "shear_modulus": self.modulus,
+            "second_shear_modulus": self.second_modulus,
+            "poisson_ratio": self.poisson_ratio,
+            "second_poisson_ratio": self.second_poisson_ratio,
+        }
+
     def parameters(self, base: Parameters, height: float, second_height: float) -> Parameters:
         """Those of the pair, with friction and loading of a base; heights in m."""
         return base.replaced(
-            {
-                "height": height,
-                "shear_modulus": self.modulus,
-                "poisson_ratio": self.poisson_ratio,
-                "plane": "strain",
-                "second_body": "deformable",
-                "second_height": second_height,
-                "second_shear_modulus": self.second_modulus,
-                "second_poisson_ratio": self.second_poisson_ratio,
-                "second_density": SECOND_DENSITY,
-                "second_bottom": self.bottom,
-            }
-        )
+            self.materials(height, second_height)
+            | {"plane": "strain", "second_body": "deformable", "second_density": SECOND_DENSITY,
+               "second_bottom": self.bottom}
+        )  # fmt: skip
 
 
 HELD = tuple(
@@ -114,12 +116,7 @@ def mode_row(layers: Layers, base: Parameters, ratio: float) -> dict[str, Any]:
     return {
         "id": layers.name,
         "far_side": layers.bottom,
-        "height": parameters.geometry.height,
-        "second_height": below.geometry.height,
-        "shear_modulus": layers.modulus,
-        "second_shear_modulus": layers.second_modulus,
-        "poisson_ratio": layers.poisson_ratio,
-        "second_poisson_ratio": layers.second_poisson_ratio,
+        **layers.materials(parameters.geometry.height, below.geometry.height),
         "friction": interface.friction,
         "direct_effect": interface.a,
         "velocity_weakening": interface.zeta,

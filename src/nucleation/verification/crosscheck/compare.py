@@ -57,46 +57,28 @@ def compare(
     are relative; the largest difference of L(t) is given in elements as well. NaN where a run has
     no event or is too short, or has no patch before 0.9 of the onset.
     """
-    records = Record(own, settings), Record(theirs, settings)
-    parameters = records[0].parameters
-    measured, measured_freefem = extract(own, settings), extract(theirs, settings)
-    ends = (measured["onset_time"], measured_freefem["onset_time"])
-    instants = np.linspace(SETTLED * parameters.memory_time, BEFORE_ONSET * np.min(ends), INSTANTS)
+    runs, records = (own, theirs), [Record(run, settings) for run in (own, theirs)]
+    parameters, measured = records[0].parameters, [extract(run, settings) for run in runs]
+    end = BEFORE_ONSET * np.min([found["onset_time"] for found in measured])
+    instants = np.linspace(SETTLED * parameters.memory_time, end, INSTANTS)
     patch, patch_freefem = (np.interp(instants, run.time, run.lengths) for run in records)
     force, force_freefem = (
-        np.interp(instants, run["step_time"].values, run["driving_force"].values)
-        for run in (own, theirs)
+        np.interp(instants, run["step_time"].values, run["driving_force"].values) for run in runs
     )
-    dx = parameters.geometry.length / parameters.mesh.n_x
     there = (patch > 0.0) & (patch_freefem > 0.0)
-    difference = patch_freefem[there] / patch[there] - 1.0
-    force_difference = force_freefem / force - 1.0
-    return {
-        "height": parameters.geometry.height,
-        "n_x": parameters.mesh.n_x,
-        "n_y": parameters.mesh.n_y,
-        "onset_time": measured["onset_time"],
-        "onset_time_freefem": measured_freefem["onset_time"],
-        "length": measured["length"],
-        "length_freefem": measured_freefem["length"],
-        "patch_length_rms": _rms(difference),
-        "patch_length_largest": _largest(difference),
-        "patch_length_elements": _largest((patch_freefem - patch)[there] / dx),
-        "driving_force_rms": _rms(force_difference),
-        "driving_force_largest": _largest(force_difference),
-        "step_seconds": _seconds_per_step(own),
-        "step_seconds_freefem": _seconds_per_step(theirs),
-        "steps": own.attrs["steps"],
-        "steps_freefem": theirs.attrs["steps"],
-    }
-
-
-def _seconds_per_step(record: xr.Dataset) -> float:
-    return float(np.median(np.diff(record["elapsed_time"].values)))
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else np.nan
+    patch, patch_freefem = patch[there], patch_freefem[there]
+    mesh, dx = parameters.mesh, parameters.geometry.length / parameters.mesh.n_x
+    row = {"height": parameters.geometry.height, "n_x": mesh.n_x, "n_y": mesh.n_y}
+    row["patch_length_elements"] = _largest((patch_freefem - patch) / dx)
+    differences = {"patch_length": patch_freefem / patch, "driving_force": force_freefem / force}
+    for name, ratio in differences.items():
+        rms = np.sqrt(np.mean((ratio - 1.0) ** 2)) if ratio.size else np.nan
+        row |= {f"{name}_rms": float(rms), f"{name}_largest": _largest(ratio - 1.0)}
+    for whose, found, run in zip(("", "_freefem"), measured, runs, strict=True):
+        row |= {f"{name}{whose}": found[name] for name in ("onset_time", "length")}
+        row[f"step_seconds{whose}"] = float(np.median(np.diff(run["elapsed_time"].values)))
+        row[f"steps{whose}"] = run.attrs["steps"]
+    return row
 
 
 def _largest(values: Array) -> float:
