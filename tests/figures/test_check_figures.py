@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.figures.beyond import figure_sensitivity
 from nucleation.figures.checks import (
     figure_convergence,
@@ -14,6 +15,7 @@ from nucleation.figures.checks import (
     figure_verification,
 )
 from nucleation.model.parameters import Parameters
+from nucleation.verification.crosscheck import plan
 from nucleation.verification.orders import ERRORS, REFINEMENTS
 
 HEIGHTS = (0.005, 0.02, 0.1)
@@ -99,9 +101,11 @@ def record(height, factor, **second):
 def crosscheck():
     values = {"onset_time": ONSETS[0], "onset_time_freefem": ONSETS[1], "length": 0.1,
               "length_freefem": 0.098}  # fmt: skip
-    pairs = [(record(height, 1.0), record(height, 1.02)) for height in (0.005, 0.05)]
-    pairs.append((record(0.02, 1.0, **PAIR), record(0.02, 1.03, **PAIR)))
-    return figure_crosscheck.draw(pairs, dataset([values] * 3))
+    own, freefem = ([record(h, factor) for h in (0.005, 0.05)] for factor in (1.0, 1.02))
+    own += [record(0.02, 1.0, **PAIR), None]
+    freefem += [record(0.02, 1.03, **PAIR), None]
+    ids = ["thin", "thick", "pair", plan.TIMING]
+    return figure_crosscheck.draw(ids, own, freefem, dataset([values] * 4), ExtractionSettings())
 
 
 @pytest.fixture

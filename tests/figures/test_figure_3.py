@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from nucleation.figures import slip_rate_snapshots, style
+from nucleation.figures import style
 from nucleation.figures.paper import figure_3
 
 
@@ -56,9 +56,6 @@ def test_runs_without_a_length_and_unknown_studies_are_left_out(
     other = lengths.assign(role=("run", np.full(lengths.sizes["run"], "sensitivity")))
     drawn = figure_3.draw(theory, other, thick, thick_row)
     assert not drawn.axes[0].containers
-    studies = {"sensitivity": figure_3.Study(filled=False, suffix=", other")}
-    drawn = figure_3.draw(theory, other, thick, thick_row, studies)
-    assert "FEM, slip law, other" in points(drawn.axes[0])
 
 
 def test_all_points_lie_within_the_axes_and_outside_the_inset(axes, lengths):
@@ -74,7 +71,7 @@ def test_all_points_lie_within_the_axes_and_outside_the_inset(axes, lengths):
 
 def test_inset_shows_the_slip_rate_at_the_times_of_its_legend(axes, thick, thick_row):
     (inset,) = axes.child_axes
-    creep, event = slip_rate_snapshots.choose_times(thick, float(thick_row["onset_time"]))
+    creep, event = figure_3.choose_times(thick, float(thick_row["onset_time"]))
     curves = [line for line in inset.get_lines() if len(line.get_xdata()) > 2]
     assert len(curves) == creep.size + event.size == 6
     for line, i in zip(curves, [*creep, *event], strict=True):
@@ -93,7 +90,7 @@ def test_inset_shows_the_slip_rate_at_the_times_of_its_legend(axes, thick, thick
 
 def test_snapshots_go_from_creep_to_just_after_the_onset(thick, thick_row):
     onset = float(thick_row["onset_time"])
-    creep, event = slip_rate_snapshots.choose_times(thick, onset)
+    creep, event = figure_3.choose_times(thick, onset)
     times = thick["time"].values
     np.testing.assert_allclose(times[creep] / onset, [0.25, 0.5, 0.75, 1.0], atol=0.01)
     assert (times[event] > onset).all() and (times[event] < onset + 0.01).all()

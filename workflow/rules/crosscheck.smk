@@ -51,7 +51,7 @@ make_rule(
 
 make_rule(
     "draw_figure_crosscheck",
-    call="nucleation.figures.checks.figure_crosscheck:draw_runs",
+    call="nucleation.figures.checks.figure_crosscheck:draw",
     shows="figures/figure_crosscheck",
     suffix="png",
     local=True,

@@ -28,19 +28,24 @@ Curves = list[tuple[np.ndarray, np.ndarray]]
 
 @style.styled
 def draw(
-    pairs: Sequence[tuple[xr.Dataset, xr.Dataset]],
+    ids: Sequence[str],
+    own: Sequence[xr.Dataset],
+    freefem: Sequence[xr.Dataset],
     table: xr.Dataset,
-    settings: ExtractionSettings = ExtractionSettings(),
+    settings: ExtractionSettings,
 ) -> Figure:
     """Draw L(t), the driving force and their relative differences, one column for each run.
 
-    The column of two blocks says in a legend of its own what the lower one is.
+    The run that times steps is left out. The column of two blocks says in a legend of its own what
+    the lower one is.
 
     Parameters
     ----------
-    pairs : sequence
-        Of the records of a run by the project's solver and by FreeFem++: ``slip_rate(time, x)``
-        (m/s), ``driving_force(step)`` (N/m), and the attribute ``parameters``.
+    ids : sequence of str
+        The runs.
+    own, freefem : sequence of Dataset
+        Their records by the project's solver and by FreeFem++: ``slip_rate(time, x)`` (m/s),
+        ``driving_force(step)`` (N/m), and the attribute ``parameters``.
     table : Dataset
         On ``run``, in the same order: ``onset_time`` and ``onset_time_freefem`` (s), ``length``
         and ``length_freefem`` (m).
@@ -48,9 +53,11 @@ def draw(
         The slip rate at the edge of the patch.
     """
     layout: Any = {"sharex": "col", "squeeze": False, "height_ratios": (1.35, 1.35, 1.0)}
-    figure, panels = style.panels(3, len(pairs), 13.2, **layout)
-    for i, ((length, force, difference), runs) in enumerate(zip(panels.T, pairs, strict=True)):
-        records, row = [Record(run, settings) for run in runs], table.isel(run=i)
+    shown = [i for i, name in enumerate(ids) if name != plan.TIMING]
+    figure, panels = style.panels(3, len(shown), 13.2, **layout)
+    for i, (length, force, difference) in zip(shown, panels.T, strict=True):
+        runs, row = (own[i], freefem[i]), table.isel(run=i)
+        records = [Record(run, settings) for run in runs]
         lengths = [(record.time, record.lengths) for record in records]
         forces = [(run["step_time"].values, -run["driving_force"].values / KILO) for run in runs]
         for axes, curves in ((length, lengths), (force, forces)):
@@ -101,16 +108,3 @@ def _draw_differences(axes: Axes, lengths: Curves, forces: Curves, row: xr.Datas
         axes.plot(time, PERCENT * (freefem / own - 1.0), color=colour, linewidth=0.9, label=name)
     style.level(axes, 0.0, width=0.6, zorder=0)
     axes.set(ylim=(-LARGEST_DIFFERENCE, LARGEST_DIFFERENCE), xlabel="Time $t$ (s)")
-
-
-def draw_runs(
-    ids: Sequence[str],
-    own: Sequence[xr.Dataset],
-    freefem: Sequence[xr.Dataset],
-    table: xr.Dataset,
-    settings: ExtractionSettings,
-) -> Figure:
-    """The step ``draw_figure_crosscheck``: all runs but the one that times steps."""
-    shown = [i for i, name in enumerate(ids) if name != plan.TIMING]
-    records = [(own[i], freefem[i]) for i in shown]
-    return draw(records, table.isel(run=np.array(shown)), settings)

@@ -1,39 +1,31 @@
 """Figure 3: the critical length against the block's height, theory and simulations."""
 
-from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from ...analysis.lengths import over_realisations, row
-from ...figures import laws, points, slip_rate_snapshots, style
-from ...figures.laws import Look
-
-
-class Study(NamedTuple):
-    """How the points of one role are filled, and what the legend adds for them."""
-
-    filled: bool
-    suffix: str
-
+from ...figures import laws, points, style
 
 BESIDE = 1.8
 """Points (1/72 inch) by which the bars of filled and open markers stand apart, of one height."""
-
-Series = tuple[Study, str, Look, xr.Dataset]  # style, legend, marker, entries of the table
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
 INSET_LEFT, INSET_BOTTOM, INSET_WIDTH = 0.515, 0.1, 0.315
 INSET_HEIGHTS = (0.2, 0.4)
 
-# By role: only studies with these are drawn; a table of lengths may hold others.
-STUDIES: dict[str, Study] = {
-    "paper": Study(filled=True, suffix=""),
-    "converged": Study(filled=False, suffix=r", load $\pm 10^{-5}$"),
-}
+# Roles of the studies drawn, whether their markers are filled, and what the legend adds.
+STUDIES = (("paper", True, ""), ("converged", False, r", load $\pm 10^{-5}$"))
+
+CREEP_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the onset time
+EVENT_FRACTIONS = (0.4, 0.8)  # of the way, in log slip rate, from the onset to the peak
+EVENT_LOOKS = ((style.ORANGE, "--"), (style.VERMILLION, "-."))
+LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
+SHOWN_LENGTHS = 1.4  # width of the panel in critical lengths
 
 
 @style.styled
@@ -42,7 +34,6 @@ def draw(
     lengths: xr.Dataset,
     inset_simulation: xr.Dataset,
     inset_row: xr.Dataset,
-    studies: Mapping[str, Study] = STUDIES,
 ) -> Figure:
     """Draw ``L_c(H)`` with the simulations as points, and slip-rate snapshots as an inset.
 
@@ -58,20 +49,24 @@ def draw(
         The simulation whose slip rate the inset shows.
     inset_row : Dataset
         Its entry of `lengths`, of which ``onset_time`` (s) and ``length`` (m) are marked.
-    studies : mapping
-        The studies to draw, by role.
     """
     figure, axes = style.panels(1, 1, 12.4)
     draw_theory(axes, theory)
-    drawn = list(_series(over_realisations(lengths), studies))
-    for series in drawn:
-        _draw_points(axes, *series)
-    _limits(axes, theory, drawn)
-    axes.set_xlabel("Height $H$ (m)")
-    axes.set_ylabel("Critical nucleation length $L_c$ (m)")
+    means = over_realisations(lengths)
+    usable = np.isfinite(means["length"].values)
+    usable &= np.isin(means["role"].values, [role for role, *_ in STUDIES])
+    drawn = points.where(means, usable)
+    _draw_points(axes, drawn)
+    # from zero to a little beyond the highest block that was simulated
+    simulated = drawn if drawn.sizes["run"] else theory
+    highest = 1.12 * float(simulated["height"].max())
+    longest = np.interp(highest, theory["height"].values, theory["thin_limit_length"].values)
+    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.04 * float(longest)))
+    axes.minorticks_on()
+    axes.set(xlabel="Height $H$ (m)", ylabel="Critical nucleation length $L_c$ (m)")
     axes.legend(loc="upper left", labelspacing=0.35)
     inset = axes.inset_axes((INSET_LEFT, INSET_BOTTOM, INSET_WIDTH, _inset_height(axes, drawn)))
-    slip_rate_snapshots.draw(inset, inset_simulation, inset_row)
+    _draw_snapshots(inset, inset_simulation, inset_row)
     return figure
 
 
@@ -84,44 +79,79 @@ def draw_theory(axes: Axes, theory: xr.Dataset) -> None:
         axes.plot(theory["height"].values, theory[name].values, color=style.THEORY, **look)
 
 
-def _limits(axes: Axes, theory: xr.Dataset, drawn: list[Series]) -> None:
-    """Axes from zero to a little beyond the highest block that was simulated."""
-    simulated = [float(runs["height"].max()) for *_, runs in drawn]
-    highest = 1.12 * max(simulated, default=float(theory["height"].max()))
-    longest = np.interp(highest, theory["height"].values, theory["thin_limit_length"].values)
-    axes.set_xlim(0.0, highest)
-    axes.set_ylim(0.0, 1.04 * float(longest))
-    axes.minorticks_on()
-
-
-def _inset_height(axes: Axes, drawn: list[Series]) -> float:
+def _inset_height(axes: Axes, drawn: xr.Dataset) -> float:
     """Height of the inset, in parts of the axes: up to the lowest point above it."""
-    left = (INSET_LEFT - 0.02) * axes.get_xlim()[1]
-    above = [runs["length_low"].where(runs["height"] > left).min() for *_, runs in drawn]
-    lowest = np.nanmin([*map(float, above), axes.get_ylim()[1]])
-    room = lowest / axes.get_ylim()[1] - INSET_BOTTOM - 0.03
+    left, top = (INSET_LEFT - 0.02) * axes.get_xlim()[1], axes.get_ylim()[1]
+    above = drawn["length_low"].values[drawn["height"].values > left]
+    room = np.nanmin([*above, top]) / top - INSET_BOTTOM - 0.03
     return float(np.clip(room, *INSET_HEIGHTS))
 
 
-def _series(lengths: xr.Dataset, studies: Mapping[str, Study]) -> Iterator[Series]:
-    """The sets of points that share role, law and initial state: style, label and entries."""
-    usable = points.where(lengths, np.isfinite(lengths["length"].values))
-    for role, study in studies.items():
-        for (_, old), kind, runs in laws.kinds(usable):
-            own = points.where(runs, role=role).sortby("phi0")
-            for same in points.groups(own, "phi0"):
+def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
+    """Points of one role, law and initial state, with bars from the lowest to the highest."""
+    for role, filled, suffix in STUDIES:
+        for (_, old), kind, runs in laws.kinds(lengths):
+            look: Any = {"marker": kind.marker, "markersize": kind.size, "color": kind.colour}
+            look["markerfacecolor"] = kind.colour if filled else "white"
+            look["transform"] = style.aside(axes, -BESIDE if filled else BESIDE)
+            look["zorder"] = 4.0 - 0.1 * kind.size
+            for same in points.groups(points.where(runs, role=role).sortby("phi0"), "phi0"):
                 age = _number(float(same["phi0"][0]))
                 state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
-                yield study, f"FEM, {kind.label}{state}{study.suffix}", kind, same
+                label = f"FEM, {kind.label}{state}{suffix}"
+                points.draw(axes, same["height"].values, same, "length", label=label, **look)
 
 
-def _draw_points(axes: Axes, study: Study, label: str, kind: Look, runs: xr.Dataset) -> None:
-    """One set of points with error bars from the lowest to the highest length."""
-    look: Any = {"marker": kind.marker, "markersize": kind.size, "color": kind.colour}
-    look["markerfacecolor"] = kind.colour if study.filled else "white"
-    look["transform"] = style.aside(axes, -BESIDE if study.filled else BESIDE)
-    order = 4.0 - 0.1 * kind.size
-    points.draw(axes, runs["height"].values, runs, "length", label=label, zorder=order, **look)
+def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
+    """Indices of the output times to show, up to the onset (s) and after it, each once.
+
+    Outputs nearest to :data:`CREEP_FRACTIONS` of the onset time; and the first outputs after it
+    whose largest slip rate has made :data:`EVENT_FRACTIONS` of its rise to the first peak.
+    """
+    time = simulation["time"].values
+    creep = [int(np.abs(time - fraction * onset).argmin()) for fraction in CREEP_FRACTIONS]
+    start = creep[-1]
+    largest = np.maximum(simulation["slip_rate"].max("x").values[start:], LOWEST_RATE)
+    rise = np.log(largest / largest[0])
+    event = [start + int(np.argmax(rise >= part * rise.max())) for part in EVENT_FRACTIONS]
+    return np.unique(creep), np.unique([i for i in event if i > start]).astype(int)
+
+
+def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None:
+    """The slip rate along the interface from creep to the event, and the extracted length."""
+    time, x = simulation["time"].values, simulation["x"].values
+    onset, length = float(row["onset_time"]), float(row["length"])
+    if not np.isfinite(onset):  # nothing happened: only the creep can be shown
+        onset = float(time[-1])
+    creep, event = choose_times(simulation, onset)
+    start = time[creep[-1]]
+    decimals = max(0, 3 - int(np.ceil(np.log10(onset))))
+    labels = [f"{time[i]:.{decimals}f} s" for i in creep[:-1]]
+    labels += [f"$t_c={start:.{decimals}f}$ s"]
+    labels += [f"$t_c+{1e3 * (time[i] - start):#.3g}$ ms" for i in event]
+    looks: Any = [(shade, "-") for shade in style.shades(creep.size)]
+    shown = np.concatenate([creep, event])
+    for i, (colour, dashes), label in zip(shown, [*looks, *EVENT_LOOKS], labels, strict=False):
+        rate = simulation["slip_rate"].values[i]
+        moving = np.where(rate > 0.0, rate, np.nan)  # where nothing slips there is a gap
+        axes.plot(x, moving, dashes, color=colour, linewidth=1.1, label=label)
+    highest = float(simulation["slip_rate"].isel(time=shown).max())
+    top = 10.0 ** np.ceil(np.log10(max(3.0 * highest, 10.0 * LOWEST_RATE)))
+    axes.set(yscale="log", ylim=(LOWEST_RATE, top))
+    axes.set_xlim(0.0, np.nanmin([SHOWN_LENGTHS * length, x.max()]))
+    axes.tick_params(labelsize=style.SMALL)
+    axes.set_xlabel("$x$ (m)", fontsize=8.5, labelpad=1.0)
+    axes.set_ylabel("$v$ (m/s)", fontsize=8.5, labelpad=1.0)
+    if np.isfinite(length):  # a dashed line there, and an arrow from x = 0 to it
+        axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9, zorder=1.0)
+        up: Any = axes.get_xaxis_transform()
+        ends = (0.0, 0.12), (length, 0.12)
+        style.arrow(axes, *ends, kind="<->", xycoords=up, textcoords=up)
+        # The creeping patch's first snapshots end right of this.
+        axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
+    look: Any = {"fontsize": style.SMALL, "title_fontsize": style.SMALL, "labelspacing": 0.35}
+    place: Any = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "handlelength": 1.8}
+    axes.legend(title="time $t$", **place, **look)
 
 
 def _number(value: float) -> str:
