@@ -84,10 +84,7 @@ def _rates(label: str, over: Array, modes: dict[str, Any], marked: dict[str, flo
 def plot_run(record: xr.Dataset) -> Figure:
     """Picture of a run: shear stress in space and time, force, onset and patch length.
 
-    Parameters
-    ----------
-    record : Dataset
-        Of :func:`nucleation.simulation.run.simulate`, with slip and stresses.
+    `record` is that of :func:`nucleation.simulation.run.simulate`, with slip and stresses.
     """
     Record(record).require("slip", "shear_stress")
     return figure_s2.draw(record, xr.Dataset(extract(record)))
@@ -159,14 +156,10 @@ def plot_spectrum(**fault: Any) -> Figure:
 
 
 def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a film of a run, a GIF; the run is made once more for the stress in its bodies.
+    """Write a film of a run, a GIF, to a path; an older file is replaced.
 
-    Parameters
-    ----------
-    record : Dataset
-        Of :func:`nucleation.simulation.run.simulate`.
-    path : path
-        Of the file, which is replaced.
+    `record` is that of :func:`nucleation.simulation.run.simulate`; the run is made once more for
+    the stress in its bodies.
     """
     row = xr.Dataset(extract(record))
     animation.save(animation.frames(film_dataset(record, row), row), path)

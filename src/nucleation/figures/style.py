@@ -195,22 +195,9 @@ def aside(axes: Axes, points: float) -> Transform:
 def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[Path, Path]:
     """Write a figure as ``stem.pdf`` and ``stem.png``, then drop its contents.
 
-    The same figure gives the same bytes: the files carry no date and no program version.
-    Each file is written under a temporary name beside its place and moved there whole.
-
-    Parameters
-    ----------
-    figure : Figure
-        The figure; it is empty afterwards, and its memory free.
-    stem : path
-        Path of the files without their suffix; missing directories are made.
-    key : str
-        Of what it was made from (:func:`nucleation.pipeline.keys.key`), kept in the files.
-
-    Returns
-    -------
-    tuple of Path
-        The PDF (vector, fonts embedded) and the PNG (300 dots per inch).
+    The same figure gives the same bytes: the files carry no date and no program version, only the
+    `key` of what it was made from (:func:`nucleation.pipeline.keys.key`). Each is written under a
+    temporary name beside its place and moved there whole; missing directories are made.
     """
     stem = Path(stem)
     unstated = dict.fromkeys(("CreationDate", "ModDate", "Producer", "Creator"))

@@ -97,11 +97,9 @@ def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.D
     judged = points.where(lengths, role=JUDGED)
     more = np.isin(noisy["strength"].values, judged["strength"].values)
     own = points.where(noisy, more)
-    same = {
-        name: ("run", np.resize(judged[name].values, own.sizes["run"]))
-        for name in ("study", "role")
-    }
-    return points.where(noisy, ~more), join([lengths, own.assign(same)])
+    for name in ("study", "role"):
+        own[name] = "run", np.resize(judged[name].values, own.sizes["run"])
+    return points.where(noisy, ~more), join([lengths, own])
 
 
 def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
@@ -146,8 +144,8 @@ def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: b
     shown = laws.usual_law(lengths)
     usual = laws.looks([shown])[shown, False]
     handles: list[Artist] = [
-        style.key(label, "", dashes, style.THEORY, linewidth=1.2)
-        for dashes, label in (("-", "theory $L_c$"), ("--", "theory $L_c/2$"))
+        style.key("theory $L_c$", "", "-", style.THEORY, linewidth=1.2),
+        style.key("theory $L_c/2$", "", "--", style.THEORY, linewidth=1.2),
     ]
     for series in (STEADY, PAPERS, STABILITY):
         look = series.look(usual)
