@@ -80,13 +80,6 @@ def test_lengths_fall_inversely_with_the_stress(function):
     assert thin == pytest.approx(-0.5, abs=0.01)
 
 
-def test_the_loading_rate_does_not_matter_to_the_linear_theory():
-    """What Guerin-Marthe and others (2019) saw lies beyond it: V is in frequencies alone."""
-    sample = FAULTS["pyquake3d_laboratory"].parameters
-    lengths = critical_length(**sample, velocity=np.array([1e-9, 1e-3]))
-    assert lengths[0] == lengths[1]
-
-
 def test_units_and_ranges():
     fault = read_fault("glass", entry(normal_stress=["1 MPa", "2 MPa"], a=0.01))
     assert fault.numbers["normal_stress"][:2] == (1e6, 2e6)

@@ -4,8 +4,6 @@ import numpy as np
 import xarray as xr
 
 from nucleation.analysis.lengths import (
-    MEASURED,
-    OVER_REALISATIONS,
     over_realisations,
     realisations,
     second_body,
@@ -40,13 +38,6 @@ def test_mean_of_realisations_and_the_ends_of_their_ranges():
     np.testing.assert_allclose(found["length"], [0.52, 0.7, 0.6])
     np.testing.assert_allclose(found["length_low"], [0.46, 0.6, 0.5])
     np.testing.assert_allclose(found["length_high"], [0.56, 0.8, 0.7])
-
-
-def test_ends_of_ranges_are_told_by_the_whole_name():
-    """By their last four letters every column that ends so was one."""
-    assert OVER_REALISATIONS["onset_time_high"] is np.max
-    assert OVER_REALISATIONS["length_low"] is np.min
-    assert set(OVER_REALISATIONS) == set(MEASURED)
 
 
 def test_rows_say_what_lies_below(table):

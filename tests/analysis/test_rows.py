@@ -27,10 +27,6 @@ def test_rows_are_plain():
     assert math.isnan(second["length"]) and list(second) == list(TABLE.data_vars)
 
 
-def test_some_rows_and_columns():
-    assert rows_of(TABLE, [1], ["n_x", "id"]) == [{"n_x": 800, "id": "b"}]
-
-
 def test_ratios_of_a_table_and_of_a_row_are_the_same():
     whole = ratios(TABLE)
     np.testing.assert_allclose(whole["length_ratio"], [0.5, np.nan])

@@ -61,4 +61,4 @@ def test_realisations_of_a_fault_have_the_first_ones_stability_and_one_mean():
 
 def test_a_rigid_base_is_no_pair():
     with pytest.raises(ValueError, match="rigid base"):
-        pair_description(Parameters())
+        pair_description({"parameters": Parameters().to_dict()})

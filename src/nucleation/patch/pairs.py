@@ -13,11 +13,9 @@ from ..analysis.extraction import MEASURED as EXTRACTED
 from ..analysis.extraction import extract
 from ..analysis.lengths import COLUMNS as LENGTHS
 from ..analysis.lengths import Files, description, with_csv
-from ..analysis.record import parameters_of
 from ..analysis.rows import RATIO_COLUMNS, ratios
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
-from ..model.identity import ensemble
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
@@ -47,32 +45,23 @@ COLUMNS = {
 """``f_beta`` is positive where the lower body is the stiffer one."""
 
 
-def pair_description(parameters: Parameters) -> dict[str, Any]:
-    """The columns that say which bodies and which perturbation a run has.
+def pair_description(run: dict[str, Any]) -> dict[str, Any]:
+    """The columns that say which bodies, interface and perturbation a run has.
 
     Raises ValueError if it has one body only.
     """
-    below = parameters.below
-    if below is None:
+    parameters = Parameters.from_dict(run["parameters"])
+    if parameters.below is None:
         raise ValueError("the run has a rigid base: it is no pair")
     interface = linearised(parameters.friction, parameters.loading)
-    declared = parameters.perturbation
-    f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
-    return {
-        "far_side": below.bottom,
-        "second_height": below.geometry.height,
-        "shear_modulus": parameters.material.shear_modulus,
-        "second_shear_modulus": below.material.shear_modulus,
-        "poisson_ratio": parameters.material.poisson_ratio,
-        "second_poisson_ratio": below.material.poisson_ratio,
+    contrast = bimaterial_contrast(parameters.material, parameters.below.material)
+    f_beta = interface.friction * contrast
+    return description(run) | {
         "friction": interface.friction,
         "f_beta": f_beta,
         "direct_effect": interface.a,
         "velocity_weakening": interface.zeta,
-        "second_n_y": below.mesh.n_y,
-        "kind": declared.kind,
-        "strength": declared.strength,
-        "seed": declared.seed,
+        "second_n_y": parameters.below.mesh.n_y,
         "half_space_ratio": float(bimaterial_length_ratio(f_beta, interface.zeta / interface.a)),
     }
 
@@ -90,13 +79,12 @@ def gather(
     """
     rows, waiting, fitted = [], iter(patches), {}
     for run, simulation in zip(runs, simulations, strict=True):
-        parameters, measured = parameters_of(simulation), extract(simulation, settings)
-        own = run["study"], ensemble(parameters)
+        row, measured = pair_description(run), extract(simulation, settings)
+        own = row["study"], row["ensemble"]
         if own not in fitted:
             patch = next(waiting)
             fitted[own] = {name: float(patch[name]) for name in FITTED}
-        row = description(run) | pair_description(parameters) | fitted[own]
-        row |= {name: float(measured[name]) for name in MEASURED}
+        row |= fitted[own] | {name: float(measured[name]) for name in MEASURED}
         row |= {name: simulation.attrs[name] for name in ("steps", "wall_seconds")}
         rows.append(row | ratios(row))
     return table(rows, COLUMNS)
