@@ -188,8 +188,8 @@ def test_the_map_is_what_the_findings_say():
     assert (loud.min(), loud.max()) == pytest.approx((0.55, 0.76), abs=0.01)
     corner = [table["height"].max(), table["zeta_over_a"].min()]
     assert means["length_ratio"].loc[*corner] == pytest.approx(1.0, abs=0.01)
-    assert table["stability_length"].isna().sum() == 67
-    assert noisy["stability_length"].isna().sum() == 67
+    assert table["stability_length"].isna().sum() == 63
+    assert noisy["stability_length"].isna().sum() == 63
 
 
 if __name__ == "__main__":
