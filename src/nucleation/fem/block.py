@@ -39,7 +39,7 @@ class BlockOperator(SeparableOperator, CondensedOnNodes):
     @property
     def modal(self) -> Array:
         """D and N per mode: the first row of the stiffness, ``u_y`` being zero."""
-        return self.pivot
+        return self.pivot[:2]
 
     def _profiles(self, edge: Array) -> Array:
         """What given edge values do to the modes, as profiles along y."""

@@ -18,6 +18,7 @@ from scipy import fft
 
 from ..model.material import Material
 from ..types import Array
+from . import transforms
 from .field import Field
 from .grid import Grid
 from .separable import SeparableBody
@@ -43,9 +44,14 @@ class BlockModes(SeparableBody):
 
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
-        n = self.grid.n_x
-        # the inverse transform weighs the last node by one half, and type 3 counts it once
-        return fft.dst(nodal, type=3) / n
+        return transforms.sine_amplitudes(nodal)
+
+    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> tuple[Array, Array]:
+        """Nodal forces of ``stiffness * amplitudes - reduced`` per mode, each (2, n_x).
+
+        Tangential at 1..n_x, normal at 0..n_x, where the last one is the edge's and zero here.
+        """
+        return transforms.nodal_forces(stiffness, amplitudes, reduced, self._alternating)
 
     def sine_values(self, amplitudes: Array) -> Array:
         """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""

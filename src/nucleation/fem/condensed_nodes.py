@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array
-from . import kernels
+from . import kernels, transforms
 from .block_modes import BlockModes
 from .condensed import Balance, Expectation
 from .field import Field
@@ -58,13 +58,7 @@ class CondensedOnNodes(ABC):
     @property
     @abstractmethod
     def modal(self) -> Array:
-        """D and N per mode, the right edge held, times 2/n_x (N/m per m); (2, n_x) or more."""
-
-    @abstractmethod
-    def interface_forces(
-        self, amplitudes: Array, reduced: Array | float = 0.0
-    ) -> tuple[Array, Array]:
-        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
+        """D and N per mode, the right edge held, times 2/n_x (N/m per m); (2, n_x)."""
 
     @abstractmethod
     def swept_down(self, load: Field, edge: Array) -> Array:
@@ -93,19 +87,16 @@ class CondensedOnNodes(ABC):
         given = np.zeros_like(load.edge) if edge is None else edge
         swept = self.swept_down(load, given)
         reduced, start = self.reduced(swept)
-        tangential, normal = self.interface_forces(amplitudes, reduced)
+        tangential, normal = self.along_x.forces(self.modal, amplitudes, reduced)
         if edge is not None:
-            corner = self.corner_reaction(load, swept, edge, amplitudes, start)
-            normal = np.append(normal, corner)
+            normal[-1] = self.corner_reaction(load, swept, edge, amplitudes, start)
             return EdgedResponse(w, tangential, normal, load, edge, start, swept)
         self.substitute_up(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)
-        near, edge_tangential, edge_normal = self.edge.felt
-        tangential[near:] += found @ edge_tangential
-        normal[near:] += found @ edge_normal
-        corner = self.edge.schur[0] @ found - residual[0]
-        return EdgedResponse(w, tangential, np.append(normal, corner), load, found, start)
+        transforms.add_edge(found, self.edge.felt, tangential, normal)
+        normal[-1] = self.edge.schur[0] @ found - residual[0]
+        return EdgedResponse(w, tangential, normal, load, found, start)
 
     def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[EdgedResponse]:
         """Responses at nodal `w` (m) under a load; the last one holds whatever happens.
@@ -147,14 +138,16 @@ class CondensedOnNodes(ABC):
 
     def apply(self, w: Array) -> tuple[Array, Array]:
         """``D w``, shape (n_x,), and ``N w``, (n_x + 1,), for nodal w at nodes 1..n_x (m)."""
-        near, tangential, normal = self.edge.felt
-        amplitudes = self.along_x.sine_amplitudes(w)
-        p, reaction = self.interface_forces(amplitudes)
+        amplitudes, felt = self.along_x.sine_amplitudes(w), self.edge.felt
+        tangential, normal = self.along_x.forces(self.modal, amplitudes, self._no_load)
         edge = self.edge.change(w)
-        corner = tangential[0] @ w[near:] + self.edge.schur[0] @ edge
-        p[near:] += edge @ tangential
-        reaction[near:] += edge @ normal
-        return p, np.append(reaction, corner)
+        transforms.add_edge(edge, felt, tangential, normal)
+        normal[-1] = felt[0, 0] @ w[-felt.shape[2] :] + self.edge.schur[0] @ edge
+        return tangential, normal
+
+    @cached_property
+    def _no_load(self) -> Array:
+        return np.zeros(self.modal.shape)
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:

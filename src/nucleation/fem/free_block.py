@@ -73,6 +73,11 @@ class EvenHalf(Block):
         """Nodal forces along x at i = 0..n_x and along y at i = -1..n_x - 1 of modal ones."""
         return self._ends**2 * self.sine_values(modal[0]), self.cosine_values(modal[1])
 
+    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> tuple[Array, Array]:
+        """Nodal forces of ``stiffness * amplitudes - reduced`` per mode: x 0..n_x, y -1..n_x."""
+        tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
+        return tangential, np.append(normal, 0.0)
+
     def top_load(self, normal_stress: float) -> Field:
         """None: an even stress on the top belongs to the other half."""
         return self.zero_field()
@@ -252,7 +257,7 @@ class FreeOperator:
             w = np.array([unit[i] for unit in units])
             edge = w @ half.edge.response.T
             x, y = half.along_x.interface_forces(
-                half.modal[:2, None] * half.along_x.sine_amplitudes(w)
+                half.modal[:, None] * half.along_x.sine_amplitudes(w)
             )
             corner = w @ half.edge.to_interface[0][0] + edge @ half.edge.schur[0]
             x = x + edge @ half.edge.to_interface[0]

@@ -229,17 +229,41 @@ def rate_of_change(c1, c2, beta, new, u, u_past, out):
 
 
 @compiled
-def tridiagonal_products(lower, diagonal, upper, vectors, out):
-    """``out[k] = A vectors[k]`` for a tridiagonal matrix."""
-    last = diagonal.size - 1
-    for k in range(vectors.shape[0]):
-        for i in range(diagonal.size):
-            total = diagonal[i] * vectors[k, i]
-            if i > 0:
-                total += lower[i] * vectors[k, i - 1]
-            if i < last:
-                total += upper[i] * vectors[k, i + 1]
-            out[k, i] = total
+def edge_profiles(matrices, edge, out):
+    """``out[k] = A_k edge`` for tridiagonal matrices, (number, 3, length)."""
+    last = edge.size - 1
+    for k in range(matrices.shape[0]):
+        lower, diagonal, upper = matrices[k]
+        for j in range(last + 1):
+            total = diagonal[j] * edge[j]
+            if j > 0:
+                total += lower[j] * edge[j - 1]
+            if j < last:
+                total += upper[j] * edge[j + 1]
+            out[k, j] = total
+
+
+@compiled
+def edge_residual(matrices, weights, field, edge, load, levels):
+    """``load - sum_k A_k s_k``, with the :func:`edge_sums` s_0 to s_2 of a field, and s_3 the edge.
+
+    At the lowest levels, for which the field must be given one level further up.
+    """
+    given = min(field.shape[0], edge.size)
+    sums = np.empty((4, given))
+    edge_sums(weights, field, 0, sums)
+    sums[3] = edge[:given]
+    out = np.empty(levels)
+    for j in range(levels):
+        total = load[j]
+        for k in range(4):
+            total -= matrices[k, 1, j] * sums[k, j]
+            if j > 0:
+                total -= matrices[k, 0, j] * sums[k, j - 1]
+            if j + 1 < given:
+                total -= matrices[k, 2, j] * sums[k, j + 1]
+        out[j] = total
+    return out
 
 
 @compiled

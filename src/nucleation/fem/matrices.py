@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from ..types import Array
-from . import kernels
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,18 +23,16 @@ class Tridiagonal:
 
     def __matmul__(self, vector: Array) -> Array:
         """Product with a vector, or with an array along its first axis."""
-        if vector.ndim == 1:
-            return self.on_each(vector[None])[0]
-        product = self.diagonal[:, None] * vector
-        product[1:] += self.lower[1:, None] * vector[:-1]
-        product[:-1] += self.upper[:-1, None] * vector[1:]
+        lower, diagonal, upper = (d.reshape(-1, *[1] * (vector.ndim - 1)) for d in self.stacked)
+        product = diagonal * vector
+        product[1:] += lower[1:] * vector[:-1]
+        product[:-1] += upper[:-1] * vector[1:]
         return product
 
-    def on_each(self, vectors: Array) -> Array:
-        """Product with each of many vectors, (number, length)."""
-        products = np.empty(vectors.shape)
-        kernels.tridiagonal_products(self.lower, self.diagonal, self.upper, vectors, products)
-        return products
+    @cached_property
+    def stacked(self) -> Array:
+        """The three diagonals as one array for the kernels: lower, diagonal, upper."""
+        return np.array([self.lower, self.diagonal, self.upper])
 
     @cached_property
     def transposed(self) -> Tridiagonal:

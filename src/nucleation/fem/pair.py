@@ -95,12 +95,6 @@ class PairOperator(CondensedOnNodes):
         own = 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
         return self.upper.megabytes + self.lower.megabytes + own
 
-    def interface_forces(
-        self, amplitudes: Array, reduced: Array | float = 0.0
-    ) -> tuple[Array, Array]:
-        """Nodal tangential forces at 1..n_x and normal forces at 0..n_x - 1 (N/m), edge apart."""
-        return self.along_x.interface_forces(self.modal * amplitudes - reduced)
-
     def swept_down(self, load: Field, edge: Array) -> Array:
         """The forward sweep of a load to the interface in both blocks, with given edge values."""
         modes = np.empty_like(load.modes)

@@ -59,8 +59,8 @@ class EdgeValues(ABC):
 
     def change(self, w: Array) -> Array:
         """Change of the edge values (m) in balance, for a change of w at the nodes 1..n_x (m)."""
-        near = self.felt[0]
-        return self.response[:, near:] @ w[near:]
+        near = self.felt.shape[2]
+        return self.response[:, -near:] @ w[-near:]
 
     def correction(self, residual: Array) -> Array:
         """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
@@ -77,13 +77,12 @@ class EdgeValues(ABC):
         return np.einsum("ji,ji->i", self.to_interface[0], self.response)
 
     @cached_property
-    def felt(self) -> tuple[int, Array, Array]:
-        """Where :attr:`to_interface` rises above round-off: first column, and the rest."""
-        tangential, normal = self.to_interface
-        largest = np.maximum(np.abs(tangential).max(axis=0), np.abs(normal).max(axis=0))
+    def felt(self) -> Array:
+        """:attr:`to_interface` from where it rises above round-off, (2, n_y + 1, nodes)."""
+        forces = np.array(self.to_interface)
+        largest = np.abs(forces).max(axis=(0, 1))
         near = int(np.argmax(largest > NEGLIGIBLE * largest.max()))
-        tangential, normal = (np.ascontiguousarray(x[:, near:]) for x in (tangential, normal))
-        return near, tangential, normal
+        return np.ascontiguousarray(forces[..., near:])
 
 
 class RightEdge(EdgeValues):
@@ -95,36 +94,33 @@ class RightEdge(EdgeValues):
         lame, shear = material.lame_modulus, material.shear_modulus
         p_modulus, rho_s = material.p_wave_modulus, s * material.density
         # rows of the edge values: against w_x (two weights), against u_y, and among themselves
-        self._x = (body.derivative.transposed.scaled(lame), body.derivative.scaled(shear))
-        self._y = body.stiffness.scaled(p_modulus * dx / 6.0) + body.mass.scaled(
-            rho_s * dx / 6.0 - shear / dx
+        self._rows = (
+            body.derivative.transposed.scaled(lame),
+            body.derivative.scaled(shear),
+            body.stiffness.scaled(p_modulus * dx / 6.0)
+            + body.mass.scaled(rho_s * dx / 6.0 - shear / dx),
+            body.stiffness.scaled(p_modulus * dx / 3.0)
+            + body.mass.scaled(rho_s * dx / 3.0 + shear / dx),
         )
-        self._edge = body.stiffness.scaled(p_modulus * dx / 3.0) + body.mass.scaled(
-            rho_s * dx / 3.0 + shear / dx
-        )
+        self._stacked = np.array([matrix.stacked for matrix in self._rows])
+        self._transposed = np.array([matrix.transposed.stacked for matrix in self._rows[:3]])
 
     def profiles(self, edge: Array) -> Array:
         """Profiles along y of ``G^T e``, one per edge weight, shape (3, n_y + 1)."""
-        return np.array(
-            [self._x[0].transposed @ edge, self._x[1].transposed @ edge, self._y @ edge]
-        )
-
-    def _rows(self, sums: Array) -> Array:
-        """``G u``: forces on the edge values from the sums of :func:`kernels.edge_sums`."""
-        return self._x[0] @ sums[0] + self._x[1] @ sums[1] + self._y @ sums[2]
+        profiles = np.empty((3, edge.size))
+        kernels.edge_profiles(self._transposed, edge, profiles)
+        return profiles
 
     def residual(self, load: Field, modes: Array, edge: Array) -> Array:
         """Unbalanced force on the edge values (N/m), shape (n_y + 1,)."""
-        sums = np.empty((3, edge.size))
-        kernels.edge_sums(self.body.edge_weights, modes, 0, sums)
-        return load.edge - self._rows(sums) - self._edge @ edge
+        return kernels.edge_residual(
+            self._stacked, self.body.edge_weights, modes, edge, load.edge, edge.size
+        )
 
     def corner_reaction(self, load: Field, lowest: Array, edge: Array) -> float:
         """Normal force (N/m) on the corner's node, from the modes' two lowest levels."""
-        sums = np.empty((3, 2))
-        kernels.edge_sums(self.body.edge_weights, lowest, 0, sums)
-        terms = zip((*self._x, self._y, self._edge), (*sums, edge), strict=True)
-        return sum(t.diagonal[0] * v[0] + t.upper[0] * v[1] for t, v in terms) - load.edge[0]
+        weights = self.body.edge_weights
+        return -kernels.edge_residual(self._stacked, weights, lowest, edge, load.edge, 1)[0]
 
     @cached_property
     def round_off(self) -> float:
@@ -156,10 +152,10 @@ class RightEdge(EdgeValues):
                 first, solution,
             )  # fmt: skip
             kernels.edge_sums(body.edge_weights, solution, first - 1, sums[i])
-        for matrix, of_edge in zip((*self._x, self._y), np.moveaxis(sums, 1, 0), strict=True):
-            rows += matrix.on_each(of_edge)
+        for matrix, of_edge in zip(self._rows, np.moveaxis(sums, 1, 0), strict=False):
+            rows += (matrix @ of_edge.T).T
         # an edge value's rows see only the levels from it on, which were summed over
-        lower = np.tril(self._edge.dense() - rows.T)
+        lower = np.tril(self._rows[3].dense() - rows.T)
         return lower + np.tril(lower, -1).T
 
     @cached_property
@@ -179,14 +175,15 @@ class RightEdge(EdgeValues):
         the forces on the edge values per unit of amplitude.
         """
         body, weights = self.body, self.body.edge_weights
+        along_x, across_x, along_y, _ = self._rows
         rows = np.empty((2, body.grid.n_y + 1, body.modes))
         for component in (0, 1):
             modes = np.zeros((body.grid.n_y + 1, 2, body.modes))
             modes[0, component] = 1.0
             kernels.substitute(self._inverse, self._lower, modes)
-            rows[component] = weights[0] * (self._x[0] @ modes[:, 0])
-            rows[component] += weights[1] * (self._x[1] @ modes[:, 0])
-            rows[component] += weights[2] * (self._y @ modes[:, 1])
+            rows[component] = weights[0] * (along_x @ modes[:, 0])
+            rows[component] += weights[1] * (across_x @ modes[:, 0])
+            rows[component] += weights[2] * (along_y @ modes[:, 1])
         return rows
 
 

@@ -19,7 +19,7 @@ from . import kernels
 from .condensed import Response
 from .field import Field, Motion, Motions, Terms
 from .grid import Grid
-from .matrices import Tridiagonal, element_matrices
+from .matrices import element_matrices
 
 
 class Stacked(NamedTuple):
@@ -28,10 +28,6 @@ class Stacked(NamedTuple):
     mass: Array
     stiffness: Array
     derivative: Array
-
-
-def _stacked(matrix: Tridiagonal) -> Array:
-    return np.array([matrix.lower, matrix.diagonal, matrix.upper])
 
 
 HELD = {
@@ -57,7 +53,7 @@ class SeparableBody(ABC):
     ) -> None:  # fmt: skip
         self.grid, self.material, self.far_side = grid, material, far_side
         self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
-        self.stacked = Stacked(*map(_stacked, (self.mass, self.stiffness, self.derivative)))
+        self.stacked = Stacked(self.mass.stacked, self.stiffness.stacked, self.derivative.stacked)
         self._set_modes(theta, x_integral, edge_weights)
 
     def _set_modes(self, theta: Array, x_integral: Array, edge_weights: Array) -> None:

@@ -173,11 +173,11 @@ class Interface:
             coefficient, slope, psi = self._friction(rates, past.log_state, beta)
             if imposed.strength is not None:
                 coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
-            linear_below = np.broadcast_to(self.friction.linear_below(psi), psi.shape)[first:]
+            linear_below = self.friction.linear_below(psi)
+            resolved = (np.abs(rates) + linear_below)[first:]
             residual, damping, error = newton.balance(
-                p, normal, coefficient, slope, elastic, np.abs(v) + linear_below,
-                self.tolerance, rounding,
-            )  # fmt: skip
+                p, normal, coefficient, slope, elastic, resolved, self.tolerance, rounding
+            )
             if not np.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
             if error < 1.0:
@@ -191,7 +191,7 @@ class Interface:
                 factors = Factors.of(operator, coefficient[first:], damping, elastic, beta)
             change = factors.direction(residual, damping, elastic)
             if self.friction.asinh_of_rate:
-                v = _updated_by_asinh(v, change, damping, elastic, linear_below)
+                v = _updated_by_asinh(v, change, damping, elastic, linear_below[first:])
             else:
                 v = self._updated(v, change)
             w, change = newton.moved(v, imposed.velocity, beta, past.w, response.w)
