@@ -14,6 +14,8 @@ step. Node 0 slips at the imposed velocity V.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -24,7 +26,7 @@ from ..fem.condensed import Condensed, Response
 from ..model.friction.law import Friction
 from ..stepping.bdf import Formula
 from ..types import Array
-from . import newton
+from . import compiled_laws, newton
 from .drive import Imposed
 from .state import State
 
@@ -143,6 +145,14 @@ class Interface:
     most_iterations_from_rest: int = 50
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x beside what the body exerts
 
+    @cached_property
+    def _formula(self) -> Callable[..., tuple[Array, Array, Array]]:
+        return compiled_laws.formula(self.friction)
+
+    @cached_property
+    def _evolved(self) -> Callable[..., tuple[Array, Array]]:
+        return compiled_laws.implicit_log_state(self.friction)
+
     def solve(
         self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
     ) -> InterfaceSolution:
@@ -204,12 +214,10 @@ class Interface:
         self, v: Array, log_state_history: Array, beta: float
     ) -> tuple[Array, Array, Array]:
         """Friction coefficient, its total derivative by v, and psi, state at the new time."""
-        law, distance = self.friction, self.friction.characteristic_slip_distance
-        speed = law.slip_speed(v)
-        psi, psi_by_rate = law.evolution_law.implicit_log_state(
-            log_state_history, beta, speed / distance
-        )
-        coefficient, by_rate, by_log_state = law.coefficient_and_slopes(v, psi)
+        distance = self.friction.characteristic_slip_distance
+        speed = self.friction.slip_speed(v)
+        psi, psi_by_rate = self._evolved(log_state_history, beta, speed / distance)
+        coefficient, by_rate, by_log_state = self._formula(v, psi, self.friction.constants)
         slope = by_rate + by_log_state * psi_by_rate * v / (speed * distance)
         return coefficient, slope, psi
 

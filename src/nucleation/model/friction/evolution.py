@@ -47,5 +47,5 @@ def wright_omega(z: ArrayLike) -> Array:
         r, near = z - w - np.log(w), 1.0 + w
         t = near * (near + r * (2 / 3))
         w = w * (1.0 + r / near * ((t - 0.5 * r) / (t - r)))
-        if not np.abs(r).max(initial=0.0) > 1e-3:  # not finite either; then 1e-3^4 is left
+        if not np.any(np.abs(r) > 1e-3):  # not finite either; then 1e-3^4 is left
             return w

@@ -144,10 +144,14 @@ class Friction(Checked):
 
     # -- what each law says ---------------------------------------------------------------------
 
-    def coefficient_and_slopes(
-        self, slip_rate: ArrayLike, log_state: ArrayLike
-    ) -> tuple[Array, Array, Array]:
-        """``f(v, psi)``, df/dv (s/m) and df/dpsi, broadcast over slip rate (m/s) and log state."""
+    @property
+    def constants(self) -> tuple[float, ...]:
+        """What :meth:`formula` needs of the parameters."""
+        raise NotImplementedError
+
+    @staticmethod
+    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
+        """``f(v, psi)``, df/dv (s/m) and df/dpsi; the simulation compiles it."""
         raise NotImplementedError
 
     def linear_below(self, log_state: ArrayLike) -> Any:
@@ -165,6 +169,13 @@ class Friction(Checked):
         raise NotImplementedError
 
     # -- what follows ---------------------------------------------------------------------------
+
+    def coefficient_and_slopes(
+        self, slip_rate: ArrayLike, log_state: ArrayLike
+    ) -> tuple[Array, Array, Array]:
+        """``f(v, psi)``, df/dv (s/m) and df/dpsi, broadcast over slip rate (m/s) and log state."""
+        v, psi = np.asarray(slip_rate, dtype=float), np.asarray(log_state, dtype=float)
+        return self.formula(v, psi, self.constants)
 
     def slip_speed(self, slip_rate: ArrayLike) -> Array:
         """Regularised slip speed ``w = sqrt(v^2 + v0^2)`` (m/s) of a slip rate (m/s)."""

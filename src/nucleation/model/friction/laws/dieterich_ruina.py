@@ -61,23 +61,23 @@ class Law(Friction):
 
     def linear_below(self, log_state: ArrayLike) -> Array:
         """``s = 2 v* exp(-(f0 + b log(v* phi/D)) / a)`` (m/s), with ``f = a asinh(v/s)``."""
-        a, b, rate = self.log_rate_coefficient, self.log_state_coefficient, self.reference_slip_rate
-        state = np.asarray(log_state, dtype=float)
-        aged = state + np.log(rate / self.characteristic_slip_distance)
-        exponent = (self.reference_friction + b * aged) / a
-        return 2.0 * rate * np.exp(-np.clip(exponent, -LARGEST_EXPONENT, LARGEST_EXPONENT))
+        return scale(np.asarray(log_state, dtype=float), self.constants)
 
-    def coefficient_and_slopes(
-        self, slip_rate: ArrayLike, log_state: ArrayLike
-    ) -> tuple[Array, Array, Array]:
-        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``."""
-        v, scale = np.asarray(slip_rate, dtype=float), self.linear_below(log_state)
-        by_size = 1.0 / np.hypot(v, scale)
+    @property
+    def constants(self) -> tuple[float, ...]:
+        """a, b, f0, v* and D."""
         return (
-            self.log_rate_coefficient * np.arcsinh(v / scale),
-            self.log_rate_coefficient * by_size,
-            self.log_state_coefficient * (v * by_size),
-        )
+            self.log_rate_coefficient, self.log_state_coefficient, self.reference_friction,
+            self.reference_slip_rate, self.characteristic_slip_distance,
+        )  # fmt: skip
+
+    @staticmethod
+    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
+        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``."""
+        a, b = constants[:2]
+        s = scale(psi, constants)
+        by_size = 1.0 / np.hypot(v, s)
+        return a * np.arcsinh(v / s), a * by_size, b * (v * by_size)
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
@@ -105,3 +105,11 @@ class Law(Friction):
             log_rate_coefficient=float(own),
             log_state_coefficient=float(b),
         )
+
+
+def scale(psi: Array, constants: tuple[float, ...]) -> Array:
+    """The slip rate s (m/s) of ``f = a asinh(v/s)``."""
+    a, b, f0, rate, distance = constants
+    exponent = (f0 + b * (psi + np.log(rate / distance))) / a
+    exponent = np.minimum(np.maximum(exponent, -LARGEST_EXPONENT), LARGEST_EXPONENT)
+    return 2.0 * rate * np.exp(-exponent)

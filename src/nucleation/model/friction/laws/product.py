@@ -11,7 +11,6 @@ import dataclasses
 from typing import ClassVar, Self
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ...quantities import ParameterError, quantity
 from ..law import Array, Friction, law_name
@@ -43,30 +42,24 @@ class Law(Friction):
         "base_friction", "rate_coefficient", "aging_coefficient",
     )  # fmt: skip
 
-    def aging_factor(self, log_state: ArrayLike) -> tuple[Array, Array]:
-        """``1 + b log(1 + phi/phi*)`` and its derivative by ``psi = log(phi)``."""
-        scaled = np.asarray(log_state, dtype=float) - np.log(self.state_scale)
-        ratio = np.exp(np.minimum(scaled, 700.0))  # phi / phi*, which must not overflow
-        value = 1.0 + self.aging_coefficient * np.log1p(ratio)
-        return value, self.aging_coefficient * (ratio / (1.0 + ratio))
+    @property
+    def constants(self) -> tuple[float, ...]:
+        """v0, b, v*, theta, phi* and xi."""
+        return (
+            self.regularisation_slip_rate, self.aging_coefficient, self.slip_rate_scale,
+            self.base_friction, self.state_scale, self.rate_coefficient,
+        )  # fmt: skip
 
-    def rate_factor(self, slip_rate: ArrayLike) -> tuple[Array, Array]:
-        """``theta v/w + xi log(1 + |v|/v*) sign(v)`` and its derivative by v (s/m)."""
-        v = np.asarray(slip_rate, dtype=float)
-        v0, scale = self.regularisation_slip_rate, self.slip_rate_scale
-        size, by_speed = np.abs(v), 1.0 / self.slip_speed(v)
-        strengthening = np.copysign(np.log1p(size / scale), v)
-        value = self.base_friction * v * by_speed + self.rate_coefficient * strengthening
-        slope = self.base_friction * v0**2 * by_speed * by_speed * by_speed
-        return value, slope + self.rate_coefficient / (scale + size)
-
-    def coefficient_and_slopes(
-        self, slip_rate: ArrayLike, log_state: ArrayLike
-    ) -> tuple[Array, Array, Array]:
-        """The product of both factors, and its derivatives."""
-        aging, aging_slope = self.aging_factor(log_state)
-        rate, rate_slope = self.rate_factor(slip_rate)
-        return aging * rate, aging * rate_slope, aging_slope * rate
+    @staticmethod
+    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
+        """The product of both factors, and its derivatives by v (s/m) and psi."""
+        v0, b, scale, theta, state_scale, xi = constants
+        ratio = np.exp(np.minimum(psi - np.log(state_scale), 700.0))  # phi/phi*, no overflow
+        aging = 1.0 + b * np.log1p(ratio)
+        size, by_speed = np.abs(v), 1.0 / np.sqrt(v * v + v0**2)
+        rate = theta * v * by_speed + xi * np.copysign(np.log1p(size / scale), v)
+        by_rate = theta * v0**2 * by_speed * by_speed * by_speed + xi / (scale + size)
+        return aging * rate, aging * by_rate, b * (ratio / (1.0 + ratio)) * rate
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other theta, xi and b, so that :meth:`expansion` is (f, a, zeta).
