@@ -41,11 +41,16 @@ class Law(Friction):
     law: str = law_name(__name__)
     level: float = quantity("friction coefficient", low=0.0, high=2.0, default=0.6)
 
-    def coefficient_and_slopes(self, slip_rate, log_state):
-        size = self.slip_speed(slip_rate)
-        ratio = slip_rate / size
-        by_rate = self.level * (1.0 - ratio**2) / size
-        return self.level * ratio, by_rate, np.zeros_like(ratio + log_state)
+    @property
+    def constants(self):
+        return self.level, self.regularisation_slip_rate
+
+    @staticmethod
+    def formula(v, psi, constants):
+        level, v0 = constants
+        size = np.sqrt(v * v + v0**2)
+        ratio = v / size
+        return level * ratio, level * (1.0 - ratio**2) / size, np.zeros_like(ratio + psi)
 '''
 
 
