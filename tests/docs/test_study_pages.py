@@ -153,7 +153,7 @@ def test_all_declared_runs_are_refined_in_every_way():
     faults = {}
     for (own, refined, _), rows in sequences(["normal_load"]).items():
         faults.setdefault(own, set()).add(refined)
-        finest = {"n_x": 1600, "n_y": 32, "longest_step": 0.02, "tolerance": 2.5e-3}[refined]
+        finest = {"n_x": 800, "n_y": 32, "longest_step": 0.02, "tolerance": 2.5e-3}[refined]
         assert float(rows[-1][refined]) == finest
     assert len(faults) == 12
     assert all(refined == set(REFINED) for refined in faults.values())
