@@ -11,7 +11,7 @@ DISTRIBUTION = "nucleation-length"
 """The project's name for pip: ``nucleation`` is another project, with a package of that name."""
 
 EXTRAS = {
-    "solver": ("numba", "netCDF4", "pandas", "tqdm"),
+    "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
     "figures": ("matplotlib", "PIL"),
     "report": ("jinja2", "markupsafe", "plotly", "docutils"),
 }
