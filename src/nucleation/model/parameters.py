@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from .checked import Checked
 from .friction.constants import CONSTANTS
 from .friction.law import Friction
-from .friction.registry import LAWS, law_declarations
+from .friction.registry import law_declarations
 from .heterogeneity import Heterogeneity
 from .loading import Loading
 from .material import Material
@@ -269,14 +269,9 @@ def group_declarations(group: str) -> dict[str, Quantity]:
     return law_declarations() if group == "friction" else declarations(GROUPS[group])
 
 
+@cache
 def names() -> Names:
     """All parameters of a run, and the constants of friction, with their short names."""
-    return _names(tuple(LAWS))
-
-
-@cache
-def _names(laws: tuple[str, ...]) -> Names:
-    """`laws` are those that there are, since each has parameters of its own."""
     entries = {
         f"{group}.{name}": entry
         for group in GROUPS

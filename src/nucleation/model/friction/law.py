@@ -58,16 +58,11 @@ class _Signature:
     def __get__(self, _: Any, owner: type) -> inspect.Signature:
         if owner is not Friction:
             raise AttributeError
-        defaults = {
-            field.name: field.default
-            for law in reversed(sorted(LAWS, key=lambda name: (name != USUAL_LAW, name)))
-            for field in dataclasses.fields(law_class(law))  # type: ignore[arg-type]
-        }
+        classes = *map(law_class, LAWS), Friction
+        defaults = {f.name: f.default for cls in classes for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+        given = inspect.Parameter.KEYWORD_ONLY
         return inspect.Signature(
-            [
-                inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name])
-                for name in law_declarations()
-            ]
+            [inspect.Parameter(name, given, default=defaults[name]) for name in law_declarations()]
         )
 
 
@@ -140,7 +135,7 @@ class Friction(Checked):
     @property
     def evolution_law(self) -> StateEvolution:
         """The state evolution law named by ``evolution``."""
-        return cast(StateEvolution, module(EVOLUTIONS.package, self.evolution))
+        return cast(StateEvolution, module("evolutions", self.evolution))
 
     # -- what each law says ---------------------------------------------------------------------
 
