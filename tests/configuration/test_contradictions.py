@@ -118,7 +118,7 @@ BAD = {
     ),
     "block longer than any": (
         study({**TALL, "shear_modulus": 9e12, "characteristic_slip_distance": 900.0}),
-        [f"{RUN}: Geometry.length = ", "(0, 1e+07) m"],
+        [f"{RUN}: geometry.length = ", "(0, 1e+07) m"],
     ),
     "a theory without instability": (
         {"main_text_interface": {"zeta": -0.005}, **study(TALL)},
@@ -131,7 +131,7 @@ BAD = {
     "crosscheck beyond any length": (
         {"crosscheck": {"heights": 1e5, "length_over_critical": 999.0},
          "main_text_interface": {"slip_length": 1.0}, **study(TALL)},
-        ["crosscheck: Geometry.length = ", "(0, 1e+07) m"],
+        ["crosscheck: geometry.length = ", "(0, 1e+07) m"],
     ),
     "constants without a law": (
         study({**TALL, "zeta_over_a": 900.0}), [f"{RUN}: no friction law has f = 0.41", "[0, 1)"],

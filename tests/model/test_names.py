@@ -75,7 +75,7 @@ def test_replaced_by_any_name():
         ({"heigth": 0.2}, "there is no parameter heigth"),
         ({"geometry.n_x": 80}, "there is no parameter geometry.n_x"),
         ({"height": 0.2, "geometry.height": 0.1}, "given twice: it is geometry.height"),
-        ({"height": -1.0}, "Geometry.height = -1.0 m"),
+        ({"height": -1.0}, "geometry.height = -1.0 m"),
         ({"log_state_coefficient": 0.1}, "the friction law product has no such parameter"),
     ],
 )

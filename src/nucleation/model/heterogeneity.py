@@ -57,10 +57,6 @@ class Heterogeneity(Checked):
                 f"= {self.varies}: it must be {rule}"
             )
 
-    @classmethod
-    def _key(cls, name: str) -> str:
-        return f"heterogeneity.{name}"
-
     def factor(self, x: Array, length: float, periodic: bool) -> Array:
         """``1 + change h(x)`` at positions (m) on an interface of a length (m)."""
         away = x - (0.5 * length if self.centre is None else self.centre)

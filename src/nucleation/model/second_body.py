@@ -70,7 +70,3 @@ class SecondBody(Checked):
     def deformable(self) -> bool:
         """Whether it is a second block."""
         return self.kind == "deformable"
-
-    @classmethod
-    def _key(cls, name: str) -> str:
-        return f"second_body.{name}"

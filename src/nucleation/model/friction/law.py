@@ -120,10 +120,6 @@ class Friction(Checked):
         if self.law != type(self).law:
             raise ParameterError(f"friction.law = {self.law!r} is not that of {type(self).law}")
 
-    @classmethod
-    def _key(cls, name: str) -> str:
-        return f"friction.{name}"
-
     def changed(self, values: dict[str, Any]) -> Friction:
         """The law with other parameters; if one is `law`, that law with what all laws share."""
         if values.get("law", self.law) == self.law:
