@@ -6,10 +6,8 @@ from configurations import changed, messages, study, with_run
 from nucleation.configuration import schema
 from nucleation.configuration.load import configure
 from nucleation.configuration.study_names import other_names, study_parameters
-from nucleation.model import parameters
 from nucleation.model.friction.constants import constants
 from nucleation.model.friction.law import Friction
-from nucleation.model.names import Names
 from nucleation.model.parameters import Parameters
 from nucleation.theory.estimates import growth_time
 
@@ -128,19 +126,6 @@ def test_bad_names_and_laws_are_named(config, fragments):
     for fragment in fragments:
         assert fragment in text
     assert text.startswith("the configuration has one problem:\n")
-
-
-def test_an_ambiguous_name_lists_what_it_may_be(monkeypatch):
-    """With another ``end_time``, the short name is an error that lists both; full ones work."""
-    entries = dict(parameters.names())
-    names = Names(entries | {"other.end_time": entries["stepping.end_time"]}, parameters.ALIASES)
-    monkeypatch.setattr("nucleation.configuration.load.names", lambda: names)
-    monkeypatch.setattr("nucleation.configuration.study_names.names", lambda: names)
-    text = messages(study({"height": 0.1, "end_time": 3.0}))
-    assert text.endswith(
-        "studies.s.runs[0].end_time = 3.0 is not allowed: "
-        "it may be stepping.end_time or other.end_time"
-    )
 
 
 def test_a_second_body_is_named():

@@ -19,7 +19,7 @@ from ..configuration import schema
 from ..model.friction.law import Friction
 from ..model.friction.registry import EVOLUTIONS
 from ..model.linearised import InterfaceState, loaded
-from ..model.parameters import Parameters, names
+from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, refusal
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
@@ -242,10 +242,6 @@ def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]
             continue
         value = _short(given[name])
         place = f"{key_text((*path, name))} = {value} is not allowed"
-        if in_study and name in (parameters := names()).ambiguous:
-            meant = [full for full in parameters if full.endswith(f".{name}")]
-            yield f"{place}: it may be {' or '.join(meant)}"
-            continue
         close = difflib.get_close_matches(str(name), known, n=1)
         listed = [key for key in known if "." not in key] if in_study else known
         hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(listed)}"

@@ -14,7 +14,8 @@ from ..model.quantities import ParameterError, Quantity
 
 def study_parameters() -> dict[str, Quantity]:
     """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
-    return dict(names().by_short)
+    known = names()
+    return {known.short(full): entry for full, entry in known.items()}
 
 
 def other_names() -> dict[str, str]:
@@ -31,7 +32,7 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
     Raises
     ------
     ParameterError
-        If a name stands for no parameter or for several, which are listed, or one is given twice.
+        If a name stands for no parameter, or one is given twice.
     """
     known, declared = names(), study_parameters()
     found: dict[str, Any] = {}

@@ -1,7 +1,6 @@
 """Dataclasses whose declared quantities are read and checked when they are made."""
 
 import re
-from functools import cache
 
 from .quantities import check, declarations
 from .units import parse
@@ -17,15 +16,15 @@ class Checked:
     """
 
     def __post_init__(self) -> None:
+        group = _group(type(self))
         for name, entry in declarations(type(self)).items():
-            value, key = getattr(self, name), f"{_group(type(self))}.{name}"
+            value, key = getattr(self, name), f"{group}.{name}"
             if isinstance(value, str) and not entry.worded:
                 object.__setattr__(self, name, parse(key, value, entry))
             else:
                 check(key, value, entry)
 
 
-@cache
 def _group(cls: type) -> str:
     """What errors call a group of parameters: ``second_body`` for SecondBody and its subclasses."""
     name = cls.__mro__[cls.__mro__.index(Checked) - 1].__name__

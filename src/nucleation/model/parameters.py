@@ -191,8 +191,8 @@ class Parameters:
         Raises
         ------
         ParameterError
-            For a bad value, a name that stands for no parameter or for several, a parameter that
-            is given twice, and one that the friction law does not have.
+            For a bad value, a name that stands for no parameter, a parameter that is given twice,
+            and one that the friction law does not have.
         """
         changes: dict[str, dict[str, Any]] = {group: {} for group in GROUPS}
         known = names()

@@ -59,7 +59,7 @@ class _Signature:
         if owner is not Friction:
             raise AttributeError
         classes = *map(law_class, LAWS), Friction
-        defaults = {f.name: f.default for cls in classes for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+        defaults = {f.name: f.default for cls in classes for f in dataclasses.fields(cls)}
         given = inspect.Parameter.KEYWORD_ONLY
         return inspect.Signature(
             [inspect.Parameter(name, given, default=defaults[name]) for name in law_declarations()]
@@ -122,11 +122,8 @@ class Friction(Checked):
 
     def changed(self, values: dict[str, Any]) -> Friction:
         """The law with other parameters; if one is `law`, that law with what all laws share."""
-        if values.get("law", self.law) == self.law:
-            kept = dataclasses.asdict(self)
-        else:
-            kept = {field.name: getattr(self, field.name) for field in dataclasses.fields(Friction)}
-        return Friction(**kept | values)
+        own = type(self) if values.get("law", self.law) == self.law else Friction
+        return Friction(**{name: getattr(self, name) for name in declarations(own)} | values)
 
     @property
     def evolution_law(self) -> StateEvolution:
