@@ -46,10 +46,6 @@ BAD = {
     "negative inset": (changed("figures.inset_height", -1), ["figures.inset_height = -1 m"]),
     "zero curve height": (changed("curves.heights", [0.0, 0.1]), ["curves.heights[0] = 0.0 m"]),
     # wrong type
-    "number as text": (
-        changed("friction.regularisation_slip_rate", "1e-9"),
-        ["regularisation_slip_rate = '1e-9' m/s", "write 1.0e-9"],
-    ),
     "word for number": (changed("material.density", "heavy"), ["material.density = 'heavy'"]),
     "truth for number": (changed("material.density", True), ["material.density = True"]),
     "nothing for number": (changed("material.density", None), ["material.density = None"]),

@@ -4,7 +4,7 @@ import math
 import os
 
 import pytest
-from configurations import assert_one_problem, changed, study, with_run
+from configurations import assert_one_problem, changed, study
 
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.configuration.load import configure
@@ -143,9 +143,6 @@ BAD = {
     "a constant and what it sets": (
         study({**TALL, "zeta_over_a": 2.0, "aging_coefficient": 0.1}),
         [f"{RUN}: aging_coefficient is not allowed together with zeta_over_a, which sets it"],
-    ),
-    "constant as text": (
-        with_run(height=0.1, zeta_over_a="2e0"), ["zeta_over_a = '2e0'", "write 2.0e+0"],
     ),
 }  # fmt: skip
 

@@ -47,21 +47,27 @@ def test_units_are_read_wherever_a_parameter_stands(written, tmp_path):
 def test_sections_and_ranges_have_units_too():
     config = study({"height": {"start": "5 mm", "stop": "10 cm", "num": 3, "scale": "log"}})
     made = configure(
-        config | {"material": {"shear_modulus": "30 GPa"}, "stepping": {"end_time": "2 h"}}
+        config
+        | {
+            "material": {"shear_modulus": "30 GPa", "density": "1e3"},
+            "stepping": {"end_time": "2 h"},
+        }
+        | {"curves": {"heights": ["5 mm", "1e1"]}}
     )
+    assert made.curves.heights == (0.005, 10.0) and made.base.material.density == 1000.0
     assert made.base.material.shear_modulus == 30e9 and made.base.stepping.end_time == 7200.0
     assert [run.parameters.geometry.height for run in made.runs] == [0.005, 0.0223607, 0.1]
 
 
 def test_every_bad_unit_is_told_at_once_with_key_value_unit_and_range():
     text = messages(
-        study({"height": "2 kg"}) | {"material": {"shear_modulus": "30 GPx", "density": "1e3"}}
+        study({"height": "2 kg", "n_x": "8.5"}) | {"material": {"shear_modulus": "30 GPx"}}
     )
     assert "the configuration has 3 problems" in text
     assert "studies.s.runs[0].height = '2 kg' is not allowed: block height must lie in" in text
     assert "kg is a unit of mass, but m is needed" in text
     assert "material.shear_modulus = '30 GPx'" in text and "not a known unit" in text
-    assert "write 1.0e+3, without quotes" in text
+    assert "runs[0].n_x = 8.5 is not allowed: number of elements along x must be an in" in text
 
 
 def test_the_same_names_in_configuration_and_api():

@@ -20,7 +20,8 @@ from ..model.friction.law import Friction
 from ..model.friction.registry import EVOLUTIONS
 from ..model.linearised import InterfaceState, loaded
 from ..model.parameters import Parameters
-from ..model.quantities import ParameterError, refusal
+from ..model.quantities import ParameterError, Quantity, refusal
+from ..model.units import parse
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import (
@@ -120,8 +121,8 @@ def configure(values: Any, only: Collection[str] | None = None) -> Configuration
     ParameterError
         With one line for each problem found.
     """
-    values, unread = read_units(values)
-    _stop_on([*unread, *_schema_problems(values)])
+    values = read_units(values)
+    _stop_on(_schema_problems(values))
     _stop_on([*_range_problems(values), *results_problems(results_directory(values))])
     try:
         groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
@@ -229,10 +230,20 @@ def _messages(error: ValidationError) -> Iterator[str]:
     elif leaf and entry is not None:
         meant = path[:1] == ("studies",) and "law" in path and error.instance in EVOLUTIONS
         hint = "; the evolution of the state is called evolution" if meant else ""
-        yield f"{refusal(key, error.instance, entry)}{hint}"
+        yield f"{_refusal(key, error.instance, entry)}{hint}"
     else:
         form = {"object": "a mapping (lines of key: value)", "array": "a list"}
         yield f"{key} = {_short(error.instance)} must be {form[error.validator_value]}"
+
+
+def _refusal(key: str, value: Any, entry: Quantity) -> str:
+    """Why a value is not allowed, be it of its unit."""
+    try:
+        if isinstance(value, str):
+            parse(key, value, entry)
+    except ParameterError as error:
+        return str(error)
+    return refusal(key, value, entry)
 
 
 def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]) -> Iterator[str]:

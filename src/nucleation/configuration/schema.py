@@ -1,5 +1,6 @@
 """The JSON schema of the configuration, made from the declarations of the parameters."""
 
+import dataclasses
 from typing import Any
 
 import yaml
@@ -59,7 +60,7 @@ def group_entries(group: str) -> dict[str, Quantity]:
 
 
 def entry_at(path: tuple[Any, ...]) -> Quantity | None:
-    """The declaration that a value of the configuration has to meet, by its place there."""
+    """The declaration that one value of the configuration has to meet, by its place there."""
     if path == ("results",):
         return RESULTS
     names = [part for part in path if isinstance(part, str)]
@@ -72,7 +73,8 @@ def entry_at(path: tuple[Any, ...]) -> Quantity | None:
         names = names[2:]
     else:
         known = group_entries(names[0]) if names and names[0] in GROUPS else {}
-    return next((known[name] for name in names if name in known), None)
+    found = next((known[name] for name in names if name in known), None)
+    return found and (dataclasses.replace(found, kind="float") if found.many else found)
 
 
 def build() -> Node:

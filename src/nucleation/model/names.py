@@ -16,11 +16,11 @@ class Names(dict[str, Quantity]):
     ----------
     entries : mapping
         Declarations by full name, ``group.field``.
-    aliases : mapping
+    aliases : dict
         Full names by alias.
     """
 
-    def __init__(self, entries: Mapping[str, Quantity], aliases: Mapping[str, str]) -> None:
+    def __init__(self, entries: Mapping[str, Quantity], aliases: dict[str, str]) -> None:
         super().__init__(entries)
         lasts = {full: full.rpartition(".")[2] for full in entries}
         having = Counter(lasts.values())
