@@ -67,7 +67,7 @@ def test_every_bad_unit_is_told_at_once_with_key_value_unit_and_range():
     assert "studies.s.runs[0].height = '2 kg' is not allowed: block height must lie in" in text
     assert "kg is a unit of mass, but m is needed" in text
     assert "material.shear_modulus = '30 GPx'" in text and "not a known unit" in text
-    assert "runs[0].n_x = 8.5 is not allowed: number of elements along x must be an in" in text
+    assert "runs[0].n_x = '8.5' is not allowed: number of elements along x must be an in" in text
 
 
 def test_the_same_names_in_configuration_and_api():
