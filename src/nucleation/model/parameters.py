@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_type_hints
 
 from .checked import Checked
 from .friction.constants import CONSTANTS
@@ -16,7 +16,7 @@ from .loading import Loading
 from .material import Material
 from .names import Names
 from .perturbation import Perturbation
-from .quantities import ParameterError, Quantity, declarations, plain, quantity
+from .quantities import ParameterError, declarations, plain, quantity
 from .recording import Recording
 from .second_body import SecondBody
 
@@ -219,11 +219,7 @@ class Parameters:
         return cls.from_dict(json.loads(text))
 
 
-GROUPS: dict[str, type] = {
-    "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
-    "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
-    "heterogeneity": Heterogeneity, "second_body": SecondBody, "recording": Recording,
-}  # fmt: skip
+GROUPS: dict[str, type] = get_type_hints(Parameters)
 """The groups of :class:`Parameters` and their classes."""
 
 ALIASES = {
@@ -264,19 +260,13 @@ ALIASES = {
 the first body's."""
 
 
-def group_declarations(group: str) -> dict[str, Quantity]:
-    """The declared parameters of a group; of all laws if it is friction."""
-    return law_declarations() if group == "friction" else declarations(GROUPS[group])
-
-
 @cache
 def names() -> Names:
     """All parameters of a run, and the constants of friction, with their short names."""
-    entries = {
-        f"{group}.{name}": entry
-        for group in GROUPS
-        for name, entry in group_declarations(group).items()
-    }
+    entries = {}
+    for group, cls in GROUPS.items():
+        own = law_declarations() if group == "friction" else declarations(cls)
+        entries |= {f"{group}.{name}": entry for name, entry in own.items()}
     return Names(entries | CONSTANTS, ALIASES)
 
 
