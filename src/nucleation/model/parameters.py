@@ -16,7 +16,7 @@ from .loading import Loading
 from .material import Material
 from .names import Names
 from .perturbation import Perturbation
-from .quantities import ParameterError, declarations, plain, quantity
+from .quantities import ParameterError, Quantity, declarations, plain, quantity
 from .recording import Recording
 from .second_body import SecondBody
 
@@ -263,7 +263,7 @@ the first body's."""
 @cache
 def names() -> Names:
     """All parameters of a run, and the constants of friction, with their short names."""
-    entries = {}
+    entries: dict[str, Quantity] = {}
     for group, cls in GROUPS.items():
         own = law_declarations() if group == "friction" else declarations(cls)
         entries |= {f"{group}.{name}": entry for name, entry in own.items()}
