@@ -54,12 +54,12 @@ def test_default_configuration_is_the_papers():
     paper = load(CONFIG / "config.yaml")
     assert paper.results == "results"
     assert paper.base.material == Material()
-    assert paper.friction == Friction()
+    assert paper.base.friction == Friction()
     assert paper.base.loading == Loading()
     assert paper.main_text_interface == InterfaceState()
     assert {key for key in schema.GROUPS if key not in PAPER} == set()
     for group in schema.GROUPS:
-        keys = declarations(type(paper.friction)) if group == "friction" else None
+        keys = declarations(type(paper.base.friction)) if group == "friction" else None
         assert set(PAPER[group]) == set(keys or schema.group_entries(group)), group
 
 

@@ -174,5 +174,5 @@ def test_weakening_may_be_given_alone():
 def test_the_section_chooses_the_law():
     values = {"law": "dieterich_ruina", "evolution": "slip", "log_state_coefficient": 0.02}
     config = configure({**study({"height": 0.1}), "friction": values})
-    assert config.friction == Friction(**values) == config.runs[0].parameters.friction
+    assert config.base.friction == Friction(**values) == config.runs[0].parameters.friction
     assert Parameters.from_json(config.runs[0].parameters.to_json()) == config.runs[0].parameters

@@ -8,7 +8,7 @@ import difflib
 import numbers
 import os
 import sys
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import jsonschema
@@ -16,7 +16,6 @@ from jsonschema.exceptions import ValidationError
 
 from ..analysis.definitions import ExtractionSettings
 from ..configuration import schema
-from ..model.friction.law import Friction
 from ..model.friction.registry import EVOLUTIONS
 from ..model.linearised import InterfaceState, loaded
 from ..model.parameters import Parameters
@@ -66,26 +65,6 @@ class Configuration:
         """The runs of the studies with some roles."""
         return [run for run in self.runs if run.role in roles]
 
-    def theory_parameters(self) -> dict[str, Any]:
-        """What the dataset of the linear theory depends on, as plain dictionaries."""
-        parts = {
-            "material": self.base.material,
-            "friction": self.base.friction,
-            "main_text_interface": self.main_text_interface,
-            "curves": self.curves,
-        }
-        return {name: dataclasses.asdict(part) for name, part in parts.items()}  # type: ignore[call-overload]
-
-    def lengths_parameters(self, study: str) -> dict[str, Any]:
-        """What the table of a study's lengths depends on, as plain dictionaries."""
-        runs = [run.to_dict() for run in self.runs_of(study)]
-        return {"runs": runs, "extraction": dataclasses.asdict(self.extraction)}
-
-    @property
-    def friction(self) -> Friction:
-        """The friction law of the section ``friction``."""
-        return self.base.friction
-
     def shown(self, height: float) -> Run:
         """The run with the role ``paper`` of a height (m) that figures show.
 
@@ -105,16 +84,8 @@ def load(path: str | os.PathLike[str]) -> Configuration:
     return configure(read_yaml(path))
 
 
-def configure(values: Any, only: Collection[str] | None = None) -> Configuration:
+def configure(values: Any) -> Configuration:
     """The configuration in plain dictionaries, as read from YAML.
-
-    Parameters
-    ----------
-    values : mapping
-        As it stands in the file.
-    only : collection of str, optional
-        Names of runs and batches: those of studies without these are left out, whose
-        configuration has been checked before.
 
     Raises
     ------
@@ -133,7 +104,7 @@ def configure(values: Any, only: Collection[str] | None = None) -> Configuration
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
-        found.extend(study_runs(name, study, base, interface, only, values.get("stepping", {})))
+        found.extend(study_runs(name, study, base, interface, values.get("stepping", {})))
     settings = {k: v for k, v in groups.items() if k != "figures"}
     _stop_on(
         [
@@ -143,8 +114,7 @@ def configure(values: Any, only: Collection[str] | None = None) -> Configuration
     )
     runs = tuple(run for _, run in found if isinstance(run, Run))
     studies = {name: study_settings(study) for name, study in values["studies"].items()}
-    if only is None:
-        _stop_on(role_problems(studies, runs, groups["figures"], base))
+    _stop_on(role_problems(studies, runs, groups["figures"], base))
     results = results_directory(values)
     return Configuration(results, base, interface, studies=studies, runs=runs, **groups)
 
