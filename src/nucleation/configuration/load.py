@@ -23,18 +23,14 @@ from ..model.quantities import ParameterError, Quantity, refusal
 from ..model.units import parse
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
-from .contradictions import (
-    results_directory,
-    results_problems,
-    run_problems,
-    setting_problems,
-)
+from .contradictions import results_directory, results_problems, run_problems, setting_problems
 from .grids import LARGEST_GRID, expand, grid_size, range_problem
 from .roles import role_problems, shown
 from .runs import Run
 from .settings import FigureSettings, Limits
 from .strict_yaml import read_yaml
 from .studies import StudySettings, study_runs, study_settings
+from .study_names import in_type
 from .units_in import read_units
 
 
@@ -106,12 +102,8 @@ def configure(values: Any) -> Configuration:
     for name, study in values["studies"].items():
         found.extend(study_runs(name, study, base, interface, values.get("stepping", {})))
     settings = {k: v for k, v in groups.items() if k != "figures"}
-    _stop_on(
-        [
-            *_run_problems(found, groups["limits"], groups["extraction"]),
-            *setting_problems(base, interface, **settings),
-        ]
-    )
+    of_runs = _run_problems(found, groups["limits"], groups["extraction"])
+    _stop_on([*of_runs, *setting_problems(base, interface, **settings)])
     runs = tuple(run for _, run in found if isinstance(run, Run))
     studies = {name: study_settings(study) for name, study in values["studies"].items()}
     _stop_on(role_problems(studies, runs, groups["figures"], base))
@@ -134,10 +126,9 @@ def _group(name: str, values: dict[str, Any]) -> Any:
     typed = {}
     for key, value in values.items():
         if entries[key].many:
-            typed[key] = tuple(float(x) for x in expand(value))
+            typed[key] = tuple(map(float, expand(value)))
         else:
-            number = entries[key].kind == "float" and value is not None
-            typed[key] = float(value) if number else value  # type: ignore[assignment]
+            typed[key] = in_type(entries[key], value)
     return schema.GROUPS[name](**typed)
 
 

@@ -12,11 +12,7 @@ import numpy as np
 
 from ..model.checked import Checked
 from ..model.friction.constants import CONSTANTS, with_constants
-from ..model.linearised import (
-    InterfaceState,
-    linearised,
-    loaded,
-)
+from ..model.linearised import InterfaceState, linearised, loaded
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
@@ -94,11 +90,10 @@ def theory_curves(
     if len(numbers) != 1 or declared[numbers[0]].kind != "float":
         return {}
     (name,), words = numbers, [word for word in found if word not in numbers]
+    kinds = [", ".join(str(found[word][i]) for word in words) for i in range(len(runs))]
     curves = {}
-    for i, run in enumerate(runs):
-        kind = ", ".join(str(found[word][i]) for word in words)
-        ends = [x for j, x in enumerate(found[name])
-                if all(found[word][j] == found[word][i] for word in words)]  # fmt: skip
+    for run, kind in zip(runs, kinds, strict=True):
+        ends = [x for x, other in zip(found[name], kinds, strict=True) if other == kind]
         if kind in curves or name not in run.given or len(ends) < 2:
             continue
         low, high = min(ends), max(ends)

@@ -38,9 +38,13 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
         name = known.short(known.full(given))
         if name in found:
             raise ParameterError(f"{given} = {value!r} is not allowed: {name} is given already")
-        number = declared[name].kind == "float" and value is not None
-        found[name] = float(value) if number else value
+        found[name] = in_type(declared[name], value)
     return found
+
+
+def in_type(entry: Quantity, value: Any) -> Any:
+    """An allowed value in its declared type."""
+    return float(value) if entry.kind == "float" and value is not None else value
 
 
 def identifier(study: str, parameters: Parameters, varied: dict[str, Any]) -> str:
