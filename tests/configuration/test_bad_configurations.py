@@ -14,55 +14,19 @@ RUN = "studies.paper.runs[6]"
 BAD = {
     # out of range: key, value, unit, range
     "incompressible": (changed("material.poisson_ratio", 0.5), [*NU, "= 0.5"]),
-    "nu below -1": (changed("material.poisson_ratio", -1.5), [*NU, "= -1.5"]),
-    "no stiffness": (
-        changed("material.shear_modulus", 0.0),
-        ["material.shear_modulus = 0.0 Pa", "(0, 1e+13) Pa"],
-    ),
-    "negative density": (
-        changed("material.density", -1200),
-        ["material.density = -1200 kg/m^3", "[0, 1e+06) kg/m^3"],
-    ),
-    "tension": (changed("loading.normal_stress", -1e6), ["normal_stress = -1000000.0 Pa"]),
     "infinite stress": (changed("loading.normal_stress", math.inf), ["inf Pa", "(0, 1e+10)"]),
-    "no velocity": (changed("loading.velocity", 0), ["loading.velocity = 0 m/s", "(0, 1)"]),
     "not a number": (changed("loading.velocity", math.nan), ["loading.velocity = nan m/s"]),
-    "tolerance one": (changed("stepping.tolerance", 1.0), ["tolerance = 1.0", "(0, 1)"]),
-    "negative time": (changed("stepping.end_time", -1), ["end_time = -1 s", "(0, 1e+12) s"]),
-    "negative height": (with_run(height=-0.005), [f"{RUN}.height = -0.005 m", "(0, 1e+06) m"]),
     "zero height in list": (with_run(height=[0.01, 0]), [f"{RUN}.height[1] = 0 m"]),
     "zero mesh": (changed("studies.paper.defaults.n_x", 0), ["n_x = 0", "integer in [8, 100000]"]),
-    "zero mesh in y": (with_run(height=0.01, n_y=0), [f"{RUN}.n_y = 0", "[2, 10000]"]),
-    "grading below one": (with_run(height=0.01, grading=0.5), ["grading = 0.5", "[1, 1000]"]),
-    "short block": (
-        with_run(height=0.005, length=0.1),
-        [f"{RUN}: length = 0.1 m", "critical nucleation length of the theory, 0.235 m"],
-    ),
-    "block not longer than L_c": (
-        changed("studies.paper.length_over_critical", 1.0),
-        ["studies.paper.length_over_critical = 1.0", "(1, 1000)"],
-    ),
-    "edge above V": (changed("extraction.edge_threshold", 1.5), ["edge_threshold", "(0, 1]"]),
-    "negative inset": (changed("figures.inset_height", -1), ["figures.inset_height = -1 m"]),
     "zero curve height": (changed("curves.heights", [0.0, 0.1]), ["curves.heights[0] = 0.0 m"]),
     # wrong type
-    "word for number": (changed("material.density", "heavy"), ["material.density = 'heavy'"]),
     "truth for number": (changed("material.density", True), ["material.density = True"]),
-    "nothing for number": (changed("material.density", None), ["material.density = None"]),
-    "list for number": (changed("material.density", [1200]), ["material.density = [1200]"]),
     "real mesh": (changed("studies.paper.defaults.n_x", 400.5), ["n_x = 400.5", "integer"]),
-    "float mesh": (with_run(height=0.01, n_x=400.0), [f"{RUN}.n_x = 400.0", "integer"]),
-    "number for text": (changed("results", 7), ["results = 7", "non-empty text"]),
     "empty results": (changed("results", ""), ["results = ''", "non-empty text"]),
-    "section is a list": (changed("stepping", [1]), ["stepping = [1] must be a mapping"]),
     "section is empty": (changed("curves", None), ["curves = None must be a mapping"]),
     "runs are a mapping": (
         changed("studies.paper.runs", {"height": 0.1}),
         ["studies.paper.runs", "must be a list"],
-    ),
-    "text for text list": (
-        with_run(height=0.01, evolution=["slip", 3]),
-        [f"{RUN}.evolution[1] = 3"],
     ),
     "the whole is a list": ([1, 2], ["the configuration = [1, 2] must be a mapping"]),
     "the whole is empty": (None, ["the configuration = None must be a mapping"]),
@@ -71,14 +35,8 @@ BAD = {
         with_run(height=0.01, evolution="ageing"),
         [f"{RUN}.evolution = 'ageing'", "aging, slip"],
     ),
-    "unknown evolution": (changed("friction.evolution", "Slip"), ["evolution = 'Slip'", "slip"]),
-    "unknown interface": (
-        changed("studies.paper.interface", "both"),
-        ["interface = 'both'", "one of main_text, friction_law"],
-    ),
     "unknown section": (changed("materials", {}), ["materials = {}", "did you mean material?"]),
     "unknown key": (changed("material.densty", 1.0), ["material.densty", "mean density?"]),
-    "unknown parameter": (with_run(heigth=0.1), [f"{RUN}.heigth = 0.1", "mean height?"]),
     "far from any key": (changed("loading.zzz", 1), ["loading.zzz = 1", "known keys: normal_st"]),
     "velocity twice": (
         changed("main_text_interface.velocity", 1e-5),
@@ -118,14 +76,6 @@ BAD = {
     "log range from zero": (
         changed("curves.f_beta", {"start": 0.0, "stop": 1.0, "num": 3, "scale": "log"}),
         ["curves.f_beta: start 0.0 must be positive on a log scale"],
-    ),
-    "unknown scale": (
-        with_run(height={"start": 0.1, "stop": 1, "num": 3, "scale": "cubic"}),
-        [f"{RUN}.height.scale = 'cubic'", "one of linear, log"],
-    ),
-    "range out of range": (
-        with_run(height={"start": -0.1, "stop": 1, "num": 3}),
-        [f"{RUN}.height.start = -0.1 m", "(0, 1e+06) m"],
     ),
     "mesh beyond the memory": (
         with_run(height=0.1, n_x=100000, n_y=10000),

@@ -1,6 +1,5 @@
 """Bad input that has the right types: contradictions, sizes, names, places, and odd YAML."""
 
-import math
 import os
 
 import pytest
@@ -20,20 +19,8 @@ BAD = {
         changed("material.density", 10**400), ["density = 1000", "[0, 1e+06) kg/m^3"],
     ),
     "integer beyond any mesh": (study({**TALL, "n_x": 10**400}), ["integer in [8, 100000]"]),
-    "nan in a list": (
-        study({**TALL, "density": [1.0, math.nan]}), [f"{RUN}.density[1] = nan kg/m^3"],
-    ),
-    "nothing in a list": (
-        study({**TALL, "density": [1.0, None]}), [f"{RUN}.density[1] = None kg/m^3"],
-    ),
     "list in a list": (
         study({**TALL, "velocity": [[1e-5]]}), [f"{RUN}.velocity[0] = [1e-05] m/s", "(0, 1) m/s"],
-    ),
-    "unit in the value": (
-        changed("loading.normal_stress", "5 MPx"), ["normal_stress = '5 MPx'", "(0, 1e+10) Pa"],
-    ),
-    "decimal comma": (
-        changed("loading.velocity", "1,5e-5"), ["velocity = '1,5e-5' is not allowed", "(0, 1) m/s"],
     ),
     "range of integers": (
         study({**TALL, "n_x": {"start": 100, "stop": 200, "num": 3}}), [f"{RUN}.n_x", "integer"],
@@ -42,21 +29,12 @@ BAD = {
         changed("curves.heights", {"start": 0.1, "stop": 0.1 + 1e-9, "num": 50}),
         ["curves.heights: its 50 values from 0.1 on are not all different"],
     ),
-    "equal to six digits in a range": (
-        study({"height": {"start": 0.1, "stop": 0.1000003, "num": 9}}),
-        [f"{RUN}.height: its 9 values from 0.1 on are not all different"],
-    ),
     "numbers equal in identifiers": (
         study({"height": [0.3, 0.1 + 0.2]}), ["gives the simulation s-aging-H0.3-phi1 again"],
-    ),
-    "defaults with a list": (
-        study(TALL, defaults={"n_x": [100, 200]}), ["studies.s.defaults.n_x = [100, 200]"],
     ),
     "defaults are nothing": (study(TALL, defaults=None), ["studies.s.defaults = None must be"]),
     "a run is nothing": (study(None), [f"{RUN} = None must be a mapping"]),
     "a study is nothing": ({"studies": {"s": None}}, ["studies.s = None must be a mapping"]),
-    "studies are nothing": ({"studies": None}, ["studies = None must be a mapping"]),
-    "description is nothing": (study(TALL, description=None), ["description = None"]),
     "a strength of nothing": (
         study({**TALL, "strength": 1e-3}), [f"{RUN}: strength = 0.001 is", "perturbation one of"],
     ),
@@ -68,12 +46,8 @@ BAD = {
         study({**TALL, "perturbation": "state", "strength": 1e-3, "correlation_time": 1e-12}),
         [f"{RUN}: shortest_step = 1e-12 s is not allowed", "longest one, 1e-13 D/V = 5e-15 s"],
     ),
-    "a kind that is none": (
-        study({**TALL, "perturbation": "noise"}), ["must be one of none, drive_velocity"],
-    ),
     # names and places
     "truth as a name": ({"studies": {True: {"runs": [TALL]}}}, ["studies: True", "as a name"]),
-    "number as a name": ({"studies": {2017: {"runs": [TALL]}}}, ["studies: 2017", "as a name"]),
     "endless name": ({"studies": {"s" * 61: {"runs": [TALL]}}}, ["at most 60", "as a name"]),
     "endless identifier": (
         study(
@@ -85,10 +59,8 @@ BAD = {
         [f"{RUN}: s-aging-H0.1", "characters, more than 200"],
     ),
     "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "without braces"]),
-    "pathvars": (changed("results", "out/<x>"), ["results = 'out/<x>'", "without braces, < and >"]),
     "code by a detour": (changed("results", "results/../src"), ["results = 'src'", "what makes"]),
     "the directory itself": (changed("results", "a/.."), ["results = '.'", "of its own"]),
-    "above": (changed("results", "../.."), ["results = '../..'", "of its own"]),
     "root": (changed("results", "/"), ["results = '/'", "of its own"]),
     "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
     "line break": (changed("results", "a\nb"), ["results = 'a\\nb'", "control characters"]),
@@ -100,9 +72,6 @@ BAD = {
     "low edge above the edge": (
         changed("extraction.edge_threshold_low", 0.1),
         ["edge_threshold_low = 0.1, edge_threshold = 0.01", "must ascend, each in (0, 1]"],
-    ),
-    "high edge below the edge": (
-        changed("extraction.edge_threshold_high", 0.001), ["edge_threshold_high = 0.001"],
     ),
     "shortest step above the longest": (
         study(TALL, defaults={"shortest_step": 0.5}),
@@ -128,21 +97,8 @@ BAD = {
         changed("crosscheck.n_x", 100000),
         ["crosscheck: n_x = 100000, n_y = 8", "MB, more than limits.memory = 2000 MB"],
     ),
-    "crosscheck beyond any length": (
-        {"crosscheck": {"heights": 1e5, "length_over_critical": 999.0},
-         "main_text_interface": {"slip_length": 1.0}, **study(TALL)},
-        ["crosscheck: geometry.length = ", "(0, 1e+07) m"],
-    ),
     "constants without a law": (
         study({**TALL, "zeta_over_a": 900.0}), [f"{RUN}: no friction law has f = 0.41", "[0, 1)"],
-    ),
-    "constants that need a negative friction": (
-        study({**TALL, "direct_effect": 0.2, "friction_coefficient": 0.3}),
-        [f"{RUN}: no friction law has f = 0.3, a = 0.2"],
-    ),
-    "a constant and what it sets": (
-        study({**TALL, "zeta_over_a": 2.0, "aging_coefficient": 0.1}),
-        [f"{RUN}: aging_coefficient is not allowed together with zeta_over_a, which sets it"],
     ),
 }  # fmt: skip
 

@@ -24,7 +24,7 @@ from ..model.units import parse
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import results_directory, results_problems, run_problems, setting_problems
-from .grids import LARGEST_GRID, expand, grid_size, range_problem
+from .grids import LARGEST_GRID, grid_size, range_problem
 from .roles import role_problems, shown
 from .runs import Run
 from .settings import FigureSettings, Limits
@@ -96,7 +96,9 @@ def configure(values: Any) -> Configuration:
     except ParameterError as error:  # what the chosen friction law does not have
         _stop_on([str(error)])
     own = [f.name for f in dataclasses.fields(Parameters) if f.name in groups]
-    base = _until_the_drop(Parameters(**{name: groups.pop(name) for name in own}), groups)
+    base = Parameters(**{name: groups.pop(name) for name in own})
+    drop = max(base.stepping.event_drop, groups["extraction"].drop)  # is to be recorded
+    base = dataclasses.replace(base, stepping=dataclasses.replace(base.stepping, event_drop=drop))
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
@@ -123,13 +125,7 @@ def _stop_on(problems: Iterable[str]) -> None:
 def _group(name: str, values: dict[str, Any]) -> Any:
     """The dataclass of a section, numbers in their declared type."""
     entries = schema.group_entries(name)
-    typed = {}
-    for key, value in values.items():
-        if entries[key].many:
-            typed[key] = tuple(map(float, expand(value)))
-        else:
-            typed[key] = in_type(entries[key], value)
-    return schema.GROUPS[name](**typed)
+    return schema.GROUPS[name](**{key: in_type(entries[key], own) for key, own in values.items()})
 
 
 def _is_integer(_: Any, value: Any) -> bool:
@@ -246,12 +242,6 @@ def _range_problems(values: dict[str, Any]) -> Iterator[str]:
         problem = range_problem(value)
         if problem:
             yield f"{key_text(path)}: {problem}"
-
-
-def _until_the_drop(base: Parameters, groups: dict[str, Any]) -> Parameters:
-    """The parameters with which runs go on until the drop that is asked for is recorded."""
-    drop = max(base.stepping.event_drop, groups["extraction"].drop)
-    return dataclasses.replace(base, stepping=dataclasses.replace(base.stepping, event_drop=drop))
 
 
 def _run_problems(

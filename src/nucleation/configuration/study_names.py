@@ -8,6 +8,7 @@ from typing import Any
 
 from ..model.parameters import GROUPS, Parameters, names
 from ..model.quantities import ParameterError, Quantity
+from .grids import expand
 
 
 def study_parameters() -> dict[str, Quantity]:
@@ -43,7 +44,9 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def in_type(entry: Quantity, value: Any) -> Any:
-    """An allowed value in its declared type."""
+    """An allowed value in its declared type; a tuple of what a list or a range means."""
+    if entry.many:
+        return tuple(map(float, expand(value)))
     return float(value) if entry.kind == "float" and value is not None else value
 
 
