@@ -110,25 +110,6 @@ def test_all_problems_are_reported_together():
         assert fragment in text
 
 
-@pytest.mark.parametrize(
-    ("content", "fragments"),
-    [
-        ("a: 1\nb: 2\na: 3\n", ["key a stands twice", "lines 1 and 3"]),
-        ("studies:\n  p: {runs: []}\n  p: {runs: []}\n", ["key p stands twice"]),
-        ("material: {density: 1, density: 2}\n", ["key density stands twice"]),
-        ("material: [\n", ["is not valid YAML"]),
-        ("x: !!python/object/apply:os.getcwd []\n", ["is not valid YAML"]),
-    ],
-)
-def test_bad_file_is_named(tmp_path, content, fragments):
-    path = tmp_path / "config.yaml"
-    path.write_text(content)
-    with pytest.raises(ParameterError) as caught:
-        load(path)
-    for fragment in ["config.yaml", *fragments]:
-        assert fragment in str(caught.value)
-
-
 def test_missing_file_is_named(tmp_path):
     with pytest.raises(ParameterError, match=r"none\.yaml can't be read: No such file"):
         load(tmp_path / "none.yaml")

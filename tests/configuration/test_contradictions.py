@@ -109,24 +109,20 @@ def test_bad_configuration_is_named(config, fragments):
 
 
 YAML = {
+    "key twice": (b"a: 1\nb: 2\na: 3\n", "the key a stands twice, in lines 1 and 3"),
+    "key twice in a mapping": (b"m: {density: 1, density: 2}\n", "key density stands twice"),
+    "code": (b"x: !!python/object/apply:os.getcwd []\n", "is not valid YAML"),
     "a list as a key": (b"? [a, b]\n: 1\n", "line 1: a key must be a word"),
     "octal": (b"n_x: 0400\n", "line 1: YAML takes 0400 for 256"),
     "sexagesimal": (b"a: 1\nend_time: 1:30\n", "line 2: YAML takes 1:30 for 90"),
-    "sexagesimal with a fraction": (b"end_time: 1:30.5\n", "YAML takes 1:30.5 for 90.5"),
     "no such date": (b"a: 2001-99-99\n", "is not valid YAML"),
     "integer without end": (b"a: " + b"9" * 5000, "is not valid YAML"),
-    "not the integer it says": (b"a: !!int abc\n", "is not valid YAML"),
-    "unknown alias": (b"a: *b\n", "undefined alias"),
-    "two documents": (b"a: 1\n---\nb: 2\n", "expected a single document"),
-    "tabs": (b"a:\n\tb: 1\n", "is not valid YAML"),
     "binary": (b"\x00\x01\xff\xfe", "is not valid YAML"),
     "latin 1": (b"a: caf\xe9\n", "is not valid YAML"),
-    "a zero byte": (b"a: \0\n", "is not valid YAML"),
     "endless nesting": (b"[" * 5000, "is not valid YAML"),
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("content", "fragment"), YAML.values(), ids=YAML.keys())
 def test_bad_file_is_named(tmp_path, content, fragment):
     path = tmp_path / "config.yaml"
@@ -164,7 +160,6 @@ def test_results_need_a_writable_directory(tmp_path, monkeypatch):
     """The privileged may write anywhere: whether one may is what the system says."""
     monkeypatch.setattr(os, "access", lambda path, mode: not mode & os.W_OK)
     assert "is not writable" in directory_problem(tmp_path / "new")
-    assert directory_problem(tmp_path / "new", write=False) is None
 
 
 BOMBS = {

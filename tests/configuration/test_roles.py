@@ -6,7 +6,7 @@ import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
 
 from nucleation.configuration.load import configure, load
-from nucleation.configuration.roles import OWN, PAIRS, REFINEMENTS, ROLES
+from nucleation.configuration.roles import PAIRS, REFINEMENTS, ROLES
 from nucleation.figures import catalogue
 
 TALL = {"height": 0.1}
@@ -75,13 +75,6 @@ def test_roles_that_several_studies_may_share(role):
     assert settings.studies_for(role) == ["one", "other"]
     assert [run.study for run in settings.runs_for(role)] == ["one", "other"]
     assert {run.to_dict()["role"] for run in settings.runs} == {role}
-
-
-@pytest.mark.parametrize("name", [*ROLES, "convergence_mine"])
-def test_a_name_says_nothing(name):
-    settings = configure({"studies": {name: {"runs": [TALL]}}})
-    assert settings.studies_for(OWN) == [name]
-    assert settings.studies_for(*(role for role in ROLES if role != OWN)) == []
 
 
 def test_names_can_be_any():

@@ -147,21 +147,13 @@ def results_problems(results: str) -> Iterator[str]:
         yield f"results = {results!r} is not allowed: write the home directory out in place of ~"
 
 
-def directory_problem(results: str | os.PathLike[str], write: bool = True) -> str | None:
-    """Why results can't be kept in a directory, which need not exist yet; or None.
-
-    Parameters
-    ----------
-    results : path
-        The directory, relative to the working directory or absolute.
-    write : bool
-        Whether anything is to be written there.
-    """
+def directory_problem(results: str | os.PathLike[str]) -> str | None:
+    """Why results can't be written to a directory, which need not exist yet; or None."""
     path = Path(results).absolute()
     while not os.path.lexists(path):
         path = path.parent
     if not path.is_dir():
         return f"results = {str(results)!r} is not allowed: {path} is no directory"
-    if write and not os.access(path, os.W_OK | os.X_OK):
+    if not os.access(path, os.W_OK | os.X_OK):
         return f"results = {str(results)!r} is not allowed: {path} is not writable"
     return None

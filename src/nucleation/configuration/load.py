@@ -31,7 +31,6 @@ from .settings import FigureSettings, Limits
 from .strict_yaml import read_yaml
 from .studies import StudySettings, study_runs, study_settings
 from .study_names import in_type
-from .units_in import read_units
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,7 +87,7 @@ def configure(values: Any) -> Configuration:
     ParameterError
         With one line for each problem found.
     """
-    values = read_units(values)
+    values = _with_numbers(values)
     _stop_on(_schema_problems(values))
     _stop_on([*_range_problems(values), *results_problems(results_directory(values))])
     try:
@@ -144,6 +143,23 @@ _Validator = jsonschema.validators.extend(
         {"integer": _is_integer, "number": _is_finite}
     ),
 )
+
+
+def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:
+    """A configuration as read from YAML, copied, with numbers in place of texts that are such.
+
+    Such are ``30 GPa``, ``1/3`` and ``1e-8``, which YAML takes for text. What is no allowed number
+    stays, to be refused.
+    """
+    if isinstance(value, dict):
+        return {key: _with_numbers(own, (*path, key)) for key, own in value.items()}
+    if isinstance(value, list):
+        return [_with_numbers(own, (*path, number)) for number, own in enumerate(value)]
+    entry = schema.entry_at(path) if isinstance(value, str) else None
+    try:
+        return parse("", value, entry) if entry else value
+    except ParameterError:
+        return value
 
 
 def _schema_problems(values: Any) -> Iterator[str]:
