@@ -4,11 +4,12 @@ from collections import Counter
 
 import pytest
 import yaml
-from configurations import CONFIG, PAPER
+from configurations import CONFIG, PAPER, study
 
 from nucleation.configuration.grids import expand
 from nucleation.configuration.load import configure, load, schema
 from nucleation.configuration.runs import first_realisations
+from nucleation.configuration.studies import theory_curves
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
@@ -41,11 +42,8 @@ def test_papers_study():
     assert [run.labels["height"] for run in aging] == heights
     assert aging[0].id == "paper-aging-H0.005-phi1"
     others = {run.id for run in runs} - {run.id for run in aging}
-    assert others == {
-        "paper-slip-H0.01-phi1",
-        "paper-slip-H0.05-phi1",
-        "paper-aging-H0.1-phi1000",
-    }
+    expected = {"slip-H0.01-phi1", "slip-H0.05-phi1", "aging-H0.1-phi1000"}
+    assert others == {f"paper-{name}" for name in expected}
     for run in runs:
         assert (run.parameters.mesh.n_x, run.parameters.mesh.n_y) == (400, 150)
         expected = critical_length(run.labels["height"], Material(), InterfaceState())
@@ -78,13 +76,13 @@ def test_what_is_beyond_the_paper_has_six_realisations():
     config = load(CONFIG / "config.yaml")
     studies = ("pairs_identical", "pairs_far_sides", "pairs_layers", "pairs_weak", "drop",
                "figure_2_simulated")  # fmt: skip
-    for study in studies:
+    for name in studies:
         runs = [
-            run for run in config.runs_of(study)
+            run for run in config.runs_of(name)
             if run.parameters.perturbation.acts
-            and not (study == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
+            and not (name == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
         ]  # fmt: skip
-        assert min(realisations(runs)) >= 6, study
+        assert min(realisations(runs)) >= 6, name
     shown = config.runs_of("converged") + config.runs_of("noisy")  # figure_3_extended
     assert realisations(shown) == [6] * 21
 
@@ -113,27 +111,11 @@ def test_quick_configuration_has_what_the_figures_show():
 
 
 def test_grid_and_identifiers():
-    config = configure(
-        {
-            "studies": {
-                "grid": {
-                    "defaults": {"n_y": 20, "poisson_ratio": 0.25},
-                    "runs": [
-                        {
-                            "height": {"start": 0.01, "stop": 1.0, "num": 3, "scale": "log"},
-                            "n_x": [100, 200],
-                            "shear_modulus": 4.0e9,
-                            "phi0": 1000000.0,
-                        }
-                    ],
-                }
-            }
-        }
-    )
-    assert config.results == "results"
-    ids = [run.id for run in config.runs]
-    assert len(ids) == 6
-    assert ids[0] == "grid-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
+    heights = {"start": 0.01, "stop": 1.0, "num": 3, "scale": "log"}
+    entry = {"height": heights, "n_x": [100, 200], "shear_modulus": 4.0e9, "phi0": 1000000.0}
+    config = configure(study(entry, defaults={"n_y": 20, "poisson_ratio": 0.25}))
+    assert config.results == "results" and len(config.runs) == 6
+    assert config.runs[0].id == "s-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
     assert {run.labels["height"] for run in config.runs} == {0.01, 0.1, 1.0}
     for run in config.runs:
         assert run.parameters.material == Material(4.0e9, 0.25)
@@ -142,7 +124,7 @@ def test_grid_and_identifiers():
 
 
 def identifiers(*runs):
-    return [run.id for run in configure({"studies": {"s": {"runs": list(runs)}}}).runs]
+    return [run.id for run in configure(study(*runs)).runs]
 
 
 def test_identifiers_stay_when_studies_are_edited():
@@ -193,6 +175,37 @@ def test_ranges():
     assert expand({"start": 1e-3, "stop": 10, "num": 3, "scale": "log"}) == (0.001, 0.1, 10.0)
     assert expand([3, 1]) == (3, 1)
     assert expand("slip") == ("slip",)
+
+
+def curves(*runs, **settings):
+    made = configure(study(*runs, **settings))
+    return made.runs, theory_curves(
+        list(made.runs), made.studies["s"], made.base, made.main_text_interface
+    )
+
+
+@pytest.mark.parametrize("interface", ["main_text", "friction_law"])
+def test_curve_goes_through_the_runs(interface):
+    runs, found = curves(
+        {"height": [0.01, 0.1], "evolution": ["aging", "slip"], "n_x": 400}, interface=interface
+    )
+    assert set(found) == {"aging", "slip"}
+    for run in runs:
+        curve = found[run.labels["evolution"]]
+        at = curve["x"].index(run.labels["height"])
+        assert curve["length"][at] == pytest.approx(run.theory_length, rel=1e-7)
+    assert len(curve["x"]) > 50
+
+
+def test_constants_of_friction_may_vary():
+    runs, found = curves({"height": 0.01, "zeta_over_a": [1.0, 4.0]})
+    assert found[""]["length"][0] == pytest.approx(runs[0].theory_length, rel=1e-6)
+    assert found[""]["length"][0] > 1.5 * found[""]["length"][-1]
+
+
+def test_no_curve_over_two_numbers_or_numbers_of_elements():
+    assert curves({"height": [0.01, 0.1], "phi0": [1.0, 2.0]})[1] == {}
+    assert curves({"height": 0.01, "n_x": [100, 200]})[1] == {}
 
 
 @pytest.mark.slow

@@ -3,9 +3,7 @@
 import pytest
 from configurations import assert_one_problem, messages, study, with_run
 
-from nucleation.configuration import schema
 from nucleation.configuration.load import configure
-from nucleation.configuration.study_names import other_names, study_parameters
 from nucleation.model.friction.constants import constants
 from nucleation.theory.estimates import growth_time
 
@@ -49,13 +47,6 @@ def test_end_of_a_run_that_is_given_none_follows_from_the_theory():
         assert configure(given).runs[0].parameters.stepping.time_after_event > 1.0
 
 
-def test_schema_has_every_name():
-    properties = schema.build()["$defs"]["study"]["properties"]
-    for node in (properties["defaults"], properties["runs"]["items"]):
-        assert set(node["properties"]) - {"defaults"} == {*study_parameters(), *other_names()}
-    assert "geometry.height" in other_names() and "friction.law" in other_names()
-
-
 BAD = {
     "range by a full name": (
         with_run(**{"geometry.height": [0.2, -1.0]}),
@@ -78,15 +69,6 @@ BAD = {
         {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina", "state_scale": 1.0}},
         ["friction.state_scale = 1.0 is not allowed: the friction law dieterich_ruina has no such",
          "log_rate_coefficient"],
-    ),
-    "no law's parameter": (
-        {**study({"height": 0.1}), "friction": {"log_rate_coefficent": 0.01}},
-        ["friction.log_rate_coefficent = 0.01", "did you mean log_rate_coefficient?"],
-    ),
-    "a constant and what it sets": (
-        study({"height": 0.1, "friction_law": "dieterich_ruina", "zeta_over_a": 2.0,
-               "log_state_coefficient": 0.02}),
-        ["log_state_coefficient is not allowed together with zeta_over_a"],
     ),
 }  # fmt: skip
 

@@ -24,10 +24,6 @@ BAD = {
         study(TALL, role="map", runs_per_job=2),
         ["studies.s.measure = lengths is not allowed with role = map: it must be stability"],
     ),
-    "one run per job": (
-        study(TALL, role="map", measure="stability"),
-        ["studies.s.runs_per_job = 1 is not allowed with role = map: it must be more than 1"],
-    ),
     "a table of its own": (
         study(TALL, role="converged", table="own"),
         ["studies.s.table = own is not allowed with role = converged: it must be lengths"],

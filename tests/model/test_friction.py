@@ -69,9 +69,8 @@ def test_logarithmic_law_touches_the_full_one():
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("characteristic_slip_distance", 0.0), ("evolution", "ageing"), ("base_friction", "0.3m"),
-     ("state_scale", float("nan")), ("rate_coefficient", True)],
-)  # fmt: skip
+    [("evolution", "ageing"), ("base_friction", "0.3m"), ("rate_coefficient", True)],
+)
 def test_bad_values_are_named(key, value):
     with pytest.raises(ParameterError, match=key):
         Friction(**{key: value})

@@ -2,8 +2,8 @@
 
 import pytest
 
-from nucleation.model.identity import NOT_PHYSICAL, ensemble, fault
-from nucleation.model.parameters import GROUPS, Parameters, names
+from nucleation.model.identity import ensemble, fault
+from nucleation.model.parameters import Parameters
 
 BLOCK = Parameters()
 PAIR = BLOCK.replaced({"second_body": "deformable", "height": 0.02})
@@ -44,15 +44,6 @@ def test_mesh_steps_record_and_perturbation_are_not_of_the_fault():
         }
     )  # fmt: skip
     assert fault(other) == fault(PAIR) and ensemble(other) != ensemble(PAIR)
-
-
-def test_every_parameter_is_of_the_fault_or_named_as_not():
-    """A new parameter is physics unless it is listed."""
-    apart = [n for n in names() if n in NOT_PHYSICAL or n.split(".")[0] in NOT_PHYSICAL]
-    assert {n.split(".")[0] for n in apart} < set(GROUPS)
-    physics = {n for n in names() if n.split(".")[0] in ("material", "friction", "loading")}
-    assert physics.isdisjoint(apart)
-    assert "geometry.height" not in apart and "second_body.height" not in apart
 
 
 def test_what_is_left_out_of_a_second_body_is_the_first_ones():
