@@ -122,7 +122,7 @@ def test_texts_have_units_as_on_the_command_line():
     given = api.Friction(characteristic_slip_distance="0.5um"), api.Mesh(n_x="100")
     assert given == (api.Friction(characteristic_slip_distance=5e-7), api.Mesh(n_x=100))
     assert api.Parameters().replaced({"height": "5 cm"}).geometry.height == 0.05
-    with pytest.raises(ParameterError, match=r"Geometry.height = '5 s' .*unit of time, but m"):
+    with pytest.raises(ParameterError, match=r"geometry.height = '5 s' .*unit of time, but m"):
         api.Geometry(height="5 s")
 
 

@@ -70,7 +70,7 @@ SIMULATE = [
     (["no/where/run.nc"], ["there is no directory", "no/where; mkdir -p", "no/where"]),
     (["new.nc", "--height", "5 s"], ["--height", "m is needed", "(0, 1e+06) m"]),
     (["new.nc", "--height", "-5mm"], ["height = -0.005 m", "(0, 1e+06) m"]),
-    (["new.nc", "--n-x", "60.5"], ["n_x = 60.5 is not", "an integer in [8, 100000]"]),
+    (["new.nc", "--n-x", "60.5"], ["n_x = '60.5' is not", "an integer in [8, 100000]"]),
     (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
     (["new.nc", "--evolution", "ageing"], ["evolution = 'ageing'", "one of aging, slip"]),
     (["new.nc", "--length", "1cm"], ["length = 0.01 m", "critical"]),

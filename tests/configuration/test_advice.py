@@ -120,11 +120,6 @@ def test_recommended_mesh_ends_the_warning():
     assert advice(run | {"n_x": need - 1}) != []
 
 
-def test_one_warning_for_a_study_with_its_worst_run():
-    (warning,) = advice({"height": 0.005, "n_x": [60, 40, 50, 400]})
-    assert "(3 runs, the worst s-aging-H0.005-phi1-n_x40)" in warning
-
-
 def test_a_warning_names_every_run_the_worst_first():
     (text,) = advice({"height": [0.005, 0.006], "n_x": [60, 80]}, length_over_critical=6.0)
     ids = [f"s-aging-H{height}-phi1-n_x{n_x}" for n_x in (60, 80) for height in (0.005, 0.006)]

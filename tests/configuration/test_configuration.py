@@ -4,12 +4,12 @@ from collections import Counter
 
 import pytest
 import yaml
-from configurations import CONFIG, PAPER
-from configurations import study as study_of
+from configurations import CONFIG, PAPER, study
 
 from nucleation.configuration.grids import expand
 from nucleation.configuration.load import configure, load, schema
 from nucleation.configuration.runs import first_realisations
+from nucleation.configuration.studies import theory_curves
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
@@ -22,44 +22,16 @@ def test_committed_schema_is_the_declarations():
     assert (CONFIG / "schema.yaml").read_text() == schema.text(), "run make schema"
 
 
-def test_every_key_has_a_description_and_every_value_a_unit():
-    def leaves(node, path):
-        assert node.get("description"), path
-        for name, child in node.get("properties", {}).items():
-            if "$ref" not in child:
-                yield from leaves(child, f"{path}.{name}")
-        if "properties" not in node and node.get("type") not in ("object", "array"):
-            yield path, node.get("unit", node.get("anyOf", [{}])[0].get("unit"))
-
-    whole = schema.build()
-    found = [*leaves(whole, ""), *leaves(whole["$defs"]["study"], "study")]
-    assert len(found) > 50
-    for path, unit in found:
-        if not path.startswith("study.runs"):
-            assert unit, path
-
-
-def test_every_mapping_is_closed():
-    def mappings(node):
-        if isinstance(node, dict):
-            if "properties" in node and node.get("type") == "object":
-                yield node
-            for child in node.values():
-                yield from mappings(child)
-
-    assert all(node["additionalProperties"] is False for node in mappings(schema.build()))
-
-
 def test_default_configuration_is_the_papers():
     paper = load(CONFIG / "config.yaml")
     assert paper.results == "results"
     assert paper.base.material == Material()
-    assert paper.friction == Friction()
+    assert paper.base.friction == Friction()
     assert paper.base.loading == Loading()
     assert paper.main_text_interface == InterfaceState()
     assert {key for key in schema.GROUPS if key not in PAPER} == set()
     for group in schema.GROUPS:
-        keys = declarations(type(paper.friction)) if group == "friction" else None
+        keys = declarations(type(paper.base.friction)) if group == "friction" else None
         assert set(PAPER[group]) == set(keys or schema.group_entries(group)), group
 
 
@@ -70,11 +42,8 @@ def test_papers_study():
     assert [run.labels["height"] for run in aging] == heights
     assert aging[0].id == "paper-aging-H0.005-phi1"
     others = {run.id for run in runs} - {run.id for run in aging}
-    assert others == {
-        "paper-slip-H0.01-phi1",
-        "paper-slip-H0.05-phi1",
-        "paper-aging-H0.1-phi1000",
-    }
+    expected = {"slip-H0.01-phi1", "slip-H0.05-phi1", "aging-H0.1-phi1000"}
+    assert others == {f"paper-{name}" for name in expected}
     for run in runs:
         assert (run.parameters.mesh.n_x, run.parameters.mesh.n_y) == (400, 150)
         expected = critical_length(run.labels["height"], Material(), InterfaceState())
@@ -107,13 +76,13 @@ def test_what_is_beyond_the_paper_has_six_realisations():
     config = load(CONFIG / "config.yaml")
     studies = ("pairs_identical", "pairs_far_sides", "pairs_layers", "pairs_weak", "drop",
                "figure_2_simulated")  # fmt: skip
-    for study in studies:
+    for name in studies:
         runs = [
-            run for run in config.runs_of(study)
+            run for run in config.runs_of(name)
             if run.parameters.perturbation.acts
-            and not (study == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
+            and not (name == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
         ]  # fmt: skip
-        assert min(realisations(runs)) >= 6, study
+        assert min(realisations(runs)) >= 6, name
     shown = config.runs_of("converged") + config.runs_of("noisy")  # figure_3_extended
     assert realisations(shown) == [6] * 21
 
@@ -141,35 +110,12 @@ def test_quick_configuration_has_what_the_figures_show():
     assert laws == {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
 
 
-def test_missing_keys_have_the_declared_defaults():
-    config = configure({"studies": {"one": {"runs": [{"height": 0.01}]}}})
-    (run,) = config.runs
-    assert run.parameters.material == Material()
-    assert run.parameters.mesh == Parameters().mesh
-    assert config.results == "results"
-
-
 def test_grid_and_identifiers():
-    config = configure(
-        {
-            "studies": {
-                "grid": {
-                    "defaults": {"n_y": 20, "poisson_ratio": 0.25},
-                    "runs": [
-                        {
-                            "height": {"start": 0.01, "stop": 1.0, "num": 3, "scale": "log"},
-                            "n_x": [100, 200],
-                            "shear_modulus": 4.0e9,
-                            "phi0": 1000000.0,
-                        }
-                    ],
-                }
-            }
-        }
-    )
-    ids = [run.id for run in config.runs]
-    assert len(ids) == 6
-    assert ids[0] == "grid-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
+    heights = {"start": 0.01, "stop": 1.0, "num": 3, "scale": "log"}
+    entry = {"height": heights, "n_x": [100, 200], "shear_modulus": 4.0e9, "phi0": 1000000.0}
+    config = configure(study(entry, defaults={"n_y": 20, "poisson_ratio": 0.25}))
+    assert config.results == "results" and len(config.runs) == 6
+    assert config.runs[0].id == "s-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
     assert {run.labels["height"] for run in config.runs} == {0.01, 0.1, 1.0}
     for run in config.runs:
         assert run.parameters.material == Material(4.0e9, 0.25)
@@ -177,15 +123,8 @@ def test_grid_and_identifiers():
         assert all(character.isalnum() or character in "-_." for character in run.id)
 
 
-def test_identifier_does_not_depend_on_other_entries():
-    alone = configure({"studies": {"s": {"runs": [{"height": 0.01, "n_x": 100}]}}})
-    entries = [{"height": 0.01, "n_x": 100}, {"height": 0.01, "density": [1000, 1200]}]
-    together = configure({"studies": {"s": {"runs": entries}}})
-    assert alone.runs[0] == together.runs[0]
-
-
 def identifiers(*runs):
-    return [run.id for run in configure({"studies": {"s": {"runs": list(runs)}}}).runs]
+    return [run.id for run in configure(study(*runs)).runs]
 
 
 def test_identifiers_stay_when_studies_are_edited():
@@ -203,7 +142,7 @@ def test_identifiers_do_not_depend_on_notation(tmp_path):
     forms = [
         "{height: 0.005, n_x: 100, density: 1200, characteristic_slip_distance: 5.0e-7}",
         "{height: 5.0e-3, n_x: 1_00, density: 1.2e+3, characteristic_slip_distance: 0.0000005}",
-        "{height: 0.0050, n_x: +100, density: 1200.0, characteristic_slip_distance: 5.00E-7}",
+        "{height: 0.0050, n_x: +100, density: 1200.0, characteristic_slip_distance: 5e-7}",
     ]
     found = []
     for form in forms:
@@ -231,27 +170,42 @@ def test_constants_of_the_law_in_a_study():
         assert run.value("phi0") == 1.0
 
 
-def test_theory_of_each_runs_own_friction():
-    study = {"runs": [{"height": 0.01}], "interface": "friction_law"}
-    own = configure({"studies": {"s": study}}).runs[0]
-    expansion = Friction().expansion(1e-5)
-    interface = InterfaceState(expansion.f0, expansion.a, expansion.zeta)
-    assert own.theory_length == pytest.approx(
-        float(critical_length(0.01, Material(), interface)), rel=1e-12
-    )
-
-
-def test_integers_and_reals_give_the_same_run():
-    one = configure(study_of({"height": 1, "phi0": 1}))
-    other = configure(study_of({"height": 1.0, "phi0": 1.0}))
-    assert repr(one.runs) == repr(other.runs)
-
-
 def test_ranges():
     assert expand({"start": 0.0, "stop": 0.3, "num": 4}) == (0.0, 0.1, 0.2, 0.3)
     assert expand({"start": 1e-3, "stop": 10, "num": 3, "scale": "log"}) == (0.001, 0.1, 10.0)
     assert expand([3, 1]) == (3, 1)
     assert expand("slip") == ("slip",)
+
+
+def curves(*runs, **settings):
+    made = configure(study(*runs, **settings))
+    return made.runs, theory_curves(
+        list(made.runs), made.studies["s"], made.base, made.main_text_interface
+    )
+
+
+@pytest.mark.parametrize("interface", ["main_text", "friction_law"])
+def test_curve_goes_through_the_runs(interface):
+    runs, found = curves(
+        {"height": [0.01, 0.1], "evolution": ["aging", "slip"], "n_x": 400}, interface=interface
+    )
+    assert set(found) == {"aging", "slip"}
+    for run in runs:
+        curve = found[run.labels["evolution"]]
+        at = curve["x"].index(run.labels["height"])
+        assert curve["length"][at] == pytest.approx(run.theory_length, rel=1e-7)
+    assert len(curve["x"]) > 50
+
+
+def test_constants_of_friction_may_vary():
+    runs, found = curves({"height": 0.01, "zeta_over_a": [1.0, 4.0]})
+    assert found[""]["length"][0] == pytest.approx(runs[0].theory_length, rel=1e-6)
+    assert found[""]["length"][0] > 1.5 * found[""]["length"][-1]
+
+
+def test_no_curve_over_two_numbers_or_numbers_of_elements():
+    assert curves({"height": [0.01, 0.1], "phi0": [1.0, 2.0]})[1] == {}
+    assert curves({"height": 0.01, "n_x": [100, 200]})[1] == {}
 
 
 @pytest.mark.slow

@@ -1,16 +1,10 @@
 """Parameters of studies by full and short names, and the friction laws' own ones."""
 
 import pytest
-from configurations import changed, messages, study, with_run
+from configurations import assert_one_problem, messages, study, with_run
 
-from nucleation.configuration import schema
 from nucleation.configuration.load import configure
-from nucleation.configuration.study_names import other_names, study_parameters
-from nucleation.model import parameters
 from nucleation.model.friction.constants import constants
-from nucleation.model.friction.law import Friction
-from nucleation.model.names import Names
-from nucleation.model.parameters import Parameters
 from nucleation.theory.estimates import growth_time
 
 RUN = "studies.paper.runs[6]"
@@ -36,8 +30,6 @@ def test_full_names_give_the_same_runs():
 def test_names_in_defaults_and_runs_may_differ():
     (run,) = runs_of({"height": 0.1}, defaults={"geometry.height": 0.2, "mesh.n_x": 90})
     assert (run.parameters.geometry.height, run.parameters.mesh.n_x) == (0.1, 90)
-    (run,) = runs_of({"height": 0.1, "evolution": "slip"})
-    assert run.labels["evolution"] == "slip"
 
 
 def test_end_of_a_run_that_is_given_none_follows_from_the_theory():
@@ -55,20 +47,11 @@ def test_end_of_a_run_that_is_given_none_follows_from_the_theory():
         assert configure(given).runs[0].parameters.stepping.time_after_event > 1.0
 
 
-def test_schema_has_every_name():
-    properties = schema.build()["$defs"]["study"]["properties"]
-    for node in (properties["defaults"], properties["runs"]["items"]):
-        assert set(node["properties"]) - {"defaults"} == {*study_parameters(), *other_names()}
-    assert "geometry.height" in other_names() and "friction.law" in other_names()
-
-
-def test_ranges_are_checked_by_any_name():
-    for name in ("geometry.height", "height"):
-        text = messages(with_run(**{name: [0.2, -1.0]}))
-        assert f"{RUN}.{name}[1] = -1.0 m is not allowed: block height must lie in (0, 1e" in text
-
-
-NAMES = {
+BAD = {
+    "range by a full name": (
+        with_run(**{"geometry.height": [0.2, -1.0]}),
+        [f"{RUN}.geometry.height[1] = -1.0 m is not allowed: block height must lie in (0, 1e"],
+    ),
     "given twice": (
         study({"height": 0.1, "geometry.height": 0.2}),
         ["studies.s.runs[0]: geometry.height = 0.2 is not allowed: height is given already"],
@@ -82,65 +65,17 @@ NAMES = {
         with_run(height=0.1, law="aging"),
         [f"{RUN}.law = 'aging'", "one of dieterich_ruina, product", "called evolution"],
     ),
-}
-
-FRICTION = {
-    "unknown law": (
-        changed("friction.law", "none"),
-        ["friction.law = 'none' is not allowed", "one of dieterich_ruina, product"],
-    ),
     "another law's parameter in the section": (
         {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina", "state_scale": 1.0}},
         ["friction.state_scale = 1.0 is not allowed: the friction law dieterich_ruina has no such",
          "log_rate_coefficient"],
     ),
-    "another law's parameter in a run": (
-        study({"height": 0.1, "friction.law": "dieterich_ruina", "state_scale": 1.0}),
-        ["studies.s.runs[0]: friction.state_scale = 1.0", "law dieterich_ruina has no such"],
-    ),
-    "no law's parameter": (
-        {**study({"height": 0.1}), "friction": {"log_rate_coefficent": 0.01}},
-        ["friction.log_rate_coefficent = 0.01", "did you mean log_rate_coefficient?"],
-    ),
-    "out of range": (
-        {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina",
-                                                "reference_slip_rate": -1.0}},
-        ["friction.reference_slip_rate = -1.0 m/s", "(friction law dieterich_ruina)", "(0, 1) m/s"],
-    ),
-    "values that contradict each other": (
-        {**study({"height": 0.1}), "friction": {"law": "dieterich_ruina",
-                                                "log_rate_coefficient": 1e-4}},
-        ["friction.log_rate_coefficient = 0.0001", "0.00137 or more"],
-    ),
-    "a constant and what it sets": (
-        study({"height": 0.1, "friction_law": "dieterich_ruina", "zeta_over_a": 2.0,
-               "log_state_coefficient": 0.02}),
-        ["log_state_coefficient is not allowed together with zeta_over_a"],
-    ),
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("config", "fragments"), (NAMES | FRICTION).values(), ids=(NAMES | FRICTION).keys()
-)
+@pytest.mark.parametrize(("config", "fragments"), BAD.values(), ids=BAD.keys())
 def test_bad_names_and_laws_are_named(config, fragments):
-    text = messages(config)
-    for fragment in fragments:
-        assert fragment in text
-    assert text.startswith("the configuration has one problem:\n")
-
-
-def test_an_ambiguous_name_lists_what_it_may_be(monkeypatch):
-    """With another ``end_time``, the short name is an error that lists both; full ones work."""
-    entries = dict(parameters.names())
-    names = Names(entries | {"other.end_time": entries["stepping.end_time"]}, parameters.ALIASES)
-    monkeypatch.setattr("nucleation.configuration.load.names", lambda: names)
-    monkeypatch.setattr("nucleation.configuration.study_names.names", lambda: names)
-    text = messages(study({"height": 0.1, "end_time": 3.0}))
-    assert text.endswith(
-        "studies.s.runs[0].end_time = 3.0 is not allowed: "
-        "it may be stepping.end_time or other.end_time"
-    )
+    assert_one_problem(config, fragments)
 
 
 def test_a_second_body_is_named():
@@ -177,17 +112,7 @@ def test_weakening_may_be_given_alone():
     """As zeta, the name that the theory has for it, and with the direct effect's own value."""
     one, other = runs_of({"height": 0.1, "zeta": [0.008, 0.02]})
     assert one.id == "s-aging-H0.1-phi1-velocity_weakening0.008"
-    assert one.interface.zeta == pytest.approx(0.008) and other.interface.zeta == pytest.approx(
-        0.02
-    )
+    assert [run.interface.zeta for run in (one, other)] == pytest.approx([0.008, 0.02])
     assert one.interface.a == pytest.approx(other.interface.a)
-    assert "zeta_over_a is not allowed together" in messages(
-        study({"height": 0.1, "zeta": 0.01, "zeta_over_a": 1.0})
-    )
-
-
-def test_the_section_chooses_the_law():
-    values = {"law": "dieterich_ruina", "evolution": "slip", "log_state_coefficient": 0.02}
-    config = configure({**study({"height": 0.1}), "friction": values})
-    assert config.friction == Friction(**values) == config.runs[0].parameters.friction
-    assert Parameters.from_json(config.runs[0].parameters.to_json()) == config.runs[0].parameters
+    text = messages(study({"height": 0.1, "zeta": 0.01, "zeta_over_a": 1.0}))
+    assert "zeta_over_a is not allowed together" in text

@@ -6,7 +6,7 @@ import pytest
 from configurations import CONFIG, PAPER, assert_one_problem, study
 
 from nucleation.configuration.load import configure, load
-from nucleation.configuration.roles import OWN, PAIRS, REFINEMENTS, ROLES
+from nucleation.configuration.roles import PAIRS, REFINEMENTS, ROLES
 from nucleation.figures import catalogue
 
 TALL = {"height": 0.1}
@@ -23,10 +23,6 @@ BAD = {
     "lengths, one by one": (
         study(TALL, role="map", runs_per_job=2),
         ["studies.s.measure = lengths is not allowed with role = map: it must be stability"],
-    ),
-    "one run per job": (
-        study(TALL, role="map", measure="stability"),
-        ["studies.s.runs_per_job = 1 is not allowed with role = map: it must be more than 1"],
     ),
     "a table of its own": (
         study(TALL, role="converged", table="own"),
@@ -75,13 +71,6 @@ def test_roles_that_several_studies_may_share(role):
     assert settings.studies_for(role) == ["one", "other"]
     assert [run.study for run in settings.runs_for(role)] == ["one", "other"]
     assert {run.to_dict()["role"] for run in settings.runs} == {role}
-
-
-@pytest.mark.parametrize("name", [*ROLES, "convergence_mine"])
-def test_a_name_says_nothing(name):
-    settings = configure({"studies": {name: {"runs": [TALL]}}})
-    assert settings.studies_for(OWN) == [name]
-    assert settings.studies_for(*(role for role in ROLES if role != OWN)) == []
 
 
 def test_names_can_be_any():

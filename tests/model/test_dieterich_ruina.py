@@ -61,12 +61,6 @@ def test_constants_of_a_law_that_is_hardly_logarithmic():
     assert friction.log_rate_coefficient > 0.01 * 1.003
 
 
-@pytest.mark.parametrize("bad", [(0.4, 0.3, 0.1), (0.4, -0.01, 0.1), (0.4, 0.01, -0.02)])
-def test_no_law_is_said(bad):
-    with pytest.raises(ParameterError, match=r"no friction law has f = 0\.4"):
-        full_law(law(), V, *bad)
-
-
 def test_what_no_double_can_hold_is_refused():
     with pytest.raises(ParameterError, match=r"log_rate_coefficient = 0.001 .* 0.00137 or more"):
         law(log_rate_coefficient=1e-3)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from nucleation.model.friction.constants import CONSTANTS, constants, full_law, with_constants
+from nucleation.model.friction.constants import constants, full_law, with_constants
 from nucleation.model.friction.evolution import StateEvolution
 from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import EVOLUTIONS, LAWS, law_class
@@ -98,10 +98,35 @@ def test_constants_set_the_law(law, factors):
     assert type(found) is type(law) and len(law.set_by_expansion) == 3
 
 
-def test_own_constants_give_the_same_law(law):
-    again = full_law(law, V, *law.expansion(V))
-    for name in law.set_by_expansion:
-        assert getattr(again, name) == pytest.approx(getattr(law, name), rel=1e-9)
+@pytest.mark.parametrize("wanted", [(0.41, 0.0068, 0.016), (0.6, 0.01, 0.002), (0.7, 0.015, 0.015)])
+@pytest.mark.parametrize("velocity", [1e-9, 1e-5, 1e-2])
+def test_constants_at_any_velocity(wanted, velocity):
+    plain = Friction(regularisation_slip_rate=1e-12, slip_rate_scale=1e-11, state_scale=1e-3)
+    law = full_law(plain, velocity, *wanted)
+    assert measured(law, velocity) == pytest.approx(wanted, rel=2e-6, abs=1e-9)
+
+
+def test_regularisation_is_taken_into_account():
+    plain = Friction(regularisation_slip_rate=5e-7, evolution="slip")
+    law = full_law(plain, V, 0.41, 0.01, 0.01)
+    assert measured(law, V) == pytest.approx((0.41, 0.01, 0.01), rel=2e-6)
+
+
+def test_weakening_is_given_alone_or_over_the_direct_effect():
+    law = with_constants(Friction(), V, {"velocity_weakening": 0.004})
+    assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["direct_effect"], 0.004))
+    both = with_constants(Friction(), V, {"velocity_weakening": 0.004, "direct_effect": 0.008})
+    assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
+    with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with velocity_weak"):
+        with_constants(Friction(), V, {"velocity_weakening": 0.004, "zeta_over_a": 1.0})
+    same = with_constants(Friction(), V, {"evolution_effect": 0.012, "direct_effect": 0.008})
+    assert constants(same, V) == pytest.approx(constants(both, V), rel=1e-12)
+
+
+@pytest.mark.parametrize("bad", [(0.4, 0.3, 0.1), (0.4, -0.01, 0.1), (0.4, 0.01, -0.02)])
+def test_no_law_is_said(law, bad):
+    with pytest.raises(ParameterError, match=r"no friction law has f = 0\.4"):
+        full_law(law, V, *bad)
 
 
 def test_constants_and_what_they_set_are_not_given_together(law):
@@ -114,7 +139,6 @@ def test_constants_and_what_they_set_are_not_given_together(law):
     a = own["direct_effect"]
     changed = own | {"zeta_over_a": 1.0, "velocity_weakening": a, "evolution_effect": 2.0 * a}
     assert constants(given, V) == pytest.approx(changed, rel=1e-9)
-    assert set(CONSTANTS) == set(constants(law, V))
 
 
 def test_every_parameter_is_checked(law):

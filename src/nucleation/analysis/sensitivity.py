@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 
 from ..datasets.variables import Variable, some, table
-from ..model.names import Names
 from ..model.parameters import ALIASES, Parameters, names
 from ..model.quantities import Quantity
 from .convergence import LENGTH_OVER_THEORY
@@ -84,7 +83,7 @@ def variation(case: Case, base: Case) -> tuple[str, str]:
     if "loading.initial_stress" in varied:
         varied = (varied - {"loading.initial_stress"}) | {"loading.initial_shear_stress"}
     known = names()
-    by_field = {_field(name, known): name for name in varied}
+    by_field = {_field(name): name for name in varied}
     words = [
         _words(known[name], field, values[name], usual[name])
         for field, name in sorted(by_field.items())
@@ -92,11 +91,10 @@ def variation(case: Case, base: Case) -> tuple[str, str]:
     return ", ".join(sorted(by_field)) or BASE, ", ".join(words) or BASE
 
 
-def _field(name: str, known: Names) -> str:
-    """The last part of a full name, if no other parameter has it; ``law`` is the evolution's."""
+def _field(name: str) -> str:
+    """The last part of a full name, if it is a short one; ``law`` is the evolution's."""
     last = name.rpartition(".")[2]
-    meant = ALIASES.get(last, name) == name
-    return last if meant and last not in known.ambiguous else name
+    return last if ALIASES.get(last, name) == name else name
 
 
 def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:

@@ -54,7 +54,7 @@ def _name_in_file(path: Path, group: str, field: str, value: Any) -> str:
     try:
         return name if name in declared else known.short(known.full(name))
     except ParameterError as error:
-        hint = "" if "ambiguous" in str(error) else _similar(field, declared)
+        hint = _similar(field, declared)
         text = str(error) if not hint else "unknown key"
         raise ParameterError(f"{path}: {field} = {value!r} is not allowed: {text}{hint}") from None
 

@@ -11,10 +11,7 @@ from typing import NamedTuple
 from ..model.linearised import linearised
 from ..model.parameters import Geometry, Mesh
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION
-from ..theory.estimates import (
-    growth_time,
-    process_zone,
-)
+from ..theory.estimates import growth_time, process_zone
 from .roles import REFINEMENTS
 from .runs import Run
 
@@ -80,19 +77,12 @@ def advise(runs: Iterable[Run]) -> list[str]:
     texts = []
     for (study, topic), cases in found.items():
         cases.sort(key=lambda case: -case[0].badness)
-        ids = list(
-            dict.fromkeys(run.id for _, run in cases)
-        )  # a run of two blocks may be there twice
-        where = ids[0] if len(ids) == 1 else f"{len(ids)} runs, the worst {ids[0]}"
-        others = f" [also {_listed(ids[1:])}]" if ids[1:] else ""
+        worst, *ids = dict.fromkeys(run.id for _, run in cases)  # one of two blocks is there twice
+        where = f"{len(ids) + 1} runs, the worst {worst}" if ids else worst
+        rest = f" and {len(ids) - NAMED} more" if len(ids) > NAMED else ""
+        others = f" [also {', '.join(ids[:NAMED])}{rest}]" if ids else ""
         texts.append(f"studies.{study}: {topic} ({where}): {cases[0][0].text}{others}")
     return texts
-
-
-def _listed(ids: list[str]) -> str:
-    """Names of runs: all, or of very many the first and how many more."""
-    rest = len(ids) - NAMED
-    return ", ".join(ids) if rest <= 0 else f"{', '.join(ids[:NAMED])} and {rest} more"
 
 
 def _about(run: Run) -> Iterator[Advice]:

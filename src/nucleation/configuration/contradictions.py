@@ -79,39 +79,21 @@ def run_problems(
             f"{key}: initial_shear_stress = {loading.initial_shear_stress:g} Pa is not allowed "
             "with initial_stress = no_slip: it must be 0 Pa, or initial_stress uniform_shear"
         )
-    stepping = run.parameters.stepping
     if stepping.event_drop < extraction.drop and run.role != LITERATURE:  # which has no drop
         yield (
             f"{key}: event_drop = {stepping.event_drop:g} is not allowed with extraction.drop = "
             f"{extraction.drop:g}: the run may end before the force has fallen so far; it must lie "
             f"in [{extraction.drop:g}, 1), or be left out"
         )
-    yield from _perturbation_problems(key, run.parameters)
-    yield from _recording_problems(key, run, extraction)
-    if len(run.id) > LONGEST_ID:
-        yield (
-            f"{key}: {run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
-            f"characters, more than {LONGEST_ID}; put what does not vary into the study's defaults"
-        )
-    yield from memory_problems(key, run.parameters, limits)
-
-
-def _recording_problems(key: str, run: Run, extraction: ExtractionSettings) -> Iterator[str]:
-    """Less recorded than is to be read from it."""
     recording, low = run.parameters.recording, extraction.edge_threshold_low
-    if recording.covers("interface"):
-        return
-    if low < STUCK_BELOW:
+    if not recording.covers("interface") and low < STUCK_BELOW:
         yield (
             f"{key}: record = {recording.record} is not allowed with extraction.edge_threshold_low "
             f"= {low:g}, as it leaves out slip rates below {STUCK_BELOW:g} V: it must be interface "
             f"or everything, or the threshold in [{STUCK_BELOW:g}, 1]"
         )
-
-
-def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
-    """A strength of nothing, and a roughness that the mesh can't have."""
-    declared, element = parameters.perturbation, parameters.geometry.length / parameters.mesh.n_x
+    declared = run.parameters.perturbation
+    element = run.parameters.geometry.length / run.parameters.mesh.n_x
     if declared.kind == "none" and declared.strength > 0.0:
         yield (
             f"{key}: strength = {declared.strength:g} is not allowed with perturbation = none, "
@@ -122,6 +104,12 @@ def _perturbation_problems(key: str, parameters: Parameters) -> Iterator[str]:
             f"{key}: correlation_length = {declared.correlation_length:g} m is not allowed: it "
             f"must be at least an element, {element:.3g} m, better {ELEMENTS_PER_CORRELATION:g}"
         )
+    if len(run.id) > LONGEST_ID:
+        yield (
+            f"{key}: {run.id[:60]}... is not allowed as a name of files: it has {len(run.id)} "
+            f"characters, more than {LONGEST_ID}; put what does not vary into the study's defaults"
+        )
+    yield from memory_problems(key, run.parameters, limits)
 
 
 def memory_problems(key: str, parameters: Parameters, limits: Limits) -> Iterator[str]:
@@ -159,21 +147,13 @@ def results_problems(results: str) -> Iterator[str]:
         yield f"results = {results!r} is not allowed: write the home directory out in place of ~"
 
 
-def directory_problem(results: str | os.PathLike[str], write: bool = True) -> str | None:
-    """Why results can't be kept in a directory, which need not exist yet; or None.
-
-    Parameters
-    ----------
-    results : path
-        The directory, relative to the working directory or absolute.
-    write : bool
-        Whether anything is to be written there.
-    """
+def directory_problem(results: str | os.PathLike[str]) -> str | None:
+    """Why results can't be written to a directory, which need not exist yet; or None."""
     path = Path(results).absolute()
     while not os.path.lexists(path):
         path = path.parent
     if not path.is_dir():
         return f"results = {str(results)!r} is not allowed: {path} is no directory"
-    if write and not os.access(path, os.W_OK | os.X_OK):
+    if not os.access(path, os.W_OK | os.X_OK):
         return f"results = {str(results)!r} is not allowed: {path} is not writable"
     return None

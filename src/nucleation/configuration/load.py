@@ -8,7 +8,7 @@ import difflib
 import numbers
 import os
 import sys
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import jsonschema
@@ -16,26 +16,21 @@ from jsonschema.exceptions import ValidationError
 
 from ..analysis.definitions import ExtractionSettings
 from ..configuration import schema
-from ..model.friction.law import Friction
 from ..model.friction.registry import EVOLUTIONS
 from ..model.linearised import InterfaceState, loaded
-from ..model.parameters import Parameters, names
-from ..model.quantities import ParameterError, refusal
+from ..model.parameters import Parameters
+from ..model.quantities import ParameterError, Quantity, refusal
+from ..model.units import parse
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
-from .contradictions import (
-    results_directory,
-    results_problems,
-    run_problems,
-    setting_problems,
-)
-from .grids import LARGEST_GRID, expand, grid_size, range_problem
+from .contradictions import results_directory, results_problems, run_problems, setting_problems
+from .grids import LARGEST_GRID, grid_size, range_problem
 from .roles import role_problems, shown
 from .runs import Run
 from .settings import FigureSettings, Limits
 from .strict_yaml import read_yaml
 from .studies import StudySettings, study_runs, study_settings
-from .units_in import read_units
+from .study_names import in_type
 
 
 @dataclasses.dataclass(frozen=True)
@@ -65,26 +60,6 @@ class Configuration:
         """The runs of the studies with some roles."""
         return [run for run in self.runs if run.role in roles]
 
-    def theory_parameters(self) -> dict[str, Any]:
-        """What the dataset of the linear theory depends on, as plain dictionaries."""
-        parts = {
-            "material": self.base.material,
-            "friction": self.base.friction,
-            "main_text_interface": self.main_text_interface,
-            "curves": self.curves,
-        }
-        return {name: dataclasses.asdict(part) for name, part in parts.items()}  # type: ignore[call-overload]
-
-    def lengths_parameters(self, study: str) -> dict[str, Any]:
-        """What the table of a study's lengths depends on, as plain dictionaries."""
-        runs = [run.to_dict() for run in self.runs_of(study)]
-        return {"runs": runs, "extraction": dataclasses.asdict(self.extraction)}
-
-    @property
-    def friction(self) -> Friction:
-        """The friction law of the section ``friction``."""
-        return self.base.friction
-
     def shown(self, height: float) -> Run:
         """The run with the role ``paper`` of a height (m) that figures show.
 
@@ -104,46 +79,35 @@ def load(path: str | os.PathLike[str]) -> Configuration:
     return configure(read_yaml(path))
 
 
-def configure(values: Any, only: Collection[str] | None = None) -> Configuration:
+def configure(values: Any) -> Configuration:
     """The configuration in plain dictionaries, as read from YAML.
-
-    Parameters
-    ----------
-    values : mapping
-        As it stands in the file.
-    only : collection of str, optional
-        Names of runs and batches: those of studies without these are left out, whose
-        configuration has been checked before.
 
     Raises
     ------
     ParameterError
         With one line for each problem found.
     """
-    values, unread = read_units(values)
-    _stop_on([*unread, *_schema_problems(values)])
+    values = _with_numbers(values)
+    _stop_on(_schema_problems(values))
     _stop_on([*_range_problems(values), *results_problems(results_directory(values))])
     try:
         groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
     except ParameterError as error:  # what the chosen friction law does not have
         _stop_on([str(error)])
     own = [f.name for f in dataclasses.fields(Parameters) if f.name in groups]
-    base = _until_the_drop(Parameters(**{name: groups.pop(name) for name in own}), groups)
+    base = Parameters(**{name: groups.pop(name) for name in own})
+    drop = max(base.stepping.event_drop, groups["extraction"].drop)  # is to be recorded
+    base = dataclasses.replace(base, stepping=dataclasses.replace(base.stepping, event_drop=drop))
     interface = loaded(groups.pop("main_text_interface"), base.loading)
     found: list[tuple[str, Run | str]] = []
     for name, study in values["studies"].items():
-        found.extend(study_runs(name, study, base, interface, only, values.get("stepping", {})))
+        found.extend(study_runs(name, study, base, interface, values.get("stepping", {})))
     settings = {k: v for k, v in groups.items() if k != "figures"}
-    _stop_on(
-        [
-            *_run_problems(found, groups["limits"], groups["extraction"]),
-            *setting_problems(base, interface, **settings),
-        ]
-    )
+    of_runs = _run_problems(found, groups["limits"], groups["extraction"])
+    _stop_on([*of_runs, *setting_problems(base, interface, **settings)])
     runs = tuple(run for _, run in found if isinstance(run, Run))
     studies = {name: study_settings(study) for name, study in values["studies"].items()}
-    if only is None:
-        _stop_on(role_problems(studies, runs, groups["figures"], base))
+    _stop_on(role_problems(studies, runs, groups["figures"], base))
     results = results_directory(values)
     return Configuration(results, base, interface, studies=studies, runs=runs, **groups)
 
@@ -160,14 +124,7 @@ def _stop_on(problems: Iterable[str]) -> None:
 def _group(name: str, values: dict[str, Any]) -> Any:
     """The dataclass of a section, numbers in their declared type."""
     entries = schema.group_entries(name)
-    typed = {}
-    for key, value in values.items():
-        if entries[key].many:
-            typed[key] = tuple(float(x) for x in expand(value))
-        else:
-            number = entries[key].kind == "float" and value is not None
-            typed[key] = float(value) if number else value  # type: ignore[assignment]
-    return schema.GROUPS[name](**typed)
+    return schema.GROUPS[name](**{key: in_type(entries[key], own) for key, own in values.items()})
 
 
 def _is_integer(_: Any, value: Any) -> bool:
@@ -186,6 +143,23 @@ _Validator = jsonschema.validators.extend(
         {"integer": _is_integer, "number": _is_finite}
     ),
 )
+
+
+def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:
+    """A configuration as read from YAML, copied, with numbers in place of texts that are such.
+
+    Such are ``30 GPa``, ``1/3`` and ``1e-8``, which YAML takes for text. What is no allowed number
+    stays, to be refused.
+    """
+    if isinstance(value, dict):
+        return {key: _with_numbers(own, (*path, key)) for key, own in value.items()}
+    if isinstance(value, list):
+        return [_with_numbers(own, (*path, number)) for number, own in enumerate(value)]
+    entry = schema.entry_at(path) if isinstance(value, str) else None
+    try:
+        return parse("", value, entry) if entry else value
+    except ParameterError:
+        return value
 
 
 def _schema_problems(values: Any) -> Iterator[str]:
@@ -229,10 +203,20 @@ def _messages(error: ValidationError) -> Iterator[str]:
     elif leaf and entry is not None:
         meant = path[:1] == ("studies",) and "law" in path and error.instance in EVOLUTIONS
         hint = "; the evolution of the state is called evolution" if meant else ""
-        yield f"{refusal(key, error.instance, entry)}{hint}"
+        yield f"{_refusal(key, error.instance, entry)}{hint}"
     else:
         form = {"object": "a mapping (lines of key: value)", "array": "a list"}
         yield f"{key} = {_short(error.instance)} must be {form[error.validator_value]}"
+
+
+def _refusal(key: str, value: Any, entry: Quantity) -> str:
+    """Why a value is not allowed, be it of its unit."""
+    try:
+        if isinstance(value, str):
+            parse(key, value, entry)
+    except ParameterError as error:
+        return str(error)
+    return refusal(key, value, entry)
 
 
 def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]) -> Iterator[str]:
@@ -242,10 +226,6 @@ def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]
             continue
         value = _short(given[name])
         place = f"{key_text((*path, name))} = {value} is not allowed"
-        if in_study and name in (parameters := names()).ambiguous:
-            meant = [full for full in parameters if full.endswith(f".{name}")]
-            yield f"{place}: it may be {' or '.join(meant)}"
-            continue
         close = difflib.get_close_matches(str(name), known, n=1)
         listed = [key for key in known if "." not in key] if in_study else known
         hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(listed)}"
@@ -278,12 +258,6 @@ def _range_problems(values: dict[str, Any]) -> Iterator[str]:
         problem = range_problem(value)
         if problem:
             yield f"{key_text(path)}: {problem}"
-
-
-def _until_the_drop(base: Parameters, groups: dict[str, Any]) -> Parameters:
-    """The parameters with which runs go on until the drop that is asked for is recorded."""
-    drop = max(base.stepping.event_drop, groups["extraction"].drop)
-    return dataclasses.replace(base, stepping=dataclasses.replace(base.stepping, event_drop=drop))
 
 
 def _run_problems(

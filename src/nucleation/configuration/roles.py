@@ -126,12 +126,20 @@ def role_problems(
                 "and it must be one study's alone"
             )
         own = [run for run in runs if run.study == name]
-        yield from _problems(name, settings.role, settings, own)
-        yield from _not_shown(name, settings.role, own, figures, base)
+        yield from _problems(name, settings, own)
+        for key in ROLES[settings.role].heights:
+            height = getattr(figures, key)
+            if shown(own, height, base) is None:
+                law, age = base.friction.evolution, base.loading.initial_state
+                yield (
+                    f"studies.{name}.role = {settings.role} needs a run with height = {height:g} m"
+                    f", evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
+                )
 
 
-def _problems(name: str, role: str, settings: Any, runs: Sequence[Run]) -> Iterator[str]:
-    """What a study and its runs have that does not go with a role."""
+def _problems(name: str, settings: Any, runs: Sequence[Run]) -> Iterator[str]:
+    """What a study and its runs have that does not go with its role."""
+    role = settings.role
     given = [(f"studies.{name}.{n.name}", n, getattr(settings, n.name)) for n in ROLES[role].study]
     for need in ROLES[role].runs:
         bad = next((run for run in runs if not need.allowed(run.value(need.name))), None)
@@ -139,18 +147,4 @@ def _problems(name: str, role: str, settings: Any, runs: Sequence[Run]) -> Itera
             given.append((f"studies.{name}: {bad.id}: {need.name}", need, bad.value(need.name)))
     for key, need, value in given:
         if not need.allowed(value):
-            yield (f"{key} = {value} is not allowed with role = {role}: it must be {need.words}")
-
-
-def _not_shown(
-    name: str, role: str, runs: Sequence[Run], figures: FigureSettings, base: Parameters
-) -> Iterator[str]:
-    """The heights of which figures show a run that a study does not have."""
-    for key in ROLES[role].heights:
-        height = getattr(figures, key)
-        if shown(runs, height, base) is None:
-            law, age = base.friction.evolution, base.loading.initial_state
-            yield (
-                f"studies.{name}.role = {role} needs a run with height = {height:g} m, "
-                f"evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
-            )
+            yield f"{key} = {value} is not allowed with role = {role}: it must be {need.words}"

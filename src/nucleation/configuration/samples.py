@@ -44,9 +44,9 @@ def read_samples(path: Path | str) -> dict[str, Array]:
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise ParameterError(f"{path} can't be read: {error}") from None
     except ValueError:  # of unpacking
-        raise ParameterError(f"{path} is empty: a header of parameters is needed") from None
+        rows = []
     if not rows:
-        raise ParameterError(f"{path} has a header, but no row of samples")
+        raise ParameterError(f"{path} is empty: no row of samples below a header of parameters")
     columns = [_column(path, text) for text in header]
     for number, row in rows:
         if len(row) != len(header):

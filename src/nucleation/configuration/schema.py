@@ -1,20 +1,16 @@
 """The JSON schema of the configuration, made from the declarations of the parameters."""
 
+import dataclasses
+import json
 from typing import Any
 
 import yaml
 
 from ..analysis.definitions import ExtractionSettings
-from ..model.friction.law import Friction
+from ..model import parameters
 from ..model.friction.registry import law_declarations
-from ..model.heterogeneity import Heterogeneity
 from ..model.linearised import InterfaceState
-from ..model.material import Material
-from ..model.parameters import Loading, Stepping
-from ..model.perturbation import Perturbation
 from ..model.quantities import Quantity, declarations
-from ..model.recording import Recording
-from ..model.second_body import SecondBody
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .grids import RANGE
@@ -26,14 +22,7 @@ Node = dict[str, Any]
 
 
 GROUPS: dict[str, type] = {
-    "material": Material,
-    "friction": Friction,
-    "loading": Loading,
-    "stepping": Stepping,
-    "perturbation": Perturbation,
-    "heterogeneity": Heterogeneity,
-    "second_body": SecondBody,
-    "recording": Recording,
+    **{name: cls for name, cls in parameters.GROUPS.items() if name not in ("geometry", "mesh")},
     "main_text_interface": InterfaceState,
     "curves": Curves,
     "extraction": ExtractionSettings,
@@ -59,7 +48,7 @@ def group_entries(group: str) -> dict[str, Quantity]:
 
 
 def entry_at(path: tuple[Any, ...]) -> Quantity | None:
-    """The declaration that a value of the configuration has to meet, by its place there."""
+    """The declaration that one value of the configuration has to meet, by its place there."""
     if path == ("results",):
         return RESULTS
     names = [part for part in path if isinstance(part, str)]
@@ -72,14 +61,18 @@ def entry_at(path: tuple[Any, ...]) -> Quantity | None:
         names = names[2:]
     else:
         known = group_entries(names[0]) if names and names[0] in GROUPS else {}
-    return next((known[name] for name in names if name in known), None)
+    found = next((known[name] for name in names if name in known), None)
+    return found and (dataclasses.replace(found, kind="float") if found.many else found)
 
 
 def build() -> Node:
     """The schema of the whole configuration (JSON Schema, draft 2020-12)."""
     sections = {"results": _leaf(RESULTS)}
     for group, cls in GROUPS.items():
-        entries = {k: _any_leaf(entry) for k, entry in group_entries(group).items()}
+        entries = {
+            key: _values(_leaf(entry), entry) if entry.many else _leaf(entry)
+            for key, entry in group_entries(group).items()
+        }
         sections[group] = _mapping(str(cls.__doc__).splitlines()[0], entries)
     sections["studies"] = {
         "description": "named sets of simulations; their roles say what they are for",
@@ -145,12 +138,6 @@ def _leaf(entry: Quantity) -> Node:
     return node | {"type": types, low: entry.low, high: entry.high}
 
 
-def _any_leaf(entry: Quantity) -> Node:
-    """The schema of one value, or of one or more if the parameter takes many."""
-    leaf = _leaf(entry)
-    return _values(leaf, entry) if entry.many else leaf
-
-
 def _values(leaf: Node, entry: Quantity) -> Node:
     """The schema of a value, a list of values or (of numbers) a range."""
     values = {"type": "array", "minItems": 1, "uniqueItems": True, "items": leaf}
@@ -162,13 +149,7 @@ def _values(leaf: Node, entry: Quantity) -> Node:
     return {"description": f"{entry.description}: a value, a list or a range", "anyOf": forms}
 
 
-class _Plain(yaml.SafeDumper):
-    """A dumper that writes every value out and marks nothing as an alias."""
-
-    def ignore_aliases(self, data: Any) -> bool:
-        return True
-
-
 def text() -> str:
     """The schema as YAML."""
-    return yaml.dump(build(), Dumper=_Plain, sort_keys=False, width=100, allow_unicode=True)
+    plain = json.loads(json.dumps(build()))  # in which nothing is shared, and marked as an alias
+    return yaml.safe_dump(plain, sort_keys=False, width=100, allow_unicode=True)

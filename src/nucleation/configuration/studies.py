@@ -12,11 +12,7 @@ import numpy as np
 
 from ..model.checked import Checked
 from ..model.friction.constants import CONSTANTS, with_constants
-from ..model.linearised import (
-    InterfaceState,
-    linearised,
-    loaded,
-)
+from ..model.linearised import InterfaceState, linearised, loaded
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
@@ -94,19 +90,17 @@ def theory_curves(
     if len(numbers) != 1 or declared[numbers[0]].kind != "float":
         return {}
     (name,), words = numbers, [word for word in found if word not in numbers]
+    kinds = [", ".join(str(found[word][i]) for word in words) for i in range(len(runs))]
     curves = {}
-    for i, run in enumerate(runs):
-        kind = ", ".join(str(found[word][i]) for word in words)
-        ends = [x for j, x in enumerate(found[name])
-                if all(found[word][j] == found[word][i] for word in words)]  # fmt: skip
+    for run, kind in zip(runs, kinds, strict=True):
+        ends = [x for x, other in zip(found[name], kinds, strict=True) if other == kind]
         if kind in curves or name not in run.given or len(ends) < 2:
             continue
         low, high = min(ends), max(ends)
         spaced = np.geomspace if low > 0.0 else np.linspace
         x = spaced(low, high, CURVE_POINTS).tolist()
-        points = [_Given("", (), run.given | {name: value}) for value in x]
-        cases = [_prepared(settings, point, base, main_text) for point in points]
-        rounded = [float(f"{length:.8g}") for length in _theory_lengths(cases)]
+        faults = (_fault(settings, run.given | {name: value}, base, main_text) for value in x)
+        rounded = [float(f"{length:.8g}") for length in _theory_lengths(faults)]
         curves[kind] = {"x": [float(f"{value:.8g}") for value in x], "length": rounded}
     return curves
 
@@ -121,7 +115,6 @@ def study_runs(
     study: dict[str, Any],
     base: Parameters,
     main_text: InterfaceState,
-    only: Collection[str] | None = None,
     stepping: Collection[str] = (),
 ) -> Iterator[tuple[str, Run | str]]:
     """The runs of a study, each with the key it comes from; a string in place of a bad run.
@@ -136,31 +129,29 @@ def study_runs(
         Values of all that the study does not set.
     main_text : InterfaceState
         The main text's rounded interface.
-    only : collection of str, optional
-        Names of runs and batches: no others are looked at.
     stepping : collection of str
         What the section of that name gives. If neither it nor the study has an end time, the
         theory says when an event is overdue.
     """
-    settings = study_settings(study)
-    asked = _given(name, study)
-    prepared: list[tuple[_Given, str, _Prepared | str]] = []
-    for given, batch in zip(asked, _batches(name, len(asked), settings.runs_per_job), strict=True):
-        if only is not None and (batch or _identifier(name, given, base)) not in only:
-            continue
+    settings, asked = study_settings(study), list(_given(name, study))
+    prepared: list[_Prepared | ParameterError] = []
+    for _, parts in asked:
         try:
-            prepared.append((given, batch, _prepared(settings, given, base, main_text)))
+            of_study, of_entry, varied = map(by_study_name, parts)
+            values = of_study | of_entry | varied
+            fault = _fault(settings, values, base, main_text)
+            prepared.append(_Prepared(*fault, varied, values))
         except ParameterError as error:
-            prepared.append((given, batch, str(error)))
-    lengths = _theory_lengths(run for *_, run in prepared if isinstance(run, _Prepared))
-    for given, batch, run in prepared:
+            prepared.append(error)
+    lengths = _theory_lengths(run[:2] for run in prepared if isinstance(run, _Prepared))
+    batches = _batches(name, len(asked), settings.runs_per_job)
+    for (key, _), batch, run in zip(asked, batches, prepared, strict=True):
         try:
-            found = (
-                run if isinstance(run, str) else _run(name, settings, run, next(lengths), stepping)
-            )
-            yield given.key, found if isinstance(found, str) else replace(found, batch=batch)
+            if isinstance(run, ParameterError):
+                raise run
+            yield key, _run(name, settings, run, next(lengths), batch, stepping)
         except ParameterError as error:
-            yield given.key, str(error)
+            yield key, str(error)
 
 
 def _batches(study: str, runs: int, per_job: int) -> list[str]:
@@ -178,61 +169,29 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
     return [f"{study}-{place[number]:0{len(str(batches - 1))}d}" for number in range(runs)]
 
 
-class _Given(NamedTuple):
-    """What a study gives for one run."""
-
-    key: str  # place in the configuration
-    usual: tuple[dict[str, Any], ...]  # defaults of the study and of the entry
-    varied: dict[str, Any]
-
-
-def _given(name: str, study: dict[str, Any]) -> list[_Given]:
-    """What a study gives for each of its runs."""
-    found = []
+def _given(name: str, study: dict[str, Any]) -> Iterator[tuple[str, tuple[dict[str, Any], ...]]]:
+    """Place of each run, with what the study, the entry and the run itself give for it."""
     for number, entry in enumerate(study["runs"]):
-        values = {name: value for name, value in entry.items() if name != "defaults"}
         usual = study.get("defaults", {}), entry.get("defaults", {})
-        key = f"studies.{name}.runs[{number}]"
-        found += [
-            _Given(key, usual, dict(zip(values, chosen, strict=True)))
-            for chosen in itertools.product(*map(expand, values.values()))
-        ]
-    return found
-
-
-def _all_given(given: _Given) -> dict[str, Any]:
-    """All values for a run, by the names that parameters go by."""
-    values: dict[str, Any] = {}
-    for part in (*given.usual, given.varied):
-        values |= by_study_name(part)
-    return values
-
-
-def _identifier(study: str, given: _Given, base: Parameters) -> str:
-    """The name of a run that is as the study gives it."""
-    values = _all_given(given)
-    labels = {
-        "evolution": values.get("evolution", base.friction.evolution),
-        "height": values.get("height", base.geometry.height),
-        "phi0": values.get("phi0", base.loading.initial_state),
-    }
-    return identifier(study, labels, by_study_name(given.varied))
+        values = {name: expand(value) for name, value in entry.items() if name != "defaults"}
+        for chosen in itertools.product(*values.values()):
+            own = dict(zip(values, chosen, strict=True))
+            yield f"studies.{name}.runs[{number}]", (*usual, own)
 
 
 class _Prepared(NamedTuple):
     """A run whose block has no length yet."""
 
-    varied: dict[str, Any]
-    values: dict[str, Any]  # all that the study gives
     parameters: Parameters
     interface: InterfaceState
+    varied: dict[str, Any]
+    values: dict[str, Any]  # all that the study gives
 
 
-def _prepared(
-    settings: StudySettings, given: _Given, base: Parameters, main_text: InterfaceState
-) -> _Prepared:
-    varied = by_study_name(given.varied)
-    values = _all_given(given)
+def _fault(
+    settings: StudySettings, values: dict[str, Any], base: Parameters, main_text: InterfaceState
+) -> tuple[Parameters, InterfaceState]:
+    """Parameters with values of a study, by their names there, and the theory's interface."""
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
     parameters = base.replaced({k: v for k, v in values.items() if k not in CONSTANTS})
@@ -241,37 +200,30 @@ def _prepared(
     parameters = replace(parameters, friction=friction)
     _ = friction.evolution_law  # a file that can't be loaded is told of before any work
     if settings.interface == "main_text":
-        interface = loaded(main_text, loading)
-    else:
-        interface = linearised(parameters.friction, loading)
-    return _Prepared(varied, values, parameters, interface)
+        return parameters, loaded(main_text, loading)
+    return parameters, linearised(parameters.friction, loading)
 
 
-def _theory_lengths(runs: Iterable[_Prepared]) -> Iterator[float]:
+def _theory_lengths(faults: Iterable[tuple[Any, ...]]) -> Iterator[float]:
     """The theory's lengths (m) of all runs of a study in one call, NaN where sliding is stable."""
-    cases = [(*bodies_of(run.parameters), run.interface) for run in runs]
+    cases = [(*bodies_of(parameters), interface) for parameters, interface in faults]
     return iter(theory_lengths(cases).tolist() if cases else [])
 
 
-def _reason(parameters: Parameters, interface: InterfaceState) -> str:
-    """Why the theory knows no critical length."""
-    try:
-        run_length(parameters, interface)
-    except NoInstability as error:
-        return str(error)
-    return "the theory has no critical length"
-
-
 def _run(
-    study: str, settings: StudySettings, prepared: _Prepared, critical: float,
+    study: str, settings: StudySettings, prepared: _Prepared, critical: float, batch: str,
     stepping: Collection[str],
 ) -> Run:  # fmt: skip
     """One run; its length, unless given, is a multiple of the theory's critical length."""
-    varied, values, parameters, interface = prepared
+    parameters, interface, varied, values = prepared
     if math.isnan(critical) and "length" not in values:
+        reason = "the theory has no critical length"
+        try:
+            run_length(parameters, interface)
+        except NoInstability as error:
+            reason = str(error)
         raise ParameterError(
-            f"{_reason(parameters, interface)}; a control run, in which nothing is to nucleate, "
-            "needs its length (m)"
+            f"{reason}; a control run, in which nothing is to nucleate, needs its length (m)"
         )
     length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
     if length <= critical:
@@ -283,10 +235,10 @@ def _run(
     geometry = replace(parameters.geometry, length=float(length))
     parameters = replace(parameters, geometry=geometry)
     parameters.require_consistent()
-    if not {"end_time"} & {*stepping, *values} and not math.isnan(critical):
+    if "end_time" not in {*stepping, *values} and not math.isnan(critical):
         parameters = _until_overdue(parameters, critical, {*stepping, *values})
-    run = Run("", study, parameters, critical, interface, values, role=settings.role)
-    return replace(run, id=identifier(study, run.labels, varied))
+    name = identifier(study, parameters, varied)
+    return Run(name, study, parameters, critical, interface, values, batch, settings.role)
 
 
 def _until_overdue(parameters: Parameters, critical: float, given: Collection[str]) -> Parameters:

@@ -4,17 +4,17 @@ A parameter goes by one name there, the short one (:class:`nucleation.model.name
 a configuration calls it: identifiers and tables do not depend on that.
 """
 
-from collections.abc import Iterable
 from typing import Any
 
-from ..model.friction.constants import CONSTANTS
-from ..model.parameters import GROUPS, names
+from ..model.parameters import GROUPS, Parameters, names
 from ..model.quantities import ParameterError, Quantity
+from .grids import expand
 
 
 def study_parameters() -> dict[str, Quantity]:
     """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
-    return dict(names().by_short)
+    known = names()
+    return {known.short(full): entry for full, entry in known.items()}
 
 
 def other_names() -> dict[str, str]:
@@ -31,7 +31,7 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
     Raises
     ------
     ParameterError
-        If a name stands for no parameter or for several, which are listed, or one is given twice.
+        If a name stands for no parameter, or one is given twice.
     """
     known, declared = names(), study_parameters()
     found: dict[str, Any] = {}
@@ -39,39 +39,37 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
         name = known.short(known.full(given))
         if name in found:
             raise ParameterError(f"{given} = {value!r} is not allowed: {name} is given already")
-        number = declared[name].kind == "float" and value is not None
-        found[name] = float(value) if number else value
+        found[name] = in_type(declared[name], value)
     return found
 
 
-def in_identifiers(chosen: Iterable[str]) -> list[str]:
-    """Names in the order of identifiers, whatever that of the configuration.
+def in_type(entry: Quantity, value: Any) -> Any:
+    """An allowed value in its declared type; a tuple of what a list or a range means."""
+    if entry.many:
+        return tuple(map(float, expand(value)))
+    return float(value) if entry.kind == "float" and value is not None else value
 
-    By the groups of the parameters; within a group words before numbers, then by name. Constants
-    come last.
+
+def identifier(study: str, parameters: Parameters, varied: dict[str, Any]) -> str:
+    """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``.
+
+    What is varied comes in the order of the groups of parameters, whatever that of the
+    configuration; within a group words before numbers, then by name. Constants come last.
     """
     groups, declared, known = list(GROUPS), study_parameters(), names()
 
     def key(name: str) -> tuple[int, bool, str]:
-        if name in CONSTANTS:
+        group, _, field = known.full(name).rpartition(".")
+        if not group:
             return len(groups), True, name
-        group, _, field = known.full(name).partition(".")
         return groups.index(group), not declared[name].choices, field
 
-    return sorted(chosen, key=key)
-
-
-def identifier(study: str, labels: dict[str, Any], varied: dict[str, Any]) -> str:
-    """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``."""
-    parts = [
-        study,
-        labels["evolution"],
-        f"H{_text(labels['height'])}",
-        f"phi{_text(labels['phi0'])}",
-    ]
-    others = in_identifiers(name for name in varied if name not in labels)
-    parts += [f"{name}{_text(varied[name])}" for name in others]
-    return "-".join(parts)
+    height, age = parameters.geometry.height, parameters.loading.initial_state
+    others = sorted(varied.keys() - {"evolution", "height", "phi0"}, key=key)
+    return "-".join(
+        [study, parameters.friction.evolution, f"H{_text(height)}", f"phi{_text(age)}"]
+        + [f"{name}{_text(varied[name])}" for name in others]
+    )
 
 
 def _text(value: Any) -> str:

@@ -18,8 +18,6 @@ from .checked import Checked
 from .friction.law import Friction
 from .quantities import ParameterError, quantity
 
-PROPERTIES = ("none", "normal_stress", "f", "a", "b", "zeta", "slip_distance")
-
 
 @dataclasses.dataclass(frozen=True)
 class Heterogeneity(Checked):
@@ -33,7 +31,7 @@ class Heterogeneity(Checked):
 
     varies: str = quantity(
         "property of the interface that varies along x; a changes at fixed b, and b at fixed a",
-        choices=PROPERTIES, default="none",
+        choices=("none", "normal_stress", "f", "a", "b", "zeta", "slip_distance"), default="none",
     )  # fmt: skip
     shape: str = quantity("how it varies along x", choices=("step", "bump"), default="bump")
     centre: float | None = quantity(
@@ -56,10 +54,6 @@ class Heterogeneity(Checked):
                 f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
                 f"= {self.varies}: it must be {rule}"
             )
-
-    @classmethod
-    def _key(cls, name: str) -> str:
-        return f"heterogeneity.{name}"
 
     def factor(self, x: Array, length: float, periodic: bool) -> Array:
         """``1 + change h(x)`` at positions (m) on an interface of a length (m)."""

@@ -9,7 +9,6 @@ import dataclasses
 import hashlib
 import json
 from functools import lru_cache
-from typing import Any
 
 from .parameters import Parameters
 
@@ -28,7 +27,6 @@ LATER = {
 """Parameters that came later, with what all faults had before: their digests stay."""
 
 DIGITS = 10  # significant, of numbers
-LENGTH = 12  # hexadecimal digits: thousands of faults never share them
 
 
 def fault(parameters: Parameters) -> str:
@@ -53,14 +51,11 @@ def identity(parameters: Parameters, *apart: str) -> str:
         values |= {k: own[k.partition(".")[2]] for k in values if k.startswith("second_body.")
                    and k != "second_body.kind"}  # fmt: skip
     kept = {
-        name: _rounded(value)
+        name: float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
         for name, value in values.items()
         if name not in apart
         and name.partition(".")[0] not in apart
         and (name not in LATER or value != LATER[name])
     }
-    return hashlib.sha256(json.dumps(kept, sort_keys=True).encode()).hexdigest()[:LENGTH]
-
-
-def _rounded(value: Any) -> Any:
-    return float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
+    digest = hashlib.sha256(json.dumps(kept, sort_keys=True).encode()).hexdigest()
+    return digest[:12]  # thousands of faults never share so many

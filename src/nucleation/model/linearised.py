@@ -41,12 +41,7 @@ class InterfaceState(Checked):
 
 def interface_state(parameters: Parameters) -> InterfaceState:
     """The full friction law expanded about sliding at the imposed velocity."""
-    law, loading = parameters.friction, parameters.loading
-    expansion = law.expansion(loading.velocity)
-    return InterfaceState(
-        expansion.f0, expansion.a, expansion.zeta, law.characteristic_slip_distance,
-        loading.velocity, loading.normal_stress,
-    )  # fmt: skip
+    return linearised(parameters.friction, parameters.loading)
 
 
 @lru_cache(maxsize=4096)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import dataclasses
 import json
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_type_hints
 
 from .checked import Checked
 from .friction.constants import CONSTANTS
 from .friction.law import Friction
-from .friction.registry import LAWS, law_declarations
+from .friction.registry import law_declarations
 from .heterogeneity import Heterogeneity
 from .loading import Loading
 from .material import Material
@@ -191,8 +191,8 @@ class Parameters:
         Raises
         ------
         ParameterError
-            For a bad value, a name that stands for no parameter or for several, a parameter that
-            is given twice, and one that the friction law does not have.
+            For a bad value, a name that stands for no parameter, a parameter that is given twice,
+            and one that the friction law does not have.
         """
         changes: dict[str, dict[str, Any]] = {group: {} for group in GROUPS}
         known = names()
@@ -219,11 +219,7 @@ class Parameters:
         return cls.from_dict(json.loads(text))
 
 
-GROUPS: dict[str, type] = {
-    "material": Material, "friction": Friction, "loading": Loading, "geometry": Geometry,
-    "mesh": Mesh, "stepping": Stepping, "perturbation": Perturbation,
-    "heterogeneity": Heterogeneity, "second_body": SecondBody, "recording": Recording,
-}  # fmt: skip
+GROUPS: dict[str, type] = get_type_hints(Parameters)
 """The groups of :class:`Parameters` and their classes."""
 
 ALIASES = {
@@ -264,24 +260,13 @@ ALIASES = {
 the first body's."""
 
 
-def group_declarations(group: str) -> dict[str, Quantity]:
-    """The declared parameters of a group; of all laws if it is friction."""
-    return law_declarations() if group == "friction" else declarations(GROUPS[group])
-
-
+@cache
 def names() -> Names:
     """All parameters of a run, and the constants of friction, with their short names."""
-    return _names(tuple(LAWS))
-
-
-@cache
-def _names(laws: tuple[str, ...]) -> Names:
-    """`laws` are those that there are, since each has parameters of its own."""
-    entries = {
-        f"{group}.{name}": entry
-        for group in GROUPS
-        for name, entry in group_declarations(group).items()
-    }
+    entries: dict[str, Quantity] = {}
+    for group, cls in GROUPS.items():
+        own = law_declarations() if group == "friction" else declarations(cls)
+        entries |= {f"{group}.{name}": entry for name, entry in own.items()}
     return Names(entries | CONSTANTS, ALIASES)
 
 

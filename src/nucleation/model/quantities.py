@@ -107,24 +107,11 @@ def check(key: str, value: Any, entry: Quantity) -> None:
 
 
 def refusal(key: str, value: Any, entry: Quantity) -> str:
-    """The message that refuses a value: key, value, unit, meaning, allowed range and a hint."""
+    """The message that refuses a value: key, value, unit, meaning, and allowed range."""
     unit = "" if entry.unit == "1" or entry.worded else f" {entry.unit}"
     if entry.worded:
         rule = f"must be {entry.range_text()}"
     else:
         number = "be an integer in" if entry.kind == "int" else "lie in"
         rule = f"must {number} {entry.range_text()}{unit}"
-    return f"{key} = {value!r}{unit} is not allowed: {entry.description} {rule}{_text_hint(value)}"
-
-
-def _text_hint(value: Any) -> str:
-    """What to write in place of a number that YAML took for text, such as ``1e-8``."""
-    try:
-        number = float(value) if isinstance(value, str) else math.nan
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        return ""
-    mantissa, exponent = f"{number:.12e}".split("e")
-    mantissa = mantissa.rstrip("0").ljust(mantissa.index(".") + 2, "0")
-    return f" (this is text, not a number: write {mantissa}e{int(exponent):+d}, without quotes)"
+    return f"{key} = {value!r}{unit} is not allowed: {entry.description} {rule}"

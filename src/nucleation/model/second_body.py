@@ -55,11 +55,9 @@ class SecondBody(Checked):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.deformable:
-            return
         for name, entry in declarations(SecondBody).items():
             value = getattr(self, name)
-            if name != "kind" and value is not None:
+            if not self.deformable and name != "kind" and value is not None:
                 unit = "" if entry.unit == "1" else f" {entry.unit}"
                 raise ParameterError(
                     f"second_body.{name} = {value!r}{unit} is not allowed with second_body.kind = "
@@ -70,7 +68,3 @@ class SecondBody(Checked):
     def deformable(self) -> bool:
         """Whether it is a second block."""
         return self.kind == "deformable"
-
-    @classmethod
-    def _key(cls, name: str) -> str:
-        return f"second_body.{name}"

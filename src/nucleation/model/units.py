@@ -11,13 +11,12 @@ from .quantities import ParameterError, Quantity, check
 
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(rf"\s*([+-]?(?:{_DIGITS}|inf(?:inity)?))\s*(?:/\s*({_DIGITS}))?\s*(.*?)\s*")
-UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-]{1,60}")
+UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅]{1,60}")
 COMMON_UNITS = (
     *("Pa", "kPa", "MPa", "GPa", "m", "km", "cm", "mm", "um", "nm", "s", "ms", "min", "h", "yr"),
     *("m/s", "mm/yr", "mm/s", "um/s", "kg/m^3", "Pa/s", "MPa/s"),
 )
 """Units that a wrong one is compared with, in small letters."""
-SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅", "0123456789-**")
 
 
 @cache
@@ -49,38 +48,26 @@ def parse(key: str, text: str, entry: Quantity) -> Any:
         Naming key, value, unit and range, if it is no number, has another dimension or lies
         outside the range.
     """
-    if entry.choices or entry.kind == "str":
-        value: Any = text
-    elif entry.kind == "int":
-        value = _integer(text)
-    else:
-        value = _number(key, text, entry)
+    value: Any = text
+    try:
+        if entry.kind == "int":
+            value = int(text) if re.fullmatch(r"\s*[+-]?\d{1,18}\s*", text) else text
+        elif not entry.worded:
+            value = _number(text, entry)
+    except ValueError as error:
+        rule = f"{entry.description} must lie in {bounds(entry)}"
+        raise ParameterError(f"{key} = {text!r} is not allowed: {rule}; {error}") from None
     check(key, value, entry)
     return value
 
 
-def _integer(text: str) -> int | float | str:
-    """The integer that a text is, or what else it is, to be refused."""
-    if re.fullmatch(r"\s*[+-]?\d{1,18}\s*", text):
-        return int(text)
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
-def _number(key: str, text: str, entry: Quantity) -> float:
+def _number(text: str, entry: Quantity) -> float:
     """The number that a text means: a decimal or a fraction, with or without a unit."""
     parts = NUMBER.fullmatch(text)
     if not parts or (parts[2] and not float(parts[2])):
-        raise ParameterError(_refusal(key, text, entry, "it is no number with a unit"))
+        raise ValueError("it is no number with a unit")
     number = Decimal(parts[1]) / Decimal(parts[2] or 1)
-    if not parts[3]:
-        return float(number)
-    try:
-        return float(_quantity(number, parts[3], entry))
-    except ValueError as error:
-        raise ParameterError(_refusal(key, text, entry, str(error))) from None
+    return float(_quantity(number, parts[3], entry) if parts[3] else number)
 
 
 def _quantity(number: Decimal, unit: str, entry: Quantity) -> Decimal:
@@ -89,25 +76,19 @@ def _quantity(number: Decimal, unit: str, entry: Quantity) -> Decimal:
 
     units = registry()
     try:
-        given = units.Quantity(number, units.parse_units(_plain_unit(unit)))
+        if not UNIT.fullmatch(unit):
+            raise ValueError
+        plain = re.sub(r"(?<=[A-Za-zµμ])(-?\d+)", r"**\1", unit.replace("⋅", "*"))  # kg⋅m-3
+        given = units.Quantity(number, units.parse_units(plain))
     except Exception:  # the library raises errors of many kinds for units it can't read
         close = next((u for u in COMMON_UNITS if u.lower() == unit.lower()), "")
         hint = f"; did you mean {close}?" if close else ""
         raise ValueError(f"{unit} is not a known unit{hint}") from None
     try:
-        return given.to(declared_unit(entry)).magnitude
+        return given.to("dimensionless" if entry.unit == "1" else entry.unit).magnitude
     except pint.DimensionalityError:
         wanted = "it has no dimension" if entry.unit == "1" else f"{entry.unit} is needed"
         raise ValueError(f"{unit} is a unit of {_dimension(given)}, but {wanted}") from None
-
-
-def _plain_unit(unit: str) -> str:
-    """A unit as the library reads it: ``kg m-3``, ``kg/m3`` and ``kg·m⁻³`` are ``kg*m**-3``."""
-    unit = unit.strip().translate(SUPERSCRIPTS)
-    if not UNIT.fullmatch(unit):
-        raise ValueError(unit)
-    unit = re.sub(r"(?<=[A-Za-zµμ])(-?\d+)", r"**\1", unit)
-    return re.sub(r"(?<=[\w)]) +(?=[A-Za-zµμ(])", "*", unit)
 
 
 def magnitude(key: str, value: Any, entry: Quantity) -> Any:
@@ -177,11 +158,6 @@ def rescaled(key: str, values: Any, unit: Any, entry: Quantity) -> Any:
     return found.assign_attrs(units=entry.unit) if hasattr(found, "assign_attrs") else found
 
 
-def declared_unit(entry: Quantity) -> str:
-    """A declaration's unit as the units library writes it."""
-    return "dimensionless" if entry.unit == "1" else entry.unit.replace("MB", "megabyte")
-
-
 def _dimension(given: Any) -> str:
     """The dimension of a quantity in words, ``length`` or ``mass / length ** 3``."""
     text = str(given.dimensionality).replace("[", "").replace("]", "")
@@ -190,11 +166,6 @@ def _dimension(given: Any) -> str:
         "mass / length ** 3": "density", "dimensionless": "a pure number",
     }  # fmt: skip
     return names.get(text, text)
-
-
-def _refusal(key: str, text: str, entry: Quantity, reason: str) -> str:
-    rule = f"{entry.description} must lie in {bounds(entry)}"
-    return f"{key} = {text!r} is not allowed: {rule}; {reason}"
 
 
 def bounds(entry: Quantity) -> str:

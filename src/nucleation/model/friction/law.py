@@ -58,16 +58,11 @@ class _Signature:
     def __get__(self, _: Any, owner: type) -> inspect.Signature:
         if owner is not Friction:
             raise AttributeError
-        defaults = {
-            field.name: field.default
-            for law in reversed(sorted(LAWS, key=lambda name: (name != USUAL_LAW, name)))
-            for field in dataclasses.fields(law_class(law))  # type: ignore[arg-type]
-        }
+        classes = *map(law_class, LAWS), Friction
+        defaults = {f.name: f.default for cls in classes for f in dataclasses.fields(cls)}
+        given = inspect.Parameter.KEYWORD_ONLY
         return inspect.Signature(
-            [
-                inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults[name])
-                for name in law_declarations()
-            ]
+            [inspect.Parameter(name, given, default=defaults[name]) for name in law_declarations()]
         )
 
 
@@ -125,22 +120,15 @@ class Friction(Checked):
         if self.law != type(self).law:
             raise ParameterError(f"friction.law = {self.law!r} is not that of {type(self).law}")
 
-    @classmethod
-    def _key(cls, name: str) -> str:
-        return f"friction.{name}"
-
     def changed(self, values: dict[str, Any]) -> Friction:
         """The law with other parameters; if one is `law`, that law with what all laws share."""
-        if values.get("law", self.law) == self.law:
-            kept = dataclasses.asdict(self)
-        else:
-            kept = {field.name: getattr(self, field.name) for field in dataclasses.fields(Friction)}
-        return Friction(**kept | values)
+        own = type(self) if values.get("law", self.law) == self.law else Friction
+        return Friction(**{name: getattr(self, name) for name in declarations(own)} | values)
 
     @property
     def evolution_law(self) -> StateEvolution:
         """The state evolution law named by ``evolution``."""
-        return cast(StateEvolution, module(EVOLUTIONS.package, self.evolution))
+        return cast(StateEvolution, module("evolutions", self.evolution))
 
     # -- what each law says ---------------------------------------------------------------------
 

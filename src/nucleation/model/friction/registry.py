@@ -11,11 +11,8 @@ there are, and a new file leaves the runs of the others as they are. :func:`plug
 
 import dataclasses
 import importlib
-import os
-import pkgutil
 import traceback
-from collections.abc import Collection, Iterator
-from functools import cache, lru_cache
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -27,50 +24,21 @@ USUAL_LAW = "product"
 USUAL_EVOLUTION = "aging"
 
 
-class Files(Collection[str]):
-    """The names of a package's modules, read from its directories whenever they are asked for."""
-
-    def __init__(self, package: str) -> None:
-        self.package = f"{__package__}.{package}"
-
-    def __iter__(self) -> Iterator[str]:
-        states = tuple((place, os.stat(place).st_mtime_ns) for place in self._directories())
-        return iter(_modules_in(states))
-
-    def __bool__(self) -> bool:
-        return True  # without reading directories
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
-
-    def __contains__(self, name: object) -> bool:
-        return (
-            isinstance(name, str)
-            and name.isidentifier()
-            and any(Path(place, f"{name}.py").is_file() for place in self._directories())
-        )
-
-    def _directories(self) -> list[str]:
-        return list(importlib.import_module(self.package).__path__)
+def _files(package: str) -> tuple[str, ...]:
+    """The names of a package's modules."""
+    return tuple(sorted(file.stem for file in Path(__file__).parent.glob(f"{package}/[!_]*.py")))
 
 
-@lru_cache(maxsize=16)  # asked for with every run of a study
-def _modules_in(directories: tuple[tuple[str, int], ...]) -> tuple[str, ...]:
-    """The names of the modules in directories, each given with the time of its last change."""
-    found = pkgutil.iter_modules([place for place, _ in directories])
-    return tuple(sorted(module.name for module in found))
-
-
-LAWS = Files("laws")
+LAWS = _files("laws")
 """Laws of the friction coefficient, by name."""
 
-EVOLUTIONS = Files("evolutions")
+EVOLUTIONS = _files("evolutions")
 """Evolution laws of the state variable, by name."""
 
 
 @cache
 def module(package: str, name: str) -> ModuleType:
-    """The module of one law.
+    """The module of one law, of the package ``laws`` or ``evolutions``.
 
     Raises
     ------
@@ -78,30 +46,26 @@ def module(package: str, name: str) -> ModuleType:
         If its file can't be loaded, naming file and line.
     """
     try:
-        return importlib.import_module(f"{package}.{name}")
+        return importlib.import_module(f"{__package__}.{package}.{name}")
     except Exception as error:
-        place, line = _origin(error)
+        if isinstance(error, SyntaxError):
+            place, line = error.filename, error.lineno
+        else:
+            frames = traceback.extract_tb(error.__traceback__)
+            last = [frame for frame in frames if not frame.filename.startswith("<frozen")][-1]
+            place, line = last.filename, last.lineno
         raise ParameterError(
             f"{place}, line {line}: the law {name} can't be loaded: {type(error).__name__}: "
             f"{getattr(error, 'msg', None) or error}"
         ) from error
 
 
-def _origin(error: Exception) -> tuple[str, int | None]:
-    """File and line at which a module's loading ended."""
-    if isinstance(error, SyntaxError):
-        return str(error.filename), error.lineno
-    frames = traceback.extract_tb(error.__traceback__)
-    last = [frame for frame in frames if not frame.filename.startswith("<frozen")][-1]
-    return last.filename, last.lineno
-
-
 def law_class(name: str) -> type[Checked]:
     """The class, of :class:`~nucleation.model.friction.law.Friction`, of the law with a name."""
-    return module(LAWS.package, name).Law
+    return module("laws", name).Law
 
 
-def plugins(parameters: Any) -> tuple[str, ...]:
+def plugins(parameters: Any) -> tuple[str, str]:
     """The dotted names of the modules that a run finds by name, and so imports by no statement.
 
     A digest that follows import statements misses them: whoever digests the code of something that
@@ -119,7 +83,7 @@ def plugins(parameters: Any) -> tuple[str, ...]:
         Module of the friction law, module of its state evolution.
     """
     friction = getattr(parameters, "friction", parameters)
-    return f"{LAWS.package}.{friction.law}", f"{EVOLUTIONS.package}.{friction.evolution}"
+    return f"{__package__}.laws.{friction.law}", f"{__package__}.evolutions.{friction.evolution}"
 
 
 def law_declarations() -> dict[str, Quantity]:
