@@ -50,6 +50,7 @@ LENGTH = [
     (length(density="2.7 g", velocity="1"), ["density = '2.7 g'", "kg/m^3 is needed"]),
     (length(weakening_rate="5 MPa"), ["weakening_rate", "Pa/m is needed"]),
     (length(second_body="steel"), ["second_body = 'steel'", "same, rigid"]),
+    (length(second_body="60GPa"), ["second_body = '60GPa'", "same, rigid"]),
     (length(second_body="rigid"), ["friction is missing"]),
     (length(second_body="60GPa,0.3"), ["friction is missing"]),
     (length(second_body="60GPa,0.7", friction="0.6"), ["second_poisson_ratio = 0.7", "(-1, 0.5)"]),

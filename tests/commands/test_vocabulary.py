@@ -5,8 +5,6 @@ import json
 import pytest
 
 from nucleation.api import critical_length
-from nucleation.commands.options import second_body
-from nucleation.model.quantities import ParameterError
 
 FAULT = {
     "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
@@ -61,8 +59,9 @@ def test_one_file_for_all_commands(nucleation, tmp_path):
 
 
 @pytest.mark.parametrize("text", ["same", "deformable"])
-def test_bodies_alike(text):
-    assert second_body(text) == {"second_body": "deformable"}
+def test_bodies_alike(nucleation, text):
+    alone = words({k: v for k, v in FAULT.items() if k != "--second-body"})
+    assert nucleation("length", *alone, "--second-body", text) == nucleation("length", *alone)
 
 
 def test_a_layer_on_a_half_space(nucleation, tmp_path):
@@ -71,12 +70,6 @@ def test_a_layer_on_a_half_space(nucleation, tmp_path):
     assert "a layer 2 m high" in out and "on a half-space (mu = 2.5e+10 Pa" in " ".join(out.split())
     ended = nucleation("simulate", tmp_path / "run.nc", *options, "--dry-run")
     assert ended.code == 2 and "second_body.height = inf m is not allowed" in ended.err
-
-
-@pytest.mark.parametrize("text", ["soft", "60GPa", "60GPa,0.3,1m,2", "60m,0.3", "60GPa,0.7"])
-def test_bad_second_bodies_are_refused(text):
-    with pytest.raises(ParameterError, match="is not allowed"):
-        second_body(text)
 
 
 def test_two_bodies_are_the_usual_system_everywhere(nucleation, tmp_path):

@@ -12,7 +12,6 @@ from typing import Any
 
 import click
 
-from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from ..configuration.advice import advise
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, estimated_megabytes
@@ -22,18 +21,11 @@ from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..model.second_body import SecondBody
-from .options import (
-    STUDY,
-    flat,
-    given_of,
-    merged,
-    parameter_options,
-    planned,
-    source_options,
-    sourced,
-    told,
-)
+from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
+from .given import STUDY, given_of, merged, planned, sourced
+from .options import flat, option, parameter_options, source_options
 from .output import require_writable
+from .system import told
 from .text import event_lines, outcome, parameter_lines, plain
 
 RATIO = declarations(StudySettings)["length_over_critical"]
@@ -44,8 +36,8 @@ MEMORY = declarations(Limits)["memory"]
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
 @source_options
 @parameter_options(study_parameters())
-@units.option("--length-over-critical", key="length_over_critical", entry=RATIO)
-@units.option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
+@option("--length-over-critical", key="length_over_critical", entry=RATIO)
+@option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
 @click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
 @click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
 @click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
@@ -75,7 +67,7 @@ def command(
         )
     study = given_of({"length_over_critical": length_over_critical})
     limits, place = given_of({"memory": memory}), str(output.absolute().parent)
-    run = planned(values, study, limits, place)
+    run = planned(values, study, limits=limits, results=place)
     said = told(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")

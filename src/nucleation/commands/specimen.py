@@ -5,19 +5,19 @@ from typing import Any
 
 import click
 
-from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
-from .fault_options import assumed_line, doubts_told, fault_options, fault_values
-from .system import system_line
+from . import DONE, EXIT_CODES, STABLE
+from .fault_options import doubts_told, fault_options, fault_values, said_of
+from .options import option
 from .text import plain
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
 
 
 @click.command("specimen", epilog=EXIT_CODES)
-@units.option("--length", key="length", entry=SPECIMEN, required=True)
+@option("--length", key="length", entry=SPECIMEN, required=True)
 @click.option(
     "--find", "unknown", type=click.Choice(list(UNKNOWNS.choices)), default="normal_stress",
     show_default=True, help="the parameter to find; if its value is given too, it is judged",
@@ -49,7 +49,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
         now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))
         fault = Fault(**given, **{unknown: fit.searched[0] if own is None else own})
     looked_for = own is None and unknown == "shear_modulus"
-    said = [system_line(fault, known=not looked_for), *assumed_line(given)]
+    said = said_of(fault, given, known=not looked_for)
     if as_json:
         judged = None if now is None else {"value": own, "length": plain(now)}
         found = {

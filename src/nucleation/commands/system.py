@@ -1,8 +1,10 @@
-"""The system that a command computes, in words: bodies, far sides, loading, plane."""
+"""The system that a command computes, in words: bodies, far sides, loading, friction."""
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
+from ..model.friction.law import Friction
 from ..model.parameters import Parameters
 from ..theory.fault import Fault
 from ..theory.literature_table import LENGTHS, TWO_MATERIALS
@@ -73,3 +75,39 @@ def of_parameters(parameters: Parameters) -> dict[str, Any]:
         "second_poisson_ratio": lower.material.poisson_ratio,
         "second_height": lower.height, "second_far_side": lower.far_side,
     }  # fmt: skip
+
+
+def scales(law: Friction, velocity: float) -> str:
+    """The slip rates of a law and V, in words."""
+    scale = getattr(law, "slip_rate_scale", getattr(law, "reference_slip_rate", None))
+    rates = {"v*": scale, "v0": law.regularisation_slip_rate, "V": velocity}
+    return ", ".join(f"{name} = {x:.3g}" for name, x in rates.items() if x is not None) + " m/s"
+
+
+PAPERS = {
+    **{name: {name} for name in ("shear_modulus", "poisson_ratio", "height", "normal_stress")},
+    "velocity": {"velocity"}, "slip_distance": {"characteristic_slip_distance"},
+    "friction": {"friction_coefficient"}, "a": {"direct_effect"},
+    "b": {"zeta_over_a", "velocity_weakening", "evolution_effect"},
+}  # fmt: skip
+"""The parameters of a fault that the paper has values for, and by which names each is given."""
+
+
+def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, Any]) -> list[str]:
+    """The system of a run, its friction, and what was assumed, a line each."""
+    law, v = parameters.friction, parameters.loading.velocity
+    f, a, zeta = law.expansion(v)
+    lines = [
+        system_line(Fault(**of_parameters(parameters)), parameters.loading.kind),
+        f"Friction: {law.law} law, {law.evolution}; at V: f = {f:.4g}, a = {a:.4g}, "
+        f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; {scales(law, v)}.",
+    ]
+    asked = PAPERS
+    if any(name in given for name in law.set_by_expansion):
+        constants = {"friction", "a", "b"}
+        asked = {name: by for name, by in PAPERS.items() if name not in constants}
+        asked |= {name: {name} for name in law.set_by_expansion}
+    papers = [name for name, by in asked.items() if not by & given.keys()]
+    if base is None and papers:
+        lines.append(f"Not given, so the paper's: {', '.join(papers)}.")
+    return lines

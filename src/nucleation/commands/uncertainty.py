@@ -16,8 +16,8 @@ from ..theory.fault import Fault
 from ..theory.literature_table import LENGTHS, THIS_FAULT, TWO_MATERIALS
 from ..theory.uncertainty import QUANTILES, Range, length_quantiles
 from . import DONE, STABLE
-from .fault_options import assumed_line, doubts_told, given_of
-from .system import system_line, systems_of_lengths
+from .fault_options import doubts_told, parameters_of, said_of
+from .system import systems_of_lengths
 from .text import plain
 
 samples_option = click.option(
@@ -69,7 +69,7 @@ def print_quantiles(
     with doubts_told():
         middle = Fault(**given)
         found = length_quantiles(**known)
-    said = [system_line(middle, options["loading"]), *assumed_line(given)]
+    said = said_of(middle, given, options["loading"])
     click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
     return STABLE if np.isnan(found["value"][0]).all() else DONE
 
@@ -86,7 +86,7 @@ def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     ]  # fmt: skip
     return json.dumps(
         {
-            "system": said, "parameters": given_of(middle), "uncertain": list(uncertain),
+            "system": said, "parameters": parameters_of(middle), "uncertain": list(uncertain),
             **found.attrs, "lengths": lengths,
         },
         indent=2,
