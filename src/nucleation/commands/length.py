@@ -30,8 +30,8 @@ from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, parameters_of, said_of
 from .given import given_of
 from .options import option
-from .system import BEGINS, scales, systems_of_lengths
-from .text import plain
+from .system import BEGINS, one_material, scales, systems_of_lengths
+from .text import plain, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain
 
 NOTEWORTHY = 0.03
@@ -140,7 +140,7 @@ def _as_text(
     said: list[str], fault: Fault, theory: dict[str, Any], lengths: dict[str, float], law: Friction
 ) -> str:
     lines = [
-        *(line for text in said for line in textwrap.wrap(text, 95, subsequent_indent="  ")),
+        *wrapped(*said),
         "",
         "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):",
     ]
@@ -149,17 +149,13 @@ def _as_text(
     else:
         reason = textwrap.wrap(reason_of_stability(fault), 90)
         lines += ["  no critical length:", *(f"  {line}" for line in reason)]
-    one_material = (fault.shear_modulus, fault.poisson_ratio) == (
-        fault.second_shear_modulus, fault.second_poisson_ratio,
-    )  # fmt: skip
-    differ = not one_material and math.isfinite(fault.second_shear_modulus)
-    for system in systems_of_lengths(differ):
+    for system in systems_of_lengths(fault):
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
             if length.system == system:
                 value = lengths[length.key]
                 lines += _length_lines(length, value, fault, theory["critical_length"])
-    modulus = "" if one_material else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
+    modulus = "" if one_material(fault) else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
     star = "mu/(1 - nu)" if fault.plane == "strain" else "mu (1 + nu)"
     lines += [
         "",

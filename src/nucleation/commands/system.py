@@ -1,13 +1,13 @@
 """The system that a command computes, in words: bodies, far sides, loading, friction."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
 from ..theory.fault import Fault
-from ..theory.literature_table import LENGTHS, TWO_MATERIALS
+from ..theory.literature_table import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
 from ..theory.transfer import RigidBody, bodies_of
 
 
@@ -16,14 +16,12 @@ def system_line(fault: Fault, loading: str = "edge", known: bool = True) -> str:
 
     `known` is whether the first body's shear modulus is, or it is looked for.
     """
-    first = (fault.shear_modulus, fault.poisson_ratio, fault.height, fault.far_side)
-    second = (
-        fault.second_shear_modulus, fault.second_poisson_ratio, fault.second_height,
-        fault.second_far_side,
-    )  # fmt: skip
+    names = ("shear_modulus", "poisson_ratio", "height", "far_side")
+    first = [getattr(fault, name) for name in names]
+    second = [getattr(fault, f"second_{name}") for name in names]
     alike = first == second
     if not known:
-        first = (math.nan, *first[1:])
+        first[0] = math.nan
     if math.isinf(float(fault.second_shear_modulus)):
         bodies = f"{_body(*first)} on a rigid one"
     elif alike:
@@ -42,12 +40,17 @@ def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
     return f"a layer {float(height):.4g} m high with its far side {side} {own}"
 
 
-def systems_of_lengths(differ: bool) -> list[str]:
-    """Of which the lengths in use are, as they are listed: the fault's own, of the pair if its
-    materials `differ`, of its first body."""
-    systems = list(dict.fromkeys(length.system for length in LENGTHS))
-    systems.remove(TWO_MATERIALS)
-    return [*systems[:1], *[TWO_MATERIALS] * differ, *systems[1:]]
+def one_material(fault: Fault) -> bool:
+    """Whether both bodies are of the same."""
+    second = (fault.second_shear_modulus, fault.second_poisson_ratio)
+    return (fault.shear_modulus, fault.poisson_ratio) == second
+
+
+def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[str]:
+    """What the lengths in use are of, as they are listed: the pair's own where materials differ."""
+    differ = not one_material(fault) or any(name.startswith("second_") for name in uncertain)
+    pair = [TWO_MATERIALS] if differ and math.isfinite(fault.second_shear_modulus) else []
+    return [THIS_FAULT, *pair, HALF_SPACES, RIGID_BASE]
 
 
 BEGINS = {

@@ -2,6 +2,7 @@
 
 import math
 import re
+import textwrap
 from typing import Any
 
 from ..model.parameters import GROUPS, Parameters
@@ -23,6 +24,11 @@ def parameter_lines(parameters: Parameters) -> list[str]:
     return lines
 
 
+def wrapped(*texts: str) -> list[str]:
+    """The lines of some texts; all but the first of each are indented."""
+    return [line for text in texts for line in textwrap.wrap(text, 95, subsequent_indent="  ")]
+
+
 def with_unit(value: Any, entry: Quantity) -> str:
     """A value as text with its unit."""
     number = f"{value:.6g}" if isinstance(value, float) else str(value)
@@ -36,13 +42,12 @@ def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
     """
     if math.isnan(found["onset_time"]):
         return ["no event: the force has not dropped"]
-    spread = {
-        name: f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
+    onset, length = (
+        f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
         for name in ("onset_time", "length")
-    }
+    )
     ratio = f", {found['length'] / theory_length:.3g} of the theory's"
-    ratio = "" if math.isnan(theory_length) else ratio
-    return [f"onset: {spread['onset_time']} s", f"L_c: {spread['length']} m{ratio}"]
+    return [f"onset: {onset} s", f"L_c: {length} m{'' if math.isnan(theory_length) else ratio}"]
 
 
 def outcome(dataset: Any) -> dict[str, Any]:

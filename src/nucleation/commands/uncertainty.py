@@ -18,7 +18,7 @@ from ..theory.uncertainty import QUANTILES, Range, length_quantiles
 from . import DONE, STABLE
 from .fault_options import doubts_told, parameters_of, said_of
 from .system import systems_of_lengths
-from .text import plain
+from .text import plain, wrapped
 
 samples_option = click.option(
     "--samples", type=click.Path(exists=True, dir_okay=False, path_type=Path),
@@ -37,20 +37,22 @@ def take_uncertain(
         If a parameter is given twice, or what is fixed while `a` varies is not said.
     """
     uncertain: dict[str, Any] = {k: v for k, v in options.items() if isinstance(v, Range)}
-    for name, values in ({} if samples is None else read_samples(samples)).items():
-        if options.get(name) is not None:
-            raise ParameterError(f"{name} is given twice: as an option and in {samples}")
-        uncertain[name] = values
+    if samples is not None:
+        uncertain |= (drawn := read_samples(samples))
+        if twice := [name for name in drawn if options.get(name) is not None]:
+            raise ParameterError(f"{twice[0]} is given twice: as an option and in {samples}")
     medians = options | {name: float(np.median(values)) for name, values in uncertain.items()}
     given = any(medians.get(name) is not None for name in ("zeta", "b", "file"))
     if "a" in uncertain and not given:
         raise ParameterError("zeta or b is needed beside an uncertain a: which one stays as it is?")
-    if options.get("per_decade"):
+    if options["per_decade"]:
         for name in uncertain.keys() & {"a", "b", "zeta"}:
             value = uncertain[name]
-            own = (value, value.low, value.high) if isinstance(value, Range) else value
-            scaled = np.asarray(own, dtype=float) / math.log(10.0)
-            uncertain[name] = Range(*scaled) if isinstance(value, Range) else scaled
+            if isinstance(value, Range):
+                ends = value, value.low, value.high
+                uncertain[name] = Range(*(end / math.log(10.0) for end in ends))
+            else:
+                uncertain[name] = value / math.log(10.0)
     return medians, uncertain
 
 
@@ -98,15 +100,10 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     drawn = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
     drawn += f" ({count['outside']} not allowed)" if count["invalid"] else ""
     drawn += f", {count['stable']} of the others stable, without L_c"
-    wrapped = [textwrap.fill(text, 95, subsequent_indent="  ") for text in (*said, drawn)]
     head = "".join(f"{share:>10.0%}" for share in QUANTILES)
-    lines = [*wrapped[:-1], "", wrapped[-1], "", f"{'quantiles (m)':<32}{head}   share"]
+    lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
     systems, nowhere = {length.key: length.system for length in LENGTHS}, []
-    first = (middle.shear_modulus, middle.poisson_ratio)
-    second = (middle.second_shear_modulus, middle.second_poisson_ratio)
-    differ = first != second or any(name.startswith("second_") for name in uncertain)
-    differ &= bool(np.isfinite(middle.second_shear_modulus))
-    for system in systems_of_lengths(differ):
+    for system in systems_of_lengths(middle, uncertain):
         rows = [row for row in _rows(found) if systems.get(row[0], THIS_FAULT) == system]
         two = " (two materials)" if system == TWO_MATERIALS else ""
         nowhere += [f"{title}{two}" for _, title, _, share in rows if share == 0.0]
