@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 import os
 from pathlib import Path
@@ -23,7 +22,7 @@ from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .given import merged, merged_parameters, planned, sourced
 from .options import parameter_options, source_options
 from .system import of_parameters, told
-from .text import plain
+from .text import to_json
 
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
@@ -105,7 +104,7 @@ def _as_json(
 ) -> str:  # fmt: skip
     known: dict[str, Any] = {
         "system": said,
-        "theory": {"critical_length": plain(critical), "plane": parameters.material.plane},
+        "theory": {"critical_length": critical, "plane": parameters.material.plane},
         "perturbation": dataclasses.asdict(parameters.perturbation),
     }
     if found is None:
@@ -118,7 +117,7 @@ def _as_json(
             "trusted": found.trusted,
             "doubt": found.doubt,
         }
-    return json.dumps(known, indent=2)
+    return to_json(known)
 
 
 def _as_text(

@@ -26,7 +26,6 @@ from .options import (
     words,
 )
 from .system import of_parameters, system_line
-from .text import plain
 
 NOTES = {
     "b": "this, --zeta or --zeta-over-a", "zeta": "zeta = b - a",
@@ -113,9 +112,8 @@ def doubts_told() -> Iterator[None]:
 
 
 def parameters_of(fault: Fault) -> dict[str, Any]:
-    """All parameters that a fault has, for JSON (SI units)."""
-    given = given_of({name: getattr(fault, name) for name in QUANTITIES})
-    return {name: plain(value) for name, value in given.items()}
+    """All parameters that a fault has."""
+    return given_of({name: getattr(fault, name) for name in QUANTITIES})
 
 
 def said_of(

@@ -47,13 +47,11 @@ def sourced(
         raise ParameterError("--parameters and --run can't be combined")
     base, found = None, {"second_body": "deformable"}
     if run_id:
-        base = _of_run(config, run_id)
+        base, found = _of_run(config, run_id), {}
     elif file and file.suffix == ".nc":
-        base = _of_dataset(file)
+        base, found = _of_dataset(file), {}
     elif file:
         found |= _with_second_body(_of_file(file))
-    if base:
-        found = {}
     found |= _with_second_body(given_of(options))
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]
     if uncertain and not ranges:
@@ -77,45 +75,45 @@ def _of_dataset(path: Path) -> Parameters:
 
 
 def _of_file(path: Path) -> dict[str, Any]:
-    """What a YAML or JSON file gives, flat or in groups, by names in studies."""
+    """What a YAML or JSON file gives, by names in studies: flat, or in groups."""
     content = read_yaml(path)
     if not isinstance(content, dict):
         raise ParameterError(f"{path} must hold a mapping (lines of key: value)")
     given: dict[str, Any] = {}
-    for key, value in content.items():
-        grouped = isinstance(value, dict)  # as the configuration, or flat
-        for field, one in value.items() if grouped else [(key, value)]:
-            name = _name_in_file(path, f"{key}." if grouped else "", str(field), one)
-            if name in given:
-                raise ParameterError(f"{path}: {name} is given twice")
-            given[name] = _file_value(path, name, one)
+    try:
+        for key, value in content.items():
+            fields = value.items() if isinstance(value, dict) else [(key, value)]
+            for field, one in fields:
+                name = _name_in_file(f"{key}.{field}", str(field), one)
+                if name in given:
+                    raise ParameterError(f"{name} is given twice")
+                given[name] = _value_in_file(name, one)
+    except ParameterError as error:
+        raise ParameterError(f"{path}: {error}") from None
     return given
 
 
-def _name_in_file(path: Path, group: str, field: str, value: Any) -> str:
-    """The name in studies of a parameter that stands in a group of a file, or in none."""
+def _name_in_file(full: str, field: str, value: Any) -> str:
+    """The name in studies of a parameter by its full name or its field's."""
     known, declared = names(), study_parameters()
-    name = group + field if group + field in known else field
+    name = full if full in known else field
     try:
         return name if name in declared else known.short(known.full(name))
     except ParameterError as error:
         text = str(error)
         if "ambiguous" not in text:
             text = f"unknown key{_similar(field, declared)}"
-        raise ParameterError(f"{path}: {field} = {value!r} is not allowed: {text}") from None
+        raise ParameterError(f"{field} = {value!r} is not allowed: {text}") from None
 
 
-def _file_value(path: Path, key: str, value: Any) -> Any:
-    """One value of a file, in SI units."""
-    if key == "second_body":
-        return str(value)  # as the option
+def _value_in_file(key: str, value: Any) -> Any:
+    """One value of a file, in SI units; of the second body as the option has it."""
     entry = study_parameters()[key]
-    try:
-        if isinstance(value, str):
-            return parse_range(key, value, entry)
-        check(key, value, entry)
-    except ParameterError as error:
-        raise ParameterError(f"{path}: {error}") from None
+    if key == "second_body":
+        return str(value)
+    if isinstance(value, str):
+        return parse_range(key, value, entry)
+    check(key, value, entry)
     return value
 
 

@@ -1,7 +1,6 @@
 """``nucleation length``: the theory's critical length of a fault beside the lengths in use."""
 
 import contextlib
-import json
 import math
 import textwrap
 from pathlib import Path
@@ -31,7 +30,7 @@ from .fault_options import doubts_told, fault_options, fault_values, parameters_
 from .given import given_of
 from .options import option
 from .system import BEGINS, one_material, scales, systems_of_lengths
-from .text import plain, wrapped
+from .text import to_json, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain
 
 NOTEWORTHY = 0.03
@@ -94,13 +93,13 @@ def command(
         found = {
             "system": said,
             "parameters": parameters_of(fault),
-            "theory": {name: plain(value) for name, value in theory.items()},
+            "theory": theory,
             "lengths": [
-                {"key": length.key, "length": plain(lengths[length.key]), **length.words()}
+                {"key": length.key, "length": lengths[length.key], **length.words()}
                 for length in LENGTHS
             ],
         }
-        click.echo(json.dumps(found, indent=2))
+        click.echo(to_json(found))
     else:
         click.echo(_as_text(said, fault, theory, lengths, law))
     return DONE if math.isfinite(theory["critical_length"]) else STABLE

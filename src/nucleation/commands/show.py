@@ -48,7 +48,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     if plot:
         _check_plot(plot, kind, force)
     if as_json:
-        click.echo(json.dumps({"file": str(file), **_as_json(dataset, kind)}, indent=2))
+        click.echo(text.to_json({"file": str(file), **_as_json(dataset, kind)}))
     else:
         lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
         click.echo("\n".join(lines))
@@ -72,7 +72,7 @@ def _as_json(dataset: xr.Dataset, kind: Kind) -> dict[str, Any]:
     if kind.name == SIMULATION:
         told |= text.outcome(dataset)
     elif kind.summary is _length_rows:
-        told["rows"] = [{k: text.plain(v) for k, v in row.items()} for row in rows_of(dataset)]
+        told["rows"] = rows_of(dataset)
     return told
 
 

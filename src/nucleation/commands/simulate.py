@@ -1,6 +1,5 @@
 """``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
 
-import json
 import math
 import shlex
 import signal
@@ -24,7 +23,7 @@ from .given import STUDY, given_of, merged, planned, sourced
 from .options import flat, option, parameter_options, source_options
 from .output import require_writable
 from .system import told
-from .text import event_lines, outcome, parameter_lines, plain
+from .text import event_lines, outcome, parameter_lines, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
@@ -75,7 +74,7 @@ def command(
     said += _plan_lines(run)
     if dry_run:
         text = "\n".join([*parameter_lines(run.parameters), *said])
-        click.echo(json.dumps(_planned(run), indent=2) if as_json else text)
+        click.echo(to_json(_planned(run)) if as_json else text)
         return DONE
     click.echo("\n".join(said), err=as_json)
     return _simulate(run, output, as_json)
@@ -109,7 +108,7 @@ def _command(output: Path, run: Run) -> str:
 def _planned(run: Run) -> dict[str, Any]:
     """What JSON says of a run before it runs."""
     return {
-        "theory": {"critical_length": plain(run.theory_length)},
+        "theory": {"critical_length": run.theory_length},
         "parameters": run.parameters.to_dict(),
     }
 
@@ -147,7 +146,7 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
         return FAILED
     if as_json:
         found = {"output": str(output), **outcome(dataset), **_planned(run)}
-        click.echo(json.dumps(found, indent=2))
+        click.echo(to_json(found))
     else:
         attributes = dataset.attrs
         click.echo(attributes["status"])

@@ -1,6 +1,5 @@
 """``nucleation specimen``: at which stress, slip distance or modulus a nucleation length fits."""
 
-import json
 from typing import Any
 
 import click
@@ -11,7 +10,7 @@ from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, said_of
 from .options import option
-from .text import plain
+from .text import to_json
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
 
@@ -51,12 +50,12 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
     looked_for = own is None and unknown == "shear_modulus"
     said = said_of(fault, given, known=not looked_for)
     if as_json:
-        judged = None if now is None else {"value": own, "length": plain(now)}
+        judged = None if now is None else {"value": own, "length": now}
         found = {
-            "system": said, "specimen": plain(length), "criterion": criterion, **fit._asdict(),
+            "system": said, "specimen": length, "criterion": criterion, **fit._asdict(),
             "given": judged, "plane": fault.plane,
         }  # fmt: skip
-        click.echo(json.dumps(found, indent=2))
+        click.echo(to_json(found))
     else:
         click.echo("\n".join([*said, _as_text(length, criterion, fit, own, now, fault.plane)]))
     return DONE if fit.exists else STABLE

@@ -1,8 +1,10 @@
 """What several commands print: parameters with units, and what was extracted from a run."""
 
+import json
 import math
 import re
 import textwrap
+from collections.abc import Mapping
 from typing import Any
 
 from ..model.parameters import GROUPS, Parameters
@@ -59,13 +61,21 @@ def outcome(dataset: Any) -> dict[str, Any]:
         "steps": int(dataset.attrs["steps"]),
         "wall_seconds": float(dataset.attrs["wall_seconds"]),
         "simulated_time": float(dataset["step_time"][-1]),
-        "event": {name: plain(value) for name, value in extract(dataset).items()},
+        "event": extract(dataset),
     }
 
 
-def plain(value: Any) -> Any:
-    """A number as JSON has them: null for NaN, text for infinity; texts as they are."""
-    if value is None or isinstance(value, str):
+def to_json(found: Mapping[str, Any]) -> str:
+    """What a command found, as JSON in SI units: null for NaN, text for infinity."""
+    return json.dumps(_plain(found), indent=2)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if value is None or isinstance(value, (str, int)):
         return value
     number = float(value)
     return None if math.isnan(number) else "inf" if math.isinf(number) else number

@@ -1,6 +1,5 @@
 """What ``nucleation length`` does with parameters that are ranges or samples."""
 
-import json
 import math
 import textwrap
 from collections.abc import Iterable
@@ -18,7 +17,7 @@ from ..theory.uncertainty import QUANTILES, Range, length_quantiles
 from . import DONE, STABLE
 from .fault_options import doubts_told, parameters_of, said_of
 from .system import systems_of_lengths
-from .text import plain, wrapped
+from .text import to_json, wrapped
 
 samples_option = click.option(
     "--samples", type=click.Path(exists=True, dir_okay=False, path_type=Path),
@@ -81,17 +80,16 @@ def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     lengths = [
         {
             "key": key,
-            "quantiles": {f"{q:g}": plain(x) for q, x in zip(QUANTILES, values, strict=True)},
+            "quantiles": {f"{q:g}": x for q, x in zip(QUANTILES, values, strict=True)},
             "share": share, **words.get(key, {"units": "m"}),
         }
         for key, _, values, share in _rows(found)
     ]  # fmt: skip
-    return json.dumps(
+    return to_json(
         {
             "system": said, "parameters": parameters_of(middle), "uncertain": list(uncertain),
             **found.attrs, "lengths": lengths,
-        },
-        indent=2,
+        }
     )  # fmt: skip
 
 
