@@ -85,8 +85,16 @@ def command(
             code, reason = UNKNOWN, str(error)
         for topic, _, text in changing_friction(run):
             click.echo(f"Warning: {topic}: {text}", err=True)
-    print_as = _as_json if as_json else _as_text
-    click.echo(print_as(told(parameters, base, given), parameters, critical, found, reason))
+    said = told(parameters, base, given)
+    if as_json:
+        known = {
+            "system": said,
+            "theory": {"critical_length": critical, "plane": parameters.material.plane},
+            "perturbation": dataclasses.asdict(parameters.perturbation),
+        }
+        click.echo(to_json(known | (_described(found) if found else {"unknown": reason})))
+    else:
+        click.echo("\n".join([*said, *_lines(parameters, critical, found, reason)]))
     return code
 
 
@@ -98,42 +106,29 @@ def _cure(parameters: Parameters) -> str:
     return f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V = {v:g} m/s"
 
 
-def _as_json(
-    said: list[str], parameters: Parameters, critical: float, found: ExpectedDrop | None,
-    reason: str,
-) -> str:  # fmt: skip
-    known: dict[str, Any] = {
-        "system": said,
-        "theory": {"critical_length": critical, "plane": parameters.material.plane},
-        "perturbation": dataclasses.asdict(parameters.perturbation),
+def _described(found: ExpectedDrop) -> dict[str, Any]:
+    """What JSON has of the drop."""
+    return {
+        "stability_length": found.closed_form.stability_length,
+        "drop": found.drop._asdict(),
+        "closed_form": found.closed_form._asdict(),
+        "trusted": found.trusted,
+        "doubt": found.doubt,
     }
-    if found is None:
-        known["unknown"] = reason
-    else:
-        known |= {
-            "stability_length": found.closed_form.stability_length,
-            "drop": found.drop._asdict(),
-            "closed_form": found.closed_form._asdict(),
-            "trusted": found.trusted,
-            "doubt": found.doubt,
-        }
-    return to_json(known)
 
 
-def _as_text(
-    said: list[str], parameters: Parameters, critical: float, found: ExpectedDrop | None,
-    reason: str,
-) -> str:  # fmt: skip
+def _lines(
+    parameters: Parameters, critical: float, found: ExpectedDrop | None, reason: str
+) -> list[str]:
     if math.isnan(critical):
-        return "\n".join([*said, f"No critical length: {reason}."])
+        return [f"No critical length: {reason}."]
     lines = [
-        *said,
         f"Theory of homogeneous sliding, in plane {parameters.material.plane}:",
         f"  L_c    {f'{critical:.4g} m':<26} critical nucleation length",
         "The creeping patch:",
     ]
     if found is None:
-        return "\n".join([*lines, f"  The law of the drop does not reach this fault: {reason}."])
+        return [*lines, f"  The law of the drop does not reach this fault: {reason}."]
     drop = found.drop
     for name, length, meaning in (
         ("L_s", found.closed_form.stability_length, "it turns unstable"),
@@ -143,12 +138,12 @@ def _as_text(
     ):
         ratio = f"{length / critical:.3g} L_c"
         lines.append(f"  {name:<6} {f'{length:.4g} m':<11} {ratio:<14} {meaning}")
-    return "\n".join([
+    return [
         *lines,
         f"  t_d    {f'{drop.time:.4g} s':<26} {drop.time_low:.4g} to {drop.time_high:.4g} s",
         f"perturbed: {_perturbed(parameters.perturbation)}",
         f"DO NOT RELY ON IT: {found.doubt}." if found.doubt else COMPARED,
-    ])  # fmt: skip
+    ]
 
 
 def _perturbed(declared: Perturbation) -> str:

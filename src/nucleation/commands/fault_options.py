@@ -66,12 +66,8 @@ def fault_values(
 ) -> dict[str, Any]:  # fmt: skip
     """The parameters of :class:`~nucleation.theory.fault.Fault` that options and files give.
 
-    Of `ranges` those of a file are returned as they are; without, they are refused.
-
-    Raises
-    ------
-    ParameterError
-        If one is wrong or missing, but for an `optional` one.
+    Raises ParameterError if one is wrong or missing, but for an `optional` one, or a file has a
+    range, but for `ranges`.
     """
     own = given_of(options)
     if per_decade:

@@ -166,10 +166,7 @@ def merged_parameters(base: Parameters | None, given: dict[str, Any]) -> Paramet
 def planned(values: dict[str, Any], study: dict[str, Any], **config: Any) -> Run:
     """The run that values by their names in studies stand for, checked as a configuration.
 
-    Raises
-    ------
-    ParameterError
-        With all that is wrong with it.
+    Raises ParameterError with all that is wrong with it.
     """
     defaults = dict(values)
     runs = [{"height": defaults.pop("height")}]

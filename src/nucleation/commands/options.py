@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.shell_completion import CompletionItem
 
 from ..configuration.study_names import study_parameters
 from ..model.friction.law import Friction
@@ -18,41 +17,27 @@ from .text import with_unit
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
-class Declared(click.ParamType):
-    """An option's value, read and checked by the declaration of its parameter."""
-
-    def __init__(self, key: str, entry: Quantity, read: Callable[..., Any]) -> None:
-        self.key, self.entry, self.read = key, entry, read
-        self.name = "choice" if entry.choices else entry.kind
-
-    def convert(self, value: Any, param: Any, ctx: Any) -> Any:
-        """The value in SI units; fails with key, value, unit and range."""
-        try:
-            return self.read(self.key, value, self.entry)
-        except ParameterError as error:
-            self.fail(str(error), param, ctx)
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context) -> str:
-        """What stands for the value in the help."""
-        if self.entry.choices:
-            return f"[{'|'.join(self.entry.choices)}]"
-        return "NUMBER" if self.entry.unit == "1" else f"VALUE[{self.entry.unit}]"
-
-    def shell_complete(self, ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
-        """The choices."""
-        return [CompletionItem(c) for c in self.entry.choices if c.startswith(incomplete)]
-
-
 def option(
     *names: str, key: str, entry: Quantity, note: str = "", read: Callable[..., Any] = parse,
     **settings: Any,
 ) -> Decorator:  # fmt: skip
     """A click option whose help, unit and range come from the declaration of a parameter."""
-    text = entry.description
+
+    def value_of(text: str) -> Any:
+        try:
+            return read(key, text, entry)
+        except ParameterError as error:
+            raise click.BadParameter(str(error)) from None
+
+    help, metavar = entry.description, f"[{'|'.join(entry.choices)}]"
     if not entry.choices:
-        text += f"; {'an integer in' if entry.kind == 'int' else 'in'} {bounds(entry)}"
-    help = f"{text}; {note}" if note else text
-    return click.option(*names, key, type=Declared(key, entry, read), help=help, **settings)
+        metavar = "NUMBER" if entry.unit == "1" else f"VALUE[{entry.unit}]"
+        help += f"; {'an integer in' if entry.kind == 'int' else 'in'} {bounds(entry)}"
+    return click.option(
+        *names, key, type=value_of, metavar=metavar, help=f"{help}; {note}" if note else help,
+        shell_complete=lambda ctx, param, begun: [c for c in entry.choices if c.startswith(begun)],
+        **settings,
+    )  # fmt: skip
 
 
 def together(*options: Decorator) -> Decorator:
@@ -103,13 +88,7 @@ def flat(parameters: Parameters) -> dict[str, Any]:
 
 
 def parameter_options(chosen: Collection[str], changed: Mapping[str, Any] = {}) -> Decorator:
-    """One option for each of some parameters, from its declaration; also by its full name.
-
-    Parameters
-    ----------
-    chosen : names of parameters in studies.
-    changed : defaults by name that are not those of simulations.
-    """
+    """Options for parameters by their names in studies, some with `changed` defaults."""
     usual: dict[str, Any] = {}
     for law in (*LAWS, Friction().law):
         usual |= flat(Parameters(friction=Friction(law=law)))

@@ -64,8 +64,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
 def _as_text(
     length: float, criterion: str, fit: Fit, own: float | None, now: float | None, plane: str
 ) -> str:
-    name, unit = NAMES[criterion], fit.unit
-    lines = []
+    name, unit, lines = NAMES[criterion], fit.unit, []
     if own is not None and now is not None:
         at, long = f"At {fit.unknown} = {own:.4g} {unit}", f"{name} is {now:.4g} m"
         if now <= length:
@@ -86,5 +85,5 @@ def _as_text(
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
         lines.append(f"  never: {why} at all values")
-    entry = QUANTITIES[fit.unknown].description
-    return "\n".join([*lines, f"looked for: {entry}, {low:g} to {high:g} {unit}"])
+    sought = QUANTITIES[fit.unknown].description
+    return "\n".join([*lines, f"looked for: {sought}, {low:g} to {high:g} {unit}"])

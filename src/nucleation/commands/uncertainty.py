@@ -30,10 +30,7 @@ def take_uncertain(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Options with medians in the place of ranges and samples, and those themselves.
 
-    Raises
-    ------
-    ParameterError
-        If a parameter is given twice, or what is fixed while `a` varies is not said.
+    Raises ParameterError if a parameter is given twice, or what stays while `a` varies is not said.
     """
     uncertain: dict[str, Any] = {k: v for k, v in options.items() if isinstance(v, Range)}
     if samples is not None:
