@@ -134,11 +134,3 @@ def test_film(nucleation, files, tmp_path):
         assert image.n_frames > 1
     ended = nucleation("show", files["patch"], "--plot", film, "--force")
     assert ended.code == 2 and "must end in .png or .pdf" in ended.err
-
-
-def test_damaged_file(nucleation, files, tmp_path):
-    whole = files["run"].read_bytes()
-    broken = tmp_path / "broken.nc"
-    broken.write_bytes(whole[: len(whole) // 2])
-    ended = nucleation("show", broken)
-    assert ended.code == 2 and "broken.nc is damaged" in ended.err
