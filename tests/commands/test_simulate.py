@@ -108,13 +108,6 @@ def test_parameters_from_a_file(nucleation, tmp_path, name, text):
     assert planned(nucleation(*words, "--n-x", "90"))["n_x"] == "90"  # an option is stronger
 
 
-def test_parameters_of_an_earlier_dataset(nucleation, tmp_path):
-    nucleation("simulate", tmp_path / "first.nc", *SMALL)
-    words = ["simulate", tmp_path / "second.nc", "--parameters", tmp_path / "first.nc"]
-    assert nucleation(*words).code == 0
-    assert parameters_of(tmp_path / "second.nc") == PARAMETERS
-
-
 @pytest.mark.slow
 def test_a_run_of_the_configuration(nucleation, tmp_path):
     words = ["simulate", tmp_path / "run.nc", "--config", CONFIG, "--dry-run"]
@@ -133,8 +126,9 @@ def test_constants_of_friction_set_the_law(nucleation, tmp_path):
     assert f == pytest.approx(Friction().expansion(2e-5).f0)
     again = ["simulate", tmp_path / "more.nc", "--parameters", tmp_path / "run.nc"]
     nucleation(*again, "--friction-coefficient", "0.5")
-    friction = parameters_of(tmp_path / "more.nc").friction
-    assert friction.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
+    more = parameters_of(tmp_path / "more.nc")
+    assert more.friction.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
+    assert (more.geometry, more.mesh) == (PARAMETERS.geometry, PARAMETERS.mesh)
 
 
 def test_warnings_are_printed(nucleation, tmp_path):
