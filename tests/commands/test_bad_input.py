@@ -1,7 +1,6 @@
 """Wrong command lines: each ends with one clear message, exit code 2, and nothing done."""
 
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -158,13 +157,3 @@ def test_wrong_time_of_results_is_refused_by_every_command(nucleation, monkeypat
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "abc")
     ended = nucleation(*words)
     assert ended.code == 2 and "Error: SOURCE_DATE_EPOCH = 'abc' is not allowed" in ended.err
-
-
-@pytest.mark.system
-def test_as_a_program(program):
-    """The exit code and the message as a shell sees them."""
-    ended = subprocess.run(
-        [*program, *length(poisson="0.7")], capture_output=True, text=True, check=False
-    )
-    assert (ended.returncode, ended.stdout) == (2, "")
-    assert "poisson_ratio = 0.7 is not allowed" in ended.stderr

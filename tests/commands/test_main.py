@@ -1,7 +1,6 @@
 """The command as a whole: help, version, completion, exit codes."""
 
 import importlib
-import os
 import shlex
 import subprocess
 
@@ -9,7 +8,6 @@ import pytest
 from click.shell_completion import ShellComplete
 
 from nucleation import __version__, commands
-from nucleation.theory.fault import QUANTITIES
 
 
 @pytest.mark.parametrize("words", [[], ["length"], ["simulate"], ["show"]])
@@ -17,13 +15,6 @@ def test_help(nucleation, words):
     ended = nucleation(*words, "--help")
     assert (ended.code, ended.err) == (0, "") and "Exit codes:" in ended.out
     assert len(ended.out.splitlines()) > 12
-
-
-def test_help_states_units_and_ranges_of_the_declarations(nucleation):
-    text = " ".join(nucleation("length", "--help").out.split())
-    for name in ("shear_modulus", "normal_stress", "slip_distance", "velocity", "height"):
-        entry = QUANTITIES[name]
-        assert f"in {entry.range_text()} {entry.unit}" in text, name
 
 
 def test_version(nucleation):
@@ -45,14 +36,6 @@ def test_completion():
     assert complete("le") == ["length"]
     assert "--shear-modulus" in complete("length", "--sh")
     assert complete("simulate", "--evolution", "s") == ["slip"]
-
-
-@pytest.mark.system
-def test_script_of_the_completion(program):
-    """The line of the help."""
-    environment = os.environ | {"_NUCLEATION_COMPLETE": "bash_source"}
-    ended = subprocess.run(program, env=environment, capture_output=True, text=True, check=True)
-    assert "complete -o nosort -F _nucleation_completion nucleation" in ended.stdout
 
 
 @pytest.mark.parametrize(

@@ -81,6 +81,8 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
     assert ended.code == 0 and "theory: critical length 0.238 m" in ended.out
     assert "memory: about" in ended.out and not list(tmp_path.iterdir())
     assert planned(ended)["n_x"] == "16" and planned(ended)["height"] == "0.005"
+    assert ended.err.startswith("Warning: ")
+    assert "mesh too coarse" in ended.err and "command" not in ended.err
 
 
 def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
@@ -129,12 +131,6 @@ def test_constants_of_friction_set_the_law(nucleation, tmp_path):
     more = parameters_of(tmp_path / "more.nc")
     assert more.friction.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
     assert (more.geometry, more.mesh) == (PARAMETERS.geometry, PARAMETERS.mesh)
-
-
-def test_warnings_are_printed(nucleation, tmp_path):
-    ended = nucleation("simulate", tmp_path / "run.nc", *SMALL, "--dry-run")
-    assert ended.code == 0 and ended.err.startswith("Warning: ")
-    assert "mesh too coarse" in ended.err and "command" not in ended.err
 
 
 def test_every_parameter_has_an_option(nucleation):
