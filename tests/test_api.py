@@ -4,10 +4,7 @@ import doctest
 import inspect
 import math
 import signal
-import subprocess
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pint
@@ -20,7 +17,7 @@ from nucleation.model import plausible
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory import arrays, critical, spectrum, transfer
+from nucleation.theory import arrays, critical, spectrum
 from nucleation.theory.transfer import RIGID, Body
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
@@ -30,12 +27,6 @@ PAPER = {
     "shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "normal_stress": 1e6, "a": 0.0068,
     "zeta": 0.016, "slip_distance": 5e-7, "friction": 0.41, "second_shear_modulus": math.inf,
 }  # fmt: skip
-
-
-def test_two_half_spaces():
-    """Eq. (6) by hand."""
-    length = math.pi * 30e9 * 5e-6 / (0.005 * 0.75 * 50e6)
-    assert arrays.critical_length(**FAULT) == pytest.approx(length, rel=1e-12)
 
 
 def test_a_block_on_a_rigid_base():
@@ -173,11 +164,6 @@ def test_transfer_functions_need_no_friction():
     g1, g2 = arrays.transfer_functions([2.0, -3.0], shear_modulus=1e9, poisson_ratio=0.25)
     assert_allclose(g1, [2 / 3, -2 / 3])
     assert_allclose(g2, 0.0, atol=1e-15)
-    g1, g2 = arrays.transfer_functions(
-        3.0, shear_modulus=1e9, poisson_ratio=0.25, height=[0.1, 0.2], second_shear_modulus=np.inf
-    )
-    body = Body(Material(1e9, 0.25), 0.2, "traction")
-    assert_allclose([g1[1], g2[1]], np.ravel(transfer.transfer_functions(3.0, body, RIGID)))
 
 
 def test_named_arrays_keep_their_names():
@@ -202,18 +188,12 @@ def test_named_arrays_keep_their_names():
         ({"poisson_ratio": [0.2, 0.6]}, r"poisson_ratio\[1\] = 0.6 is not allowed"),
         ({"height": [[1.0], [np.nan]]}, r"height\[1, 0\] = nan m is not allowed"),
         ({"normal_stress": "50 mm"}, r"normal_stress = '50 mm' .*unit of length, but Pa is needed"),
-        (
-            {"height": [1.0, 2.0], "a": [0.01] * 3},
-            r"a \(3,\), height \(2,\)",
-        ),
+        ({"height": [1.0, 2.0], "a": [0.01] * 3}, r"a \(3,\), height \(2,\)"),
         ({"a": True}, "a = True is not allowed"),
-        ({"a": 1j}, "a = 1j is not allowed"),
         ({"zeta": 0.005}, "zeta or b"),
         ({"b": None}, "zeta or b"),
         ({"far_side": "glued"}, "far_side = 'glued' is not allowed.*velocity, traction"),
-        ({"second_far_side": "glued"}, "second_far_side = 'glued' is not allowed"),
         ({"second_shear_modulus": 60e9}, "friction is missing"),
-        ({"second_height": 60.0}, "friction is missing"),
         ({"viscosity": 1.0}, "unexpected keyword argument 'viscosity'"),
         ({"second_shear_modulus": 0.0, "friction": 0.6}, "second_shear_modulus = 0.0 Pa"),
         ({"height": np.ones(2), "a": xr.DataArray([0.01], dims="a")}, "named dimensions"),
@@ -229,10 +209,9 @@ def test_missing_parameters():
         arrays.critical_length(
             shear_modulus=1e9, poisson_ratio=0.2, a=0.1, b=0.2, slip_distance=1.0
         )
-    with pytest.raises(ParameterError, match="velocity"):
-        arrays.critical_mode(**FAULT)
-    with pytest.raises(ParameterError, match="velocity"):
-        arrays.spectrum(1.0, **FAULT)
+    for function in (arrays.critical_mode, lambda **fault: arrays.spectrum(1.0, **fault)):
+        with pytest.raises(ParameterError, match="velocity"):
+            function(**FAULT)
     with pytest.raises(ValueError, match="wavenumber"):
         arrays.spectrum(0.0, **FAULT, velocity=1.0)
 
@@ -245,42 +224,21 @@ def test_everything_announced_is_there_and_documented():
 
 
 def test_example_of_the_module():
-    assert doctest.testmod(api).attempted == 2
-    assert doctest.testmod(api).failed == 0
+    assert doctest.testmod(api) == (0, 2)  # failed, attempted
 
 
-@pytest.mark.system
-def test_the_theory_does_not_load_the_solver():
-    """Nor xarray, scipy and matplotlib, which take longer to load than to answer."""
-    code = (
-        "import sys, nucleation.api as api; "
-        f"fault = {FAULT}; api.critical_mode(**fault, velocity=1.0, height=[0.1, 1.0]); "
-        "heavy = {'numba', 'scipy', 'xarray', 'pandas', 'matplotlib', 'pint', 'netCDF4'}; "
-        "assert not heavy & sys.modules.keys(), heavy & sys.modules.keys(); "
-        "api.simulate; assert 'numba' in sys.modules"
-    )
-    source = str(Path(api.__file__).parents[1])
-    subprocess.run([sys.executable, "-c", code], check=True, cwd=source)
+SHORT = {"height": 0.005, "geometry.length": 0.9, "n_x": 16, "mesh.n_y": 2, "end_time": 0.02}
 
 
 def test_states_of_a_run():
     """The iterator of states, and the record made from them."""
-    parameters = api.Parameters(
-        geometry=api.Geometry(height=0.005, length=0.9),
-        mesh=api.Mesh(n_x=16, n_y=2),
-        stepping=api.Stepping(end_time=0.02),
-    )
-    times = []
-    for instant in api.run(parameters):
-        times.append(instant.state.time)
-        if times[-1] >= 0.02:
-            break
+    parameters, times = api.Parameters().replaced(SHORT), [0.0]
+    states = api.run(parameters)
+    while times[-1] < SHORT["end_time"]:
+        times.append(next(states).state.time)
     record = api.simulate(parameters)
-    assert_allclose(record["step_time"], times)
+    assert_allclose(record["step_time"], times[1:])
     assert math.isnan(api.extract(record)["length"])  # no event so early
-
-
-SHORT = {"height": 0.005, "geometry.length": 0.9, "n_x": 16, "mesh.n_y": 2, "end_time": 0.02}
 
 
 def test_an_interrupted_run_keeps_its_record(capsys):

@@ -5,8 +5,6 @@ import re
 import shlex
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[1]
 FOLDER = ROOT / "workflow" / "container"
 
@@ -18,25 +16,19 @@ def instructions():
     return [tuple(line.split(maxsplit=1)) for line in lines]
 
 
-def test_what_is_copied_exists():
-    for word, arguments in instructions():
-        if word == "COPY" and not arguments.startswith("--from"):
-            for name in shlex.split(arguments)[:-1]:
-                assert (ROOT / name).exists(), name
-
-
-def test_the_workflow_needs_nothing_that_is_not_copied(workflow_files):
-    copied = [
+def copied():
+    """What the recipe takes of the checkout."""
+    return [
         name for word, arguments in instructions() if word == "COPY" and "--from" not in arguments
         for name in shlex.split(arguments)[:-1]
     ]  # fmt: skip
-    for path in workflow_files:
-        name = path.relative_to(ROOT).as_posix()
-        assert any(name == part or name.startswith(f"{part}/") for part in copied), name
 
 
-@pytest.fixture
-def workflow_files():
+def test_what_is_copied_exists():
+    assert [name for name in copied() if not (ROOT / name).exists()] == []
+
+
+def test_the_workflow_needs_nothing_that_is_not_copied():
     """Files of the checkout that rules name, beside the results."""
     texts = [(ROOT / "Snakefile").read_text()]
     texts += [path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk")]
@@ -45,7 +37,8 @@ def workflow_files():
         for text in texts for parts in re.findall(r'Path\(BASE, ((?:"[^"{]+",? ?)+)\)', text)
     }  # fmt: skip
     assert ROOT / "docs" / "article.md.in" in named and len(named) > 3
-    return {path for path in named if path.exists()} | {ROOT / "CITATION.cff"}
+    for path in {path for path in named if path.exists()} | {ROOT / "CITATION.cff"}:
+        assert any(path.is_relative_to(ROOT / name) for name in copied()), path
 
 
 def test_it_runs_as_nobody_of_the_host_and_starts_the_workflow():

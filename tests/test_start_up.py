@@ -25,6 +25,11 @@ from nucleation.commands import run
 code = run("{words}".split())
 assert code in (0, None), code
 """
+LENGTHS = """
+from nucleation import api
+fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.01, b=0.015)
+api.critical_mode(**fault, slip_distance=5e-6, velocity=1.0, height=[0.1, 1.0])
+"""
 PLAN = """
 from snakemake.cli import main
 try:
@@ -34,6 +39,7 @@ except SystemExit as end:
 """
 DRY_RUN = "simulate run.nc --height=0.1 --friction-law=dieterich_ruina --dry-run"
 NEEDED_LATER = {
+    "theory": (LENGTHS, (*SOLVER, *HEAVY, "scipy", "pandas")),
     "configuration": (CONFIGURATION.format(root=ROOT), (*SOLVER, *HEAVY)),
     "help": (COMMAND.format(words="--help"), (*SOLVER, *HEAVY)),
     "help of simulate": (COMMAND.format(words="simulate --help"), (*SOLVER, *HEAVY)),

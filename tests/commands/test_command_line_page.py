@@ -36,12 +36,6 @@ def test_examples(nucleation, tmp_path, monkeypatch):
     assert Path("run.png").stat().st_size > 10000
 
 
-def test_transcripts_are_on_this_page_alone():
-    others = [page for page in PAGE.parent.rglob("*.md") if page != PAGE]
-    others += [PAGE.parents[1] / "README.md", PAGE.parents[1] / "CONTRIBUTING.md"]
-    assert not [page for page in others if "```console" in page.read_text(encoding="utf-8")]
-
-
 def test_exit_codes_of_the_page():
     table = re.findall(r"^\| (\d+) \| (.*) \|$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
     assert len(table) == 6

@@ -18,10 +18,18 @@ FAULT = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
     "slip_distance": 5e-6,
 }  # fmt: skip
+DECADE = math.log(10.0)
 
 
-def from_json(ended):
-    return json.loads(ended.out, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
+@pytest.fixture
+def found(nucleation):
+    """What JSON has of the fault with more options."""
+
+    def run(*more):
+        ended = nucleation(*WORDS, *more, "--json")
+        return json.loads(ended.out, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
+
+    return run
 
 
 def test_text(nucleation):
@@ -34,81 +42,64 @@ def test_text(nucleation):
         assert length.title in ended.out
         assert (length.formula in ended.out) == (length.system != TWO_MATERIALS)
     assert "NOT VALID HERE, needs a/b < 0.3781: a/b = 0.6667" in ended.out
+    assert "in plane strain, with mu* = mu/(1 - nu), b = a + zeta" in ended.out
     assert max(map(len, ended.out.splitlines())) <= 100
+    fast = nucleation(*WORDS, "--velocity", "100 m/s", "--density", "2700 kg/m^3")
+    assert "INERTIA MATTERS" in fast.out
+    stress = nucleation(*WORDS, "--plane", "stress")
+    assert "in plane stress, with mu* = mu (1 + nu), b = a + zeta" in stress.out
 
 
-def test_json_has_the_library_s_numbers(nucleation):
-    found = from_json(nucleation(*WORDS, "--velocity", "1 mm/yr", "--height", "2m", "--json"))
-    velocity = 1e-3 / (365.25 * 86400)
-    mode = arrays.critical_mode(**FAULT, velocity=velocity, height=2.0)
-    assert found["theory"]["critical_length"] == pytest.approx(mode.length)
-    assert found["theory"]["critical_wavenumber"] == pytest.approx(mode.wavenumber)
-    assert found["theory"]["critical_frequency"] == pytest.approx(mode.angular_frequency)
-    assert found["parameters"]["height"] == 2.0
+def test_json_has_the_library_s_numbers(found):
+    told = found("--velocity", "1 mm/yr", "--height", "2m")
+    mode = arrays.critical_mode(**FAULT, velocity=1e-3 / (365.25 * 86400), height=2.0)
+    assert told["theory"]["critical_length"] == pytest.approx(mode.length)
+    assert told["theory"]["critical_wavenumber"] == pytest.approx(mode.wavenumber)
+    assert told["theory"]["critical_frequency"] == pytest.approx(mode.angular_frequency)
+    assert told["parameters"]["height"] == 2.0
     expected = api.lengths_in_use(**FAULT, height=2.0)
-    assert [entry["key"] for entry in found["lengths"]] == list(expected)
-    for entry in found["lengths"]:
+    assert [entry["key"] for entry in told["lengths"]] == list(expected)
+    for entry in told["lengths"]:
         value = float(expected[entry["key"]])
         assert entry["length"] == (None if np.isnan(value) else pytest.approx(value))
         assert entry["units"] == "m" and entry["source"] and entry["validity"]
 
 
-def test_values_without_units_are_si(nucleation):
-    plain = "length --shear-modulus 30e9 --poisson 0.25 --normal-stress 5e7 --a 0.01 --b 0.015"
-    ended = nucleation(*plain.split(), "--slip-distance", "5e-6")
-    assert ended.code == 0 and ended.out == nucleation(*WORDS).out
-
-
-def test_zeta_or_b(nucleation):
-    words = [*WORDS[: WORDS.index("--b")], "--zeta", "0.005", *WORDS[WORDS.index("--b") + 2 :]]
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"30GPa": "30e9", "50MPa": "5e7", "5um": "5e-6"},
+        {"--b": "--zeta", "0.015": "0.005"},
+        {"0.010": f"{0.010 * DECADE}", "--b": "--per-decade --b", "0.015": f"{0.015 * DECADE}"},
+    ],
+    ids=["without units", "zeta", "per decade"],
+)
+def test_one_fault_in_other_words(nucleation, other):
+    words = " ".join(other.get(word, word) for word in WORDS).split()
     assert nucleation(*words).out == nucleation(*WORDS).out
 
 
-def test_values_per_decade(nucleation):
-    """A value for log10 is ln(10) times that for the natural logarithm."""
-    decade = [str(float(w) * math.log(10)) if w in ("0.010", "0.015") else w for w in WORDS]
-    natural = from_json(nucleation(*WORDS, "--json"))
-    found = from_json(nucleation(*decade, "--per-decade", "--json"))
-    for name in ("a", "b", "zeta"):
-        assert found["parameters"][name] == pytest.approx(natural["parameters"][name])
-    assert found["theory"]["critical_length"] == pytest.approx(2.5132741)
+OTHER = {"second_shear_modulus": 60e9, "second_poisson_ratio": 0.3}
+SIDES = {"far_side": "free", "second_far_side": "clamped"}
 
 
 @pytest.mark.parametrize(
-    ("body", "second"),
+    ("options", "own"),
     [
-        ("rigid", {"second_shear_modulus": math.inf}),
-        ("60GPa,0.3", {"second_shear_modulus": 60e9, "second_poisson_ratio": 0.3}),
-        (
-            "60GPa,0.3,20cm",
-            {"second_shear_modulus": 60e9, "second_poisson_ratio": 0.3, "second_height": 0.2},
-        ),
+        ("--second-body rigid", {"second_shear_modulus": math.inf}),
+        ("--second-body 60GPa,0.3", OTHER),
+        ("--second-body 60GPa,0.3,20cm", OTHER | {"second_height": 0.2}),
+        ("--far-side velocity", {"far_side": "velocity"}),
+        ("--far-side free --second-far-side clamped", SIDES),
+        ("--plane stress", {"plane": "stress"}),
     ],
 )
-def test_second_body(nucleation, body, second):
-    words = [*WORDS, "--friction", "0.6", "--height", "30 cm", "--second-body", body]
-    found = from_json(nucleation(*words, "--json"))
-    expected = arrays.critical_length(**FAULT, friction=0.6, height=0.3, **second)
-    assert found["theory"]["critical_length"] == pytest.approx(expected)
-    assert found["parameters"]["height"] == 0.3
-    if body == "rigid":
-        assert found["parameters"]["second_shear_modulus"] == "inf"
-
-
-def test_far_side(nucleation):
-    words = [*WORDS, "--height", "30cm", "--far-side", "velocity", "--json"]
-    expected = arrays.critical_length(**FAULT, height=0.3, far_side="velocity")
-    assert from_json(nucleation(*words))["theory"]["critical_length"] == pytest.approx(expected)
-
-
-def test_far_side_of_each_body(nucleation):
-    sides = ["--far-side", "free", "--second-far-side", "clamped", "--friction", "0.6"]
-    expected = arrays.critical_length(
-        **FAULT, height=0.3, friction=0.6, far_side="traction", second_far_side="clamped"
-    )
-    found = from_json(nucleation(*WORDS, "--height", "30cm", *sides, "--json"))
-    assert found["theory"]["critical_length"] == pytest.approx(expected)
-    assert found["parameters"]["second_far_side"] == "clamped"
+def test_faults_of_all_kinds(found, options, own):
+    told = found("--friction", "0.6", "--height", "30 cm", *options.split())
+    expected = arrays.critical_length(**FAULT, friction=0.6, height=0.3, **own)
+    assert told["theory"]["critical_length"] == pytest.approx(expected)
+    for name, value in {**own, "height": 0.3}.items():
+        assert told["parameters"][name] == ("inf" if value == math.inf else value)
 
 
 def test_a_held_layer_that_is_stable_does_not_blame_friction(nucleation):
@@ -121,15 +112,18 @@ def test_doubtful_magnitudes_are_warned_of_once(nucleation):
     assert ended.code == 0 and ended.err.count("are the units right?") == 1
 
 
-def test_weakening_rate(nucleation):
-    words = [*WORDS, "--weakening-rate", "100 GPa/m", "--json"]
-    lengths = {x["key"]: x["length"] for x in from_json(nucleation(*words))["lengths"]}
+def test_weakening_rate(found):
+    lengths = {x["key"]: x["length"] for x in found("--weakening-rate", "100 GPa/m")["lengths"]}
     assert lengths["uenishi_rice"] == pytest.approx(1.158 * 40e9 / 100e9)
 
 
-def test_without_velocity_the_frequency_is_relative(nucleation):
+def test_without_velocity_the_frequency_is_relative(nucleation, found):
+    """Over V/D it is sqrt(zeta/a) for identical bodies, Eq. (6)."""
     assert "omega  0.7071 V/D" in nucleation(*WORDS).out
-    assert from_json(nucleation(*WORDS, "--json"))["theory"]["critical_frequency"] is None
+    assert found()["theory"]["critical_frequency"] is None
+    for more in ([], ["--velocity", "1mm/yr"]):
+        ratio = found(*more)["theory"]["critical_frequency_over_rate"]
+        assert ratio == pytest.approx(0.5**0.5)
 
 
 def test_stable_sliding(nucleation):
@@ -137,30 +131,5 @@ def test_stable_sliding(nucleation):
     ended = nucleation(*words)
     assert ended.code == 3 and "sliding is stable at every wavenumber" in ended.out
     assert "L_b" in ended.out and "0.2667 m" in ended.out  # others are still given
-    found = nucleation(*words, "--json")
-    assert found.code == 3 and from_json(found)["theory"]["critical_length"] is None
-
-
-def test_inertia_is_noticed(nucleation):
-    ended = nucleation(*WORDS, "--velocity", "100 m/s", "--density", "2700 kg/m^3")
-    assert "INERTIA MATTERS" in ended.out
-
-
-def test_json_has_the_frequency_without_a_velocity(nucleation):
-    """Over V/D it is sqrt(zeta/a) for identical bodies, Eq. (6)."""
-    words = ["--shear-modulus", "30GPa", "--poisson", "1/4", "--normal-stress", "50MPa", "--a",
-             "0.010", "--b", "0.015", "--slip-distance", "5um", "--json"]  # fmt: skip
-    for more in ([], ["--velocity", "1mm/yr"]):
-        theory = json.loads(nucleation("length", *words, *more).out)["theory"]
-        assert theory["critical_frequency_over_rate"] == pytest.approx(0.5**0.5)
-
-
-def test_plane_stress(nucleation):
-    said = nucleation(*WORDS, "--plane", "stress").out
-    assert "in plane stress, with mu* = mu (1 + nu), b = a + zeta" in said
-    assert "in plane strain, with mu* = mu/(1 - nu), b = a + zeta" in nucleation(*WORDS).out
-    found = from_json(nucleation(*WORDS, "--plane", "stress", "--json"))
-    expected = math.pi * 30e9 * 1.25 * 5e-6 / (0.005 * 50e6)  # Eq. (6) with mu* = mu (1 + nu)
-    assert found["parameters"]["plane"] == "stress"
-    assert found["theory"]["critical_length"] == pytest.approx(expected)
-    assert found["lengths"][1]["length"] == pytest.approx(expected)
+    told = nucleation(*words, "--json")
+    assert told.code == 3 and json.loads(told.out)["theory"]["critical_length"] is None

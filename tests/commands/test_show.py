@@ -1,7 +1,5 @@
 """``nucleation show``: every kind of dataset, its summary and its plot."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -9,23 +7,15 @@ from declared import VARIABLES
 from matplotlib.image import imread
 from PIL import Image
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.analysis.lengths import gather
 from nucleation.commands import show
 from nucleation.datasets import netcdf, provenance
 from nucleation.datasets.variables import annotate
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.pipeline.running import simulation_code
 from nucleation.simulation.run import simulate
 from nucleation.theory.curves import Curves, theory_dataset
-
-PARAMETERS = Parameters(
-    geometry=Geometry(0.005, 0.9), mesh=Mesh(60, 6),
-    stepping=Stepping(end_time=30.0, time_after_event=0.01, tolerance=0.05, longest_step=0.2),
-)  # fmt: skip
 
 
 def kept(folder, name, dataset, parameters, digest="0" * 64):
@@ -36,35 +26,27 @@ def kept(folder, name, dataset, parameters, digest="0" * 64):
 
 
 @pytest.fixture(scope="module")
-def files(tmp_path_factory):
-    """A real dataset of each kind that is quickly made, by name."""
+def files(tmp_path_factory, settings, simulation, table):
+    """A dataset of each kind that is quickly made, by name."""
     folder = tmp_path_factory.mktemp("datasets")
-    whole = simulate(PARAMETERS)
-    values = PARAMETERS.to_dict()
-    digest = simulation_code(PARAMETERS)
-    short = dataclasses.replace(PARAMETERS, stepping=Stepping(end_time=0.02))
-    row = {"id": "a-run", "study": "mine", "role": "own", "parameters": values,
-           "theory_length": 0.238, "interface": dataclasses.asdict(InterfaceState())}  # fmt: skip
+    parameters = settings.runs[0].parameters
+    digest = simulation_code(parameters)
+    short = parameters.replaced({"end_time": 0.02, "time_after_event": 0.01})
     curves = Curves(heights=(0.005, 0.05, 0.1), f_beta=(0.0, 0.1), slip_rates=(1e-6, 1e-5))
     theory = theory_dataset(Material(), Friction(), InterfaceState(), curves)
-    patch = xr.Dataset(
-        {
-            "instant_time": ("instant", np.arange(9.0)),
-            "patch_length": ("instant", np.linspace(0.1, 0.2, 9)),
-            "growth_rate": ("instant", np.linspace(-1.0, 1.0, 9)),
-            "growth_frequency": ("instant", np.linspace(12.0, 13.0, 9)),
-            "oscillation_growth": ("instant", np.linspace(-1.0, 1.0, 9)),
-            "oscillation_frequency": ("instant", np.linspace(12.0, 13.0, 9)),
-            "stability_length": 0.15,
-        }
-    )
+    ends = {
+        "instant_time": (0.0, 8.0), "patch_length": (0.1, 0.2), "growth_rate": (-1.0, 1.0),
+        "oscillation_growth": (-1.0, 1.0), "growth_frequency": (12.0, 13.0),
+        "oscillation_frequency": (12.0, 13.0),
+    }  # fmt: skip
+    patch = xr.Dataset({name: ("instant", np.linspace(*own, 9)) for name, own in ends.items()})
     other = xr.Dataset({"onset_time": ("one", [1.0, 2.0]), "length": ("one", [0.1, np.nan])})
     return {
-        "run": kept(folder, "run", whole, values, digest),
+        "run": kept(folder, "run", simulation, parameters.to_dict(), digest),
         "short": kept(folder, "short", simulate(short), short.to_dict()),
         "theory": kept(folder, "theory", theory, {}),
-        "lengths": kept(folder, "lengths", gather([row], [whole], ExtractionSettings()), {}),
-        "patch": kept(folder, "patch", patch, {}),
+        "lengths": kept(folder, "lengths", table, {}),
+        "patch": kept(folder, "patch", patch.assign(stability_length=0.15), {}),
         "other": kept(folder, "other", other, {}),
     }
 
@@ -96,10 +78,11 @@ def test_summary_of_a_simulation(nucleation, files):
     assert "no event" in short and ", NOT that of this installation" in short
 
 
-def test_summary_of_lengths(nucleation, files):
+def test_summary_of_lengths(nucleation, files, settings):
     said = nucleation("show", files["lengths"]).out
-    length = float(netcdf.read(files["lengths"])["length"][0])
-    assert f"{length:.4g}" in said and f"{length / 0.238:.3f}" in said and "a-run" in said
+    (run,), length = settings.runs, float(netcdf.read(files["lengths"])["length"][0])
+    assert f"{run.id} " in said and f" {length:.4g} " in said
+    assert f"  {length / run.theory_length:.3f}" in said
 
 
 def test_variables_of_other_datasets(nucleation, files):
@@ -118,27 +101,13 @@ def test_plot(nucleation, files, tmp_path, name):
 
 
 @pytest.mark.slow
-def test_plot_as_pdf(nucleation, files, tmp_path):
+def test_other_formats(nucleation, files, tmp_path):
     words = ["show", files["patch"], "--plot", tmp_path / "plot.pdf"]
-    assert nucleation(*words).code == 0
+    assert [nucleation(*words).code, nucleation(*words, "--force").code] == [0, 0]
     assert (tmp_path / "plot.pdf").read_bytes().startswith(b"%PDF")
-    assert nucleation(*words).code == 2
-    assert nucleation(*words, "--force").code == 0
-
-
-@pytest.mark.slow
-def test_film(nucleation, files, tmp_path):
     film = tmp_path / "film.gif"
     assert nucleation("show", files["short"], "--plot", film).code == 0
     with Image.open(film) as image:
         assert image.n_frames > 1
     ended = nucleation("show", files["patch"], "--plot", film, "--force")
     assert ended.code == 2 and "must end in .png or .pdf" in ended.err
-
-
-def test_damaged_file(nucleation, files, tmp_path):
-    whole = files["run"].read_bytes()
-    broken = tmp_path / "broken.nc"
-    broken.write_bytes(whole[: len(whole) // 2])
-    ended = nucleation("show", broken)
-    assert ended.code == 2 and "broken.nc is damaged" in ended.err

@@ -95,33 +95,24 @@ def run(arguments: Sequence[str] | None = None) -> int:
     from ..model.quantities import ParameterError
 
     try:
-        _require_time()
+        if os.environ.get("SOURCE_DATE_EPOCH"):  # NumPy can't be loaded whole with a wrong one
+            from ..datasets.provenance import moment
+
+            moment()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
         error.show()
         return error.exit_code
-    except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
-        return _refuse(str(error) or "not enough memory")
-    except OSError as error:
-        return _refuse(
-            ": ".join(filter(None, [str(error.filename or ""), error.strerror or str(error)]))
-        )
     except click.Abort:
         click.echo("Interrupted", err=True)
         return INTERRUPTED
-
-
-def _require_time() -> None:
-    """Refuse a wrong SOURCE_DATE_EPOCH at once: NumPy can't be loaded whole with it."""
-    if os.environ.get("SOURCE_DATE_EPOCH"):
-        from ..datasets.provenance import moment
-
-        moment()
-
-
-def _refuse(message: str) -> int:
-    if sys.exc_info()[0] is BrokenPipeError:  # such as `| head`: nobody is left to tell
+    except BrokenPipeError:  # such as `| head`: nobody is left to tell
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    else:
-        click.echo(f"Error: {message}", err=True)
+        return REFUSED
+    except OSError as error:
+        place = f"{error.filename}: " if error.filename else ""
+        message = place + (error.strerror or str(error))
+    except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
+        message = str(error) or "not enough memory"
+    click.echo(f"Error: {message}", err=True)
     return REFUSED

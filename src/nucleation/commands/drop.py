@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 import os
 from pathlib import Path
@@ -20,17 +19,10 @@ from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length, reason_of_stability
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
-from .options import (
-    merged,
-    merged_parameters,
-    parameter_options,
-    planned,
-    source_options,
-    sourced,
-    told,
-)  # fmt: skip
-from .system import of_parameters
-from .text import plain
+from .given import merged, merged_parameters, planned, sourced
+from .options import parameter_options, source_options
+from .system import of_parameters, told
+from .text import to_json
 
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
@@ -46,19 +38,14 @@ COMPARED = (
 )
 
 
-def _chosen() -> list[str]:
-    """What decides on the drop, by the names of parameters in studies."""
-    known = names()
-
-    def counts(name: str) -> bool:
-        return known.full(name).partition(".")[0] in GROUPS or name == "height"
-
-    chosen = [name for name in study_parameters() if name in CONSTANTS or counts(name)]
-    return [name for name in chosen if name not in OWN]
+def _counts(name: str) -> bool:
+    """Whether a parameter, by its name in studies, decides on the drop."""
+    known = name in CONSTANTS or name == "height" or names().full(name).startswith(GROUPS)
+    return known and name not in OWN
 
 
 @click.command("drop", epilog=EXIT_CODES)
-@parameter_options(_chosen(), USUAL)
+@parameter_options(list(filter(_counts, study_parameters())), USUAL)
 @source_options
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
@@ -82,23 +69,33 @@ def command(
             f"must be one of {', '.join(KINDS[1:])}"
         )
     parameters = merged_parameters(None, values)
-    said, fault = told(parameters, base, given), Fault(**of_parameters(parameters))
-    print_as = _as_json if as_json else _as_text
-    if math.isnan(float(critical_length(**of_parameters(parameters)))):
-        reason = reason_of_stability(fault) + _cure(parameters)
-        click.echo(print_as(said, parameters, math.nan, None, reason))
-        return STABLE
-    run = planned(values, {}, {}, os.getcwd())
-    from ..patch.expected_drop import NoDrop, expected_drop  # with the solver, which takes seconds
+    fault, found, reason = of_parameters(parameters), None, ""
+    critical = float(critical_length(**fault))
+    if math.isnan(critical):
+        code, reason = STABLE, reason_of_stability(Fault(**fault)) + _cure(parameters)
+    else:
+        run = planned(values, {}, results=os.getcwd())
+        critical = run.theory_length
+        # with the solver, which takes seconds
+        from ..patch.expected_drop import NoDrop, expected_drop
 
-    try:
-        found, reason = expected_drop(run.parameters, run.theory_length), ""
-    except NoDrop as error:
-        found, reason = None, str(error)
-    for topic, _, text in changing_friction(run):
-        click.echo(f"Warning: {topic}: {text}", err=True)
-    click.echo(print_as(said, parameters, run.theory_length, found, reason))
-    return DONE if found else UNKNOWN
+        try:
+            found, code = expected_drop(run.parameters, critical), DONE
+        except NoDrop as error:
+            code, reason = UNKNOWN, str(error)
+        for topic, _, text in changing_friction(run):
+            click.echo(f"Warning: {topic}: {text}", err=True)
+    said = told(parameters, base, given)
+    if as_json:
+        known = {
+            "system": said,
+            "theory": {"critical_length": critical, "plane": parameters.material.plane},
+            "perturbation": dataclasses.asdict(parameters.perturbation),
+        }
+        click.echo(to_json(known | (_described(found) if found else {"unknown": reason})))
+    else:
+        click.echo("\n".join([*said, *_lines(parameters, critical, found, reason)]))
+    return code
 
 
 def _cure(parameters: Parameters) -> str:
@@ -109,58 +106,44 @@ def _cure(parameters: Parameters) -> str:
     return f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V = {v:g} m/s"
 
 
-def _as_json(
-    said: list[str], parameters: Parameters, critical: float, found: ExpectedDrop | None,
-    reason: str,
-) -> str:  # fmt: skip
-    known = {
-        "system": said,
-        "theory": {"critical_length": plain(critical), "plane": parameters.material.plane},
-        "perturbation": dataclasses.asdict(parameters.perturbation),
+def _described(found: ExpectedDrop) -> dict[str, Any]:
+    """What JSON has of the drop."""
+    return {
+        "stability_length": found.closed_form.stability_length,
+        "drop": found.drop._asdict(),
+        "closed_form": found.closed_form._asdict(),
+        "trusted": found.trusted,
+        "doubt": found.doubt,
     }
-    if found is None:
-        return json.dumps(known | {"unknown": reason}, indent=2)
-    return json.dumps(
-        {
-            **known,
-            "stability_length": found.closed_form.stability_length,
-            "drop": found.drop._asdict(),
-            "closed_form": found.closed_form._asdict(),
-            "trusted": found.trusted,
-            "doubt": found.doubt,
-        },
-        indent=2,
-    )
 
 
-def _as_text(
-    said: list[str], parameters: Parameters, critical: float, found: ExpectedDrop | None,
-    reason: str,
-) -> str:  # fmt: skip
+def _lines(
+    parameters: Parameters, critical: float, found: ExpectedDrop | None, reason: str
+) -> list[str]:
     if math.isnan(critical):
-        return "\n".join([*said, f"No critical length: {reason}."])
+        return [f"No critical length: {reason}."]
     lines = [
-        *said,
         f"Theory of homogeneous sliding, in plane {parameters.material.plane}:",
         f"  L_c    {f'{critical:.4g} m':<26} critical nucleation length",
         "The creeping patch:",
     ]
     if found is None:
-        return "\n".join([*lines, f"  The law of the drop does not reach this fault: {reason}."])
-    drop, closed = found.drop, found.closed_form
-    lines += [
-        f"  L_s    {_length(closed.stability_length, critical):<26} it turns unstable",
-        f"  L_d    {_length(drop.length, critical):<26} half of the realisations have dropped,",
-        f"         {_length(drop.low, critical):<26} 16 % of them,",
-        f"         {_length(drop.high, critical):<26} 84 % of them",
+        return [*lines, f"  The law of the drop does not reach this fault: {reason}."]
+    drop = found.drop
+    for name, length, meaning in (
+        ("L_s", found.closed_form.stability_length, "it turns unstable"),
+        ("L_d", drop.length, "half of the realisations have dropped,"),
+        ("", drop.low, "16 % of them,"),
+        ("", drop.high, "84 % of them"),
+    ):
+        ratio = f"{length / critical:.3g} L_c"
+        lines.append(f"  {name:<6} {f'{length:.4g} m':<11} {ratio:<14} {meaning}")
+    return [
+        *lines,
         f"  t_d    {f'{drop.time:.4g} s':<26} {drop.time_low:.4g} to {drop.time_high:.4g} s",
         f"perturbed: {_perturbed(parameters.perturbation)}",
+        f"DO NOT RELY ON IT: {found.doubt}." if found.doubt else COMPARED,
     ]
-    return "\n".join([*lines, f"DO NOT RELY ON IT: {found.doubt}." if found.doubt else COMPARED])
-
-
-def _length(value: float, critical: float) -> str:
-    return f"{f'{value:.4g} m':<11} {value / critical:.3g} L_c"
 
 
 def _perturbed(declared: Perturbation) -> str:

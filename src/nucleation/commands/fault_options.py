@@ -3,13 +3,12 @@
 import contextlib
 import math
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ..commands import units
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import names
@@ -17,16 +16,16 @@ from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.uncertainty import parse_range
+from .given import given_of, merged_parameters, sourced
 from .options import (
-    merged_parameters,
+    option,
     parameter_options,
     second_body_option,
     source_options,
-    sourced,
+    together,
     words,
-)  # fmt: skip
-from .system import of_parameters
-from .text import plain
+)
+from .system import of_parameters, system_line
 
 NOTES = {
     "b": "this, --zeta or --zeta-over-a", "zeta": "zeta = b - a",
@@ -39,52 +38,43 @@ NOTES = {
 
 REQUIRED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance")
 
+IN_STUDIES = {k: names().short(names().full(k)) for k in QUANTITIES if k != "far_side"}
+"""The names in studies of a fault's parameters; of a far side a simulation has one kind alone."""
 
-def fault_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """One option for each parameter of a fault, and those for where they are from."""
-    options = [
-        units.option(
+fault_options = together(
+    *(
+        option(
             *(["--far-side"] if key == "far_side" else words(key)),
             key=key, entry=entry, note=NOTES.get(key, ""), read=parse_range,
         )
         for key, entry in QUANTITIES.items()
-    ]  # fmt: skip
-    ratio = names()["zeta_over_a"]
-    options += [
-        units.option("--zeta-over-a", key="zeta_over_a", entry=ratio),
-        parameter_options(("evolution", "friction_law")),
-        second_body_option,
-        click.option(
-            "--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10"
-        ),
-        source_options,
-    ]
-    for add in reversed(options):
-        function = add(function)
-    return function
+    ),
+    option("--zeta-over-a", key="zeta_over_a", entry=names()["zeta_over_a"]),
+    parameter_options(("evolution", "friction_law")),
+    second_body_option,
+    click.option(
+        "--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10"
+    ),
+    source_options,
+)  # fmt: skip
+"""One option for each parameter of a fault, and those for where they are from."""
 
 
 def fault_values(
-    per_decade: bool, file: Path | None, run_id: str | None, config: str,
-    second_body: str | None, optional: str = "", ranges: bool = False, **options: Any,
+    per_decade: bool, file: Path | None, run_id: str | None, config: str, optional: str = "",
+    ranges: bool = False, **options: Any,
 ) -> dict[str, Any]:  # fmt: skip
     """The parameters of :class:`~nucleation.theory.fault.Fault` that options and files give.
 
-    Of `ranges` those of a file are returned as they are; without, they are refused.
-
-    Raises
-    ------
-    ParameterError
-        If one is wrong or missing, but for an `optional` one.
+    Raises ParameterError if one is wrong or missing, but for an `optional` one, or a file has a
+    range, but for `ranges`.
     """
-    known = names()
-    own = {k: v for k, v in options.items() if v is not None}
+    own = given_of(options)
     if per_decade:
         own |= {k: own[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in own}
-    by_study = {known.short(known.full(k)): v for k, v in own.items() if k != "far_side"}
-    base, given = sourced(file, run_id, config, {"second_body": second_body, **by_study}, ranges)
-    law = {name for law in LAWS for name in Friction(law=law).set_by_expansion}
-    if base is not None or law & given.keys():
+    by_study = {IN_STUDIES.get(k, k): v for k, v in own.items() if k != "far_side"}
+    base, given = sourced(file, run_id, config, by_study, ranges)
+    if base or any(given.keys() & Friction(law=law).set_by_expansion for law in LAWS):
         found = of_parameters(merged_parameters(base, given))
     else:
         found = _of_study(given)
@@ -97,12 +87,7 @@ def fault_values(
 
 def _of_study(given: Mapping[str, Any]) -> dict[str, Any]:
     """The same of values by their names in studies; what a fault does not have is left out."""
-    known = names()
-    found = {
-        key: given[name]
-        for key in QUANTITIES
-        if key != "far_side" and (name := known.short(known.full(key))) in given
-    }
+    found = {key: given[name] for key, name in IN_STUDIES.items() if name in given}
     if "zeta_over_a" in given and "a" in found:
         if {"zeta", "b"} & found.keys():
             raise ParameterError("zeta_over_a is not allowed together with zeta or b")
@@ -122,14 +107,15 @@ def doubts_told() -> Iterator[None]:
         click.echo(f"warning: {text}", err=True)
 
 
-def given_of(fault: Fault) -> dict[str, Any]:
-    """All parameters that a fault has, for JSON (SI units)."""
-    names = (name for name in QUANTITIES if getattr(fault, name) is not None)
-    return {name: plain(getattr(fault, name)) for name in names}
+def parameters_of(fault: Fault) -> dict[str, Any]:
+    """All parameters that a fault has."""
+    return given_of({name: getattr(fault, name) for name in QUANTITIES})
 
 
-def assumed_line(given: Mapping[str, Any]) -> list[str]:
-    """What was assumed of a fault of which this is given."""
+def said_of(
+    fault: Fault, given: Mapping[str, Any], loading: str = "edge", known: bool = True
+) -> list[str]:
+    """The system of a fault of which some parameters are `given`, and what was assumed."""
     assumed = []
     if "second_shear_modulus" not in given:
         assumed.append("the second body is like the first")
@@ -141,4 +127,5 @@ def assumed_line(given: Mapping[str, Any]) -> list[str]:
         assumed.append("far sides free of changes of stress")
     if "plane" not in given:
         assumed.append("plane strain")
-    return [f"Assumed: {', '.join(assumed)}."] if assumed else []
+    line = f"Assumed: {', '.join(assumed)}."
+    return [system_line(fault, loading, known), *([line] if assumed else [])]

@@ -1,19 +1,18 @@
 """``nucleation length``: the theory's critical length of a fault beside the lengths in use."""
 
-import json
+import contextlib
+import math
 import textwrap
 from pathlib import Path
 from typing import Any
 
 import click
-import numpy as np
 
-from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
-from ..theory.arrays import CriticalMode, critical_mode, reason_of_stability
+from ..theory.arrays import critical_mode, reason_of_stability
 from ..theory.creep.lengths import stability_values
 from ..theory.fault import Fault
 from ..theory.literature_table import (
@@ -26,10 +25,12 @@ from ..theory.literature_table import (
     values_of,
 )
 from ..theory.uncertainty import Range, parse_range
-from .fault_options import assumed_line, doubts_told, fault_options, fault_values, given_of
-from .options import scales
-from .system import BEGINS, system_line, systems_of_lengths
-from .text import plain
+from . import DONE, EXIT_CODES, STABLE
+from .fault_options import doubts_told, fault_options, fault_values, parameters_of, said_of
+from .given import given_of
+from .options import option
+from .system import BEGINS, one_material, scales, systems_of_lengths
+from .text import to_json, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain
 
 NOTEWORTHY = 0.03
@@ -40,11 +41,11 @@ DENSITY = declarations(Material)["density"]
 
 @click.command("length", epilog=EXIT_CODES)
 @fault_options
-@units.option(
+@option(
     "--density", key="density", entry=DENSITY,
     note="to check that inertia does not matter; needs --velocity",
 )  # fmt: skip
-@units.option(
+@option(
     "--weakening-rate", key="weakening_rate", entry=WEAKENING_RATE,
     note="of Uenishi and Rice's length; b sigma0/D if left out", read=parse_range,
 )  # fmt: skip
@@ -71,8 +72,7 @@ def command(
       nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
           --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
     """
-    chosen = {"law": options["friction_law"], "evolution": options["evolution"]}
-    law = Friction(**{name: value for name, value in chosen.items() if value is not None})
+    law = Friction(**given_of({"law": options["friction_law"], "evolution": options["evolution"]}))
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
     given = fault_values(**options, ranges=True)
@@ -86,74 +86,75 @@ def command(
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
     with doubts_told():
         fault = Fault(**given)
-        mode = critical_mode(
-            **given if "velocity" in given else {**given, "velocity": _unit_rate(fault)}
-        )
-    lengths = values_of(fault, weakening_rate)
-    print_as = _as_json if as_json else _as_text
-    said = [system_line(fault, loading), *assumed_line(given)]
-    found = {k: float(lengths[k]) for k in lengths}
-    click.echo(print_as(said, fault, mode, found, density, loading, law))
-    return DONE if np.isfinite(mode.length) else STABLE
-
-
-def _unit_rate(fault: Fault) -> float:
-    """The velocity (m/s) at which V/D is one per second."""
-    return float(fault.slip_distance)
-
-
-def _over_rate(fault: Fault, mode: CriticalMode) -> float:
-    """Angular frequency of the critical mode over V/D, which the velocity has no part in."""
-    rate = (fault.velocity or _unit_rate(fault)) / fault.slip_distance
-    return float(mode.angular_frequency / rate)
-
-
-def _as_json(
-    said: list[str], fault: Fault, mode: CriticalMode, lengths: dict[str, float],
-    density: float | None, loading: str, law: Friction,
-) -> str:  # fmt: skip
-    return json.dumps(
-        {
+        theory = _theory(given, fault, density, loading, law)
+    lengths = {key: float(value) for key, value in values_of(fault, weakening_rate).items()}
+    said = said_of(fault, given, loading)
+    if as_json:
+        found = {
             "system": said,
-            "parameters": given_of(fault),
-            "theory": {
-                "critical_length": plain(mode.length),
-                "critical_wavenumber": plain(mode.wavenumber),
-                "critical_frequency": fault.velocity and plain(mode.angular_frequency),
-                "critical_frequency_over_rate": plain(_over_rate(fault, mode)),
-                "speed_over_shear_wave": plain(_speed_ratio(fault, mode, density)),
-                "loading": loading,
-                **{name: plain(value) for name, value in _stability(fault, loading, law).items()},
-            },
+            "parameters": parameters_of(fault),
+            "theory": theory,
             "lengths": [
-                {"key": length.key, "length": plain(lengths[length.key]), **length.words()}
+                {"key": length.key, "length": lengths[length.key], **length.words()}
                 for length in LENGTHS
             ],
-        },
-        indent=2,
-    )  # fmt: skip
+        }
+        click.echo(to_json(found))
+    else:
+        click.echo(_as_text(said, fault, theory, lengths, law))
+    return DONE if math.isfinite(theory["critical_length"]) else STABLE
+
+
+def _theory(
+    given: dict[str, Any], fault: Fault, density: float | None, loading: str, law: Friction
+) -> dict[str, Any]:
+    """What JSON has of the theory, in SI units; NaN where sliding is stable."""
+    velocity = fault.velocity or fault.slip_distance  # at which V/D is one per second
+    mode = critical_mode(**{**given, "velocity": velocity})
+    length, wavenumber, frequency = map(float, mode)
+    ratio = None
+    if density is not None:
+        shear_wave = Material(float(fault.shear_modulus), density=density).shear_wave_speed
+        ratio = abs(frequency) / wavenumber / shear_wave
+    stability_length, own_frequency, error = map(float, stability_values(fault, None, loading))
+    found = {
+        "critical_length": length,
+        "critical_wavenumber": wavenumber,
+        "critical_frequency": fault.velocity and frequency,
+        "critical_frequency_over_rate": frequency / float(velocity / fault.slip_distance),
+        "speed_over_shear_wave": ratio,
+        "loading": loading,
+        "stability_length": stability_length,
+        "stability_frequency_over_rate": own_frequency,
+        "stability_length_error": error,
+    }
+    known = fault.velocity is not None and fault.friction is not None
+    if known and loading == "edge" and math.isfinite(stability_length):
+        with contextlib.suppress(ParameterError):  # of a law that can't have these constants
+            found["stability_length_as_simulated"] = float(stability_values(fault, law)[0])
+    return found
 
 
 def _as_text(
-    said: list[str], fault: Fault, mode: CriticalMode, lengths: dict[str, float],
-    density: float | None, loading: str, law: Friction,
-) -> str:  # fmt: skip
+    said: list[str], fault: Fault, theory: dict[str, Any], lengths: dict[str, float], law: Friction
+) -> str:
     lines = [
-        *(line for text in said for line in textwrap.wrap(text, 95, subsequent_indent="  ")),
+        *wrapped(*said),
         "",
-        *_theory_lines(fault, mode, density),
-        *_patch_lines(fault, float(mode.length), loading, law),
+        "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):",
     ]
-    one_material = (fault.shear_modulus, fault.poisson_ratio) == (
-        fault.second_shear_modulus, fault.second_poisson_ratio,
-    )  # fmt: skip
-    differ = not one_material and np.isfinite(float(fault.second_shear_modulus))
-    for system in systems_of_lengths(bool(differ)):
+    if math.isfinite(theory["critical_length"]):
+        lines += [*_mode_lines(theory), "", *_patch_lines(theory, fault, law)]
+    else:
+        reason = textwrap.wrap(reason_of_stability(fault), 90)
+        lines += ["  no critical length:", *(f"  {line}" for line in reason)]
+    for system in systems_of_lengths(fault):
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
             if length.system == system:
-                lines += _length_lines(length, lengths[length.key], fault, float(mode.length))
-    modulus = "" if one_material else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
+                value = lengths[length.key]
+                lines += _length_lines(length, value, fault, theory["critical_length"])
+    modulus = "" if one_material(fault) else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
     star = "mu/(1 - nu)" if fault.plane == "strain" else "mu (1 + nu)"
     lines += [
         "",
@@ -163,68 +164,41 @@ def _as_text(
     return "\n".join(lines)
 
 
-def _theory_lines(fault: Fault, mode: CriticalMode, density: float | None) -> list[str]:
+def _mode_lines(theory: dict[str, Any]) -> list[str]:
     """Length, wavenumber and frequency of the critical mode."""
-    head = "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):"
-    if not np.isfinite(mode.length):
-        reason = textwrap.wrap(reason_of_stability(fault), 90)
-        return [head, "  no critical length:", *(f"  {line}" for line in reason)]
-    frequency = float(mode.angular_frequency)
+    omega, note = "critical_frequency", "angular frequency of the critical mode"
+    if theory[omega] is None:
+        omega, note = "critical_frequency_over_rate", f"{note} (in rad/s with --velocity)"
+    unit = "V/D" if omega.endswith("rate") else "rad/s"
     lines = [
-        head,
-        f"  L_c    {_metres(mode.length):<16} critical nucleation length, 2 pi/k_c",
-        f"  k_c    {f'{float(mode.wavenumber):.4g} 1/m':<16} critical wavenumber",
+        f"  {name:<6} {f'{theory[key]:.4g} {unit}':<16} {meaning}"
+        for name, key, unit, meaning in (
+            ("L_c", "critical_length", "m", "critical nucleation length, 2 pi/k_c"),
+            ("k_c", "critical_wavenumber", "1/m", "critical wavenumber"),
+            ("omega", omega, unit, note),
+        )
     ]
-    unit, note = "rad/s", "angular frequency of the critical mode"
-    if fault.velocity is None:
-        unit, note = "V/D", f"{note} (in rad/s with --velocity)"
-    lines.append(f"  omega  {f'{frequency:.4g} {unit}':<16} {note}")
-    ratio = _speed_ratio(fault, mode, density)
+    ratio = theory["speed_over_shear_wave"]
     if ratio is not None:
         verdict = "inertia does not matter" if ratio < 0.1 else "INERTIA MATTERS: beyond the theory"
         lines.append(f"  c/c_s  {ratio:<16.4g} its speed over the shear waves': {verdict}")
     return lines
 
 
-def _stability(fault: Fault, loading: str, law: Friction) -> dict[str, float]:
-    """L_s with constant a and b, its frequency and error, and L_s as simulations have friction."""
-    length, frequency, error = (float(value) for value in stability_values(fault, None, loading))
-    found = {
-        "stability_length": length,
-        "stability_frequency_over_rate": frequency,
-        "stability_length_error": error,
-    }
-    given = fault.velocity is not None and fault.friction is not None
-    if given and loading == "edge" and np.isfinite(length):
-        try:
-            simulated = float(stability_values(fault, law)[0])
-            found["stability_length_as_simulated"] = simulated
-        except ParameterError:
-            pass  # the law can't have these constants
-    return found
-
-
-def _patch_lines(fault: Fault, critical: float, loading: str, law: Friction) -> list[str]:
+def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction) -> list[str]:
     """L_s, what it means, and what friction's own scales make of it."""
-    if not np.isfinite(critical):
-        return []
-    found = _stability(fault, loading, law)
-    head = ["", f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"]
-    length = found["stability_length"]
-    if not np.isfinite(length):
-        return [
-            *head,
-            "  no L_s: no patch up to 3 L_c turns unstable, or its creep opens it",
-        ]
-    lines = [
-        *head,
-        f"  L_s    {_metres(length):<11} {f'{length / critical:.3g} L_c':<10} "
-        "it turns unstable; an event follows later"
-        + (", docs/drop.md" if loading == "edge" else ""),
-    ]
-    own = found.get("stability_length_as_simulated", length)
+    loading, length, critical = (
+        theory[name] for name in ("loading", "stability_length", "critical_length")
+    )
+    head = f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"
+    if not math.isfinite(length):
+        return [head, "  no L_s: no patch up to 3 L_c turns unstable, or its creep opens it"]
+    later = "it turns unstable; an event follows later"
+    later += ", docs/drop.md" if loading == "edge" else ""
+    lines = [head, f"  L_s    {f'{length:.4g} m':<11} {f'{length / critical:.3g} L_c':<10} {later}"]
+    own = theory.get("stability_length_as_simulated", length)
     if not abs(own / length - 1.0) < NOTEWORTHY:
-        said = "none up to 3 L_c" if np.isnan(own) else f"{own:.4g} m, {own / critical:.3g} L_c,"
+        said = "none up to 3 L_c" if math.isnan(own) else f"{own:.4g} m, {own / critical:.3g} L_c,"
         lines.append(
             f"         {said} with the law of `simulate` and `drop`, {law.law}, whose a and b\n"
             f"         change along the patch: {scales(law, float(fault.velocity))}"
@@ -232,25 +206,16 @@ def _patch_lines(fault: Fault, critical: float, loading: str, law: Friction) -> 
     return lines
 
 
-def _speed_ratio(fault: Fault, mode: CriticalMode, density: float | None) -> float | None:
-    """Phase speed of the critical mode over the shear waves' of the first body."""
-    if density is None:
-        return None
-    speed = abs(float(mode.angular_frequency)) / float(mode.wavenumber)
-    return speed / Material(float(fault.shear_modulus), density=density).shear_wave_speed
-
-
 def _length_lines(length: Length, value: float, fault: Fault, critical: float) -> list[str]:
     """One length: value and formula, source, validity."""
-    if np.isfinite(value):
-        ratio = f"{value / critical:.3g} L_c" if np.isfinite(critical) else ""
-        said, valid = _metres(value), f"valid: {length.validity}"
+    said, ratio = "-", ""
+    valid = f"NOT VALID HERE, needs {length.needs}: {_why(length, fault)}"
+    if math.isfinite(value):
+        said, valid = f"{value:.4g} m", f"valid: {length.validity}"
+        ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
         lowest = min(float(fault.height), float(fault.second_height))
-        if length.system in (HALF_SPACES, TWO_MATERIALS) and np.isfinite(lowest):
+        if length.system in (HALF_SPACES, TWO_MATERIALS) and math.isfinite(lowest):
             valid = f"for half-spaces (here H = {lowest:g} m), {length.validity}"
-    else:
-        said, ratio = "-", ""
-        valid = f"NOT VALID HERE, needs {length.needs}: {_why(length, fault)}"
     return [
         f"  {length.title:<28} {said:<11} {ratio:<10} {length.formula}",
         f"      {length.source}",
@@ -260,20 +225,12 @@ def _length_lines(length: Length, value: float, fault: Fault, critical: float) -
 
 def _why(length: Length, fault: Fault) -> str:
     """What of the fault decides on the validity of a length."""
-    a, b, zeta, height = (float(x) for x in (fault.a, fault.b, fault.zeta, fault.height))
-    facts = []
-    if "a/b" in length.needs:
-        facts.append(f"a/b = {a / b:.4g}" if b > 0.0 else f"b = {b:.4g}")
-    if "zeta" in length.needs:
-        facts.append(f"zeta = {zeta:.4g}")
-    if "b > 0" in length.needs:
-        facts.append(f"b = {b:.4g}")
-    if "beta" in length.needs:
-        facts.append(f"f |beta| = {float(of_two_materials(fault)[1]):.4g}")
-    if "H/L" in length.needs:
-        facts.append(f"H = {height:g} m")
-    return ", ".join(facts)
-
-
-def _metres(value: Any) -> str:
-    return f"{float(value):.4g} m"
+    a, b = float(fault.a), float(fault.b)
+    facts = {
+        "a/b": f"a/b = {a / b:.4g}" if b > 0.0 else f"b = {b:.4g}",
+        "zeta": f"zeta = {float(fault.zeta):.4g}",
+        "b > 0": f"b = {b:.4g}",
+        "beta": f"f |beta| = {float(of_two_materials(fault)[1]):.4g}",
+        "H/L": f"H = {float(fault.height):g} m",
+    }
+    return ", ".join(fact for condition, fact in facts.items() if condition in length.needs)

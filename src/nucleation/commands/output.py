@@ -8,18 +8,7 @@ from ..model.quantities import ParameterError
 
 
 def require_writable(path: Path, force: bool) -> None:
-    """Refuse a file that can't be written or exists already, before time is spent on it.
-
-    Parameters
-    ----------
-    path : of the file.
-    force : whether it may be replaced.
-
-    Raises
-    ------
-    ParameterError
-        With what to do about it.
-    """
+    """Refuse a file that can't be written, or exists and may not be replaced by `force`."""
     if path.exists() and not force:
         raise ParameterError(f"{path} exists already; --force replaces it")
     require_directory(path, path.absolute().parent)

@@ -1,5 +1,8 @@
 """``nucleation show``: what is in a dataset of the project, and a picture of it."""
 
+from __future__ import annotations
+
+import importlib
 import json
 import math
 from collections.abc import Callable
@@ -25,15 +28,6 @@ from ..theory.critical import NoInstability, run_length
 SHOWN_ROWS = 60
 
 
-class Kind(NamedTuple):
-    """A kind of dataset: what tells it from others, its summary and its picture."""
-
-    name: str
-    marks: tuple[str, ...]  # variables
-    summary: Callable[[xr.Dataset], list[str]]
-    figure: Callable[[xr.Dataset], Any] | None
-
-
 @click.command("show", epilog=EXIT_CODES)
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option(
@@ -50,15 +44,15 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
       nucleation show run.nc --plot run.png
     """
     dataset = netcdf.read(file)
-    kind = kind_of(dataset)
+    kind = next(kind for kind in KINDS if set(kind.marks) <= set(map(str, dataset.variables)))
     if plot:
         _check_plot(plot, kind, force)
     if as_json:
-        click.echo(json.dumps({"file": str(file), **_as_json(dataset, kind)}, indent=2))
+        click.echo(text.to_json({"file": str(file), **_as_json(dataset, kind)}))
     else:
         lines = [f"{file}: {kind.name}", *kind.summary(dataset), *_origin_lines(dataset, kind)]
         click.echo("\n".join(lines))
-    if plot and kind.figure:
+    if plot:
         _save(dataset, kind, plot)
         click.echo(f"plot: {plot}", err=as_json)
     return DONE
@@ -71,30 +65,20 @@ def _as_json(dataset: xr.Dataset, kind: Kind) -> dict[str, Any]:
         if name in netcdf.TEXTS | {"key"}:
             told[name] = json.loads(value) if name in netcdf.STRUCTURES else str(value)
     told["variables"] = {
-        str(name): {
-            "long_name": variable.attrs.get("long_name", ""),
-            "units": variable.attrs.get("units", ""),
-            "sizes": {str(dimension): size for dimension, size in variable.sizes.items()},
-        }
+        name: {key: variable.attrs.get(key, "") for key in ("long_name", "units")}
+        | {"sizes": dict(variable.sizes)}
         for name, variable in dataset.variables.items()
     }
     if kind.name == SIMULATION:
         told |= text.outcome(dataset)
     elif kind.summary is _length_rows:
-        told["rows"] = [
-            {name: text.plain(value) for name, value in row.items()} for row in rows_of(dataset)
-        ]
+        told["rows"] = rows_of(dataset)
     return told
-
-
-def kind_of(dataset: xr.Dataset) -> Kind:
-    """The first kind all of whose marks are in the dataset."""
-    return next(kind for kind in KINDS if set(kind.marks) <= set(map(str, dataset.variables)))
 
 
 def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
     require("figures")
-    if kind.figure is None:
+    if not kind.figure:
         known = ", ".join(k.name for k in KINDS if k.figure)
         raise ParameterError(
             f"there is no plot of this kind of dataset, {kind.name}; of these there is: {known}"
@@ -116,8 +100,9 @@ def _save(dataset: xr.Dataset, kind: Kind, plot: Path) -> None:
     if plot.suffix == ".gif":
         overview.film(dataset, plot)
         return
-    assert kind.figure is not None
-    figure = kind.figure(dataset)
+    module, _, function = kind.figure.rpartition(".")
+    draw = getattr(importlib.import_module(f"nucleation.figures.{module}"), function)
+    figure = draw(dataset)
     with mpl.rc_context(style.STYLE), replacing(plot) as temporary:
         figure.savefig(temporary, format=plot.suffix[1:])
 
@@ -127,17 +112,16 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
     attributes = dataset.attrs
     lines = [f"{name}: {attributes[name]}" for name in ("command", "created") if name in attributes]
     if "code_digest" in attributes:
-        digest = attributes["code_digest"]
-        verdict = ""
+        digest, verdict = attributes["code_digest"], ""
         if kind.name == SIMULATION:
-            same = digest == simulation_code(parameters_of(dataset))
-            verdict = ", that of this installation" if same else ", NOT that of this installation"
+            differs = digest != simulation_code(parameters_of(dataset))
+            verdict = f", {'NOT ' if differs else ''}that of this installation"
         lines.append(f"code: {digest[:16]}{verdict}")
     if "key" in attributes:
         lines.append(f"key in the workflow: {attributes['key']}")
     if "versions" in attributes:
-        versions = json.loads(attributes["versions"])
-        lines.append("versions: " + ", ".join(f"{k} {v}" for k, v in versions.items()))
+        versions = json.loads(attributes["versions"]).items()
+        lines.append("versions: " + ", ".join(f"{name} {version}" for name, version in versions))
     return lines
 
 
@@ -190,46 +174,13 @@ def _variable_lines(dataset: xr.Dataset) -> list[str]:
     return lines
 
 
-def _draw_simulation(dataset: xr.Dataset) -> Any:
-    from ..figures import overview
+class Kind(NamedTuple):
+    """A kind of dataset: what tells it from others, its picture and its summary."""
 
-    return overview.plot_run(dataset)
-
-
-def _draw_theory(dataset: xr.Dataset) -> Any:
-    from ..figures import overview
-
-    return overview.draw_theory(dataset)
-
-
-def _draw_lengths(dataset: xr.Dataset) -> Any:
-    from ..figures import overview
-
-    return overview.draw_lengths(dataset)
-
-
-def _draw_patch(dataset: xr.Dataset) -> Any:
-    from ..figures import overview
-
-    return overview.draw_patch(dataset)
-
-
-def _draw_dispersion(dataset: xr.Dataset) -> Any:
-    from ..figures.checks import figure_dispersion
-
-    return figure_dispersion.draw(dataset)
-
-
-def _draw_convergence(dataset: xr.Dataset) -> Any:
-    from ..figures.checks import figure_verification
-
-    return figure_verification.draw(dataset)
-
-
-def _draw_sensitivity(dataset: xr.Dataset) -> Any:
-    from ..figures.beyond import figure_sensitivity
-
-    return figure_sensitivity.draw(dataset)
+    name: str
+    marks: tuple[str, ...]  # variables
+    figure: str = ""  # its function among the figures
+    summary: Callable[[xr.Dataset], list[str]] = _variable_lines
 
 
 SIMULATION = "simulation"
@@ -237,15 +188,21 @@ SIMULATION = "simulation"
 KINDS = (
     Kind(
         SIMULATION, ("slip_rate", "driving_force", "step_time"),
-        _simulation_lines, _draw_simulation,
+        "overview.plot_run", _simulation_lines,
     ),
-    Kind("sensitivity table", ("varied", "length"), _length_rows, _draw_sensitivity),
-    Kind("table of refinement", ("length_difference", "length"), _length_rows, None),
-    Kind("table of lengths", ("id", "onset_time", "theory_length"), _length_rows, _draw_lengths),
-    Kind("twin runs", ("twin_growth",), _variable_lines, None),
-    Kind("patch's stability", ("instant_time", "oscillation_growth"), _variable_lines, _draw_patch),
-    Kind("dispersion relation", ("measured_growth",), _variable_lines, _draw_dispersion),
-    Kind("orders of convergence", ("displacement_error",), _variable_lines, _draw_convergence),
-    Kind("theory", ("critical_length", "thin_limit_length"), _variable_lines, _draw_theory),
-    Kind("dataset", (), _variable_lines, None),
+    Kind(
+        "sensitivity table", ("varied", "length"), "beyond.figure_sensitivity.draw", _length_rows
+    ),
+    Kind("table of refinement", ("length_difference", "length"), "", _length_rows),
+    Kind(
+        "table of lengths", ("id", "onset_time", "theory_length"),
+        "overview.draw_lengths", _length_rows,
+    ),
+    Kind("twin runs", ("twin_growth",)),
+    Kind("patch's stability", ("instant_time", "oscillation_growth"), "overview.draw_patch"),
+    Kind("dispersion relation", ("measured_growth",), "checks.figure_dispersion.draw"),
+    Kind("orders of convergence", ("displacement_error",), "checks.figure_verification.draw"),
+    Kind("theory", ("critical_length", "thin_limit_length"), "overview.draw_theory"),
+    Kind("dataset", ()),
 )  # fmt: skip
+"""The first kind all of whose marks are in a dataset is its own."""

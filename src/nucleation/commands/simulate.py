@@ -1,18 +1,14 @@
 """``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
 
-import contextlib
-import json
 import math
 import shlex
 import signal
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import click
 
-from ..commands import DONE, EXIT_CODES, FAILED, INTERRUPTED, units
 from ..configuration.advice import advise
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, estimated_megabytes
@@ -22,19 +18,12 @@ from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..model.second_body import SecondBody
-from .options import (
-    STUDY,
-    flat,
-    given_of,
-    merged,
-    parameter_options,
-    planned,
-    source_options,
-    sourced,
-    told,
-)
+from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
+from .given import STUDY, given_of, merged, planned, sourced
+from .options import flat, option, parameter_options, source_options
 from .output import require_writable
-from .text import event_lines, outcome, parameter_lines, plain
+from .system import told
+from .text import event_lines, outcome, parameter_lines, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]
@@ -44,8 +33,8 @@ MEMORY = declarations(Limits)["memory"]
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
 @source_options
 @parameter_options(study_parameters())
-@units.option("--length-over-critical", key="length_over_critical", entry=RATIO)
-@units.option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
+@option("--length-over-critical", key="length_over_critical", entry=RATIO)
+@option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
 @click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
 @click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
 @click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
@@ -65,7 +54,9 @@ def command(
     Example:
       nucleation simulate run.nc --height 5mm --n-x 100 --n-y 10
     """
-    _check_output(output, force)
+    if output.suffix != ".nc":
+        raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
+    require_writable(output, force)
     base, given = sourced(file, run_id, config, options)
     values = merged(base, given)
     if "seed" in given and values["perturbation"] == "none":
@@ -75,26 +66,18 @@ def command(
         )
     study = given_of({"length_over_critical": length_over_critical})
     limits, place = given_of({"memory": memory}), str(output.absolute().parent)
-    run = planned(values, study, limits, place)
+    run = planned(values, study, limits=limits, results=place)
     said = told(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo(f"Warning: {text}", err=True)
-    if dry_run and as_json:
-        click.echo(json.dumps(_planned(run), indent=2))
-    elif dry_run:
-        click.echo("\n".join([*parameter_lines(run.parameters), *said, *_plan_lines(run)]))
+    said += _plan_lines(run)
     if dry_run:
+        text = "\n".join([*parameter_lines(run.parameters), *said])
+        click.echo(to_json(_planned(run)) if as_json else text)
         return DONE
-    click.echo("\n".join([*said, *_plan_lines(run)]), err=as_json)
-    return _simulate(run, output, _command(output, run), as_json)
-
-
-def _check_output(output: Path, force: bool) -> None:
-    """Refuse an output that can't be written, before hours are spent on it."""
-    if output.suffix != ".nc":
-        raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
-    require_writable(output, force)
+    click.echo("\n".join(said), err=as_json)
+    return _simulate(run, output, as_json)
 
 
 def _plan_lines(run: Run) -> list[str]:
@@ -125,68 +108,49 @@ def _command(output: Path, run: Run) -> str:
 def _planned(run: Run) -> dict[str, Any]:
     """What JSON says of a run before it runs."""
     return {
-        "theory": {"critical_length": plain(run.theory_length)},
+        "theory": {"critical_length": run.theory_length},
         "parameters": run.parameters.to_dict(),
     }
 
 
-def _simulate(run: Run, output: Path, command_line: str, as_json: bool) -> int:
+def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
+    from ..analysis.extraction import extract
     from ..analysis.progress import Progress
     from ..datasets import netcdf, provenance
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
-    from ..simulation.checkpoints import Stopped
+    from ..simulation.checkpoints import SIGNALS, Stopped
     from ..simulation.run import simulate
 
     digest = simulation_code(run.parameters)
-    attributes = provenance.attributes(run.parameters.to_dict(), digest, command_line)
+    attributes = provenance.attributes(run.parameters.to_dict(), digest, _command(output, run))
     checkpoint = checkpoint_of(run.parameters, output, digest)
     progress = Progress(run.parameters, sys.stderr)
+    handlers = {number: signal.getsignal(number) for number in SIGNALS}
+    checkpoint.listen()
     try:
-        with _listening(checkpoint):
-            dataset, path = run_to_file(
-                simulate, run.parameters, output,
-                lambda dataset, path: netcdf.write(dataset, path, **attributes),
-                checkpoint, progress,
-            )  # fmt: skip
+        dataset, path = run_to_file(
+            simulate, run.parameters, output,
+            lambda dataset, path: netcdf.write(dataset, path, **attributes),
+            checkpoint, progress,
+        )  # fmt: skip
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED
     finally:
         progress.close()
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
     if path != output:
         click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED
     if as_json:
-        told = {"output": str(output), **outcome(dataset), **_planned(run)}
-        click.echo(json.dumps(told, indent=2))
+        found = {"output": str(output), **outcome(dataset), **_planned(run)}
+        click.echo(to_json(found))
     else:
-        click.echo(_result(dataset, run, output))
+        attributes = dataset.attrs
+        click.echo(attributes["status"])
+        click.echo(f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s")
+        click.echo("\n".join(event_lines(extract(dataset), run.theory_length)))
+        click.echo(f"written to {output}")
     return DONE
-
-
-@contextlib.contextmanager
-def _listening(checkpoint: Any) -> Iterator[None]:
-    """Signals stop the run after its present step, within the context alone."""
-    from ..simulation.checkpoints import SIGNALS
-
-    before = {number: signal.getsignal(number) for number in SIGNALS}
-    checkpoint.listen()
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
-
-
-def _result(dataset: Any, run: Run, output: Path) -> str:
-    from ..analysis.extraction import extract
-
-    attributes, found = dataset.attrs, extract(dataset)
-    lines = [
-        f"{attributes['status']}",
-        f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s",
-        *event_lines(found, run.theory_length),
-        f"written to {output}",
-    ]
-    return "\n".join(lines)

@@ -1,23 +1,22 @@
 """``nucleation specimen``: at which stress, slip distance or modulus a nucleation length fits."""
 
-import json
 from typing import Any
 
 import click
 
-from ..commands import DONE, EXIT_CODES, STABLE, units
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
-from .fault_options import assumed_line, doubts_told, fault_options, fault_values
-from .system import system_line
-from .text import plain
+from . import DONE, EXIT_CODES, STABLE
+from .fault_options import doubts_told, fault_options, fault_values, said_of
+from .options import option
+from .text import to_json
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
 
 
 @click.command("specimen", epilog=EXIT_CODES)
-@units.option("--length", key="length", entry=SPECIMEN, required=True)
+@option("--length", key="length", entry=SPECIMEN, required=True)
 @click.option(
     "--find", "unknown", type=click.Choice(list(UNKNOWNS.choices)), default="normal_stress",
     show_default=True, help="the parameter to find; if its value is given too, it is judged",
@@ -49,14 +48,14 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
         now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))
         fault = Fault(**given, **{unknown: fit.searched[0] if own is None else own})
     looked_for = own is None and unknown == "shear_modulus"
-    said = [system_line(fault, known=not looked_for), *assumed_line(given)]
+    said = said_of(fault, given, known=not looked_for)
     if as_json:
-        judged = None if now is None else {"value": own, "length": plain(now)}
+        judged = None if now is None else {"value": own, "length": now}
         found = {
-            "system": said, "specimen": plain(length), "criterion": criterion, **fit._asdict(),
+            "system": said, "specimen": length, "criterion": criterion, **fit._asdict(),
             "given": judged, "plane": fault.plane,
         }  # fmt: skip
-        click.echo(json.dumps(found, indent=2))
+        click.echo(to_json(found))
     else:
         click.echo("\n".join([*said, _as_text(length, criterion, fit, own, now, fault.plane)]))
     return DONE if fit.exists else STABLE
@@ -65,8 +64,7 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
 def _as_text(
     length: float, criterion: str, fit: Fit, own: float | None, now: float | None, plane: str
 ) -> str:
-    name, unit = NAMES[criterion], fit.unit
-    lines = []
+    name, unit, lines = NAMES[criterion], fit.unit, []
     if own is not None and now is not None:
         at, long = f"At {fit.unknown} = {own:.4g} {unit}", f"{name} is {now:.4g} m"
         if now <= length:
@@ -87,5 +85,5 @@ def _as_text(
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
         lines.append(f"  never: {why} at all values")
-    entry = QUANTITIES[fit.unknown].description
-    return "\n".join([*lines, f"looked for: {entry}, {low:g} to {high:g} {unit}"])
+    sought = QUANTITIES[fit.unknown].description
+    return "\n".join([*lines, f"looked for: {sought}, {low:g} to {high:g} {unit}"])

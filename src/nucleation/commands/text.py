@@ -1,7 +1,10 @@
 """What several commands print: parameters with units, and what was extracted from a run."""
 
+import json
 import math
 import re
+import textwrap
+from collections.abc import Mapping
 from typing import Any
 
 from ..model.parameters import GROUPS, Parameters
@@ -23,6 +26,11 @@ def parameter_lines(parameters: Parameters) -> list[str]:
     return lines
 
 
+def wrapped(*texts: str) -> list[str]:
+    """The lines of some texts; all but the first of each are indented."""
+    return [line for text in texts for line in textwrap.wrap(text, 95, subsequent_indent="  ")]
+
+
 def with_unit(value: Any, entry: Quantity) -> str:
     """A value as text with its unit."""
     number = f"{value:.6g}" if isinstance(value, float) else str(value)
@@ -36,13 +44,12 @@ def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
     """
     if math.isnan(found["onset_time"]):
         return ["no event: the force has not dropped"]
-    spread = {
-        name: f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
+    onset, length = (
+        f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
         for name in ("onset_time", "length")
-    }
+    )
     ratio = f", {found['length'] / theory_length:.3g} of the theory's"
-    ratio = "" if math.isnan(theory_length) else ratio
-    return [f"onset: {spread['onset_time']} s", f"L_c: {spread['length']} m{ratio}"]
+    return [f"onset: {onset} s", f"L_c: {length} m{'' if math.isnan(theory_length) else ratio}"]
 
 
 def outcome(dataset: Any) -> dict[str, Any]:
@@ -54,13 +61,21 @@ def outcome(dataset: Any) -> dict[str, Any]:
         "steps": int(dataset.attrs["steps"]),
         "wall_seconds": float(dataset.attrs["wall_seconds"]),
         "simulated_time": float(dataset["step_time"][-1]),
-        "event": {name: plain(value) for name, value in extract(dataset).items()},
+        "event": extract(dataset),
     }
 
 
-def plain(value: Any) -> Any:
-    """A number as JSON has them: null for NaN, text for infinity; texts as they are."""
-    if value is None or isinstance(value, str):
+def to_json(found: Mapping[str, Any]) -> str:
+    """What a command found, as JSON in SI units: null for NaN, text for infinity."""
+    return json.dumps(_plain(found), indent=2)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _plain(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(one) for one in value]
+    if value is None or isinstance(value, (str, int)):
         return value
     number = float(value)
     return None if math.isnan(number) else "inf" if math.isinf(number) else number

@@ -1,6 +1,5 @@
 """What ``nucleation length`` does with parameters that are ranges or samples."""
 
-import json
 import math
 import textwrap
 from collections.abc import Iterable
@@ -16,9 +15,9 @@ from ..theory.fault import Fault
 from ..theory.literature_table import LENGTHS, THIS_FAULT, TWO_MATERIALS
 from ..theory.uncertainty import QUANTILES, Range, length_quantiles
 from . import DONE, STABLE
-from .fault_options import assumed_line, doubts_told, given_of
-from .system import system_line, systems_of_lengths
-from .text import plain
+from .fault_options import doubts_told, parameters_of, said_of
+from .system import systems_of_lengths
+from .text import to_json, wrapped
 
 samples_option = click.option(
     "--samples", type=click.Path(exists=True, dir_okay=False, path_type=Path),
@@ -31,26 +30,25 @@ def take_uncertain(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Options with medians in the place of ranges and samples, and those themselves.
 
-    Raises
-    ------
-    ParameterError
-        If a parameter is given twice, or what is fixed while `a` varies is not said.
+    Raises ParameterError if a parameter is given twice, or what stays while `a` varies is not said.
     """
     uncertain: dict[str, Any] = {k: v for k, v in options.items() if isinstance(v, Range)}
-    for name, values in ({} if samples is None else read_samples(samples)).items():
-        if options.get(name) is not None:
-            raise ParameterError(f"{name} is given twice: as an option and in {samples}")
-        uncertain[name] = values
+    if samples is not None:
+        uncertain |= (drawn := read_samples(samples))
+        if twice := [name for name in drawn if options.get(name) is not None]:
+            raise ParameterError(f"{twice[0]} is given twice: as an option and in {samples}")
     medians = options | {name: float(np.median(values)) for name, values in uncertain.items()}
     given = any(medians.get(name) is not None for name in ("zeta", "b", "file"))
     if "a" in uncertain and not given:
         raise ParameterError("zeta or b is needed beside an uncertain a: which one stays as it is?")
-    if options.get("per_decade"):
+    if options["per_decade"]:
         for name in uncertain.keys() & {"a", "b", "zeta"}:
             value = uncertain[name]
-            own = (value, value.low, value.high) if isinstance(value, Range) else value
-            scaled = np.asarray(own, dtype=float) / math.log(10.0)
-            uncertain[name] = Range(*scaled) if isinstance(value, Range) else scaled
+            if isinstance(value, Range):
+                ends = value, value.low, value.high
+                uncertain[name] = Range(*(end / math.log(10.0) for end in ends))
+            else:
+                uncertain[name] = value / math.log(10.0)
     return medians, uncertain
 
 
@@ -69,7 +67,7 @@ def print_quantiles(
     with doubts_told():
         middle = Fault(**given)
         found = length_quantiles(**known)
-    said = [system_line(middle, options["loading"]), *assumed_line(given)]
+    said = said_of(middle, given, options["loading"])
     click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
     return STABLE if np.isnan(found["value"][0]).all() else DONE
 
@@ -79,17 +77,16 @@ def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     lengths = [
         {
             "key": key,
-            "quantiles": {f"{q:g}": plain(x) for q, x in zip(QUANTILES, values, strict=True)},
+            "quantiles": {f"{q:g}": x for q, x in zip(QUANTILES, values, strict=True)},
             "share": share, **words.get(key, {"units": "m"}),
         }
         for key, _, values, share in _rows(found)
     ]  # fmt: skip
-    return json.dumps(
+    return to_json(
         {
-            "system": said, "parameters": given_of(middle), "uncertain": list(uncertain),
+            "system": said, "parameters": parameters_of(middle), "uncertain": list(uncertain),
             **found.attrs, "lengths": lengths,
-        },
-        indent=2,
+        }
     )  # fmt: skip
 
 
@@ -98,15 +95,10 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     drawn = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
     drawn += f" ({count['outside']} not allowed)" if count["invalid"] else ""
     drawn += f", {count['stable']} of the others stable, without L_c"
-    wrapped = [textwrap.fill(text, 95, subsequent_indent="  ") for text in (*said, drawn)]
     head = "".join(f"{share:>10.0%}" for share in QUANTILES)
-    lines = [*wrapped[:-1], "", wrapped[-1], "", f"{'quantiles (m)':<32}{head}   share"]
+    lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
     systems, nowhere = {length.key: length.system for length in LENGTHS}, []
-    first = (middle.shear_modulus, middle.poisson_ratio)
-    second = (middle.second_shear_modulus, middle.second_poisson_ratio)
-    differ = first != second or any(name.startswith("second_") for name in uncertain)
-    differ &= bool(np.isfinite(middle.second_shear_modulus))
-    for system in systems_of_lengths(differ):
+    for system in systems_of_lengths(middle, uncertain):
         rows = [row for row in _rows(found) if systems.get(row[0], THIS_FAULT) == system]
         two = " (two materials)" if system == TWO_MATERIALS else ""
         nowhere += [f"{title}{two}" for _, title, _, share in rows if share == 0.0]
