@@ -85,12 +85,20 @@ def test_undefined_number_decides_nothing():
         assert holds(said, Ours.exactly(math.nan)) is None
 
 
-def test_worst_is_furthest_from_the_target():
-    ours = Ours.worst([0.9, 1.05, 1.0], target=1.0)
-    assert (ours.value, ours.low, ours.high) == (0.9, 0.9, 1.05)
-    assert math.isnan(Ours.worst([1.0, math.nan]).value)
+@pytest.mark.parametrize(
+    ("said", "worst", "low", "high"),
+    [(words("computed"), 0.9, 0.9, 1.05), (words("small variation"), 1.05, 0.9, 1.05),
+     (number("1.1"), 0.9, 0.9, 1.05), (formula(1.0), 0.9, 0.9, 0.9),
+     (above(1.0), 0.9, 0.9, 1.05), (below(1.0), 1.05, 0.9, 1.05), (words("most"), 0.9, 0.9, 1.05)],
+)  # fmt: skip
+def test_of_several_numbers_that_which_speaks_most_against_it_is_judged(said, worst, low, high):
+    assert said.worst([0.9, 1.05, 1.0]) == Ours(worst, low, high)
+    assert said.worst(0.9) == Ours.exactly(0.9)
+    own = [Ours.within(0.9, 0.2), Ours.within(1.05, 0.1), Ours.exactly(1.0)]
+    assert said.worst(own) == next(one for one in own if one.value == worst)
+    assert math.isnan(said.worst([1.0, math.nan]).value)
     with pytest.raises(ValueError):
-        Ours.worst([])
+        said.worst([])
 
 
 SAID = number("13")

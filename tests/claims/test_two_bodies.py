@@ -51,9 +51,8 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
     """Rates of one mode of each of two pairs, whose response is so many times that of Eq. (7)."""
     f, a, zeta, ell, v, sigma0, mu, k = 0.41, 0.0068, 0.016, 5e-7, 1e-5, 1e6, 3.1e9, 10.0
     psi, nu = np.array([3.0, 0.4]), (0.25, 0.1)
-    expected = [0.5 * printed.bimaterial_modulus(x, *nu) for x in psi]
-    beta = np.array([printed.bimaterial_contrast(x, *nu) for x in psi])
-    response = np.array(expected) * (g1 - 1j * f * g2 * beta)
+    expected = np.array([printed.bimaterial_transfer(x, *nu) for x in psi])
+    response = expected @ [g1, -1j * f * g2]
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
     rates = np.array([np.roots([a, x - zeta, x]) for x in load]) * v / ell
     columns = {

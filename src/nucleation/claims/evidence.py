@@ -16,7 +16,7 @@ from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Parameters
 from .claim import Cause, Result
 from .measure import Measures, mean
-from .said import Missing, Ours
+from .said import Found, Missing
 
 MESH = "A coarse mesh lets the force drop early"
 """Section of docs/findings.md on the difference of the two."""
@@ -103,18 +103,22 @@ class Evidence:
             raise Missing(f"The stability of the patch of {row['id']} was not computed") from None
 
 
-def on_both(evidence: Evidence, ours: Callable[[str], Ours], note: str = "") -> Result:
-    """A number of either role: the verdict stands on the converged, perturbed one.
+def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], Result]:
+    """For numbers of the runs with a role: the verdict stands on the converged, perturbed ones.
 
-    If the number is the paper's on the paper's own mesh only, the mesh is the cause.
+    If the statement holds on the paper's own mesh only, the mesh is the cause.
     """
-    judged = ours(JUDGED)
-    try:
-        papers = ours(PAPERS)
-    except Missing:
-        return Result(judged, note=note)
-    cause = Cause(MESH, "On the paper's own mesh ours is", papers)
-    return Result(judged, on_papers_mesh=papers, cause=cause, note=note)
+
+    def of_either(evidence: Evidence) -> Result:
+        judged = numbers(evidence, JUDGED)
+        try:
+            papers = numbers(evidence, PAPERS)
+        except Missing:
+            return Result(judged)
+        cause = Cause(MESH, "On the paper's own mesh ours is", papers)
+        return Result(judged, on_papers_mesh=papers, cause=cause)
+
+    return of_either
 
 
 def _faults(table: xr.Dataset) -> list[dict[str, Any]]:

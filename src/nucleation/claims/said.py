@@ -12,6 +12,10 @@ from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from typing import Any, SupportsFloat
 
+import numpy as np
+
+from ..types import Array
+
 FORMULA_TOLERANCE = 1e-6
 """A formula holds if it is met to this part of its value (of one, if the value is zero)."""
 
@@ -68,21 +72,12 @@ class Ours:
         """A number with a symmetric uncertainty."""
         return cls.between(value, value - abs(error), value + abs(error))
 
-    @classmethod
-    def furthest(cls, values: Iterable[float], target: float) -> Ours:
-        """Of several cases the one furthest from a target, as a number without uncertainty."""
-        return cls.exactly(cls.worst(values, target).value)
+    def __float__(self) -> float:
+        return self.value
 
-    @classmethod
-    def worst(cls, values: Iterable[float], target: float = 0.0) -> Ours:
-        """Of some numbers the one furthest from a target; the range holds them all.
 
-        NaN if one of them is.
-        """
-        values = [float(v) for v in values]
-        if not all(map(math.isfinite, values)):
-            return cls.exactly(math.nan)
-        return cls.between(max(values, key=lambda v: abs(v - target)), min(values), max(values))
+Found = Ours | SupportsFloat | Iterable[SupportsFloat]
+"""What a claim's function gives: our number, with or without a range, or several."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,6 +90,28 @@ class Said:
     text: str
     value: float | None = None
     chosen: bool = False  # words whose reading is a choice of ours
+
+    def worst(self, found: Found) -> Ours:
+        """Of our numbers that which speaks most against what is said; NaN if one is NaN.
+
+        Those without a range get that of all, but for a formula; others keep their own.
+        """
+        several = np.ravel(np.asarray(found))
+        values = several.astype(float)
+        if not np.isfinite(values).all():
+            return Ours.exactly(math.nan)
+        worst = several[np.argmax(self._against(values))]
+        if isinstance(worst, Ours):
+            return worst
+        ends = (worst, worst) if self.kind == "formula" else (values.min(), values.max())
+        return Ours.between(worst, *ends)
+
+    def _against(self, values: Array) -> Array:
+        """How far numbers are from where the statement holds best."""
+        if self.value is None and math.isinf(self.high - self.low):
+            return -values if math.isinf(self.high) else values
+        best = 1.0 if self.low > 0.0 else 0.0
+        return np.abs(values - (best if self.value is None else self.value))
 
 
 def number(printed: str) -> Said:

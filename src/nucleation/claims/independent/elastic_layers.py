@@ -84,6 +84,14 @@ def pair_transfer(
     return -float(above.t[0] @ field), float(above.n[0] @ field)
 
 
+def half_spaces(
+    nu: float, psi: float = 1.0, nu2: float | None = None, points: int = 64
+) -> tuple[float, float]:
+    """G1 and G2 of two half-spaces; Poisson's ratios are alike if the lower one's is not given."""
+    below = Layer(-HALF_SPACE, nu if nu2 is None else nu2, psi)
+    return pair_transfer(Layer(HALF_SPACE, nu), below, points)
+
+
 def compliance(layer: Layer, points: int = 64) -> NDArray[np.complex128]:
     """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus."""
     body = _Equations(layer, points)

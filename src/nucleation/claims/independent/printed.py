@@ -29,6 +29,12 @@ def bimaterial_contrast(psi: float, nu1: float, nu2: float) -> float:
     return difference / (2.0 * (psi * (1.0 - nu1) + (1.0 - nu2)))
 
 
+def bimaterial_transfer(psi: float, nu1: float, nu2: float) -> tuple[float, float]:
+    """G1 and G2 of two half-spaces (Eq. 7)."""
+    g1 = 0.5 * bimaterial_modulus(psi, nu1, nu2)
+    return g1, bimaterial_contrast(psi, nu1, nu2) * g1
+
+
 def bimaterial_ratio(f_beta: float, z: float) -> float:
     """L_c over L_c^M (Eq. 9), z = zeta/a."""
     root = math.sqrt((1.0 + z) ** 2 + 4.0 * z / f_beta**2)

@@ -1,6 +1,7 @@
 """Claims on the course of the simulations and on how they were made: Sects. 3, 5 and Text S2."""
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,85 +15,60 @@ from .simulations import INSET, SHOWN, relative_change
 AFTER = 0.1  # s after its event, by which a run has seen the rupture
 
 
-def slip_rate_blows_up(evidence: Evidence) -> Result:
-    velocity = evidence.loading.velocity
-    return on_both(
-        evidence,
-        lambda study: Ours.exactly(
-            evidence.measured(evidence.row(study, "aging", INSET)).largest_rate / velocity
-        ),
-    )
+@on_both
+def slip_rate_blows_up(evidence: Evidence, role: str) -> float:
+    row = evidence.row(role, "aging", INSET)
+    return evidence.measured(row).largest_rate / evidence.loading.velocity
 
 
-def instability_faster_than_creep(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        ratios = [m.growth_time / m.acceleration_time for m in evidence.each_measured(study)]
-        known = [ratio for ratio in ratios if not math.isnan(ratio)]
-        return Ours.worst(known or ratios)  # a run may end with its drop, before 100 V
-
-    return on_both(evidence, lambda study: _least(ours(study)))
+@on_both
+def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
+    ratios = [run.growth_time / run.acceleration_time for run in evidence.each_measured(role)]
+    known = [ratio for ratio in ratios if not math.isnan(ratio)]
+    return known or ratios  # a run may end with its drop, before 100 V
 
 
-def _least(ours: Ours) -> Ours:
-    return Ours.between(ours.low, ours.low, ours.high)
+@on_both
+def abrupt_drop(evidence: Evidence, role: str) -> list[float]:
+    rows = evidence.rows(role)
+    return [row["onset_time"] / evidence.measured(row).drop_time for row in rows]
 
 
-def abrupt_drop(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        rows = evidence.rows(study)
-        return Ours.worst([row["onset_time"] / evidence.measured(row).drop_time for row in rows])
-
-    return on_both(evidence, lambda study: _least(ours(study)))
-
-
-def rupture_duration(evidence: Evidence) -> Ours:
+def rupture_duration(evidence: Evidence) -> float:
     row = evidence.row(PAPERS, "aging", SHOWN)
-    return Ours.exactly(row["onset_time"] / evidence.measured(row).rupture_time)
+    return float(row["onset_time"] / evidence.measured(row).rupture_time)
 
 
-def slow_creep(evidence: Evidence) -> Result:
+@on_both
+def slow_creep(evidence: Evidence, role: str) -> list[float]:
     speed = evidence.material.shear_wave_speed
-
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.front_speed / speed for run in runs])
-
-    return on_both(evidence, ours, note="The density is an assumption (docs/assumptions.md).")
+    return [run.front_speed / speed for run in evidence.each_measured(role)]
 
 
-def no_radiation(evidence: Evidence) -> Result:
+@on_both
+def no_radiation(evidence: Evidence, role: str) -> list[float]:
     material, interface = evidence.material, evidence.interface
     impedance = 0.5 * material.shear_modulus / material.shear_wave_speed
     scale = impedance / (interface.a * interface.normal_stress)
-
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([scale * run.onset_rate for run in runs])
-
-    return on_both(evidence, ours, note="The density is an assumption (docs/assumptions.md).")
+    return [scale * run.onset_rate for run in evidence.each_measured(role)]
 
 
-def characteristic_slip_rate(evidence: Evidence) -> Result:
+@on_both
+def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
     velocity = evidence.loading.velocity
-
-    def ours(study: str) -> Ours:
-        rates = [evidence.measured(row).patch_rates for row in evidence.series(study)]
-        middle, low, high = min(rates)
-        return Ours.between(middle / velocity, low / velocity, high / velocity)
-
-    return on_both(evidence, ours)
+    rates = [evidence.measured(row).patch_rates for row in evidence.series(role)]
+    return [Ours.between(*(rate / velocity for rate in three)) for three in rates]
 
 
 def contact_kept(evidence: Evidence) -> Result:
     stress, measures = evidence.loading.normal_stress, evidence.each_measured(PAPERS)
-    creep = Ours.worst([m.largest_normal_stress / stress for m in measures], target=-1.0)
-    ours = Ours.worst([m.largest_normal_stress_ever / stress for m in measures], target=-1.0)
+    creep = max(run.largest_normal_stress / stress for run in measures)
     note = (
-        f"Up to the onset it is {creep.value:.3g}. The runs that go on into the rupture have the "
+        f"Up to the onset it is {creep:.3g}. The runs that go on into the rupture have the "
         "aging law; a quiet one with the slip law on a finer mesh loses contact in its rupture "
         "(findings: Tension)."
     )
-    return Result(ours, note=note)
+    return Result([run.largest_normal_stress_ever / stress for run in measures], note=note)
 
 
 def length_plays_no_role(evidence: Evidence) -> Result:
@@ -105,7 +81,6 @@ def length_plays_no_role(evidence: Evidence) -> Result:
     ]
     if not changes:
         raise Missing(f"The role {LONGER} has no run with a longer block")
-    ours = max(changes, key=lambda change: abs(change.value))
     strength = evidence.interface.friction * evidence.loading.normal_stress
     shown = [run for study in (JUDGED, PAPERS) for run in evidence.each_measured(study)]
     beyond = max(run.middle_stress for run in shown) / strength
@@ -113,23 +88,19 @@ def length_plays_no_role(evidence: Evidence) -> Result:
         "In no run of Figure 3 does the shear stress half-way along the block at the onset exceed "
         f"{beyond:.1g} of the strength."
     )
-    return Result(ours, note=note)
+    return Result(changes, note=note)
 
 
-def mesh_along(evidence: Evidence) -> Ours:
-    return Ours.worst([row["n_x"] for row in evidence.rows(PAPERS)], target=400.0)
+def _of_paper(column: str, evidence: Evidence) -> list[float]:
+    return [row[column] for row in evidence.rows(PAPERS)]
 
 
-def mesh_across(evidence: Evidence) -> Ours:
-    return Ours.worst([row["n_y"] for row in evidence.rows(PAPERS)], target=150.0)
+mesh_along, mesh_across = partial(_of_paper, "n_x"), partial(_of_paper, "n_y")
 
 
-def usual_step(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.usual_step / 1e-3 for run in runs], target=1.0)
-
-    return on_both(evidence, ours)
+@on_both
+def usual_step(evidence: Evidence, role: str) -> list[float]:
+    return [run.usual_step / 1e-3 for run in evidence.each_measured(role)]
 
 
 def shortest_step(evidence: Evidence) -> Ours:

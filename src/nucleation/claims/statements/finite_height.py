@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from ...types import Array, ComplexArray
 from ..claim import Result
 from ..evidence import Evidence
 from ..independent import elastic_layers, marginal, printed
@@ -26,31 +27,26 @@ def block_transfer(q: float, evidence: Evidence) -> tuple[float, float]:
     return pair_transfer(block(q, evidence), points=16 if q < 0.1 else 32 if q < 10.0 else 64)
 
 
-def _block_ratios(evidence: Evidence, which: int) -> Ours:
+def _block_ratios(evidence: Evidence) -> Array:
+    """G1 and G2 by collocation over those of Eq. (10), shape (2, heights)."""
     nu = evidence.material.in_plane_ratio
-    ratios = [
-        block_transfer(q, evidence)[which] / printed.block_transfer(q, nu)[which]
-        for q in LAYER_NUMBERS
-    ]
-    return Ours.furthest(ratios, target=1.0)
+    ours = np.array([block_transfer(q, evidence) for q in LAYER_NUMBERS])
+    return (ours / [printed.block_transfer(q, nu) for q in LAYER_NUMBERS]).T
 
 
-def block_g1(evidence: Evidence) -> Ours:
-    return _block_ratios(evidence, 0)
+def block_g1(evidence: Evidence) -> Array:
+    return _block_ratios(evidence)[0]
 
 
-def block_g2(evidence: Evidence) -> Ours:
-    return _block_ratios(evidence, 1)
+def block_g2(evidence: Evidence) -> Array:
+    return _block_ratios(evidence)[1]
 
 
 def block_high_limit(evidence: Evidence) -> Result:
-    nu = evidence.material.in_plane_ratio
-    values = []
-    for points in (48, 64):
-        g1, g2 = pair_transfer(block(HALF_SPACE, evidence), points=points)
-        values.append(g2 / g1)
+    nu, high = evidence.material.in_plane_ratio, block(HALF_SPACE, evidence)
+    coarse, fine = (g2 / g1 for g1, g2 in (pair_transfer(high, points=n) for n in (48, 64)))
     said = formula((1.0 - 2.0 * nu) / (2.0 * (1.0 - nu)))
-    return Result(Ours.within(values[1], values[1] - values[0]), said)
+    return Result(Ours.within(fine, fine - coarse), said)
 
 
 def block_thin_g1(evidence: Evidence) -> Result:
@@ -60,9 +56,9 @@ def block_thin_g1(evidence: Evidence) -> Result:
     return Result(Ours.within(limit, 1e-7 * limit), said)
 
 
-def block_thin_g2(evidence: Evidence) -> Ours:
+def block_thin_g2(evidence: Evidence) -> float:
     g1, g2 = block_transfer(THIN, evidence)
-    return Ours.exactly(g2 / g1)
+    return g2 / g1
 
 
 def thin_ratio(height: float, evidence: Evidence) -> float:
@@ -85,44 +81,38 @@ def thin_length(evidence: Evidence) -> Ours:
     return Ours.within(limit, limit - quarter)
 
 
-def _thin_over_curve(evidence: Evidence) -> np.ndarray:
-    return (evidence.theory["thin_limit_length"] / evidence.theory["critical_length"]).values
+def thin_agreement(evidence: Evidence) -> float:
+    theory = evidence.theory.isel(height=0)
+    return float(theory["thin_limit_length"] / theory["critical_length"])
 
 
-def thin_agreement(evidence: Evidence) -> Ours:
-    return Ours.exactly(_thin_over_curve(evidence)[0])
+def thin_deviation(evidence: Evidence) -> float:
+    ratio = evidence.theory["thin_limit_length"] / evidence.theory["critical_length"]
+    return float(ratio.interp(height=0.1)) - 1.0
 
 
-def thin_deviation(evidence: Evidence) -> Ours:
-    heights = evidence.theory["height"].values
-    return Ours.exactly(np.interp(0.1, heights, _thin_over_curve(evidence)) - 1.0)
-
-
-def _matrix_difference(evidence: Evidence, q: float, expected: np.ndarray, points: int) -> float:
-    ours = compliance(Layer(q, evidence.material.in_plane_ratio), points)
+def _matrix_difference(nu: float, q: float, expected: ComplexArray, points: int) -> float:
+    ours = compliance(Layer(q, nu), points)
     return float(np.abs(ours - expected).max() / np.abs(expected).max())
 
 
-def response_matrix(evidence: Evidence) -> Ours:
+def response_matrix(evidence: Evidence) -> list[float]:
     nu = evidence.material.in_plane_ratio
-    return Ours.exactly(
-        max(
-            _matrix_difference(evidence, q, printed.response_matrix(q, nu), 40)
-            for q in LAYER_NUMBERS[1:]
-        )
-    )
+    return [
+        _matrix_difference(nu, q, printed.response_matrix(q, nu), 40) for q in LAYER_NUMBERS[1:]
+    ]
 
 
-def response_matrix_limit(evidence: Evidence) -> Ours:
-    expected = printed.half_space_response(evidence.material.in_plane_ratio)
-    return Ours.exactly(_matrix_difference(evidence, HALF_SPACE, expected, 64))
+def response_matrix_limit(evidence: Evidence) -> float:
+    nu = evidence.material.in_plane_ratio
+    return _matrix_difference(nu, HALF_SPACE, printed.half_space_response(nu), 64)
 
 
-def block_field(evidence: Evidence) -> Ours:
+def block_field(evidence: Evidence) -> list[float]:
     differences = []
     for q in LAYER_NUMBERS[1:]:
         y, u, w = elastic_layers.block_field(block(q, evidence), 40)
         field = printed.block_field(q, y / q, evidence.material.in_plane_ratio)
         field = field / field[0, 0]
         differences.append(max(np.abs(field[0] - u).max(), np.abs(field[1] - 1j * w).max()))
-    return Ours.exactly(max(differences))
+    return differences

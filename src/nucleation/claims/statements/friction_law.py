@@ -6,38 +6,38 @@ from functools import partial
 import numpy as np
 
 from ...configuration.roles import JUDGED, PAPERS
+from ...types import Array
 from ..claim import Result
 from ..evidence import Evidence, on_both
-from ..said import Missing, Ours
+from ..said import Missing
 
 FINE = np.geomspace(1e-11, 10.0, 4801)  # m/s
 
 
-def _at_v(coefficient: int, evidence: Evidence) -> Ours:
+def _at_v(coefficient: int, evidence: Evidence) -> float:
     """A coefficient of the expansion (f, a, zeta) at V."""
-    return Ours.exactly(evidence.friction.expansion(evidence.loading.velocity)[coefficient])
+    return evidence.friction.expansion(evidence.loading.velocity)[coefficient]
 
 
 f0_table, a_table, zeta_table = f0_main, a_main, zeta_main = [partial(_at_v, i) for i in range(3)]
+weakening_at_v = zeta_table
 
 
-def slip_rate_over_v0(evidence: Evidence) -> Ours:
-    ratio = evidence.loading.velocity / evidence.friction.regularisation_slip_rate
-    return Ours.exactly(math.log10(ratio))
+def slip_rate_over_v0(evidence: Evidence) -> float:
+    return math.log10(evidence.loading.velocity / evidence.friction.regularisation_slip_rate)
 
 
-def friction_vanishes(evidence: Evidence) -> Ours:
+def friction_vanishes(evidence: Evidence) -> float:
     law = evidence.friction
     f = law.coefficient(1e-5 * law.regularisation_slip_rate, 1.0)
-    return Ours.exactly(f / law.expansion(evidence.loading.velocity).f0)
+    return float(f / law.expansion(evidence.loading.velocity).f0)
 
 
-def logarithmic_law(evidence: Evidence) -> Ours:
+def logarithmic_law(evidence: Evidence) -> Array:
     law, velocity = evidence.friction, evidence.loading.velocity
     factors = np.geomspace(0.1, 10.0, 41)
     v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
-    ratio = law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
-    return Ours.worst(ratio.ravel(), target=1.0)
+    return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
 
 
 def steady_extremes(evidence: Evidence) -> tuple[float, float]:
@@ -51,7 +51,7 @@ def steady_extremes(evidence: Evidence) -> tuple[float, float]:
     return float(FINE[lower[-1]]), float(FINE[upper[0]])
 
 
-def steady_agreement(evidence: Evidence) -> Ours:
+def steady_agreement(evidence: Evidence) -> float:
     law, velocity = evidence.friction, evidence.loading.velocity
     low, high = steady_extremes(evidence)
     v = FINE[slice(*np.searchsorted(FINE, [low, high]))]
@@ -61,61 +61,41 @@ def steady_agreement(evidence: Evidence) -> Ours:
     off = np.flatnonzero(difference >= 0.02)
     first = off[off < middle].max(initial=-1) + 1
     last = off[off > middle].min(initial=v.size) - 1
-    return Ours.exactly(math.log10(v[last] / v[first]))
+    return math.log10(v[last] / v[first])
 
 
-def strengthening_branch(evidence: Evidence) -> Ours:
-    return Ours.exactly(steady_extremes(evidence)[1] / evidence.loading.velocity)
+def strengthening_branch(evidence: Evidence) -> float:
+    return steady_extremes(evidence)[1] / evidence.loading.velocity
 
 
-def weakening_branch(evidence: Evidence) -> Ours:
-    return Ours.exactly(evidence.loading.velocity / steady_extremes(evidence)[0])
+def weakening_branch(evidence: Evidence) -> float:
+    return evidence.loading.velocity / steady_extremes(evidence)[0]
 
 
-def minimum_plays_no_role(evidence: Evidence) -> Result:
+@on_both
+def minimum_plays_no_role(evidence: Evidence, role: str) -> list[float]:
     minimum = steady_extremes(evidence)[1]
-
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.onset_rate / minimum for run in runs])
-
-    return on_both(evidence, ours)
+    return [run.onset_rate / minimum for run in evidence.each_measured(role)]
 
 
-def regularisation_irrelevant(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.regular_share for run in runs], target=1.0)
-
-    return on_both(evidence, ours)
+@on_both
+def regularisation_irrelevant(evidence: Evidence, role: str) -> list[float]:
+    return [run.regular_share for run in evidence.each_measured(role)]
 
 
-def state_rate_at_v(evidence: Evidence) -> Ours:
+def state_rate_at_v(evidence: Evidence) -> float:
     velocity = evidence.loading.velocity
-    return Ours.exactly(evidence.friction.slip_speed(velocity) / velocity)
+    return float(evidence.friction.slip_speed(velocity) / velocity)
 
 
-def _well_approximated(evidence: Evidence, part: str, note: str = "") -> Result:
+def _well_approximated(part: str, evidence: Evidence) -> Result:
     """Where the slip law with v is good: the least of all its runs, of either study."""
-
-    def share(study: str) -> Ours:
-        runs = evidence.each_measured(study, evolution="slip")
-        return Ours.worst([getattr(run, part) for run in runs], target=1.0)
-
-    return Result(share(JUDGED), on_papers_mesh=share(PAPERS), note=note)
-
-
-def slip_law_approximation(evidence: Evidence) -> Result:
-    return _well_approximated(evidence, "state_rate_share_patch")
-
-
-def slip_law_approximation_ahead(evidence: Evidence) -> Result:
-    note = (
-        "A harsh reading: ahead of the front v is far below v0, which there decides how little the "
-        "interface heals (findings: The slip law ahead of the front)."
+    judged, papers = (
+        [getattr(run, part) for run in evidence.each_measured(role, evolution="slip")]
+        for role in (JUDGED, PAPERS)
     )
-    return _well_approximated(evidence, "state_rate_share", note)
+    return Result(judged, on_papers_mesh=papers)
 
 
-def weakening_at_v(evidence: Evidence) -> Ours:
-    return Ours.exactly(evidence.friction.expansion(evidence.loading.velocity).zeta)
+slip_law_approximation = partial(_well_approximated, "state_rate_share_patch")
+slip_law_approximation_ahead = partial(_well_approximated, "state_rate_share")

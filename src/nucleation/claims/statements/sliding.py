@@ -7,23 +7,23 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ...model.friction.evolutions import aging, slip
+from ...types import Array
 from ...verification.dispersion import disagreement
 from ..claim import Cause, Result
 from ..evidence import Evidence
 from ..independent import marginal, printed
-from ..independent.elastic_layers import HALF_SPACE, Layer, pair_transfer
-from ..said import Missing, Ours, below, formula
+from ..independent.elastic_layers import HALF_SPACE, Layer, half_spaces, pair_transfer
+from ..said import Ours, formula
 
 SHORT = np.geomspace(1.001, 100.0, 60)  # wavenumbers over the critical one
 
 
-def evolution_slope(evidence: Evidence) -> Ours:
+def evolution_slope(evidence: Evidence) -> list[float]:
     h = 1e-5
-    slopes = [float(law.growth(1.0 + h) - law.growth(1.0 - h)) / (2.0 * h) for law in (aging, slip)]
-    return Ours.furthest(slopes, target=-1.0)
+    return [float(law.growth(1.0 + h) - law.growth(1.0 - h)) / (2.0 * h) for law in (aging, slip)]
 
 
-def linearised(evidence: Evidence, velocity: float) -> np.ndarray:
+def linearised(evidence: Evidence, velocity: float) -> Array:
     """``[[f_v, f_phi], [g_v, g_phi]]`` at steady sliding, by central differences (SI units)."""
     law = evidence.friction
     state = float(law.steady_state(velocity))
@@ -36,7 +36,7 @@ def linearised(evidence: Evidence, velocity: float) -> np.ndarray:
     return matrix
 
 
-def spring_stiffness(evidence: Evidence) -> Ours:
+def spring_stiffness(evidence: Evidence) -> float:
     velocity, distance = evidence.loading.velocity, evidence.friction.characteristic_slip_distance
     (f_v, f_phi), (g_v, g_phi) = linearised(evidence, velocity)
 
@@ -48,45 +48,28 @@ def spring_stiffness(evidence: Evidence) -> Ours:
 
     printed_stiffness = evidence.friction.expansion(velocity).zeta / distance
     critical = brentq(rate, 0.2 * printed_stiffness, 5.0 * printed_stiffness, rtol=1e-12)
-    return Ours.exactly(critical / printed_stiffness)
-
-
-def literature_eta(evidence: Evidence) -> Ours:
-    raise Missing("It is about other publications, of which none is computed here")
-
-
-def literature_underestimate(evidence: Evidence) -> Ours:
-    raise Missing(
-        "It is about simulations of others, which were not made again; ours of two half-spaces are "
-        "judged beside Eq. (6) in the table of two bodies"
-    )
-
-
-def half_spaces(evidence: Evidence, points: int = 64) -> tuple[float, float]:
-    """G1 and G2 of two identical half-spaces, from Navier's equation."""
-    nu = evidence.material.in_plane_ratio
-    return pair_transfer(Layer(HALF_SPACE, nu), Layer(-HALF_SPACE, nu), points)
+    return float(critical / printed_stiffness)
 
 
 def half_spaces_g1(evidence: Evidence) -> Result:
-    fine, coarse = half_spaces(evidence)[0], half_spaces(evidence, 48)[0]
     nu = evidence.material.in_plane_ratio
+    coarse, fine = (half_spaces(nu, points=points)[0] for points in (48, 64))
     return Result(Ours.within(fine, fine - coarse), formula(1.0 / (2.0 * (1.0 - nu))))
 
 
-def half_spaces_g2(evidence: Evidence) -> Ours:
-    return Ours.furthest([half_spaces(evidence, points)[1] for points in (48, 64)], target=0.0)
-
-
-def symmetric_g2(evidence: Evidence) -> Ours:
+def half_spaces_g2(evidence: Evidence) -> list[float]:
     nu = evidence.material.in_plane_ratio
-    couplings = [pair_transfer(Layer(q, nu), Layer(-q, nu), 32)[1] for q in (0.1, 0.5, 1.0, 3.0)]
-    return Ours.furthest(couplings, target=0.0)
+    return [half_spaces(nu, points=points)[1] for points in (48, 64)]
+
+
+def symmetric_g2(evidence: Evidence) -> list[float]:
+    nu = evidence.material.in_plane_ratio
+    return [pair_transfer(Layer(q, nu), Layer(-q, nu), 32)[1] for q in (0.1, 0.5, 1.0, 3.0)]
 
 
 def _critical(evidence: Evidence) -> tuple[float, float]:
     """k_c (1/m) of two identical half-spaces, and the frequency over V/ell."""
-    transfer = half_spaces(evidence)
+    transfer = half_spaces(evidence.material.in_plane_ratio)
     modulus = evidence.material.shear_modulus
     return marginal.critical_wavenumber(
         lambda k: transfer, modulus, evidence.interface, _printed_wavenumber(evidence)
@@ -116,22 +99,22 @@ def _eta(evidence: Evidence) -> float:
 
 def eta(evidence: Evidence) -> Result:
     nu = evidence.material.in_plane_ratio
-    return Result(Ours.exactly(_eta(evidence)), formula(math.pi / (1.0 - nu), r"$\pi/(1 - \nu)$"))
+    return Result(_eta(evidence), formula(math.pi / (1.0 - nu), r"$\pi/(1 - \nu)$"))
 
 
 def eta_over_literature(evidence: Evidence) -> Result:
     quarter = dataclasses.replace(
         evidence, material=dataclasses.replace(evidence.material, poisson_ratio=0.25)
     )
-    ratios = [Ours.exactly(0.75 * _eta(case)) for case in (evidence, quarter)]
+    ratios = [0.75 * _eta(case) for case in (evidence, quarter)]
     text = r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ ours is"
     return Result(
         ratios[0], formula(math.pi, r"$\pi$"), cause=Cause("The factor pi", text, ratios[1])
     )
 
 
-def eta_larger(evidence: Evidence) -> Ours:
-    return Ours.exactly(_eta(evidence) * 3.0 / 4.0 - 1.0)
+def eta_larger(evidence: Evidence) -> float:
+    return 0.75 * _eta(evidence) - 1.0
 
 
 def uncoupled_frequency(evidence: Evidence) -> Result:
@@ -142,7 +125,7 @@ def uncoupled_frequency(evidence: Evidence) -> Result:
     return Result(Ours.within(frequency * rate, 1e-8 * frequency * rate), said)
 
 
-def friction_perturbation(evidence: Evidence) -> Ours:
+def friction_perturbation(evidence: Evidence) -> list[float]:
     velocity, ell = evidence.loading.velocity, evidence.friction.characteristic_slip_distance
     _, a, zeta = evidence.friction.expansion(velocity)
     (f_v, f_phi), (g_v, g_phi) = linearised(evidence, velocity)
@@ -152,14 +135,14 @@ def friction_perturbation(evidence: Evidence) -> Ours:
         ours = rate * (f_v + f_phi * g_v / (rate - g_phi))
         stated = rate * (a * rate * ell - zeta * velocity) / (velocity * (velocity + rate * ell))
         differences.append(abs(ours / stated - 1.0))
-    return Ours.exactly(max(differences))
+    return differences
 
 
-def spectrum_in_time(evidence: Evidence) -> Ours:
-    return Ours.worst(disagreement(evidence.dispersion).values.ravel())
+def spectrum_in_time(evidence: Evidence) -> Array:
+    return disagreement(evidence.dispersion).values
 
 
-def growth_changes_sign(evidence: Evidence) -> Ours:
+def growth_changes_sign(evidence: Evidence) -> list[float]:
     dataset, zeros = evidence.dispersion, []
     for height in dataset["height"].values:
         one = dataset.sel(height=height)
@@ -168,10 +151,10 @@ def growth_changes_sign(evidence: Evidence) -> Ours:
         last = int(np.flatnonzero(growth > 0.0)[-1])
         part = growth[last] / (growth[last] - growth[last + 1])
         zeros.append(ratio[last] + part * (ratio[last + 1] - ratio[last]))
-    return Ours.worst(zeros, target=1.0)
+    return zeros
 
 
-def short_waves_stable(evidence: Evidence) -> Result:
+def short_waves_stable(evidence: Evidence) -> float:
     material, curve = evidence.material, evidence.theory.isel(height=slice(None, None, 10))
 
     def fastest(height: float, k_c: float) -> float:
@@ -182,5 +165,4 @@ def short_waves_stable(evidence: Evidence) -> Result:
         modulus, interface = material.shear_modulus, evidence.interface
         return max(marginal.growth_at(k, transfer, modulus, interface).real for k in k_c * SHORT)
 
-    largest = max(map(fastest, curve["height"].values, curve["critical_wavenumber"].values))
-    return Result(Ours.exactly(largest), below(0.0))
+    return max(map(fastest, curve["height"].values, curve["critical_wavenumber"].values))
