@@ -308,11 +308,11 @@ def test_contrast_of_nearly_identical_bodies_is_judged_on_bodies_that_differ(mon
     """It compared identical ones, for which any coupling whatever would have passed."""
     (claim,) = [claim for claim in CLAIMS if claim.id == "bimaterial-contrast-limit"]
     assert claim.evaluate(evidence())["verdict"] == Verdict.REPLICATED
-    coupled = bimaterial.pair_transfer
+    coupled = bimaterial.half_spaces
 
     def other(*pair):
         g1, g2 = coupled(*pair)
         return g1, g2 + 1e-5
 
-    monkeypatch.setattr(bimaterial, "pair_transfer", other)
+    monkeypatch.setattr(bimaterial, "half_spaces", other)
     assert claim.evaluate(evidence())["verdict"] == Verdict.NOT_REPLICATED

@@ -52,6 +52,10 @@ class Result:
     note: str = ""
 
 
+Computation = Callable[[Any], Found | Result]
+"""Gives our number from the evidence."""
+
+
 @dataclasses.dataclass(frozen=True)
 class Claim:
     """One statement of the paper and how our number for it is computed; texts are Markdown.
@@ -63,7 +67,7 @@ class Claim:
     statement : what it says, in our words.
     quotation : the paper's own words, LaTeX without spacing commands.
     method : how ours is computed.
-    compute : gives ours from the evidence; None if it can't be had.
+    compute : gives ours; None if it can't be had.
     said : what is compared with; may be left to the function.
     unit : SI unit of the numbers.
     input : whether ours is what the configuration was given, and so no result.
@@ -75,7 +79,7 @@ class Claim:
     statement: str
     quotation: str
     method: str
-    compute: Callable[[Any], Found | Result] | None
+    compute: Computation | None
     said: Said | None = None
     unit: str = "1"
     input: bool = False

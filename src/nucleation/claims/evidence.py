@@ -49,6 +49,11 @@ class Evidence:
     measures: dict[str, Measures]
     patches: dict[str, xr.Dataset]
 
+    @property
+    def nu(self) -> float:
+        """Poisson's ratio in the plane."""
+        return self.material.in_plane_ratio
+
     def rows(self, role: str, **labels: Any) -> list[dict[str, Any]]:
         """Rows of the table of lengths, sorted by height (m); raises Missing if there is none.
 
@@ -119,6 +124,17 @@ def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], R
         return Result(judged, on_papers_mesh=papers, cause=cause)
 
     return of_either
+
+
+def of_runs(
+    measure: str, over: Callable[[Evidence], float] = lambda evidence: 1.0
+) -> Callable[[Evidence], Result]:
+    """The same for one of :class:`.Measures` of every run, over a unit."""
+    return on_both(
+        lambda evidence, role: [
+            getattr(run, measure) / over(evidence) for run in evidence.each_measured(role)
+        ]
+    )
 
 
 def _faults(table: xr.Dataset) -> list[dict[str, Any]]:

@@ -1,24 +1,17 @@
 """Claims on the course of the simulations and on how they were made: Sects. 3, 5 and Text S2."""
 
 import math
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ...configuration.roles import JUDGED, LONGER, PAPERS
-from ..claim import Result
-from ..evidence import Evidence, on_both
+from ..claim import Computation, Result
+from ..evidence import Evidence, of_runs, on_both
 from ..said import Missing, Ours
 from .simulations import INSET, SHOWN, relative_change
 
 AFTER = 0.1  # s after its event, by which a run has seen the rupture
-
-
-@on_both
-def slip_rate_blows_up(evidence: Evidence, role: str) -> float:
-    row = evidence.row(role, "aging", INSET)
-    return evidence.measured(row).largest_rate / evidence.loading.velocity
 
 
 @on_both
@@ -29,9 +22,10 @@ def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
 
 
 @on_both
-def abrupt_drop(evidence: Evidence, role: str) -> list[float]:
-    rows = evidence.rows(role)
-    return [row["onset_time"] / evidence.measured(row).drop_time for row in rows]
+def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
+    velocity = evidence.loading.velocity
+    rates = [evidence.measured(row).patch_rates for row in evidence.series(role)]
+    return [Ours.between(*(rate / velocity for rate in three)) for three in rates]
 
 
 def rupture_duration(evidence: Evidence) -> float:
@@ -39,25 +33,11 @@ def rupture_duration(evidence: Evidence) -> float:
     return float(row["onset_time"] / evidence.measured(row).rupture_time)
 
 
-@on_both
-def slow_creep(evidence: Evidence, role: str) -> list[float]:
-    speed = evidence.material.shear_wave_speed
-    return [run.front_speed / speed for run in evidence.each_measured(role)]
-
-
-@on_both
-def no_radiation(evidence: Evidence, role: str) -> list[float]:
+def damped_rate(evidence: Evidence) -> float:
+    """The slip rate (m/s) at which radiation damping is a sigma0."""
     material, interface = evidence.material, evidence.interface
     impedance = 0.5 * material.shear_modulus / material.shear_wave_speed
-    scale = impedance / (interface.a * interface.normal_stress)
-    return [scale * run.onset_rate for run in evidence.each_measured(role)]
-
-
-@on_both
-def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
-    velocity = evidence.loading.velocity
-    rates = [evidence.measured(row).patch_rates for row in evidence.series(role)]
-    return [Ours.between(*(rate / velocity for rate in three)) for three in rates]
+    return interface.a * interface.normal_stress / impedance
 
 
 def contact_kept(evidence: Evidence) -> Result:
@@ -91,18 +71,6 @@ def length_plays_no_role(evidence: Evidence) -> Result:
     return Result(changes, note=note)
 
 
-def _of_paper(column: str, evidence: Evidence) -> list[float]:
-    return [row[column] for row in evidence.rows(PAPERS)]
-
-
-mesh_along, mesh_across = partial(_of_paper, "n_x"), partial(_of_paper, "n_y")
-
-
-@on_both
-def usual_step(evidence: Evidence, role: str) -> list[float]:
-    return [run.usual_step / 1e-3 for run in evidence.each_measured(role)]
-
-
 def shortest_step(evidence: Evidence) -> Ours:
     rows = [row for row in evidence.rows(PAPERS) if _goes_on(row)] or evidence.rows(PAPERS)
     steps = [evidence.measured(row).shortest_step / 1e-6 for row in rows]
@@ -112,3 +80,19 @@ def shortest_step(evidence: Evidence) -> Ours:
 def _goes_on(row: dict[str, Any]) -> bool:
     """Whether a run goes on after its event."""
     return bool(row.get("simulated_time", 0.0) > row["onset_time_high"] + AFTER)
+
+
+OURS: dict[str, Computation] = {
+    "slip-rate-blows-up": on_both(
+        lambda e, role: e.measured(e.row(role, "aging", INSET)).largest_rate / e.loading.velocity
+    ),
+    "abrupt-drop": on_both(
+        lambda e, role: [row["onset_time"] / e.measured(row).drop_time for row in e.rows(role)]
+    ),
+    "slow-creep": of_runs("front_speed", lambda e: e.material.shear_wave_speed),
+    "no-radiation": of_runs("onset_rate", damped_rate),
+    "mesh-along": lambda e: [row["n_x"] for row in e.rows(PAPERS)],
+    "mesh-across": lambda e: [row["n_y"] for row in e.rows(PAPERS)],
+    "usual-step": of_runs("usual_step", lambda e: 1e-3),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""

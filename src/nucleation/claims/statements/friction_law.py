@@ -1,36 +1,22 @@
 """Claims on the friction law: Sect. 5's values, Table S1, Text S2.1 and Fig. S1."""
 
 import math
-from functools import partial
 
 import numpy as np
 
 from ...configuration.roles import JUDGED, PAPERS
+from ...model.friction.law import Expansion
 from ...types import Array
-from ..claim import Result
-from ..evidence import Evidence, on_both
+from ..claim import Computation, Result
+from ..evidence import Evidence, of_runs
 from ..said import Missing
 
 FINE = np.geomspace(1e-11, 10.0, 4801)  # m/s
 
 
-def _at_v(coefficient: int, evidence: Evidence) -> float:
-    """A coefficient of the expansion (f, a, zeta) at V."""
-    return evidence.friction.expansion(evidence.loading.velocity)[coefficient]
-
-
-f0_table, a_table, zeta_table = f0_main, a_main, zeta_main = [partial(_at_v, i) for i in range(3)]
-weakening_at_v = zeta_table
-
-
-def slip_rate_over_v0(evidence: Evidence) -> float:
-    return math.log10(evidence.loading.velocity / evidence.friction.regularisation_slip_rate)
-
-
-def friction_vanishes(evidence: Evidence) -> float:
-    law = evidence.friction
-    f = law.coefficient(1e-5 * law.regularisation_slip_rate, 1.0)
-    return float(f / law.expansion(evidence.loading.velocity).f0)
+def at_v(evidence: Evidence) -> Expansion:
+    """Friction, a and zeta at V."""
+    return evidence.friction.expansion(evidence.loading.velocity)
 
 
 def logarithmic_law(evidence: Evidence) -> Array:
@@ -64,31 +50,7 @@ def steady_agreement(evidence: Evidence) -> float:
     return math.log10(v[last] / v[first])
 
 
-def strengthening_branch(evidence: Evidence) -> float:
-    return steady_extremes(evidence)[1] / evidence.loading.velocity
-
-
-def weakening_branch(evidence: Evidence) -> float:
-    return evidence.loading.velocity / steady_extremes(evidence)[0]
-
-
-@on_both
-def minimum_plays_no_role(evidence: Evidence, role: str) -> list[float]:
-    minimum = steady_extremes(evidence)[1]
-    return [run.onset_rate / minimum for run in evidence.each_measured(role)]
-
-
-@on_both
-def regularisation_irrelevant(evidence: Evidence, role: str) -> list[float]:
-    return [run.regular_share for run in evidence.each_measured(role)]
-
-
-def state_rate_at_v(evidence: Evidence) -> float:
-    velocity = evidence.loading.velocity
-    return float(evidence.friction.slip_speed(velocity) / velocity)
-
-
-def _well_approximated(part: str, evidence: Evidence) -> Result:
+def well_approximated(evidence: Evidence, part: str) -> Result:
     """Where the slip law with v is good: the least of all its runs, of either study."""
     judged, papers = (
         [getattr(run, part) for run in evidence.each_measured(role, evolution="slip")]
@@ -97,5 +59,23 @@ def _well_approximated(part: str, evidence: Evidence) -> Result:
     return Result(judged, on_papers_mesh=papers)
 
 
-slip_law_approximation = partial(_well_approximated, "state_rate_share_patch")
-slip_law_approximation_ahead = partial(_well_approximated, "state_rate_share")
+OURS: dict[str, Computation] = {
+    **{f"f0-{where}": lambda e: at_v(e).f0 for where in ("table", "main")},
+    **{f"a-{where}": lambda e: at_v(e).a for where in ("table", "main")},
+    **{f"zeta-{where}": lambda e: at_v(e).zeta for where in ("table", "main")},
+    "weakening-at-v": lambda e: at_v(e).zeta,
+    "slip-rate-over-v0": lambda e: math.log10(
+        e.loading.velocity / e.friction.regularisation_slip_rate
+    ),
+    "friction-vanishes": lambda e: (
+        e.friction.coefficient(1e-5 * e.friction.regularisation_slip_rate, 1.0) / at_v(e).f0
+    ),
+    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.loading.velocity,
+    "weakening-branch": lambda e: e.loading.velocity / steady_extremes(e)[0],
+    "minimum-plays-no-role": of_runs("onset_rate", lambda e: steady_extremes(e)[1]),
+    "regularisation-irrelevant": of_runs("regular_share"),
+    "state-rate-at-v": lambda e: e.friction.slip_speed(e.loading.velocity) / e.loading.velocity,
+    "slip-law-approximation": lambda e: well_approximated(e, "state_rate_share_patch"),
+    "slip-law-approximation-ahead": lambda e: well_approximated(e, "state_rate_share"),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""

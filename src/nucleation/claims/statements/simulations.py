@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...configuration.roles import JUDGED
-from ..claim import Result
+from ..claim import Computation, Result
 from ..evidence import Evidence, on_both
 from ..said import Ours, number
 
@@ -23,6 +23,11 @@ def _with_range(row: dict[str, Any], name: str, over: float = 1.0) -> Ours:
     return Ours.between(*(row[f"{name}{end}"] / over for end in ("", "_low", "_high")))
 
 
+def shown(name: str) -> Callable[[Evidence], Result]:
+    """A number of the run of Fig. S2."""
+    return on_both(lambda e, role: _with_range(e.row(role, "aging", SHOWN), name))
+
+
 def onset_time(evidence: Evidence) -> Result:
     row = evidence.row(JUDGED, "aging", SHOWN)
     note = (
@@ -30,17 +35,7 @@ def onset_time(evidence: Evidence) -> Result:
         f"{row['realisations']} realisations, {abs(ONSET.high - row['onset_time']):.2f} s from the "
         "bound. Other kinds have other onsets (findings: Onset and length for H = 0.005 m)."
     )
-    return dataclasses.replace(_onset(evidence), note=note)
-
-
-@on_both
-def _onset(evidence: Evidence, role: str) -> Ours:
-    return _with_range(evidence.row(role, "aging", SHOWN), "onset_time")
-
-
-@on_both
-def length_shown(evidence: Evidence, role: str) -> Ours:
-    return _with_range(evidence.row(role, "aging", SHOWN), "length")
+    return dataclasses.replace(shown("onset_time")(evidence), note=note)
 
 
 @on_both
@@ -73,7 +68,7 @@ def relative_change(evidence: Evidence, varied: dict[str, Any], base: dict[str, 
     return Ours.between(varied["length"] / base["length"] - 1.0, changes.min(), changes.max())
 
 
-def _change_from_aging(height: float, law: str, age: float) -> Callable[[Evidence], Result]:
+def change_from_aging(height: float, law: str, age: float = 1.0) -> Computation:
     """Relative change of L_c by another law or age, at one height (m)."""
 
     @on_both
@@ -82,11 +77,6 @@ def _change_from_aging(height: float, law: str, age: float) -> Callable[[Evidenc
         return relative_change(evidence, varied, base)
 
     return change
-
-
-slip_law_low = _change_from_aging(0.01, "slip", 1.0)
-slip_law_high = _change_from_aging(0.05, "slip", 1.0)
-old_interface = _change_from_aging(INSET, "aging", OLD)
 
 
 def _stability_length(evidence: Evidence, row: dict[str, Any]) -> float:
@@ -113,3 +103,12 @@ def linear_stage_generic(evidence: Evidence) -> list[float]:
         _stability_length(evidence, one) / _stability_length(evidence, other) - 1.0
         for one, other in zip(varied, base, strict=True)
     ]
+
+
+OURS: dict[str, Computation] = {
+    "length-shown": shown("length"),
+    "slip-law-low": change_from_aging(0.01, "slip"),
+    "slip-law-high": change_from_aging(0.05, "slip"),
+    "old-interface": change_from_aging(INSET, "aging", OLD),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""

@@ -8,7 +8,6 @@ claims do not wait for these simulations. A length is the mean of a fault's real
 range theirs.
 """
 
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +16,7 @@ import xarray as xr
 from ...patch.pairs import chosen, of_role, over_realisations
 from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
-from ..claim import Result
+from ..claim import Computation, Result
 from ..independent import printed
 from ..said import Missing, Ours
 
@@ -116,7 +115,7 @@ def pairs_half_spaces(evidence: PairEvidence) -> Result:
     return Result(_lengths(high), note=_note(high))
 
 
-def _response(part: int, evidence: PairEvidence) -> Result:
+def response(evidence: PairEvidence, part: int) -> Result:
     """The measured G1 (part 0) or G2 (part 1) of half-spaces over Eq. (7)."""
     modes = evidence.modes
     high = modes.isel(run=[str(name).startswith("half-spaces") for name in modes["id"].values])
@@ -127,9 +126,6 @@ def _response(part: int, evidence: PairEvidence) -> Result:
     pairs = zip(second / first, nu, second_nu, strict=True)
     expected = np.array([printed.bimaterial_transfer(*pair)[part] for pair in pairs])
     return Result(measured_response(high)[part] / expected[:, None], note=SLIDING)
-
-
-pairs_g1, pairs_g2 = partial(_response, 0), partial(_response, 1)
 
 
 def pairs_modulus(evidence: PairEvidence) -> Result:
@@ -180,3 +176,10 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
     return Result(slopes, note=_note(rows) + _each_sense(rows.isel(run=at), np.array(slopes)))
+
+
+OURS: dict[str, Computation] = {
+    "pairs-g1": lambda e: response(e, 0),
+    "pairs-g2": lambda e: response(e, 1),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""
