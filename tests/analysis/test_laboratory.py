@@ -8,7 +8,7 @@ import pytest
 from nucleation.analysis.laboratory import (
     ENTRIES,
     NEEDED,
-    STATUSES,
+    READ,
     laboratory_faults,
     laboratory_table,
     read_fault,
@@ -22,8 +22,7 @@ WORDS = {"title": "A (2000)", "material": "glass", "source": "doi:1", "read": "a
 
 
 def entry(**quantities):
-    given = {k: {"value": v, "status": "measured", "where": "p. 1"} for k, v in quantities.items()}
-    return WORDS | {"quantities": given}
+    return WORDS | {"measured": {"p. 1": quantities}}
 
 
 def test_every_number_says_where_it_is_from():
@@ -31,14 +30,13 @@ def test_every_number_says_where_it_is_from():
         assert fault.title and fault.source and fault.read
         assert set(fault.numbers) == set(ENTRIES)
         for number in fault.numbers.values():
-            assert number.status in STATUSES and number.where
+            assert number.status in (*READ, "unknown") and number.where
             assert (number.status == "unknown") == math.isnan(number.low)
 
 
 def test_what_was_not_read_is_blank():
-    for fault in FAULTS.values():
-        if fault.read == "not read":
-            assert {number.status for number in fault.numbers.values()} == {"unknown"}
+    blank = [fault.numbers for fault in FAULTS.values() if fault.read == "not read"]
+    assert blank and {n.status for numbers in blank for n in numbers.values()} == {"unknown"}
 
 
 def test_lengths_only_where_all_is_known():
@@ -92,10 +90,10 @@ def test_units_and_ranges():
         (entry(normal_stress="1 m"), "glass.normal_stress = '1 m' is not allowed: .* Pa is needed"),
         (entry(a="-1"), r"glass.a = -1.0 is not allowed: direct-effect coefficient a must lie in"),
         (entry(stress="1 MPa"), "glass.stress is not allowed: known are shear_modulus"),
-        (WORDS, r"glass: lacks \['quantities'\]"),
+        ({"title": "A (2000)"}, r"glass: lacks \['material', 'read', 'source'\]"),
         (entry() | {"plane": "antiplane"}, "glass.plane = 'antiplane' is not allowed"),
-        (WORDS | {"quantities": {"a": {"value": 0.01, "status": "measured"}}}, "it needs value"),
-        (WORDS | {"quantities": {"a": {"value": 1, "status": "sure", "where": "x"}}}, "a status"),
+        (WORDS | {"measured": {"a": 0.01}}, "glass.measured is not allowed: numbers stand below"),
+        (WORDS | {"sure": {"p. 1": {"a": 0.01}}}, r"has \['sure'\] which is no key"),
     ],
 )
 def test_what_is_refused(given, said):
