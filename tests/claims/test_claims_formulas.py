@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from reference_evidence import CLAIMS, evidence
+from reference_evidence import BY_ID, evidence
 from theory import layer_problem
 
 from nucleation.claims.claim import Verdict
@@ -72,7 +72,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("name", "change", "id"), WRONG)
 def test_wrong_formula_is_not_replicated(monkeypatch, evidence_of_theory, name, change, id):
-    (claim,) = [claim for claim in CLAIMS if claim.id == id]
+    claim = BY_ID[id]
     assert claim.evaluate(evidence_of_theory)["verdict"] == Verdict.REPLICATED
     monkeypatch.setattr(printed, name, change(getattr(printed, name)))
     assert claim.evaluate(evidence_of_theory)["verdict"] == Verdict.NOT_REPLICATED
