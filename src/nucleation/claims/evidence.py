@@ -88,24 +88,23 @@ class Evidence:
 
     def measured(self, row: dict[str, Any]) -> Measures:
         """What was read from the simulations of a row, their mean; raises Missing without one."""
-        return mean([self._measures(id) for id in row["members"]])
+        return mean(self._measures(row))
 
     def each_measured(self, role: str, **labels: Any) -> list[Measures]:
         """What was read from every simulation of some rows; raises Missing without one."""
-        return [self._measures(id) for row in self.rows(role, **labels) for id in row["members"]]
+        return [one for row in self.rows(role, **labels) for one in self._measures(row)]
 
-    def _measures(self, id: str) -> Measures:
-        try:
-            return self.measures[id]
-        except KeyError:
-            raise Missing(f"The simulation {id} is not among the results") from None
+    def _measures(self, row: dict[str, Any]) -> list[Measures]:
+        for id in row["members"]:
+            if id not in self.measures:
+                raise Missing(f"The simulation {id} is not among the results")
+        return [self.measures[id] for id in row["members"]]
 
     def patch(self, row: dict[str, Any]) -> xr.Dataset:
         """The stability of the patch of a row's first realisation; raises Missing without it."""
-        try:
-            return self.patches[row["id"]]
-        except KeyError:
-            raise Missing(f"The stability of the patch of {row['id']} was not computed") from None
+        if row["id"] not in self.patches:
+            raise Missing(f"The stability of the patch of {row['id']} was not computed")
+        return self.patches[row["id"]]
 
 
 def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], Result]:
@@ -148,6 +147,4 @@ def _faults(table: xr.Dataset) -> list[dict[str, Any]]:
 
 
 def _same(one: Any, other: Any) -> bool:
-    if isinstance(other, str):
-        return bool(one == other)
-    return bool(np.isclose(one, other, rtol=1e-9))
+    return bool(one == other if isinstance(other, str) else np.isclose(one, other, rtol=1e-9))

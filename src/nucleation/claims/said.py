@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any, SupportsFloat
 
@@ -118,9 +118,7 @@ def number(printed: str) -> Said:
     """A printed number, meant to half a unit of its last digit, such as ``"0.15"``."""
     decimal = Decimal(printed)
     half = Decimal(1).scaleb(int(decimal.as_tuple().exponent)) / 2
-    return Said(
-        "number", float(decimal - half), float(decimal + half), printed, value=float(decimal)
-    )
+    return Said("number", float(decimal - half), float(decimal + half), printed, float(decimal))
 
 
 def formula(value: float, text: str = "") -> Said:
@@ -145,19 +143,11 @@ def words(expression: str) -> Said:
     return Said("words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED)
 
 
-KINDS: dict[str, Callable[..., Said]] = {
-    "number": number,
-    "formula": formula,
-    "below": below,
-    "above": above,
-    "words": words,
-}
-
-
 def read(entry: Mapping[str, Any]) -> Said:
     """What an entry such as ``{number: "0.15"}`` or ``{formula: [1, Eq. (10)]}`` says."""
     ((kind, values),) = entry.items()
-    return KINDS[kind](*values) if isinstance(values, list) else KINDS[kind](values)
+    said = {kind.__name__: kind for kind in (number, formula, below, above, words)}[kind]
+    return said(*values) if isinstance(values, list) else said(values)
 
 
 def holds(said: Said, ours: Ours) -> bool | None:
@@ -171,14 +161,11 @@ def holds(said: Said, ours: Ours) -> bool | None:
     """
     if not math.isfinite(ours.value):
         return None
+    up, down = ours.high - ours.value, ours.value - ours.low
     if said.kind == "number":
         widest = WIDEST_ALLOWANCE * abs(said.value or 0.0)
-        low = said.low - min(ours.high - ours.value, widest)
-        high = said.high + min(ours.value - ours.low, widest)
-        return low <= ours.value <= high
+        return said.low - min(up, widest) <= ours.value <= said.high + min(down, widest)
     if said.kind == "formula":
-        margin = 0.5 * (said.high - said.low)
-        if max(ours.high - ours.value, ours.value - ours.low) > margin:
-            return None
-        return said.low <= ours.value <= said.high
+        known = max(up, down) <= 0.5 * (said.high - said.low)
+        return said.low <= ours.value <= said.high if known else None
     return said.low < ours.value < said.high

@@ -37,21 +37,18 @@ class PairEvidence(NamedTuple):
     modes: xr.Dataset  # of nucleation.verification.pair_modes.pair_modes
 
 
-def rows_of(table: xr.Dataset, role: str) -> xr.Dataset:
-    """The faults with a role, each the mean of its realisations; raises Missing without any."""
-    rows = of_role(table, role)
+def required(rows: xr.Dataset, missing: str) -> xr.Dataset:
+    """The same rows; raises Missing if there are none."""
     if not rows.sizes["run"]:
-        raise Missing(f"The table of pairs has no runs with the role {role}")
-    return over_realisations(rows)
+        raise Missing(missing)
+    return rows
 
 
-def half_spaces(table: xr.Dataset) -> xr.Dataset:
-    """Identical blocks as high as half-spaces; raises Missing without any."""
-    rows = rows_of(table, "pairs_identical")
-    high = chosen(rows, (rows["height"] >= HALF_SPACE * rows["theory_length"]).values)
-    if not high.sizes["run"]:
-        raise Missing("No identical blocks are as high as half-spaces")
-    return high
+def rows_of(evidence: PairEvidence, role: str = "figure_2_simulated") -> xr.Dataset:
+    """The faults with a role, each the mean of its realisations; raises Missing without any."""
+    rows = of_role(evidence.table, role)
+    missing = f"The table of pairs has no runs with the role {role}"
+    return over_realisations(required(rows, missing))
 
 
 def over_effective_modulus(rows: xr.Dataset) -> Array:
@@ -111,7 +108,9 @@ def _over_weakenings(values: dict[float, Array], rows: xr.Dataset) -> Result:
 
 
 def pairs_half_spaces(evidence: PairEvidence) -> Result:
-    high = half_spaces(evidence.table)
+    rows = rows_of(evidence, "pairs_identical")
+    high = chosen(rows, (rows["height"] >= HALF_SPACE * rows["theory_length"]).values)
+    required(high, "No identical blocks are as high as half-spaces")
     return Result(_lengths(high), note=_note(high))
 
 
@@ -119,8 +118,7 @@ def response(evidence: PairEvidence, part: int) -> Result:
     """The measured G1 (part 0) or G2 (part 1) of half-spaces over Eq. (7)."""
     modes = evidence.modes
     high = modes.isel(run=[str(name).startswith("half-spaces") for name in modes["id"].values])
-    if not high.sizes["run"]:
-        raise Missing("No modes between half-spaces were simulated")
+    required(high, "No modes between half-spaces were simulated")
     names = ("second_shear_modulus", "shear_modulus", "poisson_ratio", "second_poisson_ratio")
     second, first, nu, second_nu = (high[name].values for name in names)
     pairs = zip(second / first, nu, second_nu, strict=True)
@@ -129,13 +127,13 @@ def response(evidence: PairEvidence, part: int) -> Result:
 
 
 def pairs_modulus(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     scaled = {z: both.mean(axis=1) / identical for z, _, both, identical in senses(rows)}
     return _over_weakenings(scaled, rows)
 
 
 def pairs_contrast(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     scaled = {}
     for z, contrast, both, _ in senses(rows):
         effect = (both[:, 0] - both[:, 1]) / both.sum(axis=1) / contrast
@@ -146,7 +144,7 @@ def pairs_contrast(evidence: PairEvidence) -> Result:
 
 
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     over = rows["length"].values / rows["height"].values
     note = (
         f" {int((rows['height'] < rows['theory_length']).sum())} of {over.size} blocks are lower "
@@ -157,14 +155,14 @@ def pairs_bimaterial(evidence: PairEvidence) -> Result:
 
 
 def pairs_smaller(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     strong = chosen(rows, np.abs(rows["f_beta"].values) > STRONG)
     ours = _lengths(strong, unit=strong["half_space_ratio"].values)
     return Result(ours, note=_note(rows) + _each_sense(strong, over_effective_modulus(strong)))
 
 
 def pairs_decreasing(evidence: PairEvidence) -> Result:
-    rows, slopes, at = rows_of(evidence.table, "figure_2_simulated"), [], []
+    rows, slopes, at = rows_of(evidence), [], []
     ratio = over_effective_modulus(rows)
     contrast, weakening = rows["f_beta"].values, np.round(rows["zeta_over_a"].values, 3)
     for value in np.unique(weakening):
