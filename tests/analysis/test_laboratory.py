@@ -5,18 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from nucleation.analysis.laboratory import (
-    ENTRIES,
-    NEEDED,
-    READ,
-    laboratory_faults,
-    laboratory_table,
-    read_fault,
-)
+from nucleation.analysis import laboratory
+from nucleation.analysis.laboratory import NEEDED, READ, laboratory_table, read_fault
 from nucleation.api import ParameterError, critical_length, stability_length
 from nucleation.figures.beyond import figure_laboratory
 
-FAULTS = {fault.name: fault for fault in laboratory_faults()}
+FAULTS = {fault.name: fault for fault in laboratory.laboratory_faults()}
 TABLE = laboratory_table(tuple(FAULTS.values()))
 WORDS = {"title": "A (2000)", "material": "glass", "source": "doi:1", "read": "all", "says": "long"}
 
@@ -28,7 +22,7 @@ def entry(**quantities):
 def test_every_number_says_where_it_is_from():
     for fault in FAULTS.values():
         assert fault.title and fault.source and fault.read
-        assert set(fault.numbers) == set(ENTRIES)
+        assert set(fault.numbers) == set(laboratory.ENTRIES)
         for number in fault.numbers.values():
             assert number.status in (*READ, "unknown") and number.where
             assert (number.status == "unknown") == math.isnan(number.low)
