@@ -5,8 +5,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from .definitions import SEARCHED
 
 NEARLY = 0.98
@@ -28,6 +26,8 @@ def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
 
 def in_table(path: Path) -> list[str]:
     """The same from the CSV of a study's table."""
+    import pandas as pd  # which takes a while
+
     return without_event(pd.read_csv(path).to_dict("records"))
 
 
