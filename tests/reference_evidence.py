@@ -49,6 +49,7 @@ def evidence(**changes):
 STATED = table_of_claims.stated()
 PAIRED = {subject: STATED.pop(subject) for subject in ["two bodies, simulated"]}
 CLAIMS = [claim for s, entries in STATED.items() for claim in table_of_claims.claims_on(s, entries)]
+BY_ID = {claim.id: claim for claim in CLAIMS}
 
 
 def evaluate(evidence):

@@ -45,7 +45,7 @@ BEYOND = {
     "report": "report", "claims/article.py": "report", "claims/printing.py": "article",
     "pipeline": "workflow",
     "figures": "figures", "commands/show.py": "figures", "analysis": "solver", "fem": "solver",
-    "simulation": "solver", "verification": "solver",
+    "simulation": "solver", "verification": "solver", "claims/table.py": "solver",
 }  # fmt: skip
 """Parts of the package that need one of the extras as well."""
 

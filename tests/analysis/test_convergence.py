@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from nucleation.analysis.convergence import COLUMNS, refinement_table, sequences
@@ -32,12 +33,13 @@ def test_sequences_differ_in_one_parameter_and_go_from_coarse_to_fine():
     rows += [row(n_x=3200, tolerance=1e-3), row(n_x=3200, grading=5.0)]
     rows += [row(n_x=3200, kind="none"), row(n_x=3200, strength=1e-3), row(n_x=3200, seed=2)]
     rows += [row(n_x=3200, correlation_length=0.01), row(n_x=3200, block_length=4.0)]
-    found = sequences(rows, "n_x")
-    assert [[r["n_x"] for r in sequence] for sequence in found] == [[400, 800, 1600]] * 2
-    assert [{r["height"] for r in sequence} for sequence in found] == [{0.02}, {0.1}]
-    (steps,) = sequences(rows, "longest_step")
-    assert [r["longest_step"] for r in steps] == [0.04, 0.02, 0.01]
-    assert sequences(rows, "n_y") == sequences(rows, "tolerance") == []
+    runs = pd.DataFrame(rows)
+    found = sequences(runs, "n_x")
+    assert [list(own["n_x"]) for own in found] == [[400, 800, 1600]] * 2
+    assert [set(own["height"]) for own in found] == [{0.02}, {0.1}]
+    (steps,) = sequences(runs, "longest_step")
+    assert list(steps["longest_step"]) == [0.04, 0.02, 0.01]
+    assert sequences(runs, "n_y") == sequences(runs, "tolerance") == []
 
 
 def test_table_compares_with_the_finest_run():

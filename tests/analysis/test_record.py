@@ -1,13 +1,12 @@
 """A record reads a run once, by one definition of everything."""
 
-import made_up_runs
 import numpy as np
 import pytest
 from analysis.made_up_patch import VELOCITY, synthetic_simulation
 
 from nucleation.analysis.definitions import Extent, ExtractionSettings
 from nucleation.analysis.extraction import extract
-from nucleation.analysis.record import Record, parameters_of
+from nucleation.analysis.record import Record
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
 
@@ -46,11 +45,3 @@ def test_a_run_without_event_creeps_all_along():
     assert record.creep.size == record.time.size
     with pytest.raises(ValueError, match="the run has no event"):
         _ = record.drop_times
-
-
-def test_grid_and_parameters_are_those_of_the_run():
-    simulation = made_up_runs.record()
-    record = Record(simulation)
-    assert record.parameters == parameters_of(simulation) == made_up_runs.PARAMETERS
-    np.testing.assert_allclose(record.grid.x, record.x)
-    assert record.velocity == made_up_runs.PARAMETERS.loading.velocity

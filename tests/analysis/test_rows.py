@@ -7,17 +7,12 @@ import xarray as xr
 
 from nucleation.analysis.rows import ratios, rows_of
 
-TABLE = xr.Dataset(
-    {
-        "id": ("run", np.array(["a", "b"])),
-        "n_x": ("run", np.array([400, 800])),
-        "length": ("run", np.array([0.2, np.nan])),
-        "theory_length": ("run", np.array([0.4, 0.5])),
-        "stability_length": ("run", np.array([0.1, 0.3])),
-        "velocity_weakening": ("run", np.array([0.016, 0.03])),
-        "direct_effect": ("run", np.array([0.008, 0.01])),
-    }
-)
+COLUMNS = {
+    "id": ["a", "b"], "n_x": [400, 800], "length": [0.2, np.nan], "theory_length": [0.4, 0.5],
+    "stability_length": [0.1, 0.3], "velocity_weakening": [0.016, 0.03],
+    "direct_effect": [0.008, 0.01],
+}  # fmt: skip
+TABLE = xr.Dataset({name: ("run", np.array(values)) for name, values in COLUMNS.items()})
 
 
 def test_rows_are_plain():

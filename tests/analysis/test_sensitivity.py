@@ -38,11 +38,7 @@ def test_variation_in_words(values, critical, expected):
 def table():
     doubled = changed(density=2400.0, length=4.0, n_x=400)
     runs = [run("a"), run("b", doubled, theory_length=1.0), run("c", changed(height=0.1))]
-    simulations = [
-        record(0.1),
-        record(0.125, doubled),
-        record(0.1, changed(height=0.1)),
-    ]
+    simulations = [record(0.1), record(0.125, doubled), record(0.1, changed(height=0.1))]
     return sensitivity_table(runs, simulations)
 
 

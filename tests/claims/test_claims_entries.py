@@ -1,6 +1,7 @@
 """The entries: complete, quoted, documented, and their numbers computed again in other ways."""
 
 import csv
+import io
 import itertools
 import json
 import math
@@ -11,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from reference_evidence import CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
+from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
 
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
@@ -31,6 +32,10 @@ def realisations(study, law, height, phi0=1.0):
     """The rows of one fault in the table of lengths."""
     frame = LENGTHS[(LENGTHS.study == study) & (LENGTHS.evolution == law) & (LENGTHS.phi0 == phi0)]
     return frame[np.isclose(frame.height, height)]
+
+
+def measured(**values):
+    return Measures(1.0, 1.0, 1.0, 1.0, **values)
 
 
 @pytest.fixture(scope="module")
@@ -92,13 +97,6 @@ def test_page_has_every_reading():
 def test_page_states_the_rules_constants():
     assert f"1e{round(math.log10(FORMULA_TOLERANCE))} of its value" in " ".join(PAGE.split())
     assert f"at most {100 * WIDEST_ALLOWANCE:.0f} % of the number" in " ".join(PAGE.split())
-
-
-def test_every_explained_deviation_has_its_number(reference):
-    explained = [row for row in reference.values() if row["verdict"] == Verdict.EXPLAINED]
-    assert explained
-    for row in explained:
-        assert re.search(r"-?\d[\d.e+-]* \(findings: ", row["reason"]), row["id"]
 
 
 def test_reference_is_what_the_code_gives(rows, reference):
@@ -187,7 +185,7 @@ def test_agreement_with_the_theory(rows):
 
 def test_dependence_on_height_is_judged_at_all_heights():
     """It was at the least and the largest, whatever lengths had done between them."""
-    (claim,) = [claim for claim in CLAIMS if claim.id == "height-dependence"]
+    claim = BY_ID["height-dependence"]
     on = evidence()
     assert claim.evaluate(on)["verdict"] == Verdict.REPLICATED
     judged = on.lengths[1].copy(deep=True)
@@ -198,33 +196,25 @@ def test_dependence_on_height_is_judged_at_all_heights():
 
 def test_theory_by_hand(rows):
     """The main text's numbers put into the formulas by hand."""
-    assert rows["half-spaces-wavenumber"]["ours"] == pytest.approx(
-        2 * (2 / 3) * 0.016 * 1e6 / 3.1e9 / 0.5e-6, rel=1e-6
-    )
-    assert rows["eta"]["ours"] == pytest.approx(1.5 * math.pi, rel=1e-6)
-    assert rows["uncoupled-frequency"]["ours"] == pytest.approx(
-        math.sqrt(0.016 / 0.0068) * 20.0, rel=1e-6
-    )
-    assert rows["half-spaces-g1"]["ours"] == pytest.approx(0.75, rel=1e-6)
-    assert rows["block-high-limit"]["ours"] == pytest.approx(0.25, rel=1e-6)
+    expected = {
+        "half-spaces-wavenumber": 2 * (2 / 3) * 0.016 * 1e6 / 3.1e9 / 0.5e-6,
+        "eta": 1.5 * math.pi,
+        "uncoupled-frequency": math.sqrt(0.016 / 0.0068) * 20.0,
+        "half-spaces-g1": 0.75,
+        "block-high-limit": 0.25,
+    }
+    assert {name: rows[name]["ours"] for name in expected} == pytest.approx(expected, rel=1e-6)
 
 
 def test_changes_of_law_and_age_take_the_same_definition_for_both_runs():
     """A common factor of all lengths of a run changes the number and not only its range."""
-
-    def measures(factor, spread):
-        values = {field: 1.0 for field in Measures.__dataclass_fields__}
-        lengths = tuple(factor * (1.0 + spread * i) for i in range(9))
-        return Measures(**{**values, "lengths": lengths, "patch_rates": (1.0, 1.0, 1.0)})
-
-    base = evidence()
+    base, spread = evidence(), 1.0 + 0.1 * np.arange(9)
     ids = {"paper-slip-H0.01-phi1": 1.05, "paper-aging-H0.01-phi1": 1.0}
     for seed, off in ((1, -0.02), (2, 0.0), (3, 0.02)):  # of which the mean counts
         ids |= {f"converged-slip-H0.01-phi1-seed{seed}": 1.05 + off}
         ids |= {f"converged-aging-H0.01-phi1-seed{seed}": 1.0}
-    made_up = evidence(measures={id: measures(factor, 0.1) for id, factor in ids.items()})
-    (claim,) = [claim for claim in CLAIMS if claim.id == "slip-law-low"]
-    row = claim.evaluate(made_up)
+    measures = {id: measured(lengths=factor * spread) for id, factor in ids.items()}
+    row = BY_ID["slip-law-low"].evaluate(evidence(measures=measures))
     assert row["uncertainty"] == pytest.approx([min(0.05, row["ours"]), max(0.05, row["ours"])])
     lengths = [base.row("converged", law, 0.01)["length"] for law in ("slip", "aging")]
     assert row["ours"] == pytest.approx(lengths[0] / lengths[1] - 1.0)
@@ -232,29 +222,26 @@ def test_changes_of_law_and_age_take_the_same_definition_for_both_runs():
 
 def test_configuration_without_the_runs_can_not_be_checked():
     nothing = evidence(lengths=(), patches={})
-    by_id = {claim.id: claim for claim in CLAIMS}
     for name in ("onset-time", "theory-agreement", "stability-lost-at-length", "mesh-along"):
-        row = by_id[name].evaluate(nothing)
+        row = BY_ID[name].evaluate(nothing)
         assert row["verdict"] == Verdict.UNCHECKED
         assert "no such run: role" in row["reason"]
-    assert by_id["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
+    assert BY_ID["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
 
 
 def test_tables_hold_every_row(rows):
     listed = list(rows.values())
-    text = table.to_csv(listed)
-    parsed = list(csv.DictReader(text.splitlines()))
-    assert [row["id"] for row in parsed] == list(rows)
-    assert float(parsed[5]["ours"] or 0.0) == pytest.approx(listed[5]["ours"] or 0.0, rel=1e-5)
+    parsed = pd.read_csv(io.StringIO(table.to_csv(listed)))
+    assert list(parsed["id"]) == list(rows)
+    ours = np.array([row["ours"] for row in listed], float)
+    np.testing.assert_allclose(parsed["ours"], ours, rtol=1e-5)
     lines = table.to_markdown(listed).splitlines()
     assert lines[0].startswith(f"{len(rows)} claims: ")
     body = [line for line in lines if line.startswith("| ")]
     assert len(body) == len(rows) + 1
     assert {len(re.findall(r"(?<!\\)\|", line)) for line in body} == {8}
-    methods = [claim.method for claim in CLAIMS]
-    assert all(
-        table.escaped(method) in text for method, text in zip(methods, body[1:], strict=True)
-    )
+    for claim, text in zip(CLAIMS, body[1:], strict=True):
+        assert table.escaped(claim.method) in text
     assert sum(table.counts(listed).values()) == len(rows)
 
 
@@ -265,7 +252,6 @@ def test_page_on_the_papers_own_point():
 
 def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     """Judged on the runs themselves, and not on the stress half-way along shorter blocks."""
-    values = dict.fromkeys(Measures.__dataclass_fields__, 1.0) | {"patch_rates": (1.0, 1.0, 1.0)}
     on = evidence()
     base = on.lengths[0].isel(run=[0, 0, 1]).copy(deep=True)
     ids = ["short", "long", "other"]
@@ -276,10 +262,10 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     factors = dict(zip(ids, (0.2, 0.203, 0.5), strict=True))
     shown = {str(id): 1.0 for table in on.lengths[:2] for id in table["id"].values}
     measures = {
-        id: Measures(**{**values, "lengths": (length,) * 9})
+        id: measured(lengths=(length,) * 9, middle_stress=1.0)
         for id, length in (factors | shown).items()
     }
-    (claim,) = [claim for claim in CLAIMS if claim.id == "length-plays-no-role"]
+    claim = BY_ID["length-plays-no-role"]
     row = claim.evaluate(evidence(lengths=(*on.lengths[:2], longer), measures=measures))
     assert row["ours"] == pytest.approx(0.015) and row["verdict"] == Verdict.NOT_SUPPORTED
     assert claim.evaluate(on)["verdict"] == Verdict.UNCHECKED
@@ -306,13 +292,13 @@ def test_runs_of_another_material_are_not_taken_for_the_papers():
 @pytest.mark.slow
 def test_contrast_of_nearly_identical_bodies_is_judged_on_bodies_that_differ(monkeypatch):
     """It compared identical ones, for which any coupling whatever would have passed."""
-    (claim,) = [claim for claim in CLAIMS if claim.id == "bimaterial-contrast-limit"]
+    claim = BY_ID["bimaterial-contrast-limit"]
     assert claim.evaluate(evidence())["verdict"] == Verdict.REPLICATED
-    coupled = bimaterial.pair_transfer
+    coupled = bimaterial.half_spaces
 
     def other(*pair):
         g1, g2 = coupled(*pair)
         return g1, g2 + 1e-5
 
-    monkeypatch.setattr(bimaterial, "pair_transfer", other)
+    monkeypatch.setattr(bimaterial, "half_spaces", other)
     assert claim.evaluate(evidence())["verdict"] == Verdict.NOT_REPLICATED

@@ -35,19 +35,22 @@ def test_printed_number_allows_half_a_unit_of_its_last_digit(printed, low, high)
     assert not holds(said, Ours.exactly(high + beyond))
 
 
-def test_uncertainty_widens_a_number_on_its_own_side_alone():
-    said = number("0.15")
-    assert holds(said, Ours.between(0.160, 0.155, 0.160))
-    assert not holds(said, Ours.between(0.160, 0.156, 0.200))  # its upper side is the wrong one
-    assert holds(said, Ours.between(0.140, 0.140, 0.146))
-    assert not holds(said, Ours.between(0.140, 0.100, 0.144))
+WIDEST = 0.155 + WIDEST_ALLOWANCE * 0.15
 
 
-def test_wide_uncertainty_does_not_confirm():
-    said = number("0.15")
-    furthest = said.high + WIDEST_ALLOWANCE * 0.15
-    assert holds(said, Ours.between(furthest - 1e-9, 0.01, 1.0))
-    assert not holds(said, Ours.between(furthest + 1e-9, 0.01, 1.0))
+@pytest.mark.parametrize(
+    ("said", "ours", "held"),
+    [(number("0.15"), (0.160, 0.155, 0.160), True),
+     (number("0.15"), (0.160, 0.156, 0.200), False),  # its upper side is the wrong one
+     (number("0.15"), (0.140, 0.140, 0.146), True),
+     (number("0.15"), (0.140, 0.100, 0.144), False),
+     (number("0.15"), (WIDEST - 1e-9, 0.01, 1.0), True),  # wide uncertainty does not confirm
+     (number("0.15"), (WIDEST + 1e-9, 0.01, 1.0), False),
+     (below(1.0), (0.999, 0.5, 2.0), True), (below(1.0), (1.0, 1.0, 1.0), False),
+     (above(1.0), (1.001, 1.001, 1.001), True), (above(1.0), (1.0, 1.0, 9.0), False)],
+)  # fmt: skip
+def test_a_range_widens_a_number_on_its_own_side_and_no_bound(said, ours, held):
+    assert holds(said, Ours.between(*ours)) is held
 
 
 @pytest.mark.parametrize("value", [math.pi, -2.0, 0.0, 1e-9])
@@ -58,13 +61,6 @@ def test_formula_holds_to_its_tolerance(value):
     assert not holds(said, Ours.exactly(value + 1.01 * margin))
     assert not holds(said, Ours.exactly(value - 1.01 * margin))
     assert holds(said, Ours.within(value, 1.01 * margin)) is None  # too uncertain to decide
-
-
-def test_bounds_are_strict_and_judge_the_number_alone():
-    assert holds(below(1.0), Ours.between(0.999, 0.5, 2.0))
-    assert not holds(below(1.0), Ours.exactly(1.0))
-    assert holds(above(1.0), Ours.exactly(1.001))
-    assert not holds(above(1.0), Ours.between(1.0, 1.0, 9.0))
 
 
 def test_words_are_intervals_with_a_reading():
@@ -85,12 +81,20 @@ def test_undefined_number_decides_nothing():
         assert holds(said, Ours.exactly(math.nan)) is None
 
 
-def test_worst_is_furthest_from_the_target():
-    ours = Ours.worst([0.9, 1.05, 1.0], target=1.0)
-    assert (ours.value, ours.low, ours.high) == (0.9, 0.9, 1.05)
-    assert math.isnan(Ours.worst([1.0, math.nan]).value)
+@pytest.mark.parametrize(
+    ("said", "worst", "low", "high"),
+    [(words("computed"), 0.9, 0.9, 1.05), (words("small variation"), 1.05, 0.9, 1.05),
+     (number("1.1"), 0.9, 0.9, 1.05), (formula(1.0), 0.9, 0.9, 0.9),
+     (above(1.0), 0.9, 0.9, 1.05), (below(1.0), 1.05, 0.9, 1.05), (words("most"), 0.9, 0.9, 1.05)],
+)  # fmt: skip
+def test_of_several_numbers_that_which_speaks_most_against_it_is_judged(said, worst, low, high):
+    assert said.worst([0.9, 1.05, 1.0]) == Ours(worst, low, high)
+    assert said.worst(0.9) == Ours.exactly(0.9)
+    own = [Ours.within(0.9, 0.2), Ours.within(1.05, 0.1), Ours.exactly(1.0)]
+    assert said.worst(own) == next(one for one in own if one.value == worst)
+    assert math.isnan(said.worst([1.0, math.nan]).value)
     with pytest.raises(ValueError):
-        Ours.worst([])
+        said.worst([])
 
 
 SAID = number("13")
@@ -109,26 +113,18 @@ GOOD, BAD = Ours.exactly(12.8), Ours.exactly(18.9)
         (Result(BAD, cause=Cause("Why", "Without it", BAD)), Verdict.NOT_REPLICATED, "outside"),
         (Result(GOOD, cause=Cause("Why", "Without it", BAD)), Verdict.REPLICATED, "within"),
         (Result(Ours.exactly(math.nan)), Verdict.UNCHECKED, "no such event"),
+        (Result(Ours.within(1.0, 0.01), formula(1.0)), Verdict.UNCHECKED, "known to 0.01 only."),
+        (Result(Ours.between(0.9, 0.8, 1.1), below(1.0)), Verdict.REPLICATED,
+         "Its range reaches across the bound, 1."),
+        (Result(Ours.between(1.05, 0.9, 1.1), below(1.0)), Verdict.NOT_REPLICATED, "the bound, 1."),
         (Result(BAD, cause=Cause("Why", "Without it", Ours.exactly(math.nan))),
          Verdict.NOT_REPLICATED, "outside"),
     ],
 )  # fmt: skip
 def test_verdicts(result, verdict, words_of_reason):
-    found, reason = judge(SAID, result)
+    found, reason = judge(result.said or SAID, result)
     assert found == verdict
     assert words_of_reason in reason
-
-
-def test_uncertain_formula_and_far_reaching_bound_say_so():
-    verdict, reason = judge(formula(1.0), Result(Ours.within(1.0, 0.01)))
-    assert (verdict, reason) == (Verdict.UNCHECKED, "Our number is known to 0.01 only.")
-    verdict, reason = judge(below(1.0), Result(Ours.between(0.9, 0.8, 1.1)))
-    assert verdict == Verdict.REPLICATED
-    assert "Its range reaches across the bound, 1." in reason
-    verdict, reason = judge(below(1.0), Result(Ours.between(1.05, 0.9, 1.1)))
-    assert verdict == Verdict.NOT_REPLICATED and "across the bound, 1." in reason
-    verdict, reason = judge(below(1.0), Result(Ours.between(0.9, 0.8, 0.95)))
-    assert "reaches" not in reason
 
 
 def test_words_whose_reading_is_ours_are_not_supported_where_others_are_not_replicated():

@@ -1,19 +1,16 @@
 """Verdicts on two bodies follow from the table of pairs."""
 
-import csv
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from reference_evidence import PAIRED
+from reference_evidence import PAIRED, REFERENCE
+from reference_evidence import table as of_reference
 
 from nucleation.claims import table as table_of_claims
 from nucleation.claims.independent import printed
 from nucleation.claims.statements.two_bodies import PairEvidence
 
-REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
 FOUND = {claim.id: claim for claim in CLAIMS}
 
@@ -51,9 +48,8 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
     """Rates of one mode of each of two pairs, whose response is so many times that of Eq. (7)."""
     f, a, zeta, ell, v, sigma0, mu, k = 0.41, 0.0068, 0.016, 5e-7, 1e-5, 1e6, 3.1e9, 10.0
     psi, nu = np.array([3.0, 0.4]), (0.25, 0.1)
-    expected = [0.5 * printed.bimaterial_modulus(x, *nu) for x in psi]
-    beta = np.array([printed.bimaterial_contrast(x, *nu) for x in psi])
-    response = np.array(expected) * (g1 - 1j * f * g2 * beta)
+    expected = np.array([printed.bimaterial_transfer(x, *nu) for x in psi])
+    response = expected @ [g1, -1j * f * g2]
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
     rates = np.array([np.roots([a, x - zeta, x]) for x in load]) * v / ell
     columns = {
@@ -163,23 +159,15 @@ def test_without_runs_nothing_is_judged():
 
 def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     """On the committed tables; the reason says so where one can't be had."""
-    rows = {row["id"]: row for row in table_of_reference()}
-    said = " ".join(row["where"] for row in rows.values())
+    rows = pd.read_csv(REFERENCE / "claims_pairs.csv").set_index("id")
+    said = " ".join(rows["where"])
     assert all(name in said for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
-    assert rows.keys() == FOUND.keys()
-    frames = [pd.read_csv(REFERENCE / name) for name in ("pairs.csv", "pair_modes.csv")]
-    pairs, flat = frames
-    found = xr.Dataset({name: ("run", pairs[name].to_numpy()) for name in pairs})
-    along, back = (flat[flat["branch"] == n].drop(columns="branch") for n in (0, 1))
+    assert list(rows.index) == list(FOUND)
+    modes = of_reference("pair_modes.csv")
+    along, back = (modes.isel(run=modes["branch"].values == n) for n in (0, 1))
     measured = ("measured_growth", "measured_frequency")
-    both = xr.Dataset({name: ("run", along[name].to_numpy()) for name in along})
-    both = both.assign(
-        {n: (("run", "branch"), np.stack([along[n], back[n]], axis=1)) for n in measured}
-    )
-    for row in table_of_claims.evaluate(PAIRED, PairEvidence(found, both)):
-        assert row["verdict"] == rows[row["id"]]["verdict"]
-        assert row["ours"] == pytest.approx(float(rows[row["id"]]["ours"]), rel=1e-4)
-
-
-def table_of_reference():
-    return csv.DictReader((REFERENCE / "claims_pairs.csv").open(encoding="utf-8"))
+    both = {n: (("run", "branch"), np.stack([along[n], back[n]], axis=1)) for n in measured}
+    evidence = PairEvidence(of_reference("pairs.csv"), along.drop_vars("branch").assign(both))
+    for row in table_of_claims.evaluate(PAIRED, evidence):
+        assert row["verdict"] == rows.loc[row["id"], "verdict"]
+        assert row["ours"] == pytest.approx(rows.loc[row["id"], "ours"], rel=1e-4)

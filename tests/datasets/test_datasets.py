@@ -15,6 +15,10 @@ from nucleation.datasets import netcdf, provenance
 from nucleation.datasets.variables import DatasetError, annotate
 
 
+def declared(*data) -> xr.Dataset:
+    return annotate(xr.Dataset(*data), VARIABLES)
+
+
 @pytest.fixture
 def record() -> xr.Dataset:
     rate = np.random.default_rng(1).random((40, 30))
@@ -22,10 +26,6 @@ def record() -> xr.Dataset:
         {"slip_rate": (("time", "x"), rate), "id": ("run", ["a", "b"]), "velocity": 1e-5},
         {"time": np.arange(40.0), "x": np.linspace(0.0, 1.0, 30)},
     )
-
-
-def declared(*data) -> xr.Dataset:
-    return annotate(xr.Dataset(*data), VARIABLES)
 
 
 def test_written_dataset_is_read_again_with_metadata(record, tmp_path):
@@ -39,6 +39,8 @@ def test_written_dataset_is_read_again_with_metadata(record, tmp_path):
     assert again["slip_rate"].attrs["units"] == "m/s"
     assert again["time"].attrs == {"units": "s", "long_name": "time", "symbol": "t"}
     assert [file.name for file in path.parent.iterdir()] == ["record.nc"]
+    with xr.open_dataset(path, decode_times=False) as stored:  # which does not see the seal
+        xr.testing.assert_equal(stored.load(), record)
 
 
 def test_variable_that_is_not_declared_is_refused(record, tmp_path):
@@ -65,11 +67,9 @@ def test_failed_write_leaves_the_old_file(record, tmp_path, monkeypatch):
 
 
 def test_text_is_replaced_whole(tmp_path):
-    path = tmp_path / "table.csv"
-    netcdf.write_text("a\n", path)
-    netcdf.write_text("φ\n", path)
-    assert path.read_text("utf-8") == "φ\n"
-    assert [file.name for file in tmp_path.iterdir()] == ["table.csv"]
+    for text in ("a\n", "φ\n"):
+        netcdf.write_text(text, tmp_path / "table.csv")
+    assert [file.read_text("utf-8") for file in tmp_path.iterdir()] == ["φ\n"]
 
 
 @pytest.mark.parametrize("part", [0.0, 0.01, 0.5, 0.99])
@@ -138,13 +138,6 @@ def test_attributes_are_read_from_the_seal(record, tmp_path, monkeypatch):
     whole = netcdf.read(path).attrs
     monkeypatch.setattr(xr, "open_dataset", None)
     assert netcdf.attributes(path) == {k: np.asarray(v).tolist() for k, v in whole.items()}
-
-
-def test_readers_of_netcdf_do_not_see_the_seal(record, tmp_path):
-    path = tmp_path / "record.nc"
-    netcdf.write(record, path)
-    with xr.open_dataset(path, decode_times=False) as stored:
-        xr.testing.assert_equal(stored.load(), record)
 
 
 @pytest.mark.parametrize(

@@ -4,16 +4,14 @@ Runs that differ in one numerical parameter alone are a sequence, ordered from c
 run is compared with the finest one of its sequence.
 """
 
-from collections import defaultdict
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Iterable
 
+import pandas as pd
 import xarray as xr
 
 from ..datasets.variables import Variable, some, table
 from .lengths import COLUMNS as LENGTHS
 from .lengths import Files, join, with_csv
-from .rows import Row, rows_of
 
 REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
@@ -41,16 +39,12 @@ COLUMNS = {
 }  # fmt: skip
 
 
-def sequences(rows: Sequence[Row], refined: str) -> list[list[Row]]:
-    """Rows that differ in `refined` alone, two at least, each sequence from coarse to fine."""
-    groups: dict[tuple[Any, ...], list[Row]] = defaultdict(list)
-    for row in rows:
-        groups[tuple(row[name] for name in FIXED if name != refined)].append(row)
-    ordered = (
-        sorted(group, key=lambda row: row[refined], reverse=REFINED[refined])
-        for group in groups.values()
-    )
-    return [group for group in ordered if len(group) > 1]
+def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
+    """Runs that differ in `refined` alone, two at least, each sequence from coarse to fine."""
+    fixed = [name for name in FIXED if name != refined]
+    groups = (own for _, own in lengths.groupby(fixed, sort=False, dropna=False))
+    ascending = not REFINED[refined]
+    return [own.sort_values(refined, ascending=ascending) for own in groups if len(own) > 1]
 
 
 def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
@@ -59,30 +53,20 @@ def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
     :data:`COLUMNS` on ``run``: a run has a row in each of its sequences, with its differences from
     the finest run of it. NaN without an event.
     """
-    rows = rows_of(lengths)
-    found = [
-        {"refinement": refined} | row
-        for refined in REFINED
-        for sequence in sequences(rows, refined)
-        for row in _beside_the_finest(sequence)
-    ]
-    return table(found, COLUMNS)
-
-
-def _beside_the_finest(sequence: Sequence[Row]) -> list[Row]:
-    """The rows of a sequence with what sets them apart from the last, the finest."""
-    finest = sequence[-1]
-    return [
-        row
-        | {
-            "onset_difference": row["onset_time"] / finest["onset_time"] - 1.0,
-            "length_difference": row["length"] / finest["length"] - 1.0,
-            "elements_difference": (row["length"] - finest["length"])
-            / (row["block_length"] / row["n_x"]),
-            "length_over_theory": row["length"] / row["theory_length"],
-        }
-        for row in sequence
-    ]
+    frame, rows = lengths.to_dataframe(), []
+    for refined in REFINED:
+        for own in sequences(frame, refined):
+            finest = own.iloc[-1]
+            difference = own["length"] - finest["length"]
+            found = own.assign(
+                refinement=refined,
+                onset_difference=own["onset_time"] / finest["onset_time"] - 1.0,
+                length_difference=own["length"] / finest["length"] - 1.0,
+                elements_difference=difference / (own["block_length"] / own["n_x"]),
+                length_over_theory=own["length"] / own["theory_length"],
+            )
+            rows += found.to_dict("records")
+    return table(rows, COLUMNS)
 
 
 def files(tables: Iterable[xr.Dataset]) -> Files:

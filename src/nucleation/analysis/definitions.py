@@ -98,9 +98,14 @@ def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:
     last = int(faster[-1])
     if last + 1 >= x.size or rate[last + 1] >= threshold:
         return float(x[last])
-    inside, outside = np.log(rate[last]), np.log(rate[last + 1])
-    part = (inside - np.log(threshold)) / (inside - outside)
-    return float(x[last] + part * (x[last + 1] - x[last]))
+    return _between(x, rate, last, last + 1, threshold)
+
+
+def _between(x: Array, rate: Array, inside: int, outside: int, threshold: float) -> float:
+    """Where log v, linear between two neighbours, passes a threshold."""
+    faster, slower = np.log(rate[[inside, outside]])
+    part = (faster - np.log(threshold)) / (faster - slower)
+    return float(x[inside] + part * (x[outside] - x[inside]))
 
 
 def slipping_zone(
@@ -125,9 +130,7 @@ def slipping_zone(
         if not outer.size:
             return float(x[::step][-1])
         i = fastest + step * int(outer[0])
-        outside, inside = np.log(rate[i]), np.log(rate[i - step])
-        part = (inside - np.log(threshold)) / (inside - outside)
-        return float(x[i - step] + part * (x[i] - x[i - step]))
+        return _between(x, rate, i - step, i, threshold)
 
     return end(-1), end(1)
 

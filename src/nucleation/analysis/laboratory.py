@@ -6,6 +6,7 @@ was read. What nobody has read is unknown: no length is computed from it.
 
 import dataclasses
 import math
+from collections.abc import Iterable
 from importlib.resources import files as resources
 from typing import Any, NamedTuple
 
@@ -25,7 +26,7 @@ from ..theory.specimen import SPECIMEN
 from .lengths import COLUMNS as LENGTHS
 from .lengths import Files, with_csv
 
-STATUSES = ("measured", "assumed", "unknown")
+READ = ("measured", "assumed")
 NEEDED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "b", "slip_distance")
 """What a length needs; without a height the bodies are half-spaces."""
 
@@ -66,7 +67,7 @@ class Number(NamedTuple):
 
     low: float  # the ends of its range, equal for a single number
     high: float
-    status: str  # one of STATUSES
+    status: str  # measured, assumed or unknown
     where: str  # it was read
 
 
@@ -121,8 +122,8 @@ def laboratory_faults() -> tuple[LaboratoryFault, ...]:
 
 def read_fault(name: str, entry: dict[str, Any]) -> LaboratoryFault:
     """One fault as it stands in the file; raises ParameterError for what is no entry."""
-    allowed = {*WORDS, "plane", "quantities"}
-    missing, extra = {*WORDS, "quantities"} - entry.keys(), entry.keys() - allowed
+    missing = {*WORDS} - entry.keys() - {"says"}
+    extra = entry.keys() - {*WORDS, "plane", *READ}
     if missing or extra:
         raise ParameterError(
             f"{name}: lacks {sorted(missing)}, has {sorted(extra)} which is no key"
@@ -131,53 +132,51 @@ def read_fault(name: str, entry: dict[str, Any]) -> LaboratoryFault:
     if plane not in PLANES:
         raise ParameterError(f"{name}.plane = {plane!r} is not allowed: one of {', '.join(PLANES)}")
     numbers = dict.fromkeys(ENTRIES, UNKNOWN)
-    for key, given in entry["quantities"].items():
-        numbers[key] = _number(f"{name}.{key}", key, given)
+    for status in READ:
+        for where, values in entry.get(status, {}).items():
+            if not isinstance(values, dict):
+                raise ParameterError(f"{name}.{status} is not allowed: numbers stand below where "
+                                     "they were read")  # fmt: skip
+            numbers |= {key: _number(name, key, values[key], status, where) for key in values}
     young, ratio = numbers["young_modulus"], numbers["poisson_ratio"]
     if numbers["shear_modulus"] is UNKNOWN and math.isfinite(young.low + ratio.low):
-        status = max(young.status, ratio.status, key=("measured", "assumed").index)
+        status = max(young.status, ratio.status, key=READ.index)
         low, high = (e / (2.0 * (1.0 + ratio.low)) for e in (young.low, young.high))
         numbers["shear_modulus"] = Number(low, high, status, "E/[2 (1 + nu)]")
-    words = {word: entry[word] for word in WORDS}
+    words = {word: entry.get(word, "") for word in WORDS}
     return LaboratoryFault(name=name, plane=plane, numbers=numbers, **words)
 
 
-def _number(place: str, key: str, given: dict[str, Any]) -> Number:
+def _number(fault: str, key: str, value: Any, status: str, where: str) -> Number:
     """One number of an entry, checked."""
     if key not in ENTRIES:
-        raise ParameterError(f"{place} is not allowed: known are {', '.join(ENTRIES)}")
-    if given.keys() != {"value", "status", "where"} or given["status"] not in STATUSES[:2]:
-        raise ParameterError(
-            f"{place} = {given} is not allowed: it needs value, where and a status, measured or "
-            "assumed; what is unknown is left out"
-        )
-    ends = given["value"] if isinstance(given["value"], list) else [given["value"]] * 2
-    low, high = (float(parse(place, str(end), ENTRIES[key])) for end in ends)
-    return Number(low, high, given["status"], given["where"])
-
-
-def _row(own: LaboratoryFault) -> dict[str, Any]:
-    parameters, observed = own.parameters, own.numbers["observed_length"]
-    return {
-        "laboratory_fault": own.name,
-        "title": own.title,
-        "fault_length": own.numbers["fault_length"].low,
-        "lowest_stress": own.numbers["normal_stress"].low,
-        "observed_low": observed.low,
-        "observed_high": observed.high,
-        "creep_length": float(stability_length(**parameters)) if parameters else np.nan,
-        "theory_length": float(critical_length(**parameters)) if parameters else np.nan,
-        "plane": own.plane,
-        "assumed": " ".join(own.assumed if parameters else ()),
-        "unknown": " ".join(own.unknown),
-    }
+        raise ParameterError(f"{fault}.{key} is not allowed: known are {', '.join(ENTRIES)}")
+    ends = value if isinstance(value, list) else [value] * 2
+    low, high = (float(parse(f"{fault}.{key}", str(end), ENTRIES[key])) for end in ends)
+    return Number(low, high, status, where)
 
 
 def files(faults: dict[str, dict[str, Any]]) -> Files:
     """The step ``gather_laboratory``: :data:`COLUMNS` of the file's entries, with CSV."""
-    return with_csv(laboratory_table(tuple(read_fault(*item) for item in faults.items())))
+    return with_csv(laboratory_table(read_fault(*item) for item in faults.items()))
 
 
-def laboratory_table(faults: tuple[LaboratoryFault, ...]) -> xr.Dataset:
+def laboratory_table(faults: Iterable[LaboratoryFault]) -> xr.Dataset:
     """:data:`COLUMNS` of some faults: lengths observed, and computed where all is known."""
-    return table([_row(own) for own in faults], COLUMNS)
+    rows = []
+    for own in faults:
+        parameters, numbers = own.parameters, own.numbers
+        rows.append({
+            "laboratory_fault": own.name,
+            "title": own.title,
+            "fault_length": numbers["fault_length"].low,
+            "lowest_stress": numbers["normal_stress"].low,
+            "observed_low": numbers["observed_length"].low,
+            "observed_high": numbers["observed_length"].high,
+            "creep_length": float(stability_length(**parameters)) if parameters else np.nan,
+            "theory_length": float(critical_length(**parameters)) if parameters else np.nan,
+            "plane": own.plane,
+            "assumed": " ".join(own.assumed if parameters else ()),
+            "unknown": " ".join(own.unknown),
+        })  # fmt: skip
+    return table(rows, COLUMNS)

@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Iterable
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -77,6 +78,25 @@ COLUMNS = {
 """Which simulation a row is about, what was measured, what it cost, and what it was given."""
 
 
+_SAME = (
+    "friction.evolution", "geometry.height", "mesh.n_x", "mesh.n_y", "mesh.grading",
+    "stepping.tolerance", "stepping.longest_step", "material.density", "material.shear_modulus",
+    "material.poisson_ratio", "material.plane", "loading.velocity", "loading.initial_stress",
+    "loading.initial_shear_stress", "perturbation.kind", "perturbation.seed",
+    "perturbation.correlation_length",
+)  # fmt: skip
+GIVEN = {parameter.partition(".")[2]: parameter for parameter in _SAME} | {
+    "phi0": "loading.initial_state",
+    "loading": "loading.kind",
+    "applied_stress": "loading.normal_stress",
+    "block_length": "geometry.length",
+    "slip_distance": "friction.characteristic_slip_distance",
+    "friction_law": "friction.law",
+    "below": "second_body.kind",
+}
+"""Columns that are a parameter, by its full name."""
+
+
 def gather(
     runs: Iterable[dict[str, Any]],
     simulations: Iterable[xr.Dataset],
@@ -93,10 +113,10 @@ def gather(
     by_theory: dict[str, float] = {}
     rows = []
     for run, simulation in zip(runs, simulations, strict=True):
-        row = _row(run, simulation, settings)
+        rows.append(row := _row(run, simulation, settings))
         if row["fault"] not in by_theory:
             by_theory[row["fault"]] = _creep_length(run)
-        rows.append(row | {"creep_length": by_theory[row["fault"]]})
+        row["creep_length"] = by_theory[row["fault"]]
     return table_of(rows, COLUMNS)
 
 
@@ -124,8 +144,8 @@ def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
 def realisations(table: xr.Dataset) -> list[list[int]]:
     """The rows of each run of a study in a table of lengths, which differ in the seed alone."""
     runs: dict[tuple[str, str], list[int]] = {}
-    for i, key in enumerate(zip(*(table[n].values.tolist() for n in ("study", "ensemble")),
-                                strict=True)):  # fmt: skip
+    keys = zip(table["study"].values.tolist(), table["ensemble"].values.tolist(), strict=True)
+    for i, key in enumerate(keys):
         runs.setdefault(key, []).append(i)
     return list(runs.values())
 
@@ -139,54 +159,27 @@ def over_realisations(table: xr.Dataset) -> xr.Dataset:
     faults = realisations(table)
     columns = {}
     for name in map(str, table.data_vars):
-        values = table[name].values
-        if name in OVER_REALISATIONS:
-            columns[name] = np.array([OVER_REALISATIONS[name](values[rows]) for rows in faults])
-        else:
-            columns[name] = values[[rows[0] for rows in faults]]
+        of_all, values = OVER_REALISATIONS.get(name, itemgetter(0)), table[name].values
+        columns[name] = np.array([of_all(values[rows]) for rows in faults])
     columns["realisations"] = np.array([len(rows) for rows in faults])
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
 
 def description(run: dict[str, Any]) -> dict[str, Any]:
     """The columns that say what a run was given, and the theory's length for it."""
-    parameters, interface = run["parameters"], run["interface"]
-    own, perturbation = Parameters.from_dict(parameters), parameters["perturbation"]
-    return second_body(own) | {
-        "kind": perturbation["kind"],
-        "strength": perturbation["strength"] if perturbation["kind"] != "none" else 0.0,
-        "seed": perturbation["seed"],
-        "correlation_length": perturbation["correlation_length"],
-        "fault": fault(own),
-        "ensemble": ensemble(own),
-        "id": run["id"],
-        "study": run["study"],
-        "role": run["role"],
-        "evolution": parameters["friction"]["evolution"],
-        "height": parameters["geometry"]["height"],
-        "phi0": parameters["loading"]["initial_state"],
-        "n_x": parameters["mesh"]["n_x"],
-        "n_y": parameters["mesh"]["n_y"],
-        "theory_length": run["theory_length"],
-        "block_length": parameters["geometry"]["length"],
-        "grading": parameters["mesh"]["grading"],
-        "tolerance": parameters["stepping"]["tolerance"],
-        "longest_step": parameters["stepping"]["longest_step"],
-        "density": parameters["material"]["density"],
-        "slip_distance": parameters["friction"]["characteristic_slip_distance"],
-        "velocity": parameters["loading"]["velocity"],
-        "applied_stress": parameters["loading"]["normal_stress"],
-        "shear_modulus": parameters["material"]["shear_modulus"],
-        "poisson_ratio": parameters["material"]["poisson_ratio"],
-        "plane": parameters["material"].get("plane", "strain"),
-        "loading": parameters["loading"].get("kind", "edge"),
+    parameters, interface = Parameters.from_dict(run["parameters"]), run["interface"]
+    values = parameters.named()
+    quiet = values["perturbation.kind"] == "none"
+    return {
+        **{name: values[parameter] for name, parameter in GIVEN.items()},
+        **second_body(parameters),
+        "strength": 0.0 if quiet else values["perturbation.strength"],
+        "fault": fault(parameters),
+        "ensemble": ensemble(parameters),
+        **{name: run[name] for name in ("id", "study", "role", "theory_length")},
         "friction_coefficient": interface["friction"],
         "direct_effect": interface["a"],
         "velocity_weakening": interface["zeta"],
-        "friction_law": parameters["friction"]["law"],
-        "below": parameters.get("second_body", {}).get("kind", "rigid"),
-        "initial_stress": parameters["loading"]["initial_stress"],
-        "initial_shear_stress": parameters["loading"]["initial_shear_stress"],
     }
 
 
@@ -194,13 +187,13 @@ def second_body(parameters: Parameters) -> dict[str, Any]:
     """The columns on what lies below: a rigid base has no far side and an infinite modulus."""
     below = parameters.below
     if below is None:
-        unknown = dict.fromkeys(("height", "poisson_ratio"), np.nan)
-        values = {"shear_modulus": np.inf, **unknown}
-    else:
-        values = dataclasses.asdict(below.material) | {"height": below.geometry.height}
+        values = {"far_side": "none", **dict.fromkeys(SECOND_BODY, np.nan)}
+        return values | {"second_shear_modulus": np.inf}
     return {
-        "far_side": "none" if below is None else below.bottom,
-        **{name: values[name.removeprefix("second_")] for name in SECOND_BODY},
+        "far_side": below.bottom,
+        "second_height": below.geometry.height,
+        "second_shear_modulus": below.material.shear_modulus,
+        "second_poisson_ratio": below.material.poisson_ratio,
     }
 
 
@@ -213,7 +206,7 @@ def _row(
         reached = Record(simulation, settings).lengths[-1]
     return {
         **description(run),
-        **{name: float(measured[name]) for name in MEASURED},
+        **measured,
         **{name: simulation.attrs[name] for name in DIAGNOSTICS},
         "simulated_time": float(simulation["step_time"].values[-1]),
         "reached_length": float(reached),

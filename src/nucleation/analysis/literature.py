@@ -80,7 +80,8 @@ COLUMNS = {
 
 def length_of(parameters: Parameters) -> str | None:
     """The length of the literature whose setting a run is; None between those of the aging law."""
-    ratio = _ratio(parameters)
+    _, a, zeta = parameters.friction.expansion(parameters.loading.velocity)
+    ratio = a / (a + zeta)
     if parameters.friction.evolution == "slip":
         return "state_evolution"
     if parameters.second_body.kind == "rigid":
@@ -88,11 +89,6 @@ def length_of(parameters: Parameters) -> str | None:
     if ratio < LOCALISED_LIMIT:
         return "rubin_ampuero_localised"
     return "rubin_ampuero_crack" if ratio > 0.5 else None
-
-
-def _ratio(parameters: Parameters) -> float:
-    _, a, zeta = parameters.friction.expansion(parameters.loading.velocity)
-    return a / (a + zeta)
 
 
 def zone_length(simulation: xr.Dataset, slip_rate: float, definition: Definition) -> float:
@@ -133,13 +129,10 @@ def literature_table(
         On ``run``, :data:`COLUMNS`: one row for each run and each of :data:`SLIP_RATES` (m/s),
         then one for each of the other lengths in use, with the reason in ``definition``.
     """
-    rows = [
-        row
-        for run, simulation in zip(runs, simulations, strict=True)
-        for row in _rows(run["id"], Parameters.from_dict(run["parameters"]), simulation)
-    ]
-    simulated = {row["name"] for row in rows}
-    return table([*rows, *_not_simulated(simulated)], COLUMNS)
+    rows: list[Row] = []
+    for run, simulation in zip(runs, simulations, strict=True):
+        rows += _rows(run["id"], Parameters.from_dict(run["parameters"]), simulation)
+    return table([*rows, *_not_simulated({row["name"] for row in rows})], COLUMNS)
 
 
 def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[Row]:

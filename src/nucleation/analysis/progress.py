@@ -1,5 +1,7 @@
 """Progress of a simulation: a bar on a terminal, a line now and then in a log."""
 
+import contextlib
+import math
 import time
 from typing import TextIO
 
@@ -32,14 +34,15 @@ class Progress:
         x = Grid.of(parameters.geometry, parameters.mesh).x
         self._patch = Extent(x, threshold, parameters.loading.kind)
         self._end = parameters.stepping.end_time
-        self._expected_length = _expected_length(parameters)
+        interface = linearised(parameters.friction, parameters.loading)
+        self._expected_length = math.inf  # of sliding that is stable by the theory
+        with contextlib.suppress(NoInstability):
+            self._expected_length = run_length(parameters, interface)
         self._stream = stream
-        self._bar = (
-            tqdm(total=100, file=stream, bar_format="{l_bar}{bar}|{postfix}", leave=False)
-            if terminal or stream.isatty()
-            else None
-        )
-        self._pause = PAUSE_ON_TERMINAL if self._bar is not None else PAUSE
+        shown = terminal or stream.isatty()
+        style = "{l_bar}{bar}|{postfix}"
+        self._bar = tqdm(total=100, file=stream, bar_format=style, leave=False) if shown else None
+        self._pause = PAUSE_ON_TERMINAL if shown else PAUSE
         self._began = time.monotonic()
         self._first_step: int | None = None  # of a run that goes on
         self._part = 0.0
@@ -58,27 +61,21 @@ class Progress:
             f"max v = {float(np.abs(rate).max()):.3g} m/s, patch {length:.3g} m"
         )
         speed = self._speed(instant.control.steps, now)
+        done, control = int(100.0 * part), instant.control
         if self._bar is not None:
-            self._bar.n = int(100.0 * part)
+            self._bar.n = done
             self._bar.set_postfix_str(f"{text}, {speed}")
         else:
-            control = instant.control
-            print(
-                f"step {control.steps}: {text}, rejected {control.rejected}, "
-                f"{int(100.0 * part)} % of the way, {speed}",
-                file=self._stream,
-                flush=True,
-            )
+            text += f", rejected {control.rejected}, {done} % of the way, {speed}"
+            print(f"step {control.steps}: {text}", file=self._stream, flush=True)
 
     def part_done(self, simulated: float, length: float) -> float:
         """Part of the way, from the simulated time (s) and the patch length (m); never falls.
 
         It is 1 at the end time alone: whether the event is over is not known before.
         """
-        parts = [self._part, simulated / self._end]
-        if self._expected_length is not None:
-            parts.append(min(length / self._expected_length, NEARLY))
-        self._part = min(max(parts), 1.0)
+        by_length = min(length / self._expected_length, NEARLY)
+        self._part = min(max(self._part, simulated / self._end, by_length), 1.0)
         return self._part
 
     def close(self) -> None:
@@ -92,12 +89,3 @@ class Progress:
             self._first_step, self._began = steps, now
         passed = now - self._began
         return f"{(steps - self._first_step) / passed:.3g} steps/s" if passed > 0.0 else "begun"
-
-
-def _expected_length(parameters: Parameters) -> float | None:
-    """The linear theory's critical length (m), None if it knows no instability."""
-    interface = linearised(parameters.friction, parameters.loading)
-    try:
-        return run_length(parameters, interface)
-    except NoInstability:
-        return None

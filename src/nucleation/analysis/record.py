@@ -68,24 +68,18 @@ class Record:
         """Positions (m) along the interface."""
         return self.simulation["x"].values
 
-    # -- the drive, at every step -----------------------------------------------------------------
-
     @cached_property
     def step_time(self) -> Array:
         """Times (s) of the steps."""
         return self.simulation["step_time"].values
 
     @cached_property
-    def force(self) -> Array:
-        """Magnitude of the driving force (N/m) at every step."""
-        return np.abs(self.simulation["driving_force"].values)
-
-    @cached_property
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
         window = WINDOW * self.parameters.memory_time
         fast = self.simulation["maximal_slip_rate"].values > FAST * self.velocity
-        return find_onset(self.step_time, self.force, window, self.settings.drop, fast)
+        force = np.abs(self.simulation["driving_force"].values)
+        return find_onset(self.step_time, force, window, self.settings.drop, fast)
 
     @property
     def drop_times(self) -> Array:
@@ -99,8 +93,6 @@ class Record:
         if self.onset is None:
             raise ValueError("the run has no event")
         return self.step_time[[self.onset.start, self.onset.steep, self.onset.end]]
-
-    # -- the interface, at recorded times ---------------------------------------------------------
 
     @cached_property
     def time(self) -> Array:

@@ -6,6 +6,7 @@ that a study may vary any of them. Definitions of the extraction are varied on t
 
 import dataclasses
 import math
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from .extraction import extract
 from .lengths import COLUMNS as LENGTHS
 from .lengths import Files, with_csv
 from .record import Record
+from .rows import Row
 
 COLUMNS = {
     **some(LENGTHS, "id", "height"),
@@ -50,8 +52,6 @@ NOT_PHYSICAL = (
 faster front needs shorter steps."""
 
 SAME_LENGTH = 1e-2  # block lengths over the theory's differ by less through rounding
-
-Row = dict[str, Any]
 
 
 class Case(NamedTuple):
@@ -127,54 +127,46 @@ def sensitivity_table(
         Case(r["id"], Parameters.from_dict(r["parameters"]), r["theory_length"], simulation)
         for r, simulation in zip(runs, simulations, strict=True)
     ]
-    bases: dict[float, Case] = {}
+    heights: dict[float, list[Case]] = defaultdict(list)
     for case in cases:
-        bases.setdefault(case.parameters.geometry.height, case)
-    rows = [
-        row
-        for height, base in bases.items()
-        for row in _against(base, [c for c in cases if c.parameters.geometry.height == height],
-                            settings)
-    ]  # fmt: skip
-    return table(rows, COLUMNS)
+        heights[case.parameters.geometry.height].append(case)
+    return table([row for own in heights.values() for row in _of_height(own, settings)], COLUMNS)
 
 
-def _against(base: Case, cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]:
-    """The rows of one height."""
+def _of_height(cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]:
+    """The rows of one height, whose first case is the base."""
+    base = cases[0]
     usual = extract(base.simulation, settings)
-    reference = usual["length"], usual["onset_time"]
     for case in cases:
         found = extract(case.simulation, settings)
-        measured = found["length"], found["onset_time"]
-        yield _row(case, variation(case, base), measured, reference, base)
-    for name, words, measured in _redefined(base, usual, settings):
-        yield _row(base, (name, words), measured, reference, base)
+        yield _row(case, base, variation(case, base), found, usual)
+    for what, found in _redefined(base, usual, settings):
+        yield _row(base, base, what, found, usual)
 
 
 def _redefined(
     base: Case, usual: dict[str, float], settings: ExtractionSettings
-) -> Iterator[tuple[str, str, tuple[float, float]]]:
+) -> Iterator[tuple[tuple[str, str], dict[str, float]]]:
     """Length (m) and onset (s) of one run by other definitions of edge, drop and instant."""
     for name, values, text in (
         ("edge_threshold", EDGE_THRESHOLDS, "edge at {:g} V"),
         ("drop", DROPS, "drop by {:g}"),
     ):
         for value in values:
-            found = extract(base.simulation, dataclasses.replace(settings, **{name: value}))
-            yield name, text.format(value), (found["length"], found["onset_time"])
+            changed = dataclasses.replace(settings, **{name: value})
+            yield (name, text.format(value)), extract(base.simulation, changed)
     end = usual["onset_time_high"]
     if math.isfinite(end):
         record = Record(base.simulation, settings)
-        frame = record.frames_at(np.array([end]))[0]
-        yield "instant", DROP_COMPLETE, (float(record.lengths[frame]), end)
+        length = record.lengths[record.frames_at(np.array([end]))[0]]
+        yield ("instant", DROP_COMPLETE), {"length": float(length), "onset_time": end}
 
 
 def _row(
-    case: Case, what: tuple[str, str], measured: tuple[float, float],
-    reference: tuple[float, float], base: Case,
-) -> Row:  # fmt: skip
-    (length, onset), (base_length, base_onset) = measured, reference
-    change = length / base_length
+    case: Case, base: Case, what: tuple[str, str], found: dict[str, float], usual: dict[str, float]
+) -> Row:
+    """What was found of a case, beside what is usual of the base."""
+    length, change = found["length"], found["length"] / usual["length"]
     return {
         "id": case.id,
         "height": case.parameters.geometry.height,
@@ -185,8 +177,8 @@ def _row(
         "theory_length": case.theory_length,
         "length_over_theory": length / case.theory_length,
         "ratio_change": change * base.theory_length / case.theory_length - 1.0,
-        "onset_time": onset,
-        "onset_change": onset / base_onset - 1.0,
+        "onset_time": found["onset_time"],
+        "onset_change": found["onset_time"] / usual["onset_time"] - 1.0,
         "status": case.simulation.attrs["status"],
     }
 

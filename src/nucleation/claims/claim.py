@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from .said import Missing, Ours, Said, holds
+from .said import Found, Missing, Ours, Said, holds
 
 
 class Verdict(enum.StrEnum):
@@ -29,12 +29,12 @@ class Cause:
 
     finding: str
     text: str
-    ours: Ours
+    ours: Found
 
 
 @dataclasses.dataclass(frozen=True)
 class Result:
-    """What the computation of a claim gives.
+    """What the computation of a claim gives, if it is more than our number.
 
     Attributes
     ----------
@@ -45,11 +45,15 @@ class Result:
     note : words after the reason.
     """
 
-    ours: Ours
+    ours: Found
     said: Said | None = None
-    on_papers_mesh: Ours | None = None
+    on_papers_mesh: Found | None = None
     cause: Cause | None = None
     note: str = ""
+
+
+Computation = Callable[[Any], Found | Result]
+"""Gives our number from the evidence."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -63,10 +67,11 @@ class Claim:
     statement : what it says, in our words.
     quotation : the paper's own words, LaTeX without spacing commands.
     method : how ours is computed.
-    compute : gives ours.
+    compute : gives ours; None if it can't be had.
     said : what is compared with; may be left to the function.
     unit : SI unit of the numbers.
     input : whether ours is what the configuration was given, and so no result.
+    note : words after the reason, or the reason if ours can't be had.
     """
 
     id: str
@@ -74,43 +79,53 @@ class Claim:
     statement: str
     quotation: str
     method: str
-    compute: Callable[[Any], Ours | Result]
+    compute: Computation | None
     said: Said | None = None
     unit: str = "1"
     input: bool = False
+    note: str = ""
 
     def evaluate(self, evidence: Any) -> dict[str, Any]:
-        """The claim's row: what the paper says, ours, the verdict and its reason."""
-        try:
-            result = self.compute(evidence)
-        except Missing as missing:
-            return self._row(self.said, None, Verdict.UNCHECKED, f"{missing}.")
-        if isinstance(result, Ours):
-            result = Result(result)
-        said = result.said or self.said
-        if said is None:
-            raise ValueError(f"the claim {self.id} says nothing to compare with")
-        verdict, reason = judge(said, result)
-        if self.input and verdict is Verdict.REPLICATED:
-            verdict, reason = Verdict.GIVEN, f"An input of ours as of the paper's. {reason}"
-        return self._row(said, result, verdict, reason)
+        """The claim's row: what the paper says, ours, the verdict and its reason.
 
-    def _row(
-        self, said: Said | None, result: Result | None, verdict: Verdict, reason: str
-    ) -> dict[str, Any]:
-        ours = result.ours if result and math.isfinite(result.ours.value) else None
-        other = result.on_papers_mesh if result else None
+        Raises
+        ------
+        ValueError
+            If neither the claim nor its function says what to compare with.
+        """
+        said, ours, other = self.said, None, None
+        try:
+            if self.compute is None:
+                raise Missing(self.note)
+            found = self.compute(evidence)
+        except Missing as missing:
+            verdict, reason = Verdict.UNCHECKED, f"{missing}."
+        else:
+            result = found if isinstance(found, Result) else Result(found)
+            said = result.said or said
+            if said is None:
+                raise ValueError(f"the claim {self.id} says nothing to compare with")
+            verdict, reason = judge(said, result)
+            if self.input and verdict is Verdict.REPLICATED:
+                verdict, reason = Verdict.GIVEN, f"An input of ours as of the paper's. {reason}"
+            if note := result.note or self.note:
+                reason += f" {note}"
+            ours = said.worst(result.ours)
+            if result.on_papers_mesh is not None:
+                other = _finite(said.worst(result.on_papers_mesh).value)
+        if ours is not None and math.isnan(ours.value):
+            ours = None
         return {
             "id": self.id,
             "where": self.where,
             "statement": self.statement,
             "quotation": self.quotation,
-            "paper": None if said is None else said.text,
-            "paper_range": None if said is None else [_end(said.low), _end(said.high)],
-            "kind": None if said is None else said.kind,
-            "ours": None if ours is None else ours.value,
-            "uncertainty": None if ours is None else [ours.low, ours.high],
-            "on_papers_mesh": None if other is None else _end(other.value),
+            "paper": said and said.text,
+            "paper_range": said and [_finite(said.low), _finite(said.high)],
+            "kind": said and said.kind,
+            "ours": ours and ours.value,
+            "uncertainty": ours and [ours.low, ours.high],
+            "on_papers_mesh": other,
             "unit": self.unit,
             "method": self.method,
             "verdict": str(verdict),
@@ -120,21 +135,21 @@ class Claim:
 
 def judge(said: Said, result: Result) -> tuple[Verdict, str]:
     """The verdict and the reason for it."""
-    ours, note = result.ours, f" {result.note}" if result.note else ""
+    ours = said.worst(result.ours)
     held = holds(said, ours)
     if held is None:
-        if math.isfinite(ours.value):
-            return Verdict.UNCHECKED, f"Our number is known to {_width(ours):.1g} only.{note}"
-        return Verdict.UNCHECKED, f"A run has no such event.{note}"
+        if math.isnan(ours.value):
+            return Verdict.UNCHECKED, "A run has no such event."
+        width = max(ours.high - ours.value, ours.value - ours.low)
+        return Verdict.UNCHECKED, f"Our number is known to {width:.1g} only."
     text = f"{_compared(said, ours, held)}{_reach(said, ours)}"
-    if held:
-        return Verdict.REPLICATED, f"{text}{_other_mesh(said, result)}{note}"
-    cause = result.cause
-    if cause is not None and holds(said, cause.ours):
-        why = f"{cause.text} {cause.ours.value:.4g} (findings: {cause.finding})."
-        return Verdict.EXPLAINED, f"{text} {why}{note}"
-    verdict = Verdict.NOT_SUPPORTED if said.chosen else Verdict.NOT_REPLICATED
-    return verdict, f"{text}{_other_mesh(said, result)}{note}"
+    if not held and result.cause is not None:
+        without = said.worst(result.cause.ours)
+        if holds(said, without):
+            why = f"{result.cause.text} {without.value:.4g} (findings: {result.cause.finding})."
+            return Verdict.EXPLAINED, f"{text} {why}"
+    failed = Verdict.NOT_SUPPORTED if said.chosen else Verdict.NOT_REPLICATED
+    return Verdict.REPLICATED if held else failed, f"{text}{_other_mesh(said, result)}"
 
 
 def _compared(said: Said, ours: Ours, held: bool) -> str:
@@ -146,33 +161,30 @@ def _compared(said: Said, ours: Ours, held: bool) -> str:
         side = "within" if said.low <= ours.value <= said.high else "outside"
         widened = ", but not outside it by more than its own range" if side == "outside" else ""
         return f"{ours.value:.4g} is {side} {said.low:g} to {said.high:g}{widened * held}."
-    if said.kind == "bound":
-        return f"{ours.value:.4g} is {'' if held else 'not '}{said.text}."
-    return f"{ours.value:.4g} is {'' if held else 'not '}{said.text.partition(': ')[2]}."
+    bound = said.text if said.kind == "bound" else said.text.partition(": ")[2]
+    return f"{ours.value:.4g} is {'' if held else 'not '}{bound}."
 
 
 def _reach(said: Said, ours: Ours) -> str:
     """The bound that decides, where the range of ours reaches across it."""
     if said.kind not in ("bound", "words"):
         return ""
-    ends = [end for end in (said.low, said.high) if math.isfinite(end)]
-    bound = min(ends, key=lambda end: abs(end - ours.value))
+    bound = min(said.low, said.high, key=lambda end: abs(end - ours.value))
     if not ours.low <= bound <= ours.high:
         return ""
     return f" Its range reaches across the bound, {bound:g}."
 
 
 def _other_mesh(said: Said, result: Result) -> str:
-    other = result.on_papers_mesh
-    if other is None or not math.isfinite(other.value):
+    """Whether the statement holds on the paper's mesh too."""
+    if result.on_papers_mesh is None:
+        return ""
+    other = said.worst(result.on_papers_mesh)
+    if not math.isfinite(other.value):
         return ""
     held = "holds as well" if holds(said, other) else "does not hold"
     return f" On the paper's mesh it {held}, with {other.value:.4g}."
 
 
-def _width(ours: Ours) -> float:
-    return max(ours.high - ours.value, ours.value - ours.low)
-
-
-def _end(value: float) -> float | None:
+def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None

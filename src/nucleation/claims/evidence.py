@@ -16,7 +16,7 @@ from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Parameters
 from .claim import Cause, Result
 from .measure import Measures, mean
-from .said import Missing, Ours
+from .said import Found, Missing
 
 MESH = "A coarse mesh lets the force drop early"
 """Section of docs/findings.md on the difference of the two."""
@@ -48,6 +48,11 @@ class Evidence:
     lengths: tuple[xr.Dataset, ...]
     measures: dict[str, Measures]
     patches: dict[str, xr.Dataset]
+
+    @property
+    def nu(self) -> float:
+        """Poisson's ratio in the plane."""
+        return self.material.in_plane_ratio
 
     def rows(self, role: str, **labels: Any) -> list[dict[str, Any]]:
         """Rows of the table of lengths, sorted by height (m); raises Missing if there is none.
@@ -83,38 +88,52 @@ class Evidence:
 
     def measured(self, row: dict[str, Any]) -> Measures:
         """What was read from the simulations of a row, their mean; raises Missing without one."""
-        return mean([self._measures(id) for id in row["members"]])
+        return mean(self._measures(row))
 
     def each_measured(self, role: str, **labels: Any) -> list[Measures]:
         """What was read from every simulation of some rows; raises Missing without one."""
-        return [self._measures(id) for row in self.rows(role, **labels) for id in row["members"]]
+        return [one for row in self.rows(role, **labels) for one in self._measures(row)]
 
-    def _measures(self, id: str) -> Measures:
-        try:
-            return self.measures[id]
-        except KeyError:
-            raise Missing(f"The simulation {id} is not among the results") from None
+    def _measures(self, row: dict[str, Any]) -> list[Measures]:
+        for id in row["members"]:
+            if id not in self.measures:
+                raise Missing(f"The simulation {id} is not among the results")
+        return [self.measures[id] for id in row["members"]]
 
     def patch(self, row: dict[str, Any]) -> xr.Dataset:
         """The stability of the patch of a row's first realisation; raises Missing without it."""
-        try:
-            return self.patches[row["id"]]
-        except KeyError:
-            raise Missing(f"The stability of the patch of {row['id']} was not computed") from None
+        if row["id"] not in self.patches:
+            raise Missing(f"The stability of the patch of {row['id']} was not computed")
+        return self.patches[row["id"]]
 
 
-def on_both(evidence: Evidence, ours: Callable[[str], Ours], note: str = "") -> Result:
-    """A number of either role: the verdict stands on the converged, perturbed one.
+def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], Result]:
+    """For numbers of the runs with a role: the verdict stands on the converged, perturbed ones.
 
-    If the number is the paper's on the paper's own mesh only, the mesh is the cause.
+    If the statement holds on the paper's own mesh only, the mesh is the cause.
     """
-    judged = ours(JUDGED)
-    try:
-        papers = ours(PAPERS)
-    except Missing:
-        return Result(judged, note=note)
-    cause = Cause(MESH, "On the paper's own mesh ours is", papers)
-    return Result(judged, on_papers_mesh=papers, cause=cause, note=note)
+
+    def of_either(evidence: Evidence) -> Result:
+        judged = numbers(evidence, JUDGED)
+        try:
+            papers = numbers(evidence, PAPERS)
+        except Missing:
+            return Result(judged)
+        cause = Cause(MESH, "On the paper's own mesh ours is", papers)
+        return Result(judged, on_papers_mesh=papers, cause=cause)
+
+    return of_either
+
+
+def of_runs(
+    measure: str, over: Callable[[Evidence], float] = lambda evidence: 1.0
+) -> Callable[[Evidence], Result]:
+    """The same for one of :class:`.Measures` of every run, over a unit."""
+    return on_both(
+        lambda evidence, role: [
+            getattr(run, measure) / over(evidence) for run in evidence.each_measured(role)
+        ]
+    )
 
 
 def _faults(table: xr.Dataset) -> list[dict[str, Any]]:
@@ -128,6 +147,4 @@ def _faults(table: xr.Dataset) -> list[dict[str, Any]]:
 
 
 def _same(one: Any, other: Any) -> bool:
-    if isinstance(other, str):
-        return bool(one == other)
-    return bool(np.isclose(one, other, rtol=1e-9))
+    return bool(one == other if isinstance(other, str) else np.isclose(one, other, rtol=1e-9))

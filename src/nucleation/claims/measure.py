@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,55 +19,36 @@ FAST = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # from this part of the onset time on the patch counts as developed
 
 
-@dataclasses.dataclass(frozen=True)
-class Measures:
-    """Numbers read from one simulation; SI units, NaN without an event."""
-
-    lengths: tuple[float, ...]
-    """L_c (m) by every definition: edges at three slip rates, at three instants of the drop."""
-    acceleration_time: float
-    """Time (s) in which the fastest slip rate rises from 10 to 100 V."""
-    growth_time: float
-    """Time (s) in which the creeping patch would grow by its own length, before the onset."""
-    front_speed: float
-    """Mean speed (m/s) of the patch's edge before the onset."""
-    drop_time: float
-    """Time (s) from the steep part of the force's drop to its end."""
-    rupture_time: float
-    """Time (s) during which some point slips faster than FAST, zero if none does."""
-    largest_rate: float
-    """Largest slip rate (m/s)."""
-    onset_rate: float
-    """Largest slip rate (m/s) at the onset."""
-    patch_rates: tuple[float, float, float]
-    """Median slip rate (m/s) within the developed patch: median, lowest, highest over time."""
-    regular_share: float
-    """Part of the patch at the onset that slips at more than ten times v0."""
-    middle_stress: float
-    """Shear stress (Pa) half-way along the block at the onset."""
-    largest_normal_stress: float
-    """Largest sigma_yy (Pa) up to the onset, negative in compression."""
-    largest_normal_stress_ever: float
-    """The same over the whole record, event and rupture among it."""
-    usual_step: float
-    """Median time step (s)."""
-    shortest_step: float
-    """Shortest time step (s) after the onset."""
-    state_rate_share: float
-    """Part of interface and time up to the onset where v in place of w gives dphi/dt well."""
-    state_rate_share_patch: float
-    """The same within the creep patch."""
-
-
 NONE = float("nan")
 
 
-def mean(measures: Sequence[Measures]) -> Measures:
+@dataclasses.dataclass(frozen=True)
+class Measures:
+    """Numbers read from one simulation, or the mean of several; SI units, NaN without an event."""
+
+    rupture_time: float  # during which some point slips faster than FAST, zero if none does
+    largest_rate: float  # of slip, ever
+    usual_step: float  # median of the time steps
+    largest_normal_stress_ever: float  # sigma_yy over the record, event and rupture among it
+    lengths: Sequence[float] = (NONE,) * 9  # L_c: edges at three slip rates, at three instants
+    acceleration_time: float = NONE  # in which the fastest slip rate rises from 10 to 100 V
+    growth_time: float = NONE  # in which the patch would grow by its own length, before the onset
+    front_speed: float = NONE  # mean speed of the patch's edge before the onset
+    drop_time: float = NONE  # from the steep part of the force's drop to its end
+    onset_rate: float = NONE  # largest slip rate at the onset
+    patch_rates: Sequence[float] = (NONE,) * 3  # median in the developed patch: median, ends
+    regular_share: float = NONE  # of the patch at the onset that slips at more than ten times v0
+    middle_stress: float = NONE  # shear stress half-way along the block at the onset
+    largest_normal_stress: float = NONE  # sigma_yy up to the onset, negative in compression
+    shortest_step: float = NONE  # after the onset
+    state_rate_share: float = NONE  # of interface and time to the onset: v for w gives dphi/dt well
+    state_rate_share_patch: float = NONE  # the same within the creep patch
+
+
+def mean(measures: Iterable[Measures]) -> Measures:
     """The mean of several simulations, number by number."""
-    values = [dataclasses.astuple(one) for one in measures]
-    columns = [np.mean(column, axis=0).tolist() for column in zip(*values, strict=True)]
-    plain: list[Any] = [tuple(c) if isinstance(c, list) else c for c in columns]
-    return Measures(*plain)
+    columns = zip(*map(dataclasses.astuple, measures), strict=True)
+    return Measures(*(np.mean(column, axis=0) for column in columns))
 
 
 def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
@@ -82,9 +63,7 @@ def measure(simulation: xr.Dataset, settings: ExtractionSettings) -> Measures:
         "largest_normal_stress_ever": float(simulation["normal_stress"].values.max()),
     }
     if record.onset is None:
-        names = {field.name for field in dataclasses.fields(Measures)} - set(always)
-        many: dict[str, Any] = {"lengths": (NONE,) * 9, "patch_rates": (NONE,) * 3}
-        return Measures(**{**dict.fromkeys(names, NONE), **many, **always})
+        return Measures(**always)
     start = record.onset.start
     return Measures(**always, **_drop(record, start, fastest, sizes), **_patch(record))
 
@@ -94,11 +73,9 @@ def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str,
     velocity, steps = record.velocity, record.step_time
     _, steep, end = record.drop_times
     rates = fastest[start:]
-    hundred = int(np.argmax(rates > 100.0 * velocity)) if rates.max() > 100.0 * velocity else 0
+    hundred = int(np.argmax(rates > 100.0 * velocity))  # zero also if it is never so fast
     slower = np.flatnonzero(rates[:hundred] < 10.0 * velocity)
-    acceleration = NONE
-    if hundred and slower.size:
-        acceleration = steps[start + hundred] - steps[start + slower[-1]]
+    acceleration = steps[start + hundred] - steps[start + slower[-1]] if slower.size else NONE
     return {
         "acceleration_time": float(acceleration),
         "drop_time": float(end - steep),

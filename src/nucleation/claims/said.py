@@ -8,9 +8,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from typing import Any, SupportsFloat
+
+import numpy as np
+
+from ..types import Array
 
 FORMULA_TOLERANCE = 1e-6
 """A formula holds if it is met to this part of its value (of one, if the value is zero)."""
@@ -68,21 +72,12 @@ class Ours:
         """A number with a symmetric uncertainty."""
         return cls.between(value, value - abs(error), value + abs(error))
 
-    @classmethod
-    def furthest(cls, values: Iterable[float], target: float) -> Ours:
-        """Of several cases the one furthest from a target, as a number without uncertainty."""
-        return cls.exactly(cls.worst(values, target).value)
+    def __float__(self) -> float:
+        return self.value
 
-    @classmethod
-    def worst(cls, values: Iterable[float], target: float = 0.0) -> Ours:
-        """Of some numbers the one furthest from a target; the range holds them all.
 
-        NaN if one of them is.
-        """
-        values = [float(v) for v in values]
-        if not all(map(math.isfinite, values)):
-            return cls.exactly(math.nan)
-        return cls.between(max(values, key=lambda v: abs(v - target)), min(values), max(values))
+Found = Ours | SupportsFloat | Iterable[SupportsFloat]
+"""What a claim's function gives: our number, with or without a range, or several."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -96,14 +91,34 @@ class Said:
     value: float | None = None
     chosen: bool = False  # words whose reading is a choice of ours
 
+    def worst(self, found: Found) -> Ours:
+        """Of our numbers that which speaks most against what is said; NaN if one is NaN.
+
+        Those without a range get that of all, but for a formula; others keep their own.
+        """
+        several = np.ravel(np.asarray(found))
+        values = several.astype(float)
+        if not np.isfinite(values).all():
+            return Ours.exactly(math.nan)
+        worst = several[np.argmax(self._against(values))]
+        if isinstance(worst, Ours):
+            return worst
+        ends = (worst, worst) if self.kind == "formula" else (values.min(), values.max())
+        return Ours.between(worst, *ends)
+
+    def _against(self, values: Array) -> Array:
+        """How far numbers are from where the statement holds best."""
+        if self.value is None and math.isinf(self.high - self.low):
+            return -values if math.isinf(self.high) else values
+        best = 1.0 if self.low > 0.0 else 0.0
+        return np.abs(values - (best if self.value is None else self.value))
+
 
 def number(printed: str) -> Said:
     """A printed number, meant to half a unit of its last digit, such as ``"0.15"``."""
     decimal = Decimal(printed)
     half = Decimal(1).scaleb(int(decimal.as_tuple().exponent)) / 2
-    return Said(
-        "number", float(decimal - half), float(decimal + half), printed, value=float(decimal)
-    )
+    return Said("number", float(decimal - half), float(decimal + half), printed, float(decimal))
 
 
 def formula(value: float, text: str = "") -> Said:
@@ -128,19 +143,11 @@ def words(expression: str) -> Said:
     return Said("words", low, high, f"{expression}: {reading}", chosen=expression not in REASONED)
 
 
-KINDS: dict[str, Callable[..., Said]] = {
-    "number": number,
-    "formula": formula,
-    "below": below,
-    "above": above,
-    "words": words,
-}
-
-
 def read(entry: Mapping[str, Any]) -> Said:
     """What an entry such as ``{number: "0.15"}`` or ``{formula: [1, Eq. (10)]}`` says."""
     ((kind, values),) = entry.items()
-    return KINDS[kind](*values) if isinstance(values, list) else KINDS[kind](values)
+    said = {kind.__name__: kind for kind in (number, formula, below, above, words)}[kind]
+    return said(*values) if isinstance(values, list) else said(values)
 
 
 def holds(said: Said, ours: Ours) -> bool | None:
@@ -154,14 +161,11 @@ def holds(said: Said, ours: Ours) -> bool | None:
     """
     if not math.isfinite(ours.value):
         return None
+    up, down = ours.high - ours.value, ours.value - ours.low
     if said.kind == "number":
         widest = WIDEST_ALLOWANCE * abs(said.value or 0.0)
-        low = said.low - min(ours.high - ours.value, widest)
-        high = said.high + min(ours.value - ours.low, widest)
-        return low <= ours.value <= high
+        return said.low - min(up, widest) <= ours.value <= said.high + min(down, widest)
     if said.kind == "formula":
-        margin = 0.5 * (said.high - said.low)
-        if max(ours.high - ours.value, ours.value - ours.low) > margin:
-            return None
-        return said.low <= ours.value <= said.high
+        known = max(up, down) <= 0.5 * (said.high - said.low)
+        return said.low <= ours.value <= said.high if known else None
     return said.low < ours.value < said.high

@@ -1,7 +1,5 @@
 """The claims with their verdicts as JSON, CSV and Markdown."""
 
-import csv
-import io
 import json
 import re
 from collections import Counter
@@ -9,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from importlib import resources
 from typing import Any
 
+import pandas as pd
 import yaml
 
 from .claim import Claim, Verdict
@@ -48,10 +47,12 @@ def stated() -> dict[str, Any]:
 
 def claims_on(subject: str, entries: Mapping[str, Mapping[str, Any]]) -> list[Claim]:
     """The claims of one subject, each with the function that has its name."""
+    module = SUBJECTS[subject]
+    functions = {**{name.replace("_", "-"): f for name, f in vars(module).items()}, **module.OURS}
     return [
         Claim(
             id=id,
-            compute=getattr(SUBJECTS[subject], id.replace("-", "_")),
+            compute=functions[id] if entry["method"] != "none" else None,
             **{**entry, "said": read(entry["said"]) if "said" in entry else None},
         )
         for id, entry in entries.items()
@@ -80,14 +81,9 @@ def to_json(rows: list[dict[str, Any]]) -> str:
 
 def to_csv(rows: list[dict[str, Any]]) -> str:
     """The rows as comma-separated text; numbers to six digits, missing ones empty."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for row in rows:
-        low, high = row["uncertainty"] or (None, None)
-        flat = {**row, "ours_low": low, "ours_high": high}
-        writer.writerow([_cell(flat[name]) for name in COLUMNS])
-    return text.getvalue()
+    flat = pd.DataFrame(rows)
+    flat[["ours_low", "ours_high"]] = [row["uncertainty"] or (None, None) for row in rows]
+    return flat.to_csv(columns=COLUMNS, index=False, float_format="%.6g")
 
 
 def to_markdown(rows: list[dict[str, Any]]) -> str:
@@ -125,9 +121,3 @@ def escaped(text: str) -> str:
     parts = text.replace("\n", " ").split("$")
     parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
     return "$".join(parts)
-
-
-def _cell(value: Any) -> str:
-    if value is None:
-        return ""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)

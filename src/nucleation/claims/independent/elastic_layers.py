@@ -8,11 +8,13 @@ dimension is left.
 """
 
 import dataclasses
+from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
-from ...types import Array
+from ...types import Array, ComplexArray
+from ..said import Ours
 
 HALF_SPACE = 40.0
 """Layer number k H of a body that counts as a half-space, ``exp(-40) = 4e-18``."""
@@ -60,6 +62,10 @@ class _Equations:
         first, second = {"velocity": (self.u, self.n), "traction": (self.t, self.n)}[layer.far_side]
         self.far = np.vstack([first[-1], second[-1]])
 
+    def field(self, at_interface: list[Array], load: tuple[float, float]) -> Array:
+        """(U, W) for two fields given at the interface."""
+        return _solve(np.vstack([self.inside, self.far, *at_interface]), load)
+
 
 def pair_transfer(
     upper: Layer, lower: Layer | None = None, points: int = 64
@@ -67,49 +73,50 @@ def pair_transfer(
     """G1 and G2 of two layers in contact; None stands for a rigid lower body."""
     above = _Equations(upper, points)
     if lower is None:
-        rows = [above.inside, above.far, above.u[:1], above.w[:1]]
-        load = np.zeros(2 * points)
-        load[-2] = 1.0
+        field = above.field([above.u[0], above.w[0]], (1.0, 0.0))
     else:
         below = _Equations(lower, points)
-        none = np.zeros((2 * points - 2, 2 * points))
-        own = [np.vstack([e.inside, e.far]) for e in (above, below)]
-        joint = [
-            np.hstack([getattr(above, field)[:1], -getattr(below, field)[:1]]) for field in "uwtn"
-        ]
-        rows = [np.hstack([own[0], none]), np.hstack([none, own[1]]), *joint]
-        load = np.zeros(4 * points)
-        load[-4] = 1.0
-    field = _solve(np.vstack(rows), load)[: 2 * points]
+        own = block_diag(*(np.vstack([body.inside, body.far]) for body in (above, below)))
+        joint = [np.append(getattr(above, n)[0], -getattr(below, n)[0]) for n in "uwtn"]
+        field = _solve(np.vstack([own, *joint]), (1.0, 0.0, 0.0, 0.0))[: 2 * points]
     return -float(above.t[0] @ field), float(above.n[0] @ field)
 
 
-def compliance(layer: Layer, points: int = 64) -> NDArray[np.complex128]:
+def half_spaces(
+    nu: float, psi: float = 1.0, nu2: float | None = None, points: int = 64
+) -> tuple[float, float]:
+    """G1 and G2 of two half-spaces; Poisson's ratios are alike if the lower one's is not given."""
+    below = Layer(-HALF_SPACE, nu if nu2 is None else nu2, psi)
+    return pair_transfer(Layer(HALF_SPACE, nu), below, points)
+
+
+def refined(number: Callable[[int], float]) -> Ours:
+    """A number by 64 points, known to its difference from that by 48."""
+    return Ours.within(number(64), number(64) - number(48))
+
+
+def compliance(layer: Layer, points: int = 64) -> ComplexArray:
     """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus."""
     body = _Equations(layer, points)
-    rows = np.vstack([body.inside, body.far, body.t[:1], body.n[:1]])
-    columns = []
-    for traction, phase in ((-2, 1.0), (-1, -1j)):  # sigma_yy = i N
-        load = np.zeros(2 * points)
-        load[traction] = 1.0
-        field = _solve(rows, load)
-        columns.append([phase * (body.u[0] @ field), phase * 1j * (body.w[0] @ field)])
-    return np.array(columns).T
+    given = [body.t[0], body.n[0]]
+    fields = np.stack([body.field(given, load) for load in ((1.0, 0.0), (0.0, 1.0))], axis=1)
+    return np.stack([body.u[0] @ fields, 1j * body.w[0] @ fields]) * [1.0, -1j]  # sigma_yy = i N
 
 
 def block_field(layer: Layer, points: int = 64) -> tuple[Array, Array, Array]:
     """``y``, ``U`` and ``W`` of a layer on a rigid base that slips by one."""
     body = _Equations(layer, points)
-    load = np.zeros(2 * points)
-    load[-2] = 1.0
-    rows = np.vstack([body.inside, body.far, body.u[:1], body.w[:1]])
-    field = _solve(rows, load)
+    field = body.field([body.u[0], body.w[0]], (1.0, 0.0))
     return body.y, body.u @ field, body.w @ field
 
 
-def _solve(rows: Array, load: Array) -> Array:
-    """The solution, rows scaled to one and refined once: derivatives have large entries."""
+def _solve(rows: Array, load: tuple[float, ...]) -> Array:
+    """The solution for what the last rows are equal to, all others to zero.
+
+    Rows are scaled to one and it is refined once: derivatives have large entries.
+    """
     scale = np.abs(rows).max(axis=1)
-    matrix, right = rows / scale[:, None], load / scale
+    right = np.append(np.zeros(len(rows) - len(load)), load) / scale
+    matrix = rows / scale[:, None]
     field = np.linalg.solve(matrix, right)
     return field + np.linalg.solve(matrix, right - matrix @ field)

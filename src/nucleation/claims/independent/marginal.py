@@ -11,6 +11,7 @@ import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
 from ...model.linearised import InterfaceState
+from ...types import Array
 
 Transfer = Callable[[float], tuple[float, float]]
 
@@ -40,25 +41,29 @@ def critical_wavenumber(
     It is sought downwards from 30 times the guess to a thousandth of it.
     """
 
-    def rate(log_k: float) -> float:
-        return growth_at(float(np.exp(log_k)), transfer, modulus, interface).real
-
-    grid = np.log(guess * np.geomspace(30.0, 1e-3, 400))
-    below = next(i for i, log_k in enumerate(grid) if rate(log_k) > 0.0)
-    log_k = brentq(rate, grid[below], grid[below - 1], xtol=1e-13)
-    k = float(np.exp(log_k))
+    k = _largest_growing(
+        lambda k: growth_at(k, transfer, modulus, interface), guess * np.geomspace(30.0, 1e-3, 400)
+    )
     return k, abs(growth_at(k, transfer, modulus, interface).imag)
 
 
 def half_space_load(f_beta: float, a: float, zeta: float) -> float:
     """The largest real part of the load with growth, two half-spaces: ``zeta L_c^M / L_c``."""
+    return _largest_growing(
+        lambda load: growth(load * (1.0 - 1j * f_beta), a, zeta),
+        (a + abs(zeta)) * np.geomspace(30.0, 1e-4, 2000),
+    )
 
-    def rate(log_load: float) -> float:
-        return growth(np.exp(log_load) * (1.0 - 1j * f_beta), a, zeta).real
 
-    grid = np.log((a + abs(zeta)) * np.geomspace(30.0, 1e-4, 2000))
-    below = next(i for i, log_load in enumerate(grid) if rate(log_load) > 0.0)
-    return float(np.exp(brentq(rate, grid[below], grid[below - 1], xtol=1e-13)))
+def _largest_growing(rate: Callable[[float], complex], falling: Array) -> float:
+    """The largest of some values with growth, to all digits between them."""
+
+    def real(logarithm: float) -> float:
+        return rate(float(np.exp(logarithm))).real
+
+    grid = np.log(falling)
+    below = next(i for i, logarithm in enumerate(grid) if real(logarithm) > 0.0)
+    return float(np.exp(brentq(real, grid[below], grid[below - 1], xtol=1e-13)))
 
 
 def strengthening_threshold(a: float, zeta: float) -> float:

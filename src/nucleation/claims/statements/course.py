@@ -6,93 +6,49 @@ from typing import Any
 import numpy as np
 
 from ...configuration.roles import JUDGED, LONGER, PAPERS
-from ..claim import Result
-from ..evidence import Evidence, on_both
+from ..claim import Computation, Result
+from ..evidence import Evidence, of_runs, on_both
 from ..said import Missing, Ours
 from .simulations import INSET, SHOWN, relative_change
 
 AFTER = 0.1  # s after its event, by which a run has seen the rupture
 
 
-def slip_rate_blows_up(evidence: Evidence) -> Result:
+@on_both
+def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
+    ratios = [run.growth_time / run.acceleration_time for run in evidence.each_measured(role)]
+    known = [ratio for ratio in ratios if not math.isnan(ratio)]
+    return known or ratios  # a run may end with its drop, before 100 V
+
+
+@on_both
+def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
     velocity = evidence.loading.velocity
-    return on_both(
-        evidence,
-        lambda study: Ours.exactly(
-            evidence.measured(evidence.row(study, "aging", INSET)).largest_rate / velocity
-        ),
-    )
+    rates = [evidence.measured(row).patch_rates for row in evidence.series(role)]
+    return [Ours.between(*(rate / velocity for rate in three)) for three in rates]
 
 
-def instability_faster_than_creep(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        ratios = [m.growth_time / m.acceleration_time for m in evidence.each_measured(study)]
-        known = [ratio for ratio in ratios if not math.isnan(ratio)]
-        return Ours.worst(known or ratios)  # a run may end with its drop, before 100 V
-
-    return on_both(evidence, lambda study: _least(ours(study)))
-
-
-def _least(ours: Ours) -> Ours:
-    return Ours.between(ours.low, ours.low, ours.high)
-
-
-def abrupt_drop(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        rows = evidence.rows(study)
-        return Ours.worst([row["onset_time"] / evidence.measured(row).drop_time for row in rows])
-
-    return on_both(evidence, lambda study: _least(ours(study)))
-
-
-def rupture_duration(evidence: Evidence) -> Ours:
+def rupture_duration(evidence: Evidence) -> float:
     row = evidence.row(PAPERS, "aging", SHOWN)
-    return Ours.exactly(row["onset_time"] / evidence.measured(row).rupture_time)
+    return float(row["onset_time"] / evidence.measured(row).rupture_time)
 
 
-def slow_creep(evidence: Evidence) -> Result:
-    speed = evidence.material.shear_wave_speed
-
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.front_speed / speed for run in runs])
-
-    return on_both(evidence, ours, note="The density is an assumption (docs/assumptions.md).")
-
-
-def no_radiation(evidence: Evidence) -> Result:
+def damped_rate(evidence: Evidence) -> float:
+    """The slip rate (m/s) at which radiation damping is a sigma0."""
     material, interface = evidence.material, evidence.interface
     impedance = 0.5 * material.shear_modulus / material.shear_wave_speed
-    scale = impedance / (interface.a * interface.normal_stress)
-
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([scale * run.onset_rate for run in runs])
-
-    return on_both(evidence, ours, note="The density is an assumption (docs/assumptions.md).")
-
-
-def characteristic_slip_rate(evidence: Evidence) -> Result:
-    velocity = evidence.loading.velocity
-
-    def ours(study: str) -> Ours:
-        rates = [evidence.measured(row).patch_rates for row in evidence.series(study)]
-        middle, low, high = min(rates)
-        return Ours.between(middle / velocity, low / velocity, high / velocity)
-
-    return on_both(evidence, ours)
+    return interface.a * interface.normal_stress / impedance
 
 
 def contact_kept(evidence: Evidence) -> Result:
     stress, measures = evidence.loading.normal_stress, evidence.each_measured(PAPERS)
-    creep = Ours.worst([m.largest_normal_stress / stress for m in measures], target=-1.0)
-    ours = Ours.worst([m.largest_normal_stress_ever / stress for m in measures], target=-1.0)
+    creep = max(run.largest_normal_stress / stress for run in measures)
     note = (
-        f"Up to the onset it is {creep.value:.3g}. The runs that go on into the rupture have the "
+        f"Up to the onset it is {creep:.3g}. The runs that go on into the rupture have the "
         "aging law; a quiet one with the slip law on a finer mesh loses contact in its rupture "
         "(findings: Tension)."
     )
-    return Result(ours, note=note)
+    return Result([run.largest_normal_stress_ever / stress for run in measures], note=note)
 
 
 def length_plays_no_role(evidence: Evidence) -> Result:
@@ -105,7 +61,6 @@ def length_plays_no_role(evidence: Evidence) -> Result:
     ]
     if not changes:
         raise Missing(f"The role {LONGER} has no run with a longer block")
-    ours = max(changes, key=lambda change: abs(change.value))
     strength = evidence.interface.friction * evidence.loading.normal_stress
     shown = [run for study in (JUDGED, PAPERS) for run in evidence.each_measured(study)]
     beyond = max(run.middle_stress for run in shown) / strength
@@ -113,23 +68,7 @@ def length_plays_no_role(evidence: Evidence) -> Result:
         "In no run of Figure 3 does the shear stress half-way along the block at the onset exceed "
         f"{beyond:.1g} of the strength."
     )
-    return Result(ours, note=note)
-
-
-def mesh_along(evidence: Evidence) -> Ours:
-    return Ours.worst([row["n_x"] for row in evidence.rows(PAPERS)], target=400.0)
-
-
-def mesh_across(evidence: Evidence) -> Ours:
-    return Ours.worst([row["n_y"] for row in evidence.rows(PAPERS)], target=150.0)
-
-
-def usual_step(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.usual_step / 1e-3 for run in runs], target=1.0)
-
-    return on_both(evidence, ours)
+    return Result(changes, note=note)
 
 
 def shortest_step(evidence: Evidence) -> Ours:
@@ -141,3 +80,19 @@ def shortest_step(evidence: Evidence) -> Ours:
 def _goes_on(row: dict[str, Any]) -> bool:
     """Whether a run goes on after its event."""
     return bool(row.get("simulated_time", 0.0) > row["onset_time_high"] + AFTER)
+
+
+OURS: dict[str, Computation] = {
+    "slip-rate-blows-up": on_both(
+        lambda e, role: e.measured(e.row(role, "aging", INSET)).largest_rate / e.loading.velocity
+    ),
+    "abrupt-drop": on_both(
+        lambda e, role: [row["onset_time"] / e.measured(row).drop_time for row in e.rows(role)]
+    ),
+    "slow-creep": of_runs("front_speed", lambda e: e.material.shear_wave_speed),
+    "no-radiation": of_runs("onset_rate", damped_rate),
+    "mesh-along": lambda e: [row["n_x"] for row in e.rows(PAPERS)],
+    "mesh-across": lambda e: [row["n_y"] for row in e.rows(PAPERS)],
+    "usual-step": of_runs("usual_step", lambda e: 1e-3),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""

@@ -1,43 +1,29 @@
 """Claims on the friction law: Sect. 5's values, Table S1, Text S2.1 and Fig. S1."""
 
 import math
-from functools import partial
 
 import numpy as np
 
 from ...configuration.roles import JUDGED, PAPERS
-from ..claim import Result
-from ..evidence import Evidence, on_both
-from ..said import Missing, Ours
+from ...model.friction.law import Expansion
+from ...types import Array
+from ..claim import Computation, Result
+from ..evidence import Evidence, of_runs
+from ..said import Missing
 
 FINE = np.geomspace(1e-11, 10.0, 4801)  # m/s
 
 
-def _at_v(coefficient: int, evidence: Evidence) -> Ours:
-    """A coefficient of the expansion (f, a, zeta) at V."""
-    return Ours.exactly(evidence.friction.expansion(evidence.loading.velocity)[coefficient])
+def at_v(evidence: Evidence) -> Expansion:
+    """Friction, a and zeta at V."""
+    return evidence.friction.expansion(evidence.loading.velocity)
 
 
-f0_table, a_table, zeta_table = f0_main, a_main, zeta_main = [partial(_at_v, i) for i in range(3)]
-
-
-def slip_rate_over_v0(evidence: Evidence) -> Ours:
-    ratio = evidence.loading.velocity / evidence.friction.regularisation_slip_rate
-    return Ours.exactly(math.log10(ratio))
-
-
-def friction_vanishes(evidence: Evidence) -> Ours:
-    law = evidence.friction
-    f = law.coefficient(1e-5 * law.regularisation_slip_rate, 1.0)
-    return Ours.exactly(f / law.expansion(evidence.loading.velocity).f0)
-
-
-def logarithmic_law(evidence: Evidence) -> Ours:
+def logarithmic_law(evidence: Evidence) -> Array:
     law, velocity = evidence.friction, evidence.loading.velocity
     factors = np.geomspace(0.1, 10.0, 41)
     v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
-    ratio = law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
-    return Ours.worst(ratio.ravel(), target=1.0)
+    return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
 
 
 def steady_extremes(evidence: Evidence) -> tuple[float, float]:
@@ -51,7 +37,7 @@ def steady_extremes(evidence: Evidence) -> tuple[float, float]:
     return float(FINE[lower[-1]]), float(FINE[upper[0]])
 
 
-def steady_agreement(evidence: Evidence) -> Ours:
+def steady_agreement(evidence: Evidence) -> float:
     law, velocity = evidence.friction, evidence.loading.velocity
     low, high = steady_extremes(evidence)
     v = FINE[slice(*np.searchsorted(FINE, [low, high]))]
@@ -61,61 +47,35 @@ def steady_agreement(evidence: Evidence) -> Ours:
     off = np.flatnonzero(difference >= 0.02)
     first = off[off < middle].max(initial=-1) + 1
     last = off[off > middle].min(initial=v.size) - 1
-    return Ours.exactly(math.log10(v[last] / v[first]))
+    return math.log10(v[last] / v[first])
 
 
-def strengthening_branch(evidence: Evidence) -> Ours:
-    return Ours.exactly(steady_extremes(evidence)[1] / evidence.loading.velocity)
-
-
-def weakening_branch(evidence: Evidence) -> Ours:
-    return Ours.exactly(evidence.loading.velocity / steady_extremes(evidence)[0])
-
-
-def minimum_plays_no_role(evidence: Evidence) -> Result:
-    minimum = steady_extremes(evidence)[1]
-
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.onset_rate / minimum for run in runs])
-
-    return on_both(evidence, ours)
-
-
-def regularisation_irrelevant(evidence: Evidence) -> Result:
-    def ours(study: str) -> Ours:
-        runs = evidence.each_measured(study)
-        return Ours.worst([run.regular_share for run in runs], target=1.0)
-
-    return on_both(evidence, ours)
-
-
-def state_rate_at_v(evidence: Evidence) -> Ours:
-    velocity = evidence.loading.velocity
-    return Ours.exactly(evidence.friction.slip_speed(velocity) / velocity)
-
-
-def _well_approximated(evidence: Evidence, part: str, note: str = "") -> Result:
+def well_approximated(evidence: Evidence, part: str) -> Result:
     """Where the slip law with v is good: the least of all its runs, of either study."""
-
-    def share(study: str) -> Ours:
-        runs = evidence.each_measured(study, evolution="slip")
-        return Ours.worst([getattr(run, part) for run in runs], target=1.0)
-
-    return Result(share(JUDGED), on_papers_mesh=share(PAPERS), note=note)
-
-
-def slip_law_approximation(evidence: Evidence) -> Result:
-    return _well_approximated(evidence, "state_rate_share_patch")
-
-
-def slip_law_approximation_ahead(evidence: Evidence) -> Result:
-    note = (
-        "A harsh reading: ahead of the front v is far below v0, which there decides how little the "
-        "interface heals (findings: The slip law ahead of the front)."
+    judged, papers = (
+        [getattr(run, part) for run in evidence.each_measured(role, evolution="slip")]
+        for role in (JUDGED, PAPERS)
     )
-    return _well_approximated(evidence, "state_rate_share", note)
+    return Result(judged, on_papers_mesh=papers)
 
 
-def weakening_at_v(evidence: Evidence) -> Ours:
-    return Ours.exactly(evidence.friction.expansion(evidence.loading.velocity).zeta)
+OURS: dict[str, Computation] = {
+    **{f"f0-{where}": lambda e: at_v(e).f0 for where in ("table", "main")},
+    **{f"a-{where}": lambda e: at_v(e).a for where in ("table", "main")},
+    **{f"zeta-{where}": lambda e: at_v(e).zeta for where in ("table", "main")},
+    "weakening-at-v": lambda e: at_v(e).zeta,
+    "slip-rate-over-v0": lambda e: math.log10(
+        e.loading.velocity / e.friction.regularisation_slip_rate
+    ),
+    "friction-vanishes": lambda e: (
+        e.friction.coefficient(1e-5 * e.friction.regularisation_slip_rate, 1.0) / at_v(e).f0
+    ),
+    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.loading.velocity,
+    "weakening-branch": lambda e: e.loading.velocity / steady_extremes(e)[0],
+    "minimum-plays-no-role": of_runs("onset_rate", lambda e: steady_extremes(e)[1]),
+    "regularisation-irrelevant": of_runs("regular_share"),
+    "state-rate-at-v": lambda e: e.friction.slip_speed(e.loading.velocity) / e.loading.velocity,
+    "slip-law-approximation": lambda e: well_approximated(e, "state_rate_share_patch"),
+    "slip-law-approximation-ahead": lambda e: well_approximated(e, "state_rate_share"),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""

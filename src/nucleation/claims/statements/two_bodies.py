@@ -16,7 +16,7 @@ import xarray as xr
 from ...patch.pairs import chosen, of_role, over_realisations
 from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
-from ..claim import Result
+from ..claim import Computation, Result
 from ..independent import printed
 from ..said import Missing, Ours
 
@@ -37,21 +37,18 @@ class PairEvidence(NamedTuple):
     modes: xr.Dataset  # of nucleation.verification.pair_modes.pair_modes
 
 
-def rows_of(table: xr.Dataset, role: str) -> xr.Dataset:
-    """The faults with a role, each the mean of its realisations; raises Missing without any."""
-    rows = of_role(table, role)
+def required(rows: xr.Dataset, missing: str) -> xr.Dataset:
+    """The same rows; raises Missing if there are none."""
     if not rows.sizes["run"]:
-        raise Missing(f"The table of pairs has no runs with the role {role}")
-    return over_realisations(rows)
+        raise Missing(missing)
+    return rows
 
 
-def half_spaces(table: xr.Dataset) -> xr.Dataset:
-    """Identical blocks as high as half-spaces; raises Missing without any."""
-    rows = rows_of(table, "pairs_identical")
-    high = chosen(rows, (rows["height"] >= HALF_SPACE * rows["theory_length"]).values)
-    if not high.sizes["run"]:
-        raise Missing("No identical blocks are as high as half-spaces")
-    return high
+def rows_of(evidence: PairEvidence, role: str = "figure_2_simulated") -> xr.Dataset:
+    """The faults with a role, each the mean of its realisations; raises Missing without any."""
+    rows = of_role(evidence.table, role)
+    missing = f"The table of pairs has no runs with the role {role}"
+    return over_realisations(required(rows, missing))
 
 
 def over_effective_modulus(rows: xr.Dataset) -> Array:
@@ -85,15 +82,10 @@ def _note(rows: xr.Dataset) -> str:
     return f"At a declared perturbation {kind} of {strength:g}, {number} realisations each."
 
 
-def worst_length(rows: xr.Dataset, target: float, unit: Array | float = 1.0) -> Ours:
-    """The mean length in some unit that is furthest from a target, with its realisations' range."""
-    mean, low, high = (
-        rows[f"length_ratio{end}"].values * unit for end in ("", "_low", "_high")
-    )  # fmt: skip
-    if not np.isfinite(mean).all():
-        return Ours.exactly(np.nan)
-    worst = int(np.argmax(np.abs(mean - target)))
-    return Ours.between(mean[worst], low[worst], high[worst])
+def _lengths(rows: xr.Dataset, unit: Array | float = 1.0) -> list[Ours]:
+    """The mean lengths in some unit, each with its realisations' range."""
+    ends = (rows[f"length_ratio{end}"].values * unit for end in ("", "_low", "_high"))
+    return [Ours.between(*length) for length in zip(*ends, strict=True)]
 
 
 def _each_sense(rows: xr.Dataset, values: Array) -> str:
@@ -108,49 +100,40 @@ def _each_sense(rows: xr.Dataset, values: Array) -> str:
 
 
 def _over_weakenings(values: dict[float, Array], rows: xr.Dataset) -> Result:
-    """The value furthest from one of all zeta/a, each zeta/a's own in the note."""
-    own = {z: Ours.worst(found, 1.0).value for z, found in values.items()}
+    """The values of all zeta/a, that furthest from one of each in the note."""
+    own = {z: max(found, key=lambda value: abs(value - 1.0)) for z, found in values.items()}
     each = ", ".join(rf"{worst:.3g} for $\zeta/a = {z:g}$" for z, worst in own.items())
-    ours = Ours.worst(np.concatenate(list(values.values())), 1.0)
+    ours = np.concatenate(list(values.values()))
     return Result(ours, note=f"{_note(rows)} The furthest: {each}.")
 
 
 def pairs_half_spaces(evidence: PairEvidence) -> Result:
-    high = half_spaces(evidence.table)
-    return Result(worst_length(high, 1.0), note=_note(high))
+    rows = rows_of(evidence, "pairs_identical")
+    high = chosen(rows, (rows["height"] >= HALF_SPACE * rows["theory_length"]).values)
+    required(high, "No identical blocks are as high as half-spaces")
+    return Result(_lengths(high), note=_note(high))
 
 
-def response_over(modes: xr.Dataset, part: int) -> Ours:
-    """The measured G1 (part 0) or G2 (part 1) of half-spaces over Eq. (7), the worst mode."""
+def response(evidence: PairEvidence, part: int) -> Result:
+    """The measured G1 (part 0) or G2 (part 1) of half-spaces over Eq. (7)."""
+    modes = evidence.modes
     high = modes.isel(run=[str(name).startswith("half-spaces") for name in modes["id"].values])
-    if not high.sizes["run"]:
-        raise Missing("No modes between half-spaces were simulated")
+    required(high, "No modes between half-spaces were simulated")
     names = ("second_shear_modulus", "shear_modulus", "poisson_ratio", "second_poisson_ratio")
     second, first, nu, second_nu = (high[name].values for name in names)
-    expected = []
-    for psi, nu1, nu2 in zip(second / first, nu, second_nu, strict=True):
-        g1 = 0.5 * printed.bimaterial_modulus(psi, nu1, nu2)
-        expected.append((g1, printed.bimaterial_contrast(psi, nu1, nu2) * g1)[part])
-    ratio = measured_response(high)[part] / np.array(expected)[:, None]
-    return Ours.worst(ratio.ravel(), 1.0)
-
-
-def pairs_g1(evidence: PairEvidence) -> Result:
-    return Result(response_over(evidence.modes, 0), note=SLIDING)
-
-
-def pairs_g2(evidence: PairEvidence) -> Result:
-    return Result(response_over(evidence.modes, 1), note=SLIDING)
+    pairs = zip(second / first, nu, second_nu, strict=True)
+    expected = np.array([printed.bimaterial_transfer(*pair)[part] for pair in pairs])
+    return Result(measured_response(high)[part] / expected[:, None], note=SLIDING)
 
 
 def pairs_modulus(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     scaled = {z: both.mean(axis=1) / identical for z, _, both, identical in senses(rows)}
     return _over_weakenings(scaled, rows)
 
 
 def pairs_contrast(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     scaled = {}
     for z, contrast, both, _ in senses(rows):
         effect = (both[:, 0] - both[:, 1]) / both.sum(axis=1) / contrast
@@ -161,25 +144,25 @@ def pairs_contrast(evidence: PairEvidence) -> Result:
 
 
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     over = rows["length"].values / rows["height"].values
     note = (
         f" {int((rows['height'] < rows['theory_length']).sum())} of {over.size} blocks are lower "
         f"than $L_c$; {int((over > 1.0).sum())} patches are at the drop longer than their block is "
         f"high, at most by a factor of {over.max():.2g}."
     )
-    return Result(worst_length(rows, 1.0), note=_note(rows) + note)
+    return Result(_lengths(rows), note=_note(rows) + note)
 
 
 def pairs_smaller(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence.table, "figure_2_simulated")
+    rows = rows_of(evidence)
     strong = chosen(rows, np.abs(rows["f_beta"].values) > STRONG)
-    ours = worst_length(strong, 0.0, unit=strong["half_space_ratio"].values)
+    ours = _lengths(strong, unit=strong["half_space_ratio"].values)
     return Result(ours, note=_note(rows) + _each_sense(strong, over_effective_modulus(strong)))
 
 
 def pairs_decreasing(evidence: PairEvidence) -> Result:
-    rows, slopes, at = rows_of(evidence.table, "figure_2_simulated"), [], []
+    rows, slopes, at = rows_of(evidence), [], []
     ratio = over_effective_modulus(rows)
     contrast, weakening = rows["f_beta"].values, np.round(rows["zeta_over_a"].values, 3)
     for value in np.unique(weakening):
@@ -190,5 +173,11 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
             at += own[1:].tolist()
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
-    ours = Ours.between(max(slopes), min(slopes), max(slopes))
-    return Result(ours, note=_note(rows) + _each_sense(rows.isel(run=at), np.array(slopes)))
+    return Result(slopes, note=_note(rows) + _each_sense(rows.isel(run=at), np.array(slopes)))
+
+
+OURS: dict[str, Computation] = {
+    "pairs-g1": lambda e: response(e, 0),
+    "pairs-g2": lambda e: response(e, 1),
+}
+"""The claims whose numbers take a line; each of the others has a function with its name."""
