@@ -2,8 +2,8 @@
 
 An entry is a directory ``KEY/`` with the files of one result, ``result.nc``, ``result.csv``, ...,
 and ``entry.json``, which names its key and the size and digest of each file. The store of a
-directory of results is ``store/`` in it, and results are made there. Others (:mod:`.elsewhere`)
-are asked first.
+directory of results is ``store/`` in it, and results are made there. Stores elsewhere are asked
+first, and are given what was made; what is wrong there is said in a line, and not taken.
 """
 
 import contextlib
@@ -27,6 +27,8 @@ STEM = "result"
 FILE = re.compile(rf"{STEM}(\.\w+)+")
 ASIDE = "aside"
 """Where an entry goes that is not what its key says."""
+VARIABLE = "NUCLEATION_STORES"
+"""Of the environment; it names directories of stores elsewhere, separated by commas."""
 
 Note = dict[str, Any]
 
@@ -63,8 +65,10 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
         note = json.loads((entry / NOTE).read_text("utf-8"))
         if note["key"] != (key or entry.name):
             raise StoreError(f"{entry} holds the result of another key, {note['key']}")
-        for name in files_of(note):
-            path, file = entry / name, note["files"][name]
+        for name, file in note["files"].items():
+            path = entry / name
+            if not FILE.fullmatch(name):  # a plain one, which can't lead out of the entry
+                raise StoreError(f"{name!r} is no name of a result's file")
             if path.stat().st_size != file["size"]:
                 raise StoreError(f"{path} is damaged: it has not the size it was given")
             if whole and content(path) != file["sha256"]:
@@ -74,14 +78,6 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
     except BAD as error:
         raise StoreError(f"{entry} is damaged: {error}") from None
     return dict(note)
-
-
-def files_of(note: Note) -> list[str]:
-    """Names of the files of an entry: plain ones, which can't lead out of it, or StoreError."""
-    for name in note["files"]:
-        if not FILE.fullmatch(name):
-            raise StoreError(f"{name!r} is no name of a result's file")
-    return list(note["files"])
 
 
 class Store:
@@ -108,13 +104,6 @@ class Store:
                 except StoreError as error:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]
-
-    def is_wrong(self, key: str) -> bool:
-        """Whether there is an entry that is not right, at this moment."""
-        try:
-            return self.entry(key).exists() and not read_note(self.entry(key))
-        except StoreError:
-            return True
 
     def listed(self) -> list[str]:
         """Keys of all entries, right or not."""
@@ -154,7 +143,7 @@ class Store:
                         self._publish(place, key)
                         return other.directory
                 except (OSError, StoreError) as error:
-                    print(f"Not taken from {other.directory}: {in_a_line(error)}", file=sys.stderr)
+                    print(f"Not taken from {other.directory}: {_in_a_line(error)}", file=sys.stderr)
                     if not isinstance(error, (StoreError, FileNotFoundError)):
                         others.remove(other)
         return None
@@ -198,16 +187,15 @@ class Store:
                 raise
         flush(self.directory)
 
-    def set_aside(self, key: str) -> Path | None:
-        """Move what is no right entry out of the way; where it is then."""
+    def set_aside(self, key: str) -> None:
+        """Move what is no right entry out of the way."""
         if not os.path.lexists(self.entry(key)):
-            return None
+            return
         (self.directory / ASIDE).mkdir(exist_ok=True)
         place = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=self.directory / ASIDE))
         self._known.pop(key, None)
         with contextlib.suppress(FileNotFoundError):  # if another process was faster
             self.entry(key).rename(place / key)
-        return place / key
 
     def refused(self, key: str, error: Exception) -> StoreError:
         """Move an entry aside that can't be used; the error that says so."""
@@ -228,6 +216,33 @@ def _copy(entry: Path, into: Path) -> None:
         shutil.copyfile(entry / name, into / name)
 
 
-def in_a_line(error: Exception) -> str:
-    """An error of any kind as one line."""
+def others(strict: bool = True) -> list[Store]:
+    """The stores elsewhere that the environment names.
+
+    One that is no directory or can't be read raises a StoreError if `strict`; if not, it is said
+    and left out, as on a node that lacks a disk.
+    """
+    found: list[Store] = []
+    for name in filter(None, map(str.strip, os.environ.get(VARIABLE, "").split(","))):
+        problem = f"the store {name!r} is no directory that can be read: make it first"
+        if Path(name).is_dir() and os.access(name, os.R_OK | os.X_OK):
+            found.append(Store(Path(name).absolute()))
+        elif strict:
+            raise StoreError(problem)
+        else:
+            print(f"Not used: {problem}", file=sys.stderr)
+    return found
+
+
+def give_all(entry: Path, others: list[Store]) -> None:
+    """Give a new entry to other stores; one that is out of reach is said, and leaves the list."""
+    for other in list(others):
+        try:
+            other.give(entry)
+        except (OSError, StoreError) as error:
+            print(f"Not kept in {other.directory}: {_in_a_line(error)}", file=sys.stderr)
+            others.remove(other)
+
+
+def _in_a_line(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())
