@@ -46,11 +46,6 @@ def path_in(entry: Path, suffix: str) -> Path:
     return entry / f"{STEM}{suffix}"
 
 
-def suffixes(note: Note) -> list[str]:
-    """Suffixes of the files of an entry."""
-    return [name.removeprefix(STEM) for name in note["files"]]
-
-
 def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
     """What an entry says of itself, held against its key (by its name, if none is given) and files.
 
