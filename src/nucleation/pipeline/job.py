@@ -67,19 +67,16 @@ class Job:
             print(f"taken from {source}", file=sys.stderr)
         return source is not None
 
-    def called(self, task: Task, **inputs: Any) -> Any:
-        """What the function of a task returns for its inputs."""
+    def called(self, task: Task, **more: Any) -> Any:
+        """What the function of a task returns; of several inputs it reads each when it needs it."""
         module, _, name = task.call.partition(":")
         function = getattr(importlib.import_module(module), name)
         values = {**task.values, "origin": self.origin(task)}
-        return function(**arguments(function, values), **inputs)
-
-    def read(self, task: Task) -> dict[str, Any]:
-        """What a function is given for inputs by their roles; several are read when asked for."""
-        return {
+        inputs = {
             role: Inputs(self, paths) if isinstance(paths, list) else self.open(paths)
             for role, paths in task.sources.items()
         }
+        return function(**arguments(function, values), **inputs, **more)
 
     def open(self, path: str) -> Any:
         """A dataset, whole and of the key in its path; of any other file the path.
@@ -139,8 +136,7 @@ def lay(link: Path, target: Path) -> None:
     """Put a relative link in place, or a copy where links can't be."""
     link.parent.mkdir(parents=True, exist_ok=True)
     new = link.with_name(f".{link.name}.{os.getpid()}.tmp")
-    with contextlib.suppress(FileNotFoundError):
-        new.unlink()
+    new.unlink(missing_ok=True)
     try:
         new.symlink_to(os.path.relpath(target.absolute(), link.parent.absolute()))
     except OSError:
@@ -222,5 +218,5 @@ def run(snakemake: Any) -> None:
     with running(snakemake) as job:
         for task in job.tasks:
             if not job.found(task.key):
-                job.put(task, job.called(task, **job.read(task)))
+                job.put(task, job.called(task))
             job.leave_link(task)

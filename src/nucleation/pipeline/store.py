@@ -7,7 +7,6 @@ first, and are given what was made; what is wrong there is said in a line, and n
 """
 
 import contextlib
-import functools
 import json
 import os
 import re
@@ -109,7 +108,6 @@ class Store:
 
         `about` is what else ``entry.json`` is to say.
         """
-        self.directory.mkdir(parents=True, exist_ok=True)
         with self._unfinished() as place:
             make(place)
             files = {
@@ -129,18 +127,14 @@ class Store:
         list.
         """
         for other in list(others):
-            self.directory.mkdir(parents=True, exist_ok=True)
-            with self._unfinished() as place:
-                try:
-                    if (other.entry(key) / NOTE).is_file():
-                        _copy(other.entry(key), place)
-                        read_note(place, key, whole=True)
-                        self._publish(place, key)
-                        return other.directory
-                except (OSError, StoreError) as error:
-                    print(f"Not taken from {other.directory}: {_in_a_line(error)}", file=sys.stderr)
-                    if not isinstance(error, (StoreError, FileNotFoundError)):
-                        others.remove(other)
+            try:
+                if (other.entry(key) / NOTE).is_file():
+                    self._copy(other.entry(key))
+                    return other.directory
+            except (OSError, StoreError) as error:
+                print(f"Not taken from {other.directory}: {_in_a_line(error)}", file=sys.stderr)
+                if not isinstance(error, (StoreError, FileNotFoundError)):
+                    others.remove(other)
         return None
 
     def give(self, entry: Path) -> None:
@@ -150,13 +144,20 @@ class Store:
         with contextlib.suppress(StoreError):
             read_note(self.entry(entry.name), whole=True)
             return
-        note = read_note(entry)
-        about = {name: value for name, value in note.items() if name != "files"}
-        self.put(entry.name, functools.partial(_copy, entry), about)
+        self._copy(entry)
+
+    def _copy(self, entry: Path) -> None:
+        """Copy the files of another store's entry, as its note names them, and the note."""
+        with self._unfinished() as place:
+            for name in (NOTE, *read_note(entry)["files"]):
+                shutil.copyfile(entry / name, place / name)
+            read_note(place, entry.name, whole=True)
+            self._publish(place, entry.name)
 
     @contextlib.contextmanager
     def _unfinished(self) -> Iterator[Path]:
         """A directory in the store that no key names; gone afterwards unless it was renamed."""
+        self.directory.mkdir(parents=True, exist_ok=True)
         place = Path(tempfile.mkdtemp(prefix=".", suffix=".tmp", dir=self.directory))
         try:
             yield place
@@ -203,12 +204,6 @@ class Store:
         shutil.rmtree(gone, ignore_errors=True)  # left by a process that was killed here
         self.entry(key).rename(gone)
         shutil.rmtree(gone)
-
-
-def _copy(entry: Path, into: Path) -> None:
-    """Copy the files of an entry, as its note names them, into an empty directory."""
-    for name in (NOTE, *read_note(entry)["files"]):
-        shutil.copyfile(entry / name, into / name)
 
 
 def others(strict: bool = True) -> list[Store]:
