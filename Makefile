@@ -99,6 +99,7 @@ bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results
 release: $(STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
 	$(LAUNCH) paper replication report $(OPTIONS) $(CONFIGURED)
 	@$(BIN)/python -m nucleation.pipeline.release "$(or $(RELEASE),release)" "$(CONFIG)"
+	@git diff --quiet HEAD || echo "Files differ from the commit, and are not in the release" >&2
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
 	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)" "$(CONFIG)"

@@ -55,10 +55,9 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.elsewhere import others
 from nucleation.pipeline.launch import configuration_files
 from nucleation.pipeline.steps import Steps
-from nucleation.pipeline.store import StoreError
+from nucleation.pipeline.store import StoreError, others
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
 

@@ -81,7 +81,7 @@ class Running:
         found = []
         for process in self.tree():
             with contextlib.suppress(psutil.Error):
-                if re.search(r"/tmp\w*\.(simulate|batch)\.py$", " ".join(process.cmdline())):
+                if re.search(r"/tmp\w*\.simulate\.py$", " ".join(process.cmdline())):
                     found.append(process)
         return found
 

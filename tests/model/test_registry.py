@@ -43,17 +43,11 @@ def test_plugins_of_a_run():
 
 def test_code_of_a_run_is_that_of_its_own_laws():
     """No law is reached by imports: the digest has those that are named beside, and no other."""
-
-    def reached(*modules):
-        files = (path for path in code.closure(*modules) if path.stem != "__init__")
-        return {f"nucleation.{'.'.join(path.relative_to(code.ROOT).with_suffix('').parts)}"
-                for path in files}  # fmt: skip
-
     packages = (f"{HOME}.laws.", f"{HOME}.evolutions.")
-    plain = reached("nucleation.simulation.run")
+    plain = code.closure("nucleation.simulation.run")
     assert f"{HOME}.law" in plain and not [name for name in plain if name.startswith(packages)]
     own = plugins(Parameters())
-    whole = reached("nucleation.simulation.run", *own)
+    whole = code.closure("nucleation.simulation.run", *own)
     assert {name for name in whole if name.startswith(packages)} == set(own)
 
 

@@ -44,33 +44,6 @@ def test_release_is_whole_and_its_checksums_hold(tmp_path, monkeypatch):
         release.build(Path("out"), Path("config.yaml"))
 
 
-def test_commit_is_that_of_the_checkout_itself(tmp_path):
-    def git(*arguments):
-        names = ["-c", "user.name=a", "-c", "user.email=a@b.example"]
-        subprocess.run(["git", "-C", tmp_path, *names, *arguments], check=True, capture_output=True)
-
-    assert release.commit(tmp_path) == ""
-    git("init")
-    assert release.commit(tmp_path) == "", "there is none yet"
-    (tmp_path / "a").write_text("1")
-    git("add", "a")
-    git("commit", "-m", "a")
-    git("tag", "v1")
-    assert len(release.commit(tmp_path)) == 40
-    (tmp_path / "a").write_text("2")
-    assert release.commit(tmp_path).endswith("-dirty")
-    (tmp_path / "below").mkdir()
-    assert release.commit(tmp_path / "below") == "", "a release unpacked within another project"
-
-
-def test_what_is_missing_is_said(tmp_path):
-    for name in release.METADATA:
-        (tmp_path / name).write_text("all is there")
-    assert release.missing(tmp_path) == []
-    (tmp_path / "CITATION.cff").write_text(f"doi: {release.MARK}")
-    assert release.missing(tmp_path) == [f"CITATION.cff: {release.MARK}"]
-
-
 def test_versions_agree():
     found = [CITED["version"], ZENODO["version"], CODEMETA["version"], nucleation.__version__]
     assert set(map(str, found)) == {PROJECT["version"]}

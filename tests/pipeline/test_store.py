@@ -10,8 +10,15 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from nucleation.pipeline import store as module
-from nucleation.pipeline.elsewhere import VARIABLE, give_all, others
-from nucleation.pipeline.store import NOTE, Store, StoreError, read_note
+from nucleation.pipeline.store import (
+    NOTE,
+    VARIABLE,
+    Store,
+    StoreError,
+    give_all,
+    others,
+    read_note,
+)
 
 KEY, OTHER = "0" * 16, "1" * 16
 

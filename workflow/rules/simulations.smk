@@ -29,7 +29,7 @@ make_rule(
     "batch",
     call="nucleation.patch.batches:table",
     shows="batches/{name}",
-    script_name="batch",
+    script_name="simulate",
     priority=1,
     megabytes=lambda wildcards, attempt: batch_memory(wildcards.name, attempt),
     loads=lambda wildcards: [SIMULATED, *laws_of(BATCHES[wildcards.name])],

@@ -1,4 +1,4 @@
-"""Make simulations, one or several; one that fails leaves its record among the unfinished."""
+"""Make simulations, one or several, or the table of a batch of them."""
 
 from nucleation.pipeline.running import run
 

@@ -1,10 +1,9 @@
 """Results in one archive: entries of a store, and a checkout that starts from them.
 
 A plain tar file: ``store/KEY/...`` for all that the results show, copies of the tables, figures and
-texts under their plain names, the configuration, and a checksum of each file.
-An archive comes from others, and a checkout runs what lies in it. So names, kinds, sizes
-and checksums of all members are looked at before anything is written, and :func:`restore` writes
-entries of the store alone. Nothing in them is followed or executed.
+texts under their plain names, the configuration, and a checksum of each file. An archive comes from
+others, and a checkout runs what lies in it. So names, kinds and checksums of all members are looked
+at before anything is written, and :func:`restore` writes entries of the store alone.
 """
 
 import contextlib
@@ -12,21 +11,20 @@ import functools
 import hashlib
 import io
 import json
-import math
 import os
 import re
 import shutil
 import sys
 import tarfile
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..configuration.load import load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .keys import PATTERN
+from .keys import PATTERN, content
 from .store import BAD, NOTE, STEM, Store, StoreError, read_note
 from .view import records
 
@@ -38,15 +36,6 @@ IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
 COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
 PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
 LARGEST_TEXT = 2**26  # bytes of what is parsed; checksums of a hundred thousand files take 15 MB
-
-
-class Packed(NamedTuple):
-    """A file of an archive: its name there, its source, size (bytes) and SHA-256."""
-
-    name: str
-    source: Path | bytes
-    size: int
-    digest: str
 
 
 class BundleError(Exception):
@@ -64,41 +53,36 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     results = directory / load(configuration).results
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
-    store, entries = Store(results / "store"), []
-    targets = records(store)
+    store = Store(results / "store")
+    targets, digests = records(store), set[str]()
+    entries: dict[str, Path] = {}
     for key in sorted({key for target in targets for key in target["keys"]}):
-        for name, file in read_note(store.entry(key), whole=True)["files"].items():
-            name = f"store/{key}/{name}"
-            entries.append(Packed(name, results / name, file["size"], file["sha256"]))
-        name = f"store/{key}/{NOTE}"
-        entries.append(_text(name, (results / name).read_bytes()))
+        files = read_note(store.entry(key), whole=True)["files"]
+        digests |= {file["sha256"] for file in files.values()}
+        entries |= {f"store/{key}/{name}": store.entry(key) / name for name in (*files, NOTE)}
     if not entries:
         raise BundleError(f"there are no results in {results}: make them first")
-    digests = {file.digest for file in entries}
-    shown = {results / name for target in targets for name in target["files"]}
-    paths = [path for path in sorted(shown) if path.suffix != ".nc" and path.is_file()]
-    copies = [_text(path.relative_to(results).as_posix(), path.read_bytes()) for path in paths]
-    copies = [copy for copy in copies if copy.digest in digests]  # and no file of the user's own
-    files = [_text(CONFIGURATION, configuration.read_bytes()), *copies, *entries]
-    checksums = "".join(f"{file.digest}  {file.name}\n" for file in files)
-    files = [_text(CHECKSUMS, checksums.encode()), *files]
-    _refuse_foreign(map(_member, files))
+    names = sorted({name for target in targets for name in target["files"]})
+    shown = {name: results / name for name in names if not name.endswith(".nc")}
+    copies = {  # and no file of the user's own
+        name: path for name, path in shown.items() if path.is_file() and content(path) in digests
+    }
+    packed = {CONFIGURATION: configuration, **copies, **entries}
+    checksums = "".join(f"{content(path)}  {name}\n" for name, path in packed.items()).encode()
+    members = {name: _member(name, path.stat().st_size) for name, path in packed.items()}
+    _refuse_foreign(members.values())
     with replacing(archive) as temporary, tarfile.open(temporary, "w") as tar:
-        for file in files:
-            source = file.source
-            with io.BytesIO(source) if isinstance(source, bytes) else source.open("rb") as stream:
-                tar.addfile(_member(file), stream)
-    return len(files)
+        tar.addfile(_member(CHECKSUMS, len(checksums)), io.BytesIO(checksums))
+        for name, path in packed.items():
+            with path.open("rb") as stream:
+                tar.addfile(members[name], stream)
+    return len(packed) + 1
 
 
-def _member(file: Packed) -> tarfile.TarInfo:
-    member = tarfile.TarInfo(file.name)
-    member.size, member.mtime = file.size, int(moment().timestamp())
+def _member(name: str, size: int) -> tarfile.TarInfo:
+    member = tarfile.TarInfo(name)
+    member.size, member.mtime = size, int(moment().timestamp())
     return member
-
-
-def _text(name: str, content: bytes) -> Packed:
-    return Packed(name, content, len(content), hashlib.sha256(content).hexdigest())
 
 
 def restore(archive: Path, results: str, directory: Path = Path()) -> int:
@@ -114,7 +98,7 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
         try:
             # not compressed: it is no smaller than what it holds
             tar = stack.enter_context(tarfile.open(archive, "r:"))
-            entries = _entries(tar, archive.stat().st_size)
+            entries = _entries(tar)
         except (tarfile.TarError, EOFError, *BAD) as error:
             raise BundleError(f"{archive} is damaged or no archive of results: {error}") from None
         store = Store(place)
@@ -126,10 +110,10 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
     return len(new)
 
 
-def _entries(tar: tarfile.TarFile, size: int) -> dict[str, dict[str, tarfile.TarInfo]]:
-    """The files of each entry of an archive of a size (bytes), if all in it is what was packed."""
+def _entries(tar: tarfile.TarFile) -> dict[str, dict[str, tarfile.TarInfo]]:
+    """The files of each entry of an archive, if all in it is what was packed."""
     members = tar.getmembers()
-    _refuse_foreign(members, size)
+    _refuse_foreign(members)
     sums = {m.name: hashlib.file_digest(_file(tar, m), "sha256").hexdigest() for m in members}
     lines = _file(tar, tar.getmember(CHECKSUMS)).read().decode().splitlines()
     packed = {name: digest for digest, name in (line.split("  ", 1) for line in lines)}
@@ -158,11 +142,10 @@ def _unpack(tar: tarfile.TarFile, files: dict[str, tarfile.TarInfo], place: Path
             shutil.copyfileobj(_file(tar, member), file)
 
 
-def _refuse_foreign(members: Iterable[tarfile.TarInfo], size: float = math.inf) -> None:
-    """Refuse an archive of a size (bytes) by its members, if any of them has no place there."""
-    problems, names = [], Counter[str]()
+def _refuse_foreign(members: Iterable[tarfile.TarInfo]) -> None:
+    """Refuse an archive by its members, if any of them has no place there."""
+    problems = []
     for member in members:
-        size, names[member.name] = size - member.size, names[member.name] + 1
         # neither links and devices, nor sparse files, whose size in the archive says nothing
         if member.type not in (tarfile.REGTYPE, tarfile.AREGTYPE) or member.issparse():
             problem = "only plain files are taken, no directories, links and devices"
@@ -170,10 +153,6 @@ def _refuse_foreign(members: Iterable[tarfile.TarInfo], size: float = math.inf) 
             problem = "it is neither a result in a store nor a table, figure or text under its name"
         elif member.name.endswith((CHECKSUMS, NOTE)) and member.size > LARGEST_TEXT:
             problem = "it is too large"
-        elif names[member.name] > 1:
-            problem = "it is in there twice"
-        elif size < 0:
-            problem = "it is larger than the archive"
         else:
             continue
         problems.append(f"\n  - {member.name!r}: {problem}")

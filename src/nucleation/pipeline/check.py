@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .steps import LINKS
-from .store import ASIDE, Store, StoreError, path_in, read_note, suffixes
+from .store import ASIDE, STEM, Store, StoreError, read_note
 from .view import records
 
 LEFTOVERS = {
@@ -65,9 +65,8 @@ def _entries(store: Store) -> Iterator[Finding]:
         except StoreError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
             yield Finding(store.entry(key), state, f"{error}: make it again, and it is moved aside")
-    for path in sorted(store.directory.glob("*")):
-        if path.name.startswith(".") and path.suffix == ".tmp":
-            yield Finding(path, "incomplete", LEFTOVERS[".*.tmp"])
+    for path in sorted(store.directory.glob(".*.tmp")):
+        yield Finding(path, "incomplete", LEFTOVERS[".*.tmp"])
     for path in sorted((store.directory / ASIDE).glob("*/*")):
         yield Finding(path, "damaged", "it was moved aside, since it is not what it should be")
 
@@ -76,14 +75,16 @@ def _shown(results: Path, store: Store, expected: Mapping[str, str]) -> Iterator
     """Files among the results that are not links to the present ones."""
     for path in sorted(results.rglob("*")):
         name = path.relative_to(results)
-        if name.parts[0] in OWN or path.is_dir() or _is_of_others(path, results):
+        if name.parts[0] in OWN or path.is_dir():
             continue
-        leftover = [text for pattern, text in LEFTOVERS.items() if path.match(pattern)]
-        if leftover:
-            yield Finding(path, "incomplete", leftover[0])
-            continue
-        key = next((key for key in map(expected.get, _names(name)) if key), None)
-        if key is None:
+        if any((above / "store").is_dir() for above in path.parents if results in above.parents):
+            continue  # it is of the results of another configuration, below these
+        leftover = next((text for form, text in LEFTOVERS.items() if path.match(form)), None)
+        plain = name.with_suffix("")  # which may still end in the .columns of .columns.csv
+        key = expected.get(plain.as_posix()) or expected.get(plain.with_suffix("").as_posix())
+        if leftover is not None:
+            yield Finding(path, "incomplete", leftover)
+        elif key is None:
             yield Finding(path, "foreign", "nothing in the configuration makes it")
         elif path.is_symlink() and not path.exists():
             yield Finding(path, "damaged", "its result is not in the store: make it again")
@@ -91,36 +92,13 @@ def _shown(results: Path, store: Store, expected: Mapping[str, str]) -> Iterator
             yield Finding(path, "stale", "it is of other parameters or other code: make it again")
 
 
-def _names(name: Path) -> Iterator[str]:
-    """Names without their suffix, of which a part may be ``.columns.csv``."""
-    text = name.as_posix()
-    while "." in Path(text).name:
-        text = text.rpartition(".")[0]
-        yield text
-
-
-def _is_of_others(path: Path, results: Path) -> bool:
-    """Whether a file belongs to the results of another configuration, below these."""
-    return any((parent / "store").is_dir() for parent in path.parents if results in parent.parents)
-
-
 def _shows(path: Path, store: Store, key: str) -> bool:
     """Whether a file is that of an entry: a link to it, or a copy."""
     entry = store.entry(key)
     if path.is_symlink():
-        return os.path.realpath(path).startswith(f"{os.path.realpath(entry)}{os.sep}")
-    try:
-        files = [path_in(entry, suffix) for suffix in suffixes(read_note(entry))]
-    except StoreError:
-        return False
-    return any(f.suffix == path.suffix and f.read_bytes() == path.read_bytes() for f in files)
-
-
-def report(findings: list[Finding]) -> str:
-    """The findings in words, a line each, and what they come to."""
-    wrong = [found for found in findings if found.state != UNUSED]
-    end = f"{len(wrong)} findings: these results are not current" if wrong else "All is current"
-    return "\n".join([*map(str, findings), end])
+        return os.path.dirname(os.path.realpath(path)) == os.path.realpath(entry)
+    content = path.read_bytes()
+    return any(file.read_bytes() == content for file in entry.glob(f"{STEM}*{path.suffix}"))
 
 
 def prune(results: Path, expected: Mapping[str, str], remove: bool) -> str:
@@ -142,7 +120,6 @@ def run(snakemake: Any) -> None:
     """The targets ``check``, ``prune`` (which removes if ``PRUNE`` is ``yes``) and ``targets``."""
     params = snakemake.params
     results, expected = Path(params.results), dict(params.expected)
-    findings: list[Finding] = []
     try:
         if params.asked == "targets":
             print("\n".join(f"{name:24} {text}" for name, text in params.targets.items()))
@@ -150,8 +127,10 @@ def run(snakemake: Any) -> None:
             print(prune(results, expected, os.environ.get("PRUNE") == "yes"))
         else:
             findings = check_results(results, expected)
-            print(report(findings))
+            wrong = sum(found.state != UNUSED for found in findings)
+            end = f"{wrong} findings: these results are not current" if wrong else "All is current"
+            print(*findings, end, sep="\n")
+            if wrong:
+                sys.exit("check: there are findings")
     except (StoreError, OSError) as error:
         sys.exit(str(error))
-    if any(found.state != UNUSED for found in findings):
-        sys.exit("check: there are findings")

@@ -1,16 +1,17 @@
 """What code a result depends on, by its content: no name of a module or file takes part.
 
-The digest of a script or module is a hash of its syntax tree, without words (comments, docstrings,
+The digest of a module is a hash of its syntax tree, without words (comments, docstrings,
 layout), in which whatever it imports from the package is replaced by the digest of where that
 comes from. So a change of any definition reaches all that use its module, directly or not, and a
 module that is moved or renamed changes nothing. The versions of the libraries that this code
-imports are part of it. docs/reuse.md says where the line is drawn.
+imports are part of it.
 """
 
 import contextlib
 import hashlib
 import importlib
 import importlib.metadata
+import importlib.util
 import json
 from functools import cache
 from pathlib import Path
@@ -39,36 +40,39 @@ class CodeError(RuntimeError):
 
 @cache
 def digest(*roots: str) -> str:
-    """Digest of scripts and modules, of all they import from the package, and of libraries.
+    """Digest of modules, of all they import from the package, and of libraries.
 
-    `roots` are dotted names, such as ``nucleation.simulation.run``, or paths of scripts.
-
-    Raises
-    ------
-    CodeError
-        If a module is not there, or modules import each other in a circle.
+    `roots` are dotted names, such as ``nucleation.simulation.run``. A module that is not there
+    raises a CodeError.
     """
-    parts = sorted(_fingerprint(_file(root)) for root in roots)
-    found: set[str] = set()
-    for path in closure(*roots):
-        found |= _libraries(path)
-    parts += [f"{name} {_version(name)}" for name in sorted(found)]
-    _keep_parsed()
+    parts = sorted(map(_fingerprint, roots))
+    parts += [f"{name} {_version(name)}" for name in sorted(libraries(*roots))]
+    kept = _kept()
+    if kept.pop("changed", False):
+        with contextlib.suppress(OSError), replacing(PARSED) as temporary:
+            temporary.write_text(json.dumps(kept))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 @cache
-def closure(*roots: str) -> frozenset[Path]:
-    """The files of `roots` and of all they import from the package, directly or not."""
-    found: set[Path] = set()
-    waiting = [_file(root) for root in roots]
+def closure(*roots: str) -> frozenset[str]:
+    """The modules `roots` and all they import from the package, directly or not."""
+    found: set[str] = set()
+    waiting = [*roots]
     while waiting:
-        path = waiting.pop()
-        if path not in found:
-            found.add(path)
-            waiting += [place for place, _ in _imported(path)]
-            waiting += _packages(path)
+        module = waiting.pop()
+        if module not in found:
+            found.add(module)
+            waiting += [other for other, _ in _imported(module)]
+            waiting += _packages(module)
     return frozenset(found)
+
+
+def libraries(*roots: str) -> set[str]:
+    """Distributions that some modules and all they import from the package need."""
+    imported = {library for module in closure(*roots) for library in _source(module).libraries}
+    companions = {name for library in imported for name in COMPANIONS.get(library, ())}
+    return {DISTRIBUTIONS.get(library, library) for library in imported} | companions
 
 
 def forget() -> None:
@@ -83,9 +87,8 @@ def load(*roots: str) -> None:
     Code that is imported later as well is imported here: an edit after this can't reach the
     process any more, and one before it changes the digest.
     """
-    for path in sorted(closure(*roots)):
-        if path.is_relative_to(ROOT):
-            importlib.import_module(_name(path))
+    for module in sorted(closure(*roots)):
+        importlib.import_module(module)
     forget()
 
 
@@ -97,28 +100,23 @@ def _version(library: str) -> str:
         return "missing"  # here: the job that needs it says so
 
 
-# -- syntax trees ----------------------------------------------------------------------------------
-
-
 @cache
-def _fingerprint(path: Path) -> str:
-    """Digest of one file and of what it imports from the package."""
-    parts = [_source(path).body]
-    for place, name in _imported(path):
-        parts.append(f"{_fingerprint(place)}:{name}")
-    parts += [_fingerprint(package) for package in _packages(path)]
+def _fingerprint(module: str) -> str:
+    """Digest of one module and of what it imports from the package."""
+    parts = [_source(module).body]
+    parts += [f"{_fingerprint(other)}:{name}" for other, name in _imported(module)]
+    parts += [_fingerprint(package) for package in _packages(module)]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 @cache
-def _source(path: Path) -> Source:
+def _source(module: str) -> Source:
+    """A module's :class:`Source`: parsed once for its bytes, and kept on the disk."""
+    path = _file(module)
+    if path is None:
+        raise CodeError(f"{module} is no module of the package")
     content = path.read_bytes()
-    return _parsed(path, hashlib.sha256(content).hexdigest(), content)
-
-
-def _parsed(path: Path, name: str, content: bytes) -> Source:
-    """A file's :class:`Source`, by the digest of its bytes: parsed once, and kept on the disk."""
-    kept = _kept()
+    name, kept = hashlib.sha256(content).hexdigest(), _kept()
     if name not in kept:
         try:
             kept[name] = parse(content)
@@ -126,14 +124,6 @@ def _parsed(path: Path, name: str, content: bytes) -> Source:
             raise CodeError(f"{path}:{error.lineno}: {error.msg}") from None
         kept["changed"] = True
     return Source(*kept[name])
-
-
-def _keep_parsed() -> None:
-    """Write what has been parsed since the last time."""
-    kept = _kept()
-    if kept.pop("changed", False):
-        with contextlib.suppress(OSError), replacing(PARSED) as temporary:
-            temporary.write_text(json.dumps(kept))
 
 
 @cache
@@ -146,64 +136,29 @@ def _kept() -> dict[str, Any]:
 
 
 @cache
-def _imported(path: Path) -> list[tuple[Path, str]]:
-    """What a file imports from the package: files, and the names in them ("" for all of one)."""
+def _imported(module: str) -> list[tuple[str, str]]:
+    """What a module imports from the package: modules and names in them ("" for all of one)."""
+    is_package = _file(module) == ROOT.joinpath(*module.split(".")[1:], "__init__.py")
+    package = module if is_package else module.rpartition(".")[0]
     found = []
-    for level, module, name in _source(path).uses:
-        base = _base(path, level, module)
-        if name and _exists(f"{base}.{name}"):
+    for level, start, name in _source(module).uses:
+        base = importlib.util.resolve_name("." * level + start, package)
+        if name and _file(f"{base}.{name}"):
             base, name = f"{base}.{name}", ""
-        if base != NEUTRAL and not base.startswith(f"{NEUTRAL}."):
-            found.append((_file(base), name))
+        if not f"{base}.".startswith(f"{NEUTRAL}."):
+            found.append((base, name))
     return found
 
 
-def _base(path: Path, level: int, module: str) -> str:
-    """The dotted name that an import statement starts from."""
-    if not level:
-        return module
-    parts = _name(path).split(".")
-    package = parts if path.name == "__init__.py" else parts[:-1]
-    return ".".join([*package[: len(package) - level + 1], *filter(None, [module])])
+def _packages(module: str) -> list[str]:
+    """The packages around a module whose ``__init__``, run before it, holds more than words."""
+    parts = module.split(".")
+    around = [".".join(parts[:depth]) for depth in range(len(parts) - 1, 0, -1)]
+    return [package for package in around if _source(package).body != parse(b"").body]
 
 
-def _libraries(path: Path) -> set[str]:
-    """Distributions that one file imports, and their companions."""
-    roots = _source(path).libraries
-    extra = {name for root in roots for name in COMPANIONS.get(root, ())}
-    return {DISTRIBUTIONS.get(root, root) for root in roots} | extra
-
-
-# -- files of the package --------------------------------------------------------------------------
-
-
-def _packages(path: Path) -> list[Path]:
-    """The ``__init__`` files that are executed before a module and hold more than words."""
-    if not path.is_relative_to(ROOT):
-        return []
-    files = [parent / "__init__.py" for parent in path.parents if parent.is_relative_to(ROOT)]
-    return [f for f in files if f != path and _source(f).body != parse(b"")[0]]
-
-
-def _file(root: str) -> Path:
-    """The file of a dotted name, or of a script given by its path."""
-    if root.endswith(".py"):
-        return Path(root).resolve()
-    place = ROOT.joinpath(*root.split(".")[1:])
-    for path in (place.with_suffix(".py"), place / "__init__.py"):
-        if path.is_file():
-            return path
-    raise CodeError(f"{root} is no module of the package")
-
-
-def _exists(module: str) -> bool:
-    try:
-        return bool(_file(module))
-    except CodeError:
-        return False
-
-
-def _name(path: Path) -> str:
-    """The dotted name of a file of the package."""
-    parts = path.relative_to(ROOT).with_suffix("").parts
-    return ".".join([PACKAGE, *(parts[:-1] if parts[-1] == "__init__" else parts)])
+def _file(module: str) -> Path | None:
+    """The file of a dotted name, if there is one."""
+    place = ROOT.joinpath(*module.split(".")[1:])
+    files = (place.with_suffix(".py"), place / "__init__.py")
+    return next((path for path in files if path.is_file()), None)

@@ -16,7 +16,7 @@ import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import xarray as xr
 
@@ -24,9 +24,8 @@ from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError
 from ..model.quantities import ParameterError
 from . import code, keys
-from .elsewhere import give_all, others
-from .steps import LINKS, Sources, Task, task_of
-from .store import STEM, Store, StoreError, path_in, read_note
+from .steps import LINKS, Task, plain_paths, task_of
+from .store import STEM, Store, StoreError, give_all, others, path_in, read_note
 
 EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 """Failures that are told in one line: what to do about them is outside of the code."""
@@ -36,14 +35,13 @@ class Job:
     """The results that a job makes, one or several, from what Snakemake gives to a script."""
 
     def __init__(self, snakemake: Any) -> None:
-        params = dict(snakemake.params.items())
-        inputs = {role: _plain(value) for role, value in snakemake.input.items()}
-        each = params.get("each")
-        link = str(snakemake.output[0])
-        one = [task_of(link, params, inputs)] if each is None else []
-        self.tasks = one or [Task(*task) for task in each or ()]
-        self.params, self.rule = params, str(snakemake.rule)
-        self.log = str(snakemake.log[0]) if snakemake.log else ""
+        link, params = str(snakemake.output[0]), dict(snakemake.params.items())
+        if "each" in params:
+            self.tasks = [Task(*task) for task in params["each"]]
+        else:
+            inputs = {role: plain_paths(value) for role, value in snakemake.input.items()}
+            self.tasks = [task_of(link, params, inputs)]
+        self.rule, self.log = str(snakemake.rule), Path(str(snakemake.log[0]))
         self.results = Path(link.rpartition(f"/{LINKS}/")[0])
         self.store = Store(self.results / "store")
         self._others = others(strict=False)
@@ -69,24 +67,16 @@ class Job:
             print(f"taken from {source}", file=sys.stderr)
         return source is not None
 
-    def make(self, task: Task) -> None:
-        """Have the result of a task in the store."""
-        if not self.found(task.key):
-            self.put(task, task.key, self.called(task, **self.read(task)))
-
-    def called(self, task: Task, **inputs: Any) -> Any:
-        """What the function of a task returns for its inputs."""
+    def called(self, task: Task, **more: Any) -> Any:
+        """What the function of a task returns; of several inputs it reads each when it needs it."""
         module, _, name = task.call.partition(":")
         function = getattr(importlib.import_module(module), name)
         values = {**task.values, "origin": self.origin(task)}
-        return function(**arguments(function, values), **inputs)
-
-    def read(self, task: Task) -> dict[str, Any]:
-        """What a function is given for inputs by their roles; several are read when asked for."""
-        return {
+        inputs = {
             role: Inputs(self, paths) if isinstance(paths, list) else self.open(paths)
             for role, paths in task.sources.items()
         }
+        return function(**arguments(function, values), **inputs, **more)
 
     def open(self, path: str) -> Any:
         """A dataset, whole and of the key in its path; of any other file the path.
@@ -112,13 +102,17 @@ class Job:
         except (DatasetError, StoreError) as error:
             raise self.store.refused(key, error) from None
 
-    def put(self, task: Task, key: str, made: Any) -> None:
+    def put(self, task: Task, made: Any) -> None:
         """Put what a function has returned into the store: all files of the result."""
-        origin = self.origin(task)
+        key, origin = str(keys.key_in(task.link)), self.origin(task)
+        if isinstance(made, xr.Dataset):
+            made = {".nc": made}
+        elif not isinstance(made, Mapping):
+            made = {"": made}  # a figure, which has several files
 
         def write(place: Path) -> None:
-            for suffix, content in _files(made):
-                write_one(content, place / f"{STEM}{suffix}", origin)
+            for suffix, content in made.items():
+                _write_one(content, place / f"{STEM}{suffix}", origin)
 
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
         self.store.put(key, write, about | {"rule": self.rule, "name": Path(task.link).name})
@@ -126,9 +120,10 @@ class Job:
 
     def origin(self, task: Task) -> dict[str, str]:
         """Attributes of a task's dataset that say how it was made."""
-        sources = _sources(task.sources)
+        files = os.environ.get("NUCLEATION_CONFIGFILES", "")  # none: the usual configuration
+        command = f"snakemake {task.link}{' --configfile ' if files else ''}{files}"
         return provenance.attributes(
-            task.values, task.code, f"snakemake {task.link}{configured()}", sources, key=task.key
+            task.values, task.code, command, task.source_keys, key=task.key
         )
 
     def leave_link(self, task: Task) -> None:
@@ -137,18 +132,11 @@ class Job:
         lay(link, path_in(self.store.entry(key), link.suffix))
 
 
-def configured() -> str:
-    """The option of Snakemake that names the configuration in use, unless it is the usual one."""
-    files = os.environ.get("NUCLEATION_CONFIGFILES", "")
-    return f" --configfile {files}" if files else ""
-
-
 def lay(link: Path, target: Path) -> None:
     """Put a relative link in place, or a copy where links can't be."""
     link.parent.mkdir(parents=True, exist_ok=True)
     new = link.with_name(f".{link.name}.{os.getpid()}.tmp")
-    with contextlib.suppress(FileNotFoundError):
-        new.unlink()
+    new.unlink(missing_ok=True)
     try:
         new.symlink_to(os.path.relpath(target.absolute(), link.parent.absolute()))
     except OSError:
@@ -185,15 +173,7 @@ def arguments(function: Any, values: Mapping[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _files(made: Any) -> Iterator[tuple[str, Any]]:
-    """Contents of files by suffix, of whatever a function returns."""
-    if isinstance(made, Mapping) and not isinstance(made, xr.Dataset):
-        yield from made.items()
-    else:
-        yield (".nc" if isinstance(made, xr.Dataset) else ""), made
-
-
-def write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
+def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
     """Write one file: a dataset with its origin, a text, or whatever writes itself."""
     if isinstance(content, xr.Dataset):
         own = content.attrs.get("parameters", origin["parameters"])
@@ -208,25 +188,12 @@ def write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
         style.save(content, path, origin["key"])
 
 
-def _sources(sources: Sources) -> dict[str, list[str]]:
-    """Keys of what a result is made from, by their role."""
-    return {
-        role: [keys.of_file(path) for path in ([given] if isinstance(given, str) else given)]
-        for role, given in sources.items()
-    }
-
-
-def _plain(value: Any) -> str | list[str]:
-    return str(value) if isinstance(value, str) else [str(path) for path in value]
-
-
 @contextlib.contextmanager
 def running(snakemake: Any) -> Iterator[Job]:
     """A job that says in its log what happens, and in one line why it ends without its results."""
     job, began = Job(snakemake), time.monotonic()
-    if job.log:
-        Path(job.log).parent.mkdir(parents=True, exist_ok=True)
-        sys.stderr = Path(job.log).open("a", buffering=1, encoding="utf-8")  # noqa: SIM115
+    job.log.parent.mkdir(parents=True, exist_ok=True)
+    sys.stderr = job.log.open("a", buffering=1, encoding="utf-8")
     try:
         job.verify()
         gc.freeze()  # what is loaded stays: at its end Python would look through it, for .3 s
@@ -239,7 +206,7 @@ def running(snakemake: Any) -> Iterator[Job]:
     print(f"done in {time.monotonic() - began:.1f} s", file=sys.stderr)
 
 
-def end(message: str) -> None:
+def end(message: str) -> NoReturn:
     """End the job without its result, for a reason that its log and Snakemake's output tell."""
     print(message, file=sys.stderr)
     sys.stderr = sys.__stderr__
@@ -250,5 +217,6 @@ def run(snakemake: Any) -> None:
     """Make the results of a job and link them."""
     with running(snakemake) as job:
         for task in job.tasks:
-            job.make(task)
+            if not job.found(task.key):
+                job.put(task, job.called(task))
             job.leave_link(task)

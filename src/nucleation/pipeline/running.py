@@ -1,7 +1,7 @@
 """Simulations of jobs: from a store, or made, from a checkpoint on."""
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +20,6 @@ SIMULATE = "nucleation.simulation.run:simulate"
 UNFINISHED = "unfinished"  # directory with checkpoints, and records of runs that failed
 
 
-class Failed(Exception):
-    """A run ended without its result, and has left a record."""
-
-
 def task_of_run(run: dict[str, Any], results: Path) -> Task:
     """The task to simulate a run, from :meth:`nucleation.configuration.runs.Run.to_dict`."""
     loads = plugins(Parameters.from_dict(run["parameters"]))
@@ -31,18 +27,18 @@ def task_of_run(run: dict[str, Any], results: Path) -> Task:
     return task._replace(link=f"{results}/{LINKS}/simulations/{run['id']}.{task.key}.nc")
 
 
-def record_of(job: Job, task: Task) -> xr.Dataset:
-    """The record of a run, found or made, and now in the store.
+def _record(job: Job, task: Task, failures: list[str]) -> xr.Dataset | None:
+    """The record of a run, found or made, and now in the store; None of one that failed.
 
-    Raises StoreError if what is there is damaged or of another key, Failed if the run ends before
-    its end time or event (its record is among the unfinished), and Stopped if a signal has stopped
-    the run, which has left a checkpoint, or came after the run before.
+    A run that fails is noted, and has left its record among the unfinished. A signal that stops it,
+    or came in the run before, ends the job; what has begun has left a checkpoint.
     """
+    name = Path(task.link).stem
     if job.listener is not None and job.listener.asked is not None:
-        raise Stopped(f"not begun, since the job was stopped by {job.listener.asked}")
-    key, name = task.key, Path(task.link).stem
-    if job.found(key):
-        return job.open(str(path_in(job.store.entry(key), ".nc")))
+        end(f"{name}: not begun, since the job was stopped by {job.listener.asked}")
+    if job.found(task.key):
+        dataset: xr.Dataset = job.open(str(path_in(job.store.entry(task.key), ".nc")))
+        return dataset
     from ..simulation.run import simulate
 
     parameters = Parameters.from_dict(task.values["parameters"])
@@ -52,15 +48,20 @@ def record_of(job: Job, task: Task) -> xr.Dataset:
 
     def write(dataset: xr.Dataset, path: Path) -> None:
         if path == place:
-            job.put(task, key, dataset)
+            job.put(task, dataset)
         else:
             netcdf.write(dataset, path, **job.origin(task))
 
     progress = Progress(parameters, sys.stderr)
-    dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
-    if path != place:
-        raise Failed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
-    return dataset
+    try:
+        dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
+    except Stopped as stopped:
+        end(f"{name}: {stopped}")
+    if path == place:
+        return dataset
+    failures.append(f"{name}: {dataset.attrs['status']}; its record is in {path}")
+    print(failures[-1], file=sys.stderr)
+    return None
 
 
 def run_to_file(
@@ -98,40 +99,22 @@ def simulation_code(parameters: Parameters) -> str:
 
 
 def run(snakemake: Any) -> None:
-    """Make the simulations of a job and link them; one that fails does not keep the others."""
+    """Make the simulations of a job, or the table of a batch of them; link what is made.
+
+    One that fails does not keep the others.
+    """
     with running(snakemake) as job:
         failures: list[str] = []
         for task in job.tasks:
-            for _ in _records(job, [task], failures):
-                job.leave_link(task)
+            if task.call == SIMULATE:
+                _record(job, task, failures)
+            elif not job.found(task.key):
+                runs = [task_of_run(one, job.results) for one in task.values["runs"]]
+                table = job.called(task, records=(_record(job, one, failures) for one in runs))
+                _stop_on(failures, len(runs))  # before a table without them is kept
+                job.put(task, table)
+            job.leave_link(task)
         _stop_on(failures, len(job.tasks))
-
-
-def run_batch(snakemake: Any) -> None:
-    """Make the simulations of a batch, and the table of what is measured of them."""
-    with running(snakemake) as job:
-        (task,) = job.tasks
-        failures: list[str] = []
-        if not job.found(task.key):
-            runs = task.values["runs"]
-            tasks = [task_of_run(one, job.results) for one in runs]
-            table = job.called(task, records=_records(job, tasks, failures))
-            _stop_on(failures, len(runs))  # before a table without them is kept
-            job.put(task, task.key, table)
-        job.leave_link(task)
-
-
-def _records(job: Job, tasks: Iterable[Task], failures: list[str]) -> Iterator[xr.Dataset | None]:
-    """The record of each run; None of one that failed, which is noted."""
-    for task in tasks:
-        try:
-            yield record_of(job, task)
-        except Failed as failure:
-            failures.append(str(failure))
-            print(failure, file=sys.stderr)
-            yield None
-        except Stopped as stopped:
-            end(f"{Path(task.link).stem}: {stopped}")
 
 
 def _stop_on(failures: list[str], number: int) -> None:

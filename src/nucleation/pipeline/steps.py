@@ -15,10 +15,10 @@ from types import SimpleNamespace
 from typing import Any, NamedTuple
 
 from . import code, keys
-from .store import Store, path_in
+from .store import Store, StoreError, path_in, read_note
 
 LINKS = ".links"  # directory below the results with what jobs tell Snakemake they have made
-ABOUT = ("call", "loads", "simulates", "each")  # of a rule, and no parameters of a result
+ABOUT = ("call", "loads")  # of a rule, and no parameters of a result
 Sources = dict[str, "str | list[str]"]  # inputs by their role: a path, or a list of them
 
 
@@ -43,9 +43,13 @@ class Task(NamedTuple):
     @property
     def key(self) -> str:
         """Of the result, from what it is made of."""
-        sources = {role: [*map(keys.of_file, _listed(p))] for role, p in self.sources.items()}
         function = self.call.partition(":")[2]
-        return keys.key(self.code, {"": function, **self.values}, sources)
+        return keys.key(self.code, {"": function, **self.values}, self.source_keys)
+
+    @property
+    def source_keys(self) -> dict[str, list[str]]:
+        """Keys of what it is made from, by their role."""
+        return {role: [*map(keys.of_file, _listed(p))] for role, p in self.sources.items()}
 
     @property
     def code(self) -> str:
@@ -116,12 +120,9 @@ class Steps:
         """What a result is made of, and the name it is shown under."""
         said = getattr(self._rules, rule)
         wildcards = SimpleNamespace(name=name)
-        sources = {role: _plain(_given(value, wildcards)) for role, value in said.input.items()}
-        params = {
-            role: _given(value, wildcards)
-            for role, value in said.params.items()
-            if role not in ("simulates", "each")
-        }
+        given = ((role, _given(value, wildcards)) for role, value in said.input.items())
+        sources = {role: plain_paths(paths) for role, paths in given}
+        params = {role: _given(value, wildcards) for role, value in said.params.items()}
         pattern = str(said.output[0])
         before, _, after = pattern.replace("{name}", name).partition(".{key}")
         shown = before.partition(f"/{LINKS}/")[2]
@@ -145,9 +146,12 @@ class Steps:
 
     def _unlink(self, link: Path, key: str) -> None:
         """Remove a link that leads to no right entry: Snakemake would take it for made."""
-        if link.is_symlink() and (not link.exists() or self.store.is_wrong(key)):
-            with contextlib.suppress(OSError):
-                link.unlink()
+        if link.is_symlink():
+            try:
+                read_note(self.store.entry(key))
+            except StoreError:
+                with contextlib.suppress(OSError):
+                    link.unlink()
 
     def behind(self, paths: Iterable[str]) -> dict[str, Made]:
         """All results among some files, first, and what they are made of, all the way down."""
@@ -166,6 +170,6 @@ def _given(value: Any, wildcards: Any) -> Any:
     return value(wildcards) if callable(value) else value
 
 
-def _plain(paths: Any) -> str | list[str]:
+def plain_paths(paths: Any) -> str | list[str]:
     """Paths as plain texts, without what Snakemake knows of them."""
     return str(paths) if isinstance(paths, str) else [str(path) for path in paths]

@@ -2,12 +2,11 @@
 
 An entry is a directory ``KEY/`` with the files of one result, ``result.nc``, ``result.csv``, ...,
 and ``entry.json``, which names its key and the size and digest of each file. The store of a
-directory of results is ``store/`` in it, and results are made there. Others (:mod:`.elsewhere`)
-are asked first.
+directory of results is ``store/`` in it, and results are made there. Stores elsewhere are asked
+first, and are given what was made; what is wrong there is said in a line, and not taken.
 """
 
 import contextlib
-import functools
 import json
 import os
 import re
@@ -27,6 +26,8 @@ STEM = "result"
 FILE = re.compile(rf"{STEM}(\.\w+)+")
 ASIDE = "aside"
 """Where an entry goes that is not what its key says."""
+VARIABLE = "NUCLEATION_STORES"
+"""Of the environment; it names directories of stores elsewhere, separated by commas."""
 
 Note = dict[str, Any]
 
@@ -44,11 +45,6 @@ def path_in(entry: Path, suffix: str) -> Path:
     return entry / f"{STEM}{suffix}"
 
 
-def suffixes(note: Note) -> list[str]:
-    """Suffixes of the files of an entry."""
-    return [name.removeprefix(STEM) for name in note["files"]]
-
-
 def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
     """What an entry says of itself, held against its key (by its name, if none is given) and files.
 
@@ -63,8 +59,10 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
         note = json.loads((entry / NOTE).read_text("utf-8"))
         if note["key"] != (key or entry.name):
             raise StoreError(f"{entry} holds the result of another key, {note['key']}")
-        for name in files_of(note):
-            path, file = entry / name, note["files"][name]
+        for name, file in note["files"].items():
+            path = entry / name
+            if not FILE.fullmatch(name):  # a plain one, which can't lead out of the entry
+                raise StoreError(f"{name!r} is no name of a result's file")
             if path.stat().st_size != file["size"]:
                 raise StoreError(f"{path} is damaged: it has not the size it was given")
             if whole and content(path) != file["sha256"]:
@@ -74,14 +72,6 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
     except BAD as error:
         raise StoreError(f"{entry} is damaged: {error}") from None
     return dict(note)
-
-
-def files_of(note: Note) -> list[str]:
-    """Names of the files of an entry: plain ones, which can't lead out of it, or StoreError."""
-    for name in note["files"]:
-        if not FILE.fullmatch(name):
-            raise StoreError(f"{name!r} is no name of a result's file")
-    return list(note["files"])
 
 
 class Store:
@@ -109,13 +99,6 @@ class Store:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]
 
-    def is_wrong(self, key: str) -> bool:
-        """Whether there is an entry that is not right, at this moment."""
-        try:
-            return self.entry(key).exists() and not read_note(self.entry(key))
-        except StoreError:
-            return True
-
     def listed(self) -> list[str]:
         """Keys of all entries, right or not."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * 16))]
@@ -125,7 +108,6 @@ class Store:
 
         `about` is what else ``entry.json`` is to say.
         """
-        self.directory.mkdir(parents=True, exist_ok=True)
         with self._unfinished() as place:
             make(place)
             files = {
@@ -145,18 +127,14 @@ class Store:
         list.
         """
         for other in list(others):
-            self.directory.mkdir(parents=True, exist_ok=True)
-            with self._unfinished() as place:
-                try:
-                    if (other.entry(key) / NOTE).is_file():
-                        _copy(other.entry(key), place)
-                        read_note(place, key, whole=True)
-                        self._publish(place, key)
-                        return other.directory
-                except (OSError, StoreError) as error:
-                    print(f"Not taken from {other.directory}: {in_a_line(error)}", file=sys.stderr)
-                    if not isinstance(error, (StoreError, FileNotFoundError)):
-                        others.remove(other)
+            try:
+                if (other.entry(key) / NOTE).is_file():
+                    self._copy(other.entry(key))
+                    return other.directory
+            except (OSError, StoreError) as error:
+                print(f"Not taken from {other.directory}: {_in_a_line(error)}", file=sys.stderr)
+                if not isinstance(error, (StoreError, FileNotFoundError)):
+                    others.remove(other)
         return None
 
     def give(self, entry: Path) -> None:
@@ -166,13 +144,20 @@ class Store:
         with contextlib.suppress(StoreError):
             read_note(self.entry(entry.name), whole=True)
             return
-        note = read_note(entry)
-        about = {name: value for name, value in note.items() if name != "files"}
-        self.put(entry.name, functools.partial(_copy, entry), about)
+        self._copy(entry)
+
+    def _copy(self, entry: Path) -> None:
+        """Copy the files of another store's entry, as its note names them, and the note."""
+        with self._unfinished() as place:
+            for name in (NOTE, *read_note(entry)["files"]):
+                shutil.copyfile(entry / name, place / name)
+            read_note(place, entry.name, whole=True)
+            self._publish(place, entry.name)
 
     @contextlib.contextmanager
     def _unfinished(self) -> Iterator[Path]:
         """A directory in the store that no key names; gone afterwards unless it was renamed."""
+        self.directory.mkdir(parents=True, exist_ok=True)
         place = Path(tempfile.mkdtemp(prefix=".", suffix=".tmp", dir=self.directory))
         try:
             yield place
@@ -198,16 +183,15 @@ class Store:
                 raise
         flush(self.directory)
 
-    def set_aside(self, key: str) -> Path | None:
-        """Move what is no right entry out of the way; where it is then."""
+    def set_aside(self, key: str) -> None:
+        """Move what is no right entry out of the way."""
         if not os.path.lexists(self.entry(key)):
-            return None
+            return
         (self.directory / ASIDE).mkdir(exist_ok=True)
         place = Path(tempfile.mkdtemp(prefix=f"{key}.", dir=self.directory / ASIDE))
         self._known.pop(key, None)
         with contextlib.suppress(FileNotFoundError):  # if another process was faster
             self.entry(key).rename(place / key)
-        return place / key
 
     def refused(self, key: str, error: Exception) -> StoreError:
         """Move an entry aside that can't be used; the error that says so."""
@@ -222,12 +206,33 @@ class Store:
         shutil.rmtree(gone)
 
 
-def _copy(entry: Path, into: Path) -> None:
-    """Copy the files of an entry, as its note names them, into an empty directory."""
-    for name in (NOTE, *read_note(entry)["files"]):
-        shutil.copyfile(entry / name, into / name)
+def others(strict: bool = True) -> list[Store]:
+    """The stores elsewhere that the environment names.
+
+    One that is no directory or can't be read raises a StoreError if `strict`; if not, it is said
+    and left out, as on a node that lacks a disk.
+    """
+    found: list[Store] = []
+    for name in filter(None, map(str.strip, os.environ.get(VARIABLE, "").split(","))):
+        problem = f"the store {name!r} is no directory that can be read: make it first"
+        if Path(name).is_dir() and os.access(name, os.R_OK | os.X_OK):
+            found.append(Store(Path(name).absolute()))
+        elif strict:
+            raise StoreError(problem)
+        else:
+            print(f"Not used: {problem}", file=sys.stderr)
+    return found
 
 
-def in_a_line(error: Exception) -> str:
-    """An error of any kind as one line."""
+def give_all(entry: Path, others: list[Store]) -> None:
+    """Give a new entry to other stores; one that is out of reach is said, and leaves the list."""
+    for other in list(others):
+        try:
+            other.give(entry)
+        except (OSError, StoreError) as error:
+            print(f"Not kept in {other.directory}: {_in_a_line(error)}", file=sys.stderr)
+            others.remove(other)
+
+
+def _in_a_line(error: Exception) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())

@@ -18,16 +18,16 @@ class Source(NamedTuple):
     libraries: list[str]  # roots of the other imports
 
 
-def parse(content: bytes) -> list[Any]:
-    """The fields of a file's :class:`Source`, from its bytes."""
+def parse(content: bytes) -> Source:
+    """A file's :class:`Source`, from its bytes."""
     tree = ast.parse(content)
     imports, libraries = _imports(tree)
     order: dict[str, int] = {}
     words: list[str] = []
-    _write(tree, {name for name in imports}, order, words)
+    _write(tree, set(imports), order, words)
     unused = sorted(set(imports) - set(order), key=lambda name: imports[name])
     uses = [list(imports[name]) for name in (*order, *unused)]
-    return [hashlib.sha256("\0".join(words).encode()).hexdigest(), uses, sorted(libraries)]
+    return Source(hashlib.sha256("\0".join(words).encode()).hexdigest(), uses, sorted(libraries))
 
 
 def _imports(tree: ast.Module) -> tuple[dict[str, tuple[int, str, str]], set[str]]:

@@ -18,7 +18,7 @@ from ..analysis.events import in_table
 from ..datasets.files import replacing
 from .job import lay
 from .keys import content
-from .store import Note, Store, StoreError, path_in, read_note, suffixes
+from .store import STEM, Store, StoreError, path_in, read_note
 
 VIEWS = "views"  # directory in a store: a record of each directory of results that shows some of it
 LARGE = 2**24  # bytes from which on a file's content is not looked at again before it is shown
@@ -33,22 +33,30 @@ def show(results: Path, target: str, shown: Iterable[tuple[str, str]]) -> list[P
         If an entry is missing or damaged; a damaged one is moved aside.
     """
     store, shown = Store(results / "store"), list(shown)
-    place = _place(store, results, target)
     laid = []
     for name, key in shown:
-        note = _verified(store, key)
-        laid += [
-            _lay(results / f"{name}{suffix}", path_in(store.entry(key), suffix))
-            for suffix in suffixes(note)
-        ]
-    files = [path.relative_to(results).as_posix() for path in laid]
-    before = _files(place)
+        entry = store.entry(key)
+        try:
+            note = read_note(entry)
+            if sum(file["size"] for file in note["files"].values()) < LARGE:
+                read_note(entry, whole=True)
+        except StoreError as error:
+            raise store.refused(key, error) from None
+        for file in note["files"]:
+            laid.append(results / f"{name}{file.removeprefix(STEM)}")
+            _lay(laid[-1], entry / file)
+    # Named by where the results are from the store, so that both can be moved or copied. A target
+    # has its own, which others at work do not write.
+    where = os.path.relpath(results.resolve(), store.directory.resolve())
+    place = hashlib.sha256(where.encode()).hexdigest()[:16]
+    record = store.directory / VIEWS / f"{place}.{target}.json"
+    before = _files(record)
     when = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
-    record = {"target": target, "when": when, "keys": sorted({key for _, key in shown})}
-    with replacing(place) as temporary:
-        temporary.write_text(json.dumps({**record, "files": files}, indent=1) + "\n")
-    targets = place.parent.glob(f"{place.name.partition('.')[0]}.*.json")
-    for name in before.difference(*map(_files, targets)):
+    about = {"target": target, "when": when, "keys": sorted({key for _, key in shown})}
+    files = [path.relative_to(results).as_posix() for path in laid]
+    with replacing(record) as temporary:
+        temporary.write_text(json.dumps({**about, "files": files}, indent=1) + "\n")
+    for name in before.difference(*map(_files, record.parent.glob(f"{place}.*.json"))):
         if (results / name).is_symlink():
             (results / name).unlink()
     return laid
@@ -67,16 +75,6 @@ def records(store: Store) -> list[dict[str, Any]]:
     return found
 
 
-def _place(store: Store, results: Path, target: str) -> Path:
-    """The record of a target, which others at work do not write.
-
-    It is named by where the results are from the store, so that both can be moved or copied.
-    """
-    where = os.path.relpath(results.resolve(), store.directory.resolve())
-    name = hashlib.sha256(where.encode()).hexdigest()[:16]
-    return store.directory / VIEWS / f"{name}.{target}.json"
-
-
 def _files(record: Path) -> set[str]:
     """The files in a record; none if there is none that can be read."""
     try:
@@ -85,26 +83,16 @@ def _files(record: Path) -> set[str]:
         return set()
 
 
-def _verified(store: Store, key: str) -> Note:
-    try:
-        note = read_note(store.entry(key))
-        small = sum(file["size"] for file in note["files"].values()) < LARGE
-        return read_note(store.entry(key), whole=small)
-    except StoreError as error:
-        raise store.refused(key, error) from None
-
-
-def _lay(path: Path, target: Path) -> Path:
+def _lay(path: Path, target: Path) -> None:
     """Put a link to a file of the store in place; a file of somebody's own there is kept."""
     if path.is_symlink():
         if os.path.realpath(path) == os.path.realpath(target):
-            return path
+            return
     elif path.is_file() and content(path) != content(target):
         kept = path.with_name(f"{path.name}~")
         path.rename(kept)
         print(f"{path} is not of the workflow: it is now {kept}", file=sys.stderr)
     lay(path, target)
-    return path
 
 
 def run(snakemake: Any) -> None:
@@ -116,14 +104,11 @@ def run(snakemake: Any) -> None:
         laid = show(results, str(snakemake.rule), [*params.shown, *batched])
     except (StoreError, OSError) as error:
         sys.exit(f"{snakemake.rule}: {error}")
-    main = [path for path in laid if path.with_suffix("").name in _names(params)]
+    names = {Path(name).name for name, _ in params.shown[: params.main]}
+    main = [path for path in laid if path.with_suffix("").name in names]
     print(f"{params.says} In {', '.join(map(str, main))}", file=sys.stderr)
     for name, key in params.shown:
         if name.startswith("lengths/"):
             table = path_in(store.entry(key), ".csv")
             for line in in_table(table):
                 print(f"Warning: study {name.removeprefix('lengths/')}: {line}", file=sys.stderr)
-
-
-def _names(params: Any) -> set[str]:
-    return {Path(name).name for name, _ in params.shown[: params.main]}
