@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from coarse_run import CONFIG
-from made_up_map import lengths as lengths_of_map
 
 from nucleation.analysis import lengths
 from nucleation.analysis.definitions import ExtractionSettings
@@ -16,7 +15,6 @@ from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.patch import map_table
 from nucleation.patch.mode_history import follow_mode
 from nucleation.report import page
 from nucleation.report.player import player_dataset
@@ -54,13 +52,7 @@ def modes():
 
 
 @pytest.fixture(scope="session")
-def grid():
-    """A map of lengths in which one run had no event."""
-    return map_table.on_grid(map_table.gather(lengths_of_map(missing=[(0.1, 3.0, 1e-5, 2)])))
-
-
-@pytest.fixture(scope="session")
-def content(settings, simulation, table, modes, grid, tmp_path_factory):
+def content(settings, simulation, table, modes, tmp_path_factory):
     """A report with all sections."""
     theory = theory_dataset(
         settings.base.material, settings.base.friction, settings.main_text_interface,
@@ -77,7 +69,7 @@ def content(settings, simulation, table, modes, grid, tmp_path_factory):
         interface=settings.main_text_interface,
         config=CONFIG,
         provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
-        results={"theory": theory, "lengths": table, "map": grid},
+        results={"theory": theory, "lengths": table},
         pictures=[
             page.Picture("figure_2", entry.title, entry.category, [png, pdf], caption, {},
                          entry.data)

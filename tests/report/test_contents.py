@@ -106,9 +106,9 @@ def test_the_player_says_what_lies_below(content):
 
 def test_sections_without_content_are_left_out(content):
     bare = page.build(content._replace(claims=None, player=None, pictures=[], results={}, modes=()))
-    for part in ("verdicts", "player", "lengths", "answer", "drop", "map"):
+    for part in ("verdicts", "player", "lengths", "answer", "drop"):
         assert f'id="{part}"' not in bare
-    assert "<figure" not in bare and '"drop":null' in bare and '"map":null' in bare
+    assert "<figure" not in bare and '"drop":null' in bare
     assert 'id="theory"' in bare
 
 

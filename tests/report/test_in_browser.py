@@ -10,7 +10,6 @@ from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.delay import growth
-from nucleation.patch.map_table import mean_over_seeds
 from nucleation.report import drop_law, explorer, page, stability
 from nucleation.theory.creep.lengths import stability_length
 from nucleation.theory.critical import critical_length, critical_wavenumber, theory_length
@@ -260,85 +259,6 @@ def test_strength_moves_the_drop(web, modes, settings):
     web.select_option("#drop-fault", "0")
 
 
-# ---- The map
-
-
-def data_of(web, plot, trace, names):
-    """Some values of what a plot shows."""
-    script = "([plot, trace, names]) => names.map((n) => element(plot).data[trace][n])"
-    return web.evaluate(script, [plot, trace, names])
-
-
-def test_map_shows_each_length_over_the_theory(web, grid):
-    x, y = grid["height"].values, grid["zeta_over_a"].values
-    wanted = [mean_over_seeds(grid, "stability_ratio").isel(strength=0)]
-    drops = mean_over_seeds(grid, "length_ratio")
-    wanted += [drops.isel(strength=i) for i in range(2)]
-    choices = web.locator("#map-field option").all_inner_texts()
-    assert choices[0] == "the patch turns unstable" and len(choices) == len(wanted)
-    assert choices[1].endswith(" by 10⁻⁵") and choices[2].endswith(" by 10⁻³")
-    for number, ratio in enumerate(wanted):
-        web.select_option("#map-field", str(number))
-        shown = data_of(web, "map-image", 0, ["x", "y", "z"])
-        np.testing.assert_allclose(shown[0], x)
-        np.testing.assert_allclose(shown[1], y)
-        expected = ratio.transpose("zeta_over_a", "height").values
-        np.testing.assert_allclose(np.array(shown[2], dtype=float), expected, rtol=1e-4)
-    web.select_option("#map-field", "0")
-
-
-def test_slices_of_the_map_are_at_the_chosen_weakening(web, grid):
-    for number, weakening in enumerate(grid["zeta_over_a"].values):
-        web.locator("#map-weakening").fill(str(number))
-        assert web.inner_text("#map-chosen") == f"{weakening:.2f}"
-        assert web.get_attribute("#map-weakening", "aria-valuetext") == f"{weakening:.2f}"
-        at = grid.sel(zeta_over_a=weakening)
-        lines = [at["theory_length"], mean_over_seeds(at, "stability_length").isel(strength=0)]
-        lines += [mean_over_seeds(at, "length").isel(strength=i) for i in range(2)]
-        for trace, line in enumerate(lines):
-            (drawn,) = data_of(web, "map-slice", trace, ["y"])
-            np.testing.assert_allclose(np.array(drawn, dtype=float), line, rtol=1e-4)
-        symbols = [data_of(web, "map-slice", i, ["marker"])[0]["symbol"] for i in (1, 2, 3)]
-        assert len(set(symbols)) == 3
-        for plot, axis, values in (
-            ("map-slice", "xaxis", grid["height"]), ("map-slice", "yaxis", grid["theory_length"]),
-            ("map-image", "xaxis", grid["height"]), ("map-image", "yaxis", grid["zeta_over_a"]),
-        ):  # fmt: skip
-            ends = web.evaluate("([p, a]) => element(p)._fullLayout[a].range", [plot, axis])
-            assert 10.0 ** ends[0] < values.min() and 10.0 ** ends[1] > values.max()
-            assert ends[1] - ends[0] < np.log10(values.max() / values.min()) + 2.0
-
-
-def place_on_map(web, height, weakening):
-    """Where on the screen a point of the map is."""
-    web.locator("#map-image").scroll_into_view_if_needed()
-    script = """([x, y]) => {
-      const plot = element("map-image"), box = plot.getBoundingClientRect();
-      const { xaxis, yaxis } = plot._fullLayout;
-      return [box.left + xaxis._offset + xaxis.d2p(x), box.top + yaxis._offset + yaxis.d2p(y)];
-    }"""
-    return web.evaluate(script, [height, weakening])
-
-
-def test_map_tells_of_the_point_below_the_pointer_and_a_click_chooses_it(web):
-    web.select_option("#map-field", "1")
-    web.locator("#map-weakening").fill("0")
-    said = "document.querySelector('#map-image .hoverlayer')?.textContent"
-    for height, weakening, words in ((0.01, 1.0, "0.615 of it"), (0.1, 3.0, "no event")):
-        web.mouse.move(*place_on_map(web, height, weakening))
-        until(web, f"{said}.includes('{words}')")
-        assert f"H = {height:#.3g} m, ζ/a = {weakening:#.3g}" in web.evaluate(f"() => {said}")
-    web.mouse.click(*place_on_map(web, 0.01, 3.0))
-    until(web, "element('map-weakening').value === '1'")
-    assert web.inner_text("#map-chosen") == "3.00"
-    web.select_option("#map-field", "0")
-
-
-def test_places_without_a_length_are_grey(web):
-    shown = web.evaluate("() => [element('map-image').layout.plot_bgcolor, colour('line')]")
-    assert shown[0] == shown[1]
-
-
 # ---- The player
 
 
@@ -464,10 +384,6 @@ def test_verdicts_can_be_shown_alone(web):
     assert len(column(web, 1)) == 4
 
 
-def test_texts_of_claims_stay_texts(web):
-    assert web.locator("#claims q").first.text_content() == "<b>13 s</b>"
-
-
 # ---- For everyone, on every screen
 
 
@@ -481,17 +397,12 @@ def test_every_control_has_a_name_and_every_picture_a_text(opened):
         if role in controls and not node["ignored"]:
             found.setdefault(role, []).append(node.get("name", {}).get("value", ""))
     assert set(found) >= {"button", "slider", "spinbutton", "checkbox", "link"}
-    assert len(found["slider"]) == len(explorer.SLIDERS) + 4  # height, strength, weakening, moment
+    assert len(found["slider"]) == len(explorer.SLIDERS) + 3  # height, strength, moment
     for role, names in found.items():
         assert all(name.strip() for name in names), role
     regions = opened.page.locator("main section")
     for index in range(regions.count()):
         assert regions.nth(index).get_attribute("aria-labelledby")
-
-
-def test_headings_that_sort_are_buttons(web):
-    sortable = web.locator("th[aria-sort]")
-    assert sortable.count() == web.locator("th[aria-sort] > button").count() > 10
 
 
 def test_first_stop_of_the_keyboard_skips_to_the_content(open_report):

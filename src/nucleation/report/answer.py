@@ -8,7 +8,6 @@ import xarray as xr
 from ..analysis.lengths import over_realisations
 from ..analysis.rows import rows_of
 from ..configuration.roles import JUDGED, PAPERS
-from .length_map import power
 
 
 def answer(lengths: xr.Dataset) -> dict[str, Any] | None:
@@ -47,7 +46,14 @@ def _numbers(row: dict[str, Any]) -> dict[str, str]:
 
 
 def _noise(row: dict[str, Any]) -> dict[str, str]:
-    return {"kind": row["kind"].replace("_", " "), "strength": power(float(row["strength"]))}
+    return {"kind": row["kind"].replace("_", " "), "strength": _power(float(row["strength"]))}
+
+
+def _power(strength: float) -> str:
+    """A strength with a power of ten, as it is written by hand: 10⁻⁵, 3 × 10⁻⁴."""
+    digits, exponent = f"{strength:.1e}".split("e")
+    power = "10" + str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return power if float(digits) == 1.0 else f"{float(digits):g} × {power}"
 
 
 def _ends(rows: list[dict[str, Any]], column: str) -> str:

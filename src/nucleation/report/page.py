@@ -21,7 +21,7 @@ from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..patch.mode_history import ModeHistory
-from ..report import answer, drop_law, encode, explorer, faults, length_map, own, stability, tables
+from ..report import answer, drop_law, encode, explorer, faults, own, stability, tables
 from ..types import Array
 from .captions import caption_html
 
@@ -33,7 +33,7 @@ SEEN = (2e-3, 1.0)
 
 SCRIPTS = (
     "page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js", "player.js",
-    "drop.js", "map.js",
+    "drop.js",
 )  # fmt: skip
 """What runs in the page, in this order; the first has what the others share."""
 
@@ -115,7 +115,6 @@ def build(content: Content) -> str:
         length_columns=tables.LENGTH_COLUMNS,
         lengths=tables.length_rows(lengths) if lengths is not None else [],
         drop=data["drop"],
-        map=data["map"],
         stability=data["stability"],
         drop_words=drop_law.WORDS,
         run=_run(content),
@@ -138,7 +137,6 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": _player(content),
         "drop": drop_law.in_page(content.modes, content.friction, content.interface),
-        "map": length_map.in_page(content.results.get("map")),
         "stability": stability.in_page(),
         "colours": {
             "theory": style.THEORY,
