@@ -17,7 +17,7 @@ from nucleation.figures.paper import figure_2
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch.mode_history import follow_mode
 from nucleation.report import page
-from nucleation.report.player import player_dataset
+from nucleation.report.player import thinned_run
 from nucleation.simulation.run import simulate
 from nucleation.theory.curves import Curves, theory_dataset
 
@@ -75,7 +75,7 @@ def content(settings, simulation, table, modes, tmp_path_factory):
                          entry.data)
         ],
         claims=CLAIMS,
-        player=page.Player(player_dataset(simulation, row, ExtractionSettings()), row),
+        player=page.Played(thinned_run(simulation, row, ExtractionSettings()), row),
         modes=modes,
     )  # fmt: skip
 

@@ -1,22 +1,10 @@
 "use strict";
 // The theory's curve, by the values of the controls, and the measured lengths.
 const heights = data.heights;
-const [lowest, highest] = [heights[0], heights[heights.length - 1]];
-const HEIGHT = { key: "H", factor: 1, low: lowest, high: highest, log: true, value: data.start };
-const controls = [...data.controls, HEIGHT].map((control) => makeControl(control, showTheory));
+const controls = data.controls.map((control) => makeControl(control, showTheory));
 const plot = element("theory-plot");
 
-// A second block is as high as the first, and has its Poisson's ratio.
-function secondBody(p) {
-  const [farSide, contrast] = [element("below").value, Number(element("contrast").value)];
-  return farSide && contrast > 0 ? { mu: p.mu * contrast, nu: p.nu, heightRatio: 1, farSide } : undefined;
-}
-
-function parameters() {
-  const p = Object.fromEntries(controls.map((control) => [control.key, control.si()]));
-  return { ...p, second: secondBody(p) };
-}
-
+const parameters = () => Object.fromEntries(controls.map((control) => [control.key, control.si()]));
 const lengthOfPatch = Stability.reader(data.stability);
 
 function curves(p) {
@@ -65,25 +53,16 @@ function line(name, y, style, more = {}, symbol = "c") {
 }
 
 function theoryLayout() {
-  const linear = element("linear").checked;
-  const type = linear ? "linear" : "log";
-  const end = data.linear; // of the linear axes
-  const seen = heights.map((height, i) => (height <= end ? Math.max(plotted.length[i], plotted.stability[i]) : 0));
-  const shown = data.points.flatMap((series) => series.length_high);
-  const top = 1.15 * Math.max(...seen, ...shown);
-  const ticks = linear ? {} : { dtick: "D2" };
-  const ranges = linear ? [[0, end], [0, top]] : [data.seen.map(Math.log10)];
   return layout({
     title: heading("Lengths L<sub>c</sub> and L<sub>s</sub> (m)"),
-    xaxis: axis("Height of the block H (m)", { type, range: ranges[0], ...ticks }),
-    yaxis: axis("", { type, ...ticks, ...(linear ? { range: ranges[1] } : { autorange: true }) }),
+    xaxis: axis("Height of the block H (m)", { type: "log", range: data.seen.map(Math.log10), dtick: "D2" }),
+    yaxis: axis("", { type: "log", dtick: "D2" }),
     legend: legend(),
-    uirevision: type,
+    uirevision: "fixed",
   });
 }
 
-let plotted = { length: [], thin: [], stability: [] };
-const configured = curves(data.base);
+const configured = curves(parameters());
 
 // The theory of each fault, where there are several.
 const own = data.faults.filter((fault) => fault.values.zeta > 0).slice(0, 12)
@@ -98,7 +77,7 @@ function drawTheory() {
   const p = parameters();
   const refused = controls.map((control) => control.refused).filter(Boolean);
   const patch = lengthOfPatch(p);
-  plotted = curves(p);
+  const plotted = curves(p);
   plotted.stability = heights.map((height, i) => patch(height, plotted.length[i]));
   for (const name of refused.length ? Object.keys(plotted) : []) plotted[name] = heights.map(() => null);
   const [blue, green] = [colour("theory"), colour("field-2")];
@@ -139,12 +118,8 @@ function showTheory() {
 }
 
 element("controls").addEventListener("submit", (event) => event.preventDefault());
-element("linear").addEventListener("change", showTheory);
-element("below").addEventListener("change", showTheory);
-element("contrast").addEventListener("input", showTheory);
 element("reset").addEventListener("click", () => {
   controls.forEach((control) => control.reset());
-  [element("below").value, element("contrast").value] = ["", "1"];
   showTheory();
 });
 drawTheory();

@@ -17,8 +17,8 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..patch.mode_history import from_dataset
 from . import page
-from .own import OwnStudies
-from .player import player_dataset
+from .answer import OwnStudies
+from .player import thinned_run
 
 
 def write(
@@ -57,7 +57,7 @@ def write(
     played = None
     if player:
         entry = row(results["lengths"], player_id)
-        played = page.Player(player_dataset(player[0], entry, settings), entry)
+        played = page.Played(thinned_run(player[0], entry, settings), entry)
     content = page.Content(
         material, friction, interface, config, dict(origin), results, pictures,
         claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
