@@ -252,11 +252,11 @@ def faults():
 def identical_rows():
     """The table of identical blocks in docs/findings.md."""
     own = faults().query("study == 'pairs_identical'").sort_values("height")
-    yield "| theory, free far sides (m) |" + "".join(f" {v:.4f} |" for v in own["theory_length"])
-    yield "| L_s/L_c |" + "".join(f" {v:.2f} |" for v in own["stability_ratio"])
-    yield "| L/L_c at the drop |" + "".join(f" {v:.2f} |" for v in own["length_ratio"])
-    ends = zip(own["length_ratio_low"], own["length_ratio_high"], strict=True)
-    yield "| least to most |" + "".join(f" {low:.2f}-{high:.2f} |" for low, high in ends)
+    yield line("theory, free far sides (m)", *own["theory_length"].map("{:.4f}".format))
+    yield line("L_s/L_c", *own["stability_ratio"].map("{:.2f}".format))
+    yield line("L/L_c at the drop", *own["length_ratio"].map("{:.2f}".format))
+    low, high = (own[f"length_ratio_{end}"].map("{:.2f}".format) for end in ("low", "high"))
+    yield line("least to most", *(low + "-" + high))
 
 
 def contrasts(weakening):
@@ -266,19 +266,21 @@ def contrasts(weakening):
     return own.assign(f_beta=own["f_beta"].round(2)).set_index("f_beta").sort_index()
 
 
+def over_half_spaces(weakening):
+    """Their lengths over L_c^M."""
+    own = contrasts(weakening)
+    return own.filter(like="_ratio").mul(own["half_space_ratio"], axis=0)
+
+
 def contrast_rows():
     """The table of both senses of a contrast in docs/findings.md, lengths over L_c^M."""
     for weakening in (10, 3, 1):
-        own = contrasts(weakening)
-        values = {
-            name: (own[name] * own["half_space_ratio"]).reindex(CONTRASTS)
-            for name in ("length_ratio", "length_ratio_low", "length_ratio_high", "stability_ratio")
-        }
-        ends = zip(values["length_ratio_low"], values["length_ratio_high"], strict=True)
+        own = over_half_spaces(weakening).reindex(CONTRASTS)
+        low, high = (own[f"length_ratio_{end}"].map("{:.2f}".format) for end in ("low", "high"))
         for words, cells in (
-            (f"{weakening} | L", [f"{v:.2f}" for v in values["length_ratio"]]),
-            (" | least to most", [f"{low:.2f}-{high:.2f}" for low, high in ends]),
-            (" | L_s", [f"{v:.2f}" for v in values["stability_ratio"]]),
+            (f"{weakening} | L", own["length_ratio"].map("{:.2f}".format)),
+            (" | least to most", low + "-" + high),
+            (" | L_s", own["stability_ratio"].map("{:.2f}".format)),
         ):
             shown = ["–" if "nan" in cell else cell for cell in cells]
             yield line(words, *shown).replace("|  |", "| |")
@@ -286,16 +288,10 @@ def contrast_rows():
 
 def test_strong_weakening_shortens_in_one_sense_and_lengthens_in_the_other():
     """Beyond the range of the realisations."""
-    own = contrasts(10)
-    own = own[["length_ratio", "length_ratio_low", "length_ratio_high"]].mul(
-        own["half_space_ratio"], axis=0
-    )
-    assert own.loc[-0.38, "length_ratio_high"] < own.loc[0.0, "length_ratio_low"]
-    for weakening in (3, 10):
-        rows = contrasts(weakening)
-        unit = rows["half_space_ratio"]
-        least = (rows["length_ratio_low"] * unit).loc[0.38]
-        assert least > (rows["length_ratio_high"] * unit).loc[0.0]
+    strong = over_half_spaces(10)
+    assert strong.loc[-0.38, "length_ratio_high"] < strong.loc[0.0, "length_ratio_low"]
+    for own in (strong, over_half_spaces(3)):
+        assert own.loc[0.38, "length_ratio_low"] > own.loc[0.0, "length_ratio_high"]
 
 
 def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():

@@ -8,17 +8,15 @@ import pytest
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.model.perturbation import Perturbation
-from nucleation.patch.delay import growth
-from nucleation.report import drop_law, page, stability
+from nucleation.report import page, stability
 from nucleation.report.faults import QUANTITIES
 from nucleation.theory.creep.lengths import stability_length
-from nucleation.theory.critical import critical_length, critical_wavenumber, theory_length
+from nucleation.theory.critical import critical_length, critical_wavenumber
 from nucleation.theory.transfer import RIGID, Body
 
 pytestmark = pytest.mark.system
 
-THEORY_TRACE, STABILITY_TRACE = 2, 3
+THEORY_TRACE, STABILITY_TRACE = 1, 2
 PARAMETER_OF = {slider.key: slider for slider in QUANTITIES}
 
 
@@ -175,52 +173,6 @@ def test_points_tell_their_values(web, table):
         assert f"{float(table[name][0]):.{digits}g}" in text
 
 
-# ---- The drop
-
-
-@pytest.mark.parametrize("kind", drop_law.WORDS)
-def test_law_of_the_drop_in_the_page_is_that_of_the_library(web, modes, kind):
-    """Strengths between those of the page's table, where the law is to be relied upon."""
-    strengths = np.geomspace(3.3e-12, 7.7e-4, 15)
-    found = web.evaluate(
-        """([kind, all]) => data.drop.faults.map(({ kinds }) => all.map((eps) =>
-          dropAt(eps, data.drop.strengths, kinds[kind].drops.map(floats))))""",
-        [kind, strengths.tolist()],
-    )
-    exact = growth(modes[0], Perturbation(kind=kind))
-    expected = [exact.drop(eps)[:3] for eps in strengths]
-    np.testing.assert_allclose(np.array(found[0], dtype=float), expected, rtol=3e-4)
-    assert np.isfinite(expected).any()
-    assert found[1] == found[0]
-
-
-def drop_values(web):
-    """Metres said for the theory, L_s, the median, and where 16 and 84 % have dropped."""
-    texts = web.locator("#drop-values dd").all_inner_texts()
-    return [float(text.split(" m")[0]) for text in texts]
-
-
-def test_strength_moves_the_drop(web, modes, settings):
-    exact = growth(modes[0], Perturbation(kind="normal_load"))
-    web.select_option("#drop-kind", "normal_load")
-    theory = theory_length(0.02, settings.base.material, settings.main_text_interface)
-    for eps in (1e-4, 1e-6):
-        web.fill("#number-eps", str(eps))
-        own = drop_values(web)
-        assert own[0] == pytest.approx(theory, rel=1e-3)
-        assert own[1] == pytest.approx(exact.closed_form(modes[0], eps).stability_length, rel=1e-3)
-        assert own[2:] == pytest.approx(exact.drop(eps)[:3], rel=1e-3)
-        assert web.inner_text("#drop-doubt") == ""
-    web.focus("#range-eps")
-    web.keyboard.press("End")
-    assert float(web.input_value("#number-eps")) == 0.1
-    assert "Do not rely on it" in web.inner_text("#drop-doubt")
-    web.select_option("#drop-fault", "1")
-    thicker = web.locator("#drop-values dd").first.inner_text()
-    assert float(thicker.removesuffix(" m")) > theory
-    web.select_option("#drop-fault", "0")
-
-
 # ---- The player
 
 
@@ -285,8 +237,6 @@ def test_player_shows_the_run(web, content, table):
     assert moment(web) == np.abs(run["time"].values - onset).argmin()
     web.locator("#moment").focus()
     web.keyboard.press("ArrowRight")
-    web.click("#forward")
-    web.click("#back")
     for frame in (moment(web), 10):
         web.locator("#moment").fill(str(frame))
         for name, values in expected.items():
@@ -359,7 +309,7 @@ def test_every_control_has_a_name_and_every_picture_a_text(opened):
         if role in controls and not node["ignored"]:
             found.setdefault(role, []).append(node.get("name", {}).get("value", ""))
     assert set(found) >= {"button", "slider", "spinbutton", "link"}
-    assert len(found["slider"]) == len(QUANTITIES) + 3  # height, strength, moment
+    assert len(found["slider"]) == len(QUANTITIES) + 2  # height, moment
     for role, names in found.items():
         assert all(name.strip() for name in names), role
     regions = opened.page.locator("main section")
@@ -394,7 +344,7 @@ def test_phone_shows_all_without_scrolling_sideways(open_report, width):
 
 def test_dark_screens_get_their_own_colours(open_report):
     web = open_report(color_scheme="light").page
-    shade = "() => element('theory-plot').data[2].line.color"
+    shade = "() => element('theory-plot').data[1].line.color"
     light = web.evaluate(shade)
     web.emulate_media(color_scheme="dark")
     until(web, f"({shade})() !== '{light}'")

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from nucleation.figures import catalogue
-from nucleation.report import answer, drop_law, faults, page, tables
+from nucleation.report import answer, faults, page, tables
 from nucleation.theory.critical import critical_length
 
 STUDIES = answer.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
@@ -99,22 +99,3 @@ def test_every_fault_has_its_own_theory_in_the_browser(html, browser, settings, 
         np.testing.assert_allclose(length, expected, rtol=1e-6)
         assert web.evaluate("document.documentElement.scrollWidth") <= width
         assert complaints == []
-
-
-def test_the_law_of_the_drop_names_each_material(modes, content):
-    """Their lengths in theory are their own, and what differs is said."""
-    first = modes[0]
-    stiff = first.parameters.replaced(
-        {"shear_modulus": 4.0 * first.parameters.material.shear_modulus}
-    )
-    both = [first, dataclasses.replace(first, parameters=stiff), first]
-    one, other = drop_law.in_page(both, content.friction, content.interface)["faults"]
-    assert other["label"] == f"{one['label']}, mu x 4"
-    expected = critical_length(0.02, stiff.material, content.interface)
-    assert other["theory_length"] == pytest.approx(float(expected))
-    assert other["theory_length"] > 1.5 * one["theory_length"]
-    slower = first.parameters.replaced({"slip_distance": 1e-6})
-    (slow,) = drop_law.in_page(
-        [dataclasses.replace(first, parameters=slower)], content.friction, content.interface
-    )["faults"]
-    assert slow["theory_length"] > 1.3 * one["theory_length"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,8 +18,7 @@ from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..patch.mode_history import ModeHistory
-from ..report import answer, drop_law, encode, faults, player, stability, tables
+from ..report import answer, encode, faults, player, stability, tables
 from ..types import Array
 from .captions import caption_html
 
@@ -31,7 +30,6 @@ SEEN = (2e-3, 1.0)
 
 SCRIPTS = (
     "page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js", "player.js",
-    "drop.js",
 )  # fmt: skip
 """What runs in the page, in this order; the first has what the others share."""
 
@@ -68,7 +66,6 @@ class Content(NamedTuple):
     claims: list[dict[str, Any]] | None = None
     player: Played | None = None
     own: answer.OwnStudies | None = None  # with which the page begins
-    modes: Sequence[ModeHistory] = ()  # of quiet runs, for the law of the drop
 
 
 def build(content: Content) -> str:
@@ -105,7 +102,6 @@ def build(content: Content) -> str:
         fault_columns=tables.FAULT_COLUMNS,
         table_s1=_parameters(content.friction),
         length_columns=tables.LENGTH_COLUMNS,
-        drop_words=drop_law.WORDS,
         played=content.player,
         parameters=parameters_of(content.player.run) if content.player else None,
         origin=_origin(content),
@@ -129,7 +125,6 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
         "player": player.in_page(*content.player) if content.player else None,
-        "drop": drop_law.in_page(content.modes, content.friction, content.interface),
         "stability": stability.in_page(),
     }
 
