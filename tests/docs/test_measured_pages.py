@@ -1,28 +1,168 @@
-"""Numbers of docs/findings.md, drop.md and patch_theory.md against the tables in results/reference.
+"""Numbers of the measured pages against the tables in results/reference.
 
-Their rows, to copy: ``PYTHONPATH=src python tests/docs/test_measured_pages.py``.
+Their rows, to copy: ``PYTHONPATH=src:tests python tests/docs/test_measured_pages.py``.
 """
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from docs.samples import DOCS, ROOT
 
 from nucleation.patch.pairs import over_realisations
 from nucleation.theory.finite_patch import loaded_patch_factor
 from nucleation.theory.literature import FINITE_PATCH
 
-ROOT = Path(__file__).parents[2]
-REFERENCE = ROOT / "results" / "reference"
-FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
+FINDINGS = (DOCS / "findings.md").read_text(encoding="utf-8")
 CONTRASTS = (-0.38, -0.2, 0.0, 0.2, 0.38)
 
 
+def reference(name):
+    return pd.read_csv(ROOT / "results" / "reference" / f"{name}.csv")
+
+
+def line(*cells):
+    return f"| {' | '.join(map(str, cells))} |"
+
+
+# ---- docs/convergence.md and sensitivity.md
+
+REFINED = {"n_x": 800, "n_y": 32, "longest_step": 0.02, "tolerance": 2.5e-3}  # and the finest
+KINDS = ("normal_load", "drive_velocity", "state", "strength")
+PERTURBED = ["evolution", "phi0", "height", "strength", "seed"]
+ONSET, LENGTH = 3e-3, 5e-3  # what refinement may move onset and length by, or one element
+
+
+def sequences(kind):
+    """The runs of some kind, and their sequences of refinement with what is refined in each."""
+    table = reference("convergence")
+    own = table[table["kind"] == kind]
+    found = []
+    for refined in REFINED:
+        runs = own[own["refinement"] == refined]
+        others = [name for name in REFINED if name != refined]
+        found += [(refined, rows) for _, rows in runs.groupby(PERTURBED + others, dropna=False)]
+    return own, found
+
+
+def worst(runs):
+    """The largest differences of some runs from their finest ones, and how many are too large."""
+    if not runs:
+        return ""
+    apart = pd.DataFrame(runs)[[f"{n}_difference" for n in ("onset", "length", "elements")]]
+    apart = apart.astype(float).abs()
+    near = (apart["length_difference"] <= LENGTH) | (apart["elements_difference"] <= 1.0)
+    missed = int((~(near & (apart["onset_difference"] <= ONSET))).sum())
+    onset, length, _ = 100.0 * apart.max()
+    return f"{onset:.2f} / {length:.2f}" + (f" ({missed} !)" if missed else "")
+
+
+def kind_rows():
+    """One row for each kind: the worst of all faults, and how many of them miss the goal."""
+    for kind in KINDS:
+        own, found = sequences(kind)
+        coarse = [rows.iloc[0] for refined, rows in found if refined == "n_x" and len(rows) > 2]
+        declared = [  # the run that is like the declared one: next to the finest along x
+            worst([rows.iloc[-2 if name == "n_x" else 0] for n, rows in found if n == name])
+            for name in REFINED
+        ]
+        faults = own.groupby(PERTURBED, dropna=False).ngroups
+        yield line(f"`{kind}`", digit(own["strength"].iloc[0]), faults, worst(coarse), *declared)
+
+
+def floor_rows():
+    """One row for each mesh, step and height of a quiet run: where it drops, and its noise."""
+    table = reference("floors").query("evolution == 'aging' and height > 0.01")
+    table = table.sort_values(["height", "n_x", "n_y", "longest_step"], kind="stable")
+    for _, row in table.iterrows():
+        yield line(
+            f"{row['height']:g}", f"{row['n_x']} x {row['n_y']}", f"{row['longest_step']:g}",
+            f"{row['onset_time']:.2f}", f"{row['length'] / row['theory_length']:.3f}",
+            digit(row["floor_normal_load"]), digit(row["floor_state"]),
+        )  # fmt: skip
+
+
+def digit(value):
+    """A strength with one digit, 3e-5."""
+    return "" if np.isnan(value) else f"{value:.0e}".replace("e-0", "e-")
+
+
+def sensitivity_rows():
+    """One row for each variation that changes anything: L_c, L_c over the theory's, by height."""
+    changes = ["length_change", "ratio_change", "onset_change"]
+    runs = reference("sensitivity")
+    table = runs.pivot_table(index="variation", columns="height", values=changes, dropna=False)
+    for variation in runs["variation"].drop_duplicates():
+        own = 100.0 * table.loc[variation]
+        cells = [signed(own[name, height]) for height in own[changes[0]].index for name in changes]
+        if variation != "base" and set(cells) != {"0"}:
+            yield line(f"`{variation}`", *cells)
+
+
+def signed(value):
+    """A change in print, empty if there is none; no sign for what rounds to zero."""
+    if np.isnan(value):
+        return ""
+    return f"{value:+.1f}" if round(value, 1) else "0"
+
+
+def test_all_declared_runs_are_refined_in_every_way():
+    own, found = sequences("normal_load")
+    assert all(rows.iloc[-1][refined] == REFINED[refined] for refined, rows in found)
+    ways = own.groupby(PERTURBED, dropna=False)["refinement"].agg(set)
+    assert len(ways) == 12 and all(names == set(REFINED) for names in ways)
+
+
+# ---- docs/patch_stability.md
+
+
+def percent(value, digits=2):
+    return f"{100.0 * value:+.{digits}f} %"
+
+
+def value_rows():
+    """L_s of each fault, what the paper's mesh changes, and what it is over the theory's length."""
+    both = reference("patch_stability").set_index(["evolution", "height", "phi0"])
+    paper, declared = (both[both["study"] == name] for name in ("paper", "converged"))
+    for fault, row in paper.iterrows():
+        fine = declared.loc[fault]
+        change = percent(row["stability_length"] / fine["stability_length"] - 1.0, 1)
+        yield line(
+            fault[0], f"{fault[1]:g}", f"{fault[2]:g}", f"{fine['stability_length']:.4f}",
+            change.removesuffix(" %"), f"{fine['stability_ratio']:.3f}",
+            f"{fine['stability_frequency']:.1f}",
+        )  # fmt: skip
+
+
+def error_rows():
+    """What refinement of the declared run, and the paper's mesh, change of L_s."""
+    table = reference("patch_convergence")
+    base = table.query("study == 'converged'").iloc[0]
+    paper = reference("patch_stability").query(
+        "study == 'paper' and evolution == 'aging' and phi0 == 1"
+    )
+    for height, rows in table.query("study == 'patch_convergence'").groupby("height"):
+        finer = [rows["n_x"] > base["n_x"], rows["n_y"] > base["n_y"]]
+        finer.append(rows["tolerance"] < base["tolerance"])
+        changes = [percent(rows[chosen]["stability_change"].iloc[0]) for chosen in finer]
+        coarse = paper[paper["height"] == height]["stability_change"].iloc[0]
+        yield line(f"{height:g}", *changes, percent(coarse, 1))
+
+
+def test_frozen_patches_grow_as_twins_do():
+    twins = reference("twin_runs")
+    apart = twins["twin_growth"] - twins["frozen_growth"]
+    assert apart.min() > 0.05 and apart.max() < 0.25
+    assert (twins["twin_frequency"] / twins["frozen_frequency"] - 1.0).abs().max() < 0.02
+
+
+# ---- docs/drop.md, loading.md and patch_theory.md
+
+
 def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
-    table = pd.read_csv(REFERENCE / "drop.csv").dropna(subset=["predicted_length"])
+    table = reference("drop").dropna(subset=["predicted_length"])
     table["ratio"] = table["predicted_length"] / table["length"]
     names = ["evolution", "height", "kind", "correlation_length", "strength"]
     means = table.groupby(names)["ratio"].mean().reset_index()
@@ -42,8 +182,8 @@ LITERATURE_ROWS = {
 
 def test_lengths_of_the_literature_are_those_of_the_reference():
     """Of each a/b the first run is in the table, and all of 0.3 are within what the text says."""
-    table = pd.read_csv(REFERENCE / "literature.csv").dropna(subset=["difference"])
-    page = (ROOT / "docs" / "loading.md").read_text(encoding="utf-8")
+    table = reference("literature").dropna(subset=["difference"])
+    page = (DOCS / "loading.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([a-z][^|]+) \| (0\.\d+) \| ([\d. |]+) \|$", page, re.MULTILINE)
     assert len(rows) == 10
     for length, ratio, values in rows:
@@ -75,7 +215,7 @@ EXPLAINED = {
 
 
 def patch_theory_errors():
-    table = pd.read_csv(REFERENCE / "patch_theory.csv").dropna(subset=["stability_length"])
+    table = reference("patch_theory").dropna(subset=["stability_length"])
     for name in ("front", "creep"):
         table[name] = 100.0 * (table[f"{name}_length"] / table["stability_length"] - 1.0)
     return table
@@ -88,21 +228,22 @@ def patch_theory_rows():
         rows = table[table["study"].isin(studies)]
         errors = [rows[name] for name in ("front", "creep")]
         cells = [f"{np.sqrt(np.mean(e**2)):.1f} %, {e[e.abs().idxmax()]:+.1f} %" for e in errors]
-        yield f"| {' | '.join([words, str(len(rows)), *cells])} |"
+        yield line(words, len(rows), *cells)
 
 
 def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
-    page = (ROOT / "docs" / "patch_theory.md").read_text(encoding="utf-8")
-    rows = list(patch_theory_rows())
-    assert "\n".join(rows) in page
+    page = (DOCS / "patch_theory.md").read_text(encoding="utf-8")
     table = patch_theory_errors()
     assert set(table["id"][table["front"].abs() > 3.0]) == EXPLAINED.keys()
     assert all(f"**{part}" in page for part in EXPLAINED.values())
 
 
+# ---- docs/findings.md
+
+
 def faults():
     """The pairs of the reference, each the mean of its realisations, on the usual mesh."""
-    frame = pd.read_csv(REFERENCE / "pairs.csv")
+    frame = reference("pairs")
     table = over_realisations(xr.Dataset({n: ("run", frame[n].to_numpy()) for n in frame}))
     rows = table.to_dataframe()
     return rows[rows["n_x"] < 1600]
@@ -111,11 +252,11 @@ def faults():
 def identical_rows():
     """The table of identical blocks in docs/findings.md."""
     own = faults().query("study == 'pairs_identical'").sort_values("height")
-    yield "| theory, free far sides (m) |" + "".join(f" {v:.4f} |" for v in own["theory_length"])
-    yield "| L_s/L_c |" + "".join(f" {v:.2f} |" for v in own["stability_ratio"])
-    yield "| L/L_c at the drop |" + "".join(f" {v:.2f} |" for v in own["length_ratio"])
-    ends = zip(own["length_ratio_low"], own["length_ratio_high"], strict=True)
-    yield "| least to most |" + "".join(f" {low:.2f}-{high:.2f} |" for low, high in ends)
+    yield line("theory, free far sides (m)", *own["theory_length"].map("{:.4f}".format))
+    yield line("L_s/L_c", *own["stability_ratio"].map("{:.2f}".format))
+    yield line("L/L_c at the drop", *own["length_ratio"].map("{:.2f}".format))
+    low, high = (own[f"length_ratio_{end}"].map("{:.2f}".format) for end in ("low", "high"))
+    yield line("least to most", *(low + "-" + high))
 
 
 def contrasts(weakening):
@@ -125,41 +266,32 @@ def contrasts(weakening):
     return own.assign(f_beta=own["f_beta"].round(2)).set_index("f_beta").sort_index()
 
 
+def over_half_spaces(weakening):
+    """Their lengths over L_c^M."""
+    own = contrasts(weakening)
+    return own.filter(like="_ratio").mul(own["half_space_ratio"], axis=0)
+
+
 def contrast_rows():
     """The table of both senses of a contrast in docs/findings.md, lengths over L_c^M."""
     for weakening in (10, 3, 1):
-        own = contrasts(weakening)
-        values = {
-            name: (own[name] * own["half_space_ratio"]).reindex(CONTRASTS)
-            for name in ("length_ratio", "length_ratio_low", "length_ratio_high", "stability_ratio")
-        }
-        ends = zip(values["length_ratio_low"], values["length_ratio_high"], strict=True)
+        own = over_half_spaces(weakening).reindex(CONTRASTS)
+        low, high = (own[f"length_ratio_{end}"].map("{:.2f}".format) for end in ("low", "high"))
         for words, cells in (
-            (f"{weakening} | L", [f"{v:.2f}" for v in values["length_ratio"]]),
-            (" | least to most", [f"{low:.2f}-{high:.2f}" for low, high in ends]),
-            (" | L_s", [f"{v:.2f}" for v in values["stability_ratio"]]),
+            (f"{weakening} | L", own["length_ratio"].map("{:.2f}".format)),
+            (" | least to most", low + "-" + high),
+            (" | L_s", own["stability_ratio"].map("{:.2f}".format)),
         ):
             shown = ["–" if "nan" in cell else cell for cell in cells]
-            yield re.sub(r"  +", " ", f"| {words} | {' | '.join(shown)} |")
-
-
-@pytest.mark.parametrize("rows", [identical_rows, contrast_rows])
-def test_tables_of_pairs_are_those_of_the_reference(rows):
-    assert "\n".join(rows()) in FINDINGS
+            yield line(words, *shown).replace("|  |", "| |")
 
 
 def test_strong_weakening_shortens_in_one_sense_and_lengthens_in_the_other():
     """Beyond the range of the realisations."""
-    own = contrasts(10)
-    own = own[["length_ratio", "length_ratio_low", "length_ratio_high"]].mul(
-        own["half_space_ratio"], axis=0
-    )
-    assert own.loc[-0.38, "length_ratio_high"] < own.loc[0.0, "length_ratio_low"]
-    for weakening in (3, 10):
-        rows = contrasts(weakening)
-        unit = rows["half_space_ratio"]
-        least = (rows["length_ratio_low"] * unit).loc[0.38]
-        assert least > (rows["length_ratio_high"] * unit).loc[0.0]
+    strong = over_half_spaces(10)
+    assert strong.loc[-0.38, "length_ratio_high"] < strong.loc[0.0, "length_ratio_low"]
+    for own in (strong, over_half_spaces(3)):
+        assert own.loc[0.38, "length_ratio_low"] > own.loc[0.0, "length_ratio_high"]
 
 
 def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
@@ -175,7 +307,7 @@ def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
 
 
 def test_the_map_is_what_the_findings_say():
-    table = pd.read_csv(REFERENCE / "map.csv")
+    table = reference("map")
     assert len(table) == 1008 and table["length"].notna().all()
     quiet, noisy = (table[np.isclose(table["strength"], eps)] for eps in (1e-4, 1e-3))
     means = quiet.groupby(["height", "zeta_over_a"])[["stability_ratio", "length_ratio"]].mean()
@@ -192,6 +324,25 @@ def test_the_map_is_what_the_findings_say():
     assert noisy["stability_length"].isna().sum() == 63
 
 
+TABLES = {
+    "convergence": (kind_rows, floor_rows),
+    "sensitivity": (sensitivity_rows,),
+    "patch_stability": (value_rows, error_rows),
+    "patch_theory": (patch_theory_rows,),
+    "findings": (identical_rows, contrast_rows),
+}
+
+
+@pytest.mark.parametrize("page", TABLES)
+def test_tables_are_those_of_the_reference(page):
+    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+    for rows in TABLES[page]:
+        stated = list(rows())
+        assert len(stated) >= 3
+        assert "|---|\n" + "\n".join(stated) + "\n\n" in text, rows.__name__
+
+
 if __name__ == "__main__":
-    tables = (identical_rows, contrast_rows, patch_theory_rows)
-    print(*(row for rows in tables for row in (*rows(), "")), sep="\n")
+    for page in TABLES.values():
+        for rows in page:
+            print("\n".join(rows()), end="\n\n")

@@ -1,53 +1,88 @@
-"""What pages, docstrings and comments name is there; the house is as CONTRIBUTING draws it."""
+"""What pages and sources name is there; the house is as CONTRIBUTING draws it."""
 
+import inspect
+import pydoc
 import re
 import tomllib
+from functools import cache
 
 import pytest
 from docs.samples import FENCE, PAGES, ROOT, samples
 
-from docs import names
-
 SOURCE = ROOT / "src" / "nucleation"
 CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+ROOTS = ("src", "benchmarks", "workflow", "docs")
+FILES = [ROOT / "Snakefile", *sorted((ROOT / "workflow").rglob("*.smk"))]
+FILES += [path for root in ROOTS for path in sorted((ROOT / root).rglob("*.py"))]
 
-
+ROLE = re.compile(
+    r"[:{](?:mod|class|exc|func|meth|attr|data|obj)[:}]`(?:[^`<]*<)?~?([\w.]+)>?`"
+)  # fmt: skip
+DOTTED = re.compile(r"(?<![\w./-])nucleation(?!\.(?:sif|tar))(?:\.[A-Za-z_]\w*)+(?![\w*/])")
+FILE = re.compile(
+    r"(?<![\w/.{}<>~:-])((?:[\w.-]+/)+[\w-][\w.-]*\.(?:py|smk|edp|html|js|css|md|rst|yaml|sh)"
+    r"|\w+\.(?:py|smk|edp|js|css))\b(?![\w/*])"
+)
+"""A file with its folder, or the bare name of a source."""
 OF_OTHERS = {"sitecustomize.py"}
 
 
-def stale(find):
-    """What pages and sources name and is not there, by file; `find` has a text and its place."""
-    found = {}
-    for path in (*PAGES, *names.FILES):
-        page = path.suffix == ".md" and [(FENCE.sub("", path.read_text(encoding="utf-8")), "")]
-        named = {name for text, place in page or names.words(path) for name in find(text, place)}
-        roots = (ROOT, SOURCE, SOURCE.parent, ROOT / "docs", ROOT / "tests", path.parent)
-        if missing := {name for name in named if not any((r / name).exists() for r in roots)}:
-            found[str(path.relative_to(ROOT))] = missing - made_on(path) if page else missing
-    return {name: missing for name, missing in found.items() if missing}
+@cache
+def exists(name):
+    """Whether a name with its dots is of anything, or of what the objects of a class have."""
+    owner, _, last = name.rpartition(".")
+    found = owner and pydoc.locate(owner)
+    if not isinstance(found, type):
+        return bool(owner) and (hasattr(found, last) or pydoc.locate(name) is not None)
+    own = [base for base in found.__mro__ if base.__module__.startswith("nucleation")]
+    return hasattr(found, last) or any(
+        last in vars(base).get("__annotations__", {}) or f"self.{last}" in inspect.getsource(base)
+        for base in own
+    )
 
 
-def made_on(page):
-    """The files that a page has its readers write."""
-    return {sample.file for sample in samples(page)}
+def resolves(target, path):
+    """Whether a role's target is a name, seen from a file, its packages or one of its classes."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    place = ".".join(parts[parts[0] == "src" :]).removesuffix(".__init__")
+    outer = [place.rsplit(".", n)[0] for n in range(place.count(".") + 1)]
+    classes = re.findall(r"^class (\w+)", path.read_text(encoding="utf-8"), re.M)
+    tail = target.removeprefix(".")
+    names = [f"{start}.{tail}" for start in (*outer, *(f"{place}.{name}" for name in classes))]
+    return any(map(exists, names if target.startswith(".") else [target, *names]))
+
+
+def text_of(path):
+    """A page without its samples, or a source."""
+    text = path.read_text(encoding="utf-8")
+    return FENCE.sub("", text) if path.suffix == ".md" else text
 
 
 def test_roles_and_names_with_dots_resolve():
     """Each ``:func:``, ``{class}`` and so on, and each name that begins with the package's."""
-    assert stale(lambda text, place: names.stale_roles(text, place)) == {}
-    assert stale(lambda text, _: names.stale_dotted(text)) == {}
+    stale = {}
+    for path in (*PAGES, *FILES):
+        text = text_of(path)
+        missing = {name for name in ROLE.findall(text) if not resolves(name, path)}
+        missing |= {name for name in DOTTED.findall(text) if not exists(name)}
+        if missing:
+            stale[str(path.relative_to(ROOT))] = missing
+    assert stale == {}
 
 
 def test_files_exist():
     """With their folders, and sources by their bare names."""
-    known = OF_OTHERS.union(
-        p.name for root in (*names.ROOTS, "tests") for p in (ROOT / root).rglob("*.*")
-    )
-
-    def named(text, _):
-        return {n for n in names.FILE.findall(text) if not n.startswith("results/")} - known
-
-    assert stale(named) == {}
+    known = {p.name for root in (*ROOTS, "tests") for p in (ROOT / root).rglob("*.*")} | OF_OTHERS
+    stale = {}
+    for path in (*PAGES, *FILES):
+        named = {n for n in FILE.findall(text_of(path)) if not n.startswith("results/")} - known
+        roots = (ROOT, SOURCE, SOURCE.parent, ROOT / "docs", ROOT / "tests", path.parent)
+        missing = {name for name in named if not any((root / name).exists() for root in roots)}
+        if path.suffix == ".md":  # without what a page has its readers write
+            missing -= {sample.file for sample in samples(path)}
+        if missing:
+            stale[str(path.relative_to(ROOT))] = missing
+    assert stale == {}
 
 
 def test_wings_are_those_of_the_contracts():

@@ -14,7 +14,6 @@ import subprocess
 import sys
 import tomllib
 from collections import defaultdict
-from functools import cache
 
 import pytest
 from docs.samples import PAGES, ROOT, commands, printed, samples
@@ -33,28 +32,6 @@ def run(arguments, **options):
     )  # fmt: skip
     assert done.returncode == 0, f"{shlex.join(map(str, arguments))}\n{done.stdout}"
     return done.stdout
-
-
-def make(arguments, directory):
-    """Make says what it would do; its call of Snakemake, if any, is checked as well."""
-    for call in planned_by_make(tuple(arguments)):
-        snakemake(call, directory)
-
-
-@cache
-def planned_by_make(arguments):
-    """The arguments of each call of Snakemake that make would do."""
-    planned = run(["make", "--dry-run", *arguments]).replace("\\\n", " ").splitlines()
-    calls = [shlex.split(line) for line in planned if line.startswith(".venv/bin/snakemake")]
-    return [call[1:] for call in calls]
-
-
-def snakemake(arguments, directory):
-    """Snakemake understands its options; the targets are planned by :func:`test_targets`."""
-    with contextlib.chdir(ROOT):  # profiles are found from there
-        parsed = parse_args(arguments)[1]
-    for path in parsed.configfile or []:
-        assert path.is_file() or path.name in SHOWN_FILES, f"{path} is nowhere"
 
 
 def install_debian(arguments, directory):
@@ -99,10 +76,11 @@ RULES = {
     "uvx": packages,
     "docker": container,
     "nucleation": simulation,
-    "make": make,
-    ".venv/bin/snakemake": snakemake,
     "workflow/install-debian.sh": install_debian,
 }
+
+
+PLANNED = ("make", ".venv/bin/snakemake")  # by test_targets
 
 
 def shell_samples():
@@ -110,7 +88,8 @@ def shell_samples():
     places = {}
     for page, name in zip(PAGES, NAMES, strict=True):
         for line, command in commands(samples(page)):
-            places.setdefault(command, (page, f"{name}:{line}"))
+            if command.split()[0] not in PLANNED:
+                places.setdefault(command, (page, f"{name}:{line}"))
     return [pytest.param(page, text, id=place) for text, (page, place) in places.items()]
 
 
@@ -122,23 +101,28 @@ def test_shell(page, command, tmp_path):
     RULES[program](arguments, tmp_path)
 
 
+def planned(program, *arguments):
+    """The arguments of each call of Snakemake that a command is or, of make, would do."""
+    if program == ".venv/bin/snakemake":
+        return [arguments]
+    lines = run(["make", "--dry-run", *arguments]).replace("\\\n", " ").splitlines()
+    return [shlex.split(line)[1:] for line in lines if line.startswith(".venv/bin/snakemake")]
+
+
 def targets_by_configuration():
     """The targets of all commands, by the configuration given on the page as my.yaml, or ""."""
     found = defaultdict(set)
     for page in PAGES:
-        if page.name == "extending.md":
-            continue  # carried out in a copy of the project: test_extending.py
         mine = "".join(sample.code for sample in samples(page) if sample.file == "my.yaml")
-        for _, command in commands(samples(page)):
-            program, *arguments = shlex.split(command)
-            calls = {".venv/bin/snakemake": [arguments]}
-            if program == "make":
-                calls["make"] = planned_by_make(tuple(arguments))
-            for call in calls.get(program, []):
-                with contextlib.chdir(ROOT):
-                    parsed = parse_args(call)[1]
-                    own = any(path.name == "my.yaml" for path in parsed.configfile or [])
-                    found[mine if own else ""] |= set(parsed.targets)
+        words = [shlex.split(command) for _, command in commands(samples(page))]
+        for call in (call for each in words if each[0] in PLANNED for call in planned(*each)):
+            with contextlib.chdir(ROOT):  # profiles are found from there
+                parsed = parse_args(call)[1]
+            given = parsed.configfile or []
+            assert all((ROOT / path).is_file() or path.name in SHOWN_FILES for path in given), call
+            own = any(path.name == "my.yaml" for path in given)
+            if page.name != "extending.md":  # in a copy of the project: test_extending.py
+                found[mine if own else ""] |= set(parsed.targets)
     return found
 
 

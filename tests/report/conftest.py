@@ -1,6 +1,5 @@
 """A report on a small run, and a browser that opens it."""
 
-import dataclasses
 import os
 import shutil
 from pathlib import Path
@@ -8,19 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from coarse_run import CONFIG
-from made_up_map import lengths as lengths_of_map
 
 from nucleation.analysis import lengths
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
-from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.patch import map_table
-from nucleation.patch.mode_history import follow_mode
 from nucleation.report import page
-from nucleation.report.player import player_dataset
-from nucleation.simulation.run import simulate
+from nucleation.report.player import thinned_run
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
@@ -43,24 +37,7 @@ CLAIMS = [
 
 
 @pytest.fixture(scope="session")
-def modes():
-    """The mode of a quiet run, once as it is and once as if it were another fault's."""
-    fault = Parameters(
-        geometry=Geometry(height=0.02, length=1.35), mesh=Mesh(n_x=240, n_y=4, grading=10.0),
-        stepping=Stepping(end_time=11.0, longest_step=0.1),
-    )  # fmt: skip
-    own = follow_mode(simulate(fault))
-    return [own, dataclasses.replace(own, parameters=own.parameters.replaced({"height": 0.03}))]
-
-
-@pytest.fixture(scope="session")
-def grid():
-    """A map of lengths in which one run had no event."""
-    return map_table.on_grid(map_table.gather(lengths_of_map(missing=[(0.1, 3.0, 1e-5, 2)])))
-
-
-@pytest.fixture(scope="session")
-def content(settings, simulation, table, modes, grid, tmp_path_factory):
+def content(settings, simulation, table, tmp_path_factory):
     """A report with all sections."""
     theory = theory_dataset(
         settings.base.material, settings.base.friction, settings.main_text_interface,
@@ -77,14 +54,13 @@ def content(settings, simulation, table, modes, grid, tmp_path_factory):
         interface=settings.main_text_interface,
         config=CONFIG,
         provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
-        results={"theory": theory, "lengths": table, "map": grid},
+        results={"theory": theory, "lengths": table},
         pictures=[
             page.Picture("figure_2", entry.title, entry.category, [png, pdf], caption, {},
                          entry.data)
         ],
         claims=CLAIMS,
-        player=page.Player(player_dataset(simulation, row, ExtractionSettings()), row),
-        modes=modes,
+        player=page.Played(thinned_run(simulation, row, ExtractionSettings()), row),
     )  # fmt: skip
 
 

@@ -13,15 +13,14 @@ import pytest
 import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
-from scipy.interpolate import BarycentricInterpolator
 
 from nucleation.analysis import moments
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import parameters_of
-from nucleation.api import critical_length, stability_length
 from nucleation.figures import catalogue, laws
+from nucleation.model.material import Material
 from nucleation.model.quantities import declarations
-from nucleation.report import answer, encode, explorer, page, player, stability, tables
+from nucleation.report import answer, encode, faults, page, player, tables
 from nucleation.report.captions import caption_html
 
 ROOT = encode.HERE.parents[2]
@@ -54,15 +53,6 @@ def test_tables_can_be_downloaded_with_units_and_all_values(html, content):
         assert row.bimaterial_length_ratio == pytest.approx(float(value), rel=1e-12)
 
 
-def test_run_of_the_player_can_be_downloaded(html, content, tmp_path):
-    (name,) = (name for name in downloads(html) if name.endswith(".nc"))
-    path = tmp_path / name
-    path.write_bytes(downloads(html)[name])
-    with xr.open_dataset(path, decode_times=False) as stored:
-        assert stored["slip_rate"].attrs["units"] == "m/s"
-        np.testing.assert_allclose(stored["state"], content.player.run["state"], rtol=1e-6)
-
-
 def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(table):
     quiet = {"length": 0.156, "length_low": 0.138, "length_high": 0.162, "theory_length": 0.235,
              "creep_length": 0.131}  # fmt: skip
@@ -74,12 +64,12 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
     runs = [run(**quiet), run(**quiet | noisy), run(**quiet | {"height": 0.1, "length": 0.2})]
     runs = [run.assign(ensemble=("run", [str(i)])) for i, run in enumerate(runs)]
     runs[2]["fault"] = "run", ["another"]
-    shown = answer.answer(xr.concat(runs, "run"))
+    shown = answer.of_paper(xr.concat(runs, "run"))
     assert [shown[name] for name in ("length", "low", "high")] == ["0.156", "0.138", "0.162"]
     assert shown["ratios"] == {"paper": "0.66 to 0.85", "converged": "0.69"}
     assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
-    assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "10⁻⁵"
-    assert answer.answer(run(role="own")) is None
+    assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "0.001"
+    assert answer.of_paper(run(role="own")) is None
 
 
 def test_csv_has_only_the_datasets_own_columns():
@@ -105,10 +95,10 @@ def test_the_player_says_what_lies_below(content):
 
 
 def test_sections_without_content_are_left_out(content):
-    bare = page.build(content._replace(claims=None, player=None, pictures=[], results={}, modes=()))
-    for part in ("verdicts", "player", "lengths", "answer", "drop", "map"):
+    bare = page.build(content._replace(claims=None, player=None, pictures=[], results={}))
+    for part in ("verdicts", "player", "lengths", "answer"):
         assert f'id="{part}"' not in bare
-    assert "<figure" not in bare and '"drop":null' in bare and '"map":null' in bare
+    assert "<figure" not in bare
     assert 'id="theory"' in bare
 
 
@@ -120,8 +110,7 @@ def test_page_has_no_address_of_the_network_in_it(html):
 
 def test_every_claim_and_run_is_in_the_tables(html, table):
     assert html.count('<tr role="row" data-kind=') == 4
-    (row,) = tables.length_rows(table)
-    assert len(row) == len(tables.LENGTH_COLUMNS)
+    (row,) = tables.run_rows(table, tables.LENGTH_COLUMNS)
     shown = dict(zip(tables.LENGTH_COLUMNS, row, strict=True))
     assert shown["Length (m)"].key == float(table["length"][0])
     assert shown["Time (s)"].key == float(table["wall_seconds"][0])
@@ -148,8 +137,8 @@ def test_unknown_verdict_is_refused(content):
 def test_runs_without_an_event_have_dashes_and_no_point(table):
     without = table.assign(length=("run", [np.nan]), onset_time=("run", [np.nan]))
     assert tables.point_series(without) == []
-    cells = dict(zip(tables.LENGTH_COLUMNS, tables.length_rows(without)[0], strict=True))
-    assert cells["Onset (s)"].text == cells["Over theory"].text == "–"
+    (cells,) = tables.run_rows(without, ("Onset (s)", "Over theory"))
+    assert [cell.text for cell in cells] == ["–", "–"]
 
 
 def test_points_have_the_marks_of_figure_3(table):
@@ -169,66 +158,16 @@ def test_points_of_a_law_that_the_paper_does_not_have(table):
 
 def test_sliders_are_parameters_of_the_library_at_the_configurations_values(settings):
     material, interface = settings.base.material, settings.main_text_interface
-    controls = explorer.controls(material, interface)
-    values = explorer.si_values(material, interface)
-    for slider, control in zip(explorer.SLIDERS, controls, strict=True):
+    controls = faults.controls(material, interface)
+    for slider, control in zip(faults.QUANTITIES, controls, strict=True):
         declaration = declarations(slider.group)[slider.parameter]
-        assert control["value"] * control["factor"] == pytest.approx(values[slider.key], rel=1e-11)
+        value = getattr(material if slider.group is Material else interface, slider.parameter)
+        assert control["value"] * control["factor"] == pytest.approx(value, rel=1e-11)
         assert declaration.low <= slider.low * slider.factor
         assert slider.high * slider.factor <= declaration.high
         assert (declaration.unit == "1") == (slider.unit == "")
-    wide = explorer.controls(dataclasses.replace(material, shear_modulus=1e12), interface)
+    wide = faults.controls(dataclasses.replace(material, shear_modulus=1e12), interface)
     assert wide[0]["high"] == wide[0]["value"] == 1000.0
-
-
-# ---- The stability length in the page
-
-
-def interpolated(table, at):
-    """What one of the page's tables has, with SciPy's polynomials."""
-    values = np.frombuffer(base64.b64decode(table["logs"]), "<f4")
-    values = values.reshape([len(nodes) for nodes in table["nodes"].values()])
-    for name, nodes in table["nodes"].items():
-        x = np.clip(at[name], *table["ends"][name])
-        x = np.log(x) if name == "zeta_over_a" else x
-        values = BarycentricInterpolator(nodes, values)(x)
-    return np.exp(values)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", stability.TABLES)
-def test_stability_lengths_are_within_the_precision_that_the_page_states(name):
-    random, table = np.random.default_rng(11), stability.TABLES[name]
-    assert len(json.dumps(stability.in_page())) < 30_000
-    at = {key: random.uniform(*ends, 100) for key, ends in table.ends.items()}
-    at["zeta_over_a"] = np.exp(random.uniform(*np.log(table.ends["zeta_over_a"]), 100))
-    if "place" in at:  # heights beyond both ends as well
-        ratio = (np.exp(random.uniform(*np.log([1e-6, 1e6]), 100)) / stability.CENTRE) ** 0.7
-        at["place"] = (ratio - 1.0) / (ratio + 1.0)
-    expected = table.values(**at)
-    each = [dict(zip(at, values, strict=True)) for values in zip(*at.values(), strict=True)]
-    errors = [interpolated(stability.in_page()["tables"][name], one) for one in each] / expected - 1
-    assert np.abs(errors).max() < stability.PRECISION
-    assert np.sqrt(np.mean(errors**2)) < 0.3 * stability.PRECISION
-
-
-def test_stability_ratio_depends_on_four_numbers_alone(settings):
-    """A fault of other stress, stiffness, a and D, but of the same four numbers."""
-    material, own = settings.base.material, settings.main_text_interface
-    fault = {
-        "shear_modulus": material.shear_modulus, "poisson_ratio": material.poisson_ratio,
-        "normal_stress": own.normal_stress, "friction": own.friction, "a": own.a,
-        "zeta": own.zeta, "slip_distance": own.slip_length, "height": np.array([0.005, 0.05, 0.5]),
-        "second_shear_modulus": np.inf,
-    }  # fmt: skip
-    unit = material.shear_modulus * own.slip_length / own.normal_stress / (own.a + own.zeta)
-    height = fault["height"] * (1.0 - material.poisson_ratio) / unit
-    ratio = (height / stability.CENTRE) ** stability.POWER
-    found = stability.rigid_base(
-        (ratio - 1.0) / (ratio + 1.0), own.zeta / own.a, material.poisson_ratio, own.friction
-    )
-    expected = stability_length(**fault) / critical_length(**fault)
-    np.testing.assert_allclose(found, expected, rtol=1e-5)
 
 
 # ---- The player's data
@@ -236,7 +175,7 @@ def test_stability_ratio_depends_on_four_numbers_alone(settings):
 
 def test_player_keeps_the_event_and_the_look_of_the_force(simulation, table):
     row = table.isel(run=0)
-    run = player.player_dataset(simulation, row, ExtractionSettings())
+    run = player.thinned_run(simulation, row, ExtractionSettings())
     times, onset = simulation["time"].values, float(row["onset_time"])
     start, end = run.attrs["event_start"], run.attrs["event_end"]
     assert start < onset < end

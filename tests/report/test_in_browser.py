@@ -8,18 +8,16 @@ import pytest
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.model.perturbation import Perturbation
-from nucleation.patch.delay import growth
-from nucleation.patch.map_table import mean_over_seeds
-from nucleation.report import drop_law, explorer, page, stability
+from nucleation.report import page, stability
+from nucleation.report.faults import QUANTITIES
 from nucleation.theory.creep.lengths import stability_length
-from nucleation.theory.critical import critical_length, critical_wavenumber, theory_length
+from nucleation.theory.critical import critical_length, critical_wavenumber
 from nucleation.theory.transfer import RIGID, Body
 
 pytestmark = pytest.mark.system
 
-THEORY_TRACE, STABILITY_TRACE = 2, 3
-PARAMETER_OF = {slider.key: slider for slider in explorer.SLIDERS}
+THEORY_TRACE, STABILITY_TRACE = 1, 2
+PARAMETER_OF = {slider.key: slider for slider in QUANTITIES}
 
 
 def test_loads_without_network_and_complaints(opened, report):
@@ -52,7 +50,7 @@ def test_theory_in_the_page_is_that_of_the_library(web):
     cases = []
     for height in np.geomspace(1e-3, 1e3, 60):
         case = {"H": float(height)}
-        for slider in explorer.SLIDERS:
+        for slider in QUANTITIES:
             part = random.uniform()
             low, high = slider.low * slider.factor, slider.high * slider.factor
             value = low * (high / low) ** part if slider.logarithmic else low + part * (high - low)
@@ -63,16 +61,6 @@ def test_theory_in_the_page_is_that_of_the_library(web):
         expected = library_point(case)
         assert point["length"] == pytest.approx(expected.length, rel=1e-9)
         assert point["frequency"] == pytest.approx(expected.angular_frequency, rel=1e-9)
-
-
-def test_a_second_block_is_chosen(web):
-    """The curve is that of identical blocks, and the rigid base's again after the reset."""
-    rigid = drawn_curve(web)
-    web.select_option("#below", "free")
-    chosen = drawn_curve(web)
-    assert (chosen[1] < 0.95 * rigid[1]).all()
-    web.click("#reset")
-    np.testing.assert_allclose(drawn_curve(web), rigid)
 
 
 def drawn_curve(web, trace=THEORY_TRACE):
@@ -92,7 +80,7 @@ def expected_curve(settings, **changes):
     return critical_length(page.HEIGHTS, material, interface)
 
 
-@pytest.mark.parametrize("slider", explorer.SLIDERS, ids=lambda slider: slider.parameter)
+@pytest.mark.parametrize("slider", QUANTITIES, ids=lambda slider: slider.parameter)
 def test_every_slider_moves_the_curve_to_the_right_values(web, settings, slider):
     control = web.locator(f"#range-{slider.key}")
     control.focus()
@@ -141,9 +129,8 @@ def library_stability(p):
     )  # fmt: skip
 
 
-def test_stability_length_in_the_page_is_that_of_the_library(web, settings):
+def test_stability_length_in_the_page_is_that_of_the_library(web):
     """The number and the curve, at the configuration's values and as controls move."""
-    base = explorer.si_values(settings.base.material, settings.main_text_interface)
     shown = []
     for changes in ({}, {"zeta": 0.008, "nu": 0.1}, {"f": 0.9, "sigma0": 3.0, "H": 0.02}):
         for key, value in changes.items():
@@ -153,7 +140,6 @@ def test_stability_length_in_the_page_is_that_of_the_library(web, settings):
             key: float(web.input_value(f"#number-{key}")) * (slider.factor if slider else 1.0)
             for key, slider in (PARAMETER_OF | {"H": None}).items()
         }
-        assert changes or {**p, "H": 0.0} == pytest.approx({**base, "H": 0.0})
         expected = library_stability(p | {"H": heights[::80]})
         np.testing.assert_allclose(lengths[::80], expected, rtol=stability.PRECISION)
         words = web.locator("#values dd").nth(1).inner_text()
@@ -165,29 +151,14 @@ def test_stability_length_in_the_page_is_that_of_the_library(web, settings):
     web.click("#reset")
 
 
-@pytest.mark.parametrize("change", ["weakening", "body"])
-def test_where_the_table_does_not_hold_there_is_no_stability_length(web, change):
-    if change == "body":
-        web.select_option("#below", "clamped")
-    else:
-        web.fill("#number-a", "0.05")  # zeta/a = 0.32
+def test_where_the_table_does_not_hold_there_is_no_stability_length(web):
+    web.fill("#number-a", "0.05")  # zeta/a = 0.32
     assert all(value is None for value in drawn_curve(web, STABILITY_TRACE)[1])
     assert all(value > 0.0 for value in drawn_curve(web)[1])
     words = web.locator("#values dd").nth(1).inner_text()
     assert words.startswith("not known here: only ")
-    assert ("rigid base" in words) == (change == "body")
     web.click("#reset")
     assert all(value > 0.0 for value in drawn_curve(web, STABILITY_TRACE)[1])
-
-
-def test_axes_like_those_of_figure_3(web):
-    web.check("#linear")
-    drawn_curve(web)
-    layout = "() => { const l = element('theory-plot').layout; return [l.xaxis, l.yaxis]; }"
-    for axis in web.evaluate(layout):
-        assert axis["type"] == "linear"
-        assert axis["range"][0] == 0
-    web.uncheck("#linear")
 
 
 def test_points_tell_their_values(web, table):
@@ -200,143 +171,6 @@ def test_points_tell_their_values(web, table):
     assert str(table["id"].values[0]) in text
     for name, digits in (("length", 4), ("height", 4), ("onset_time", 4), ("length_low", 3)):
         assert f"{float(table[name][0]):.{digits}g}" in text
-
-
-# ---- The drop
-
-
-STRENGTHS = np.geomspace(1e-12, 1e-1, 34)
-
-
-@pytest.mark.parametrize("kind", drop_law.WORDS)
-def test_law_of_the_drop_in_the_page_is_that_of_the_library(web, modes, kind):
-    """Median and both ends of the range for strengths from silence to a tenth, from every fault."""
-    found = web.evaluate(
-        """([kind, strengths]) => data.drop.faults.map((fault) => {
-          const { length, log_amplitude, per_period } = fault.kinds[kind];
-          const curve = {
-            length: floats(length), logAmplitude: floats(log_amplitude),
-            perPeriod: floats(per_period),
-          };
-          return strengths.map((eps) => DropLaw.drop(curve, eps, data.drop.parts));
-        })""",
-        [kind, STRENGTHS.tolist()],
-    )
-    exact = growth(modes[0], Perturbation(kind=kind))
-    thinned = drop_law.thinned(exact)
-    for eps, lengths in zip(STRENGTHS, found[0], strict=True):
-        shown = np.array(lengths, dtype=float)  # beyond the law's reach there is none
-        np.testing.assert_allclose(shown, thinned.drop(eps)[:3], rtol=1e-6)
-        if eps < 1e-3:  # where the law is to be relied upon, whatever the kind
-            np.testing.assert_allclose(shown, exact.drop(eps)[:3], rtol=3e-4)
-    assert np.isfinite(np.array(found[0], dtype=float)).any()
-    assert found[1] == found[0]
-
-
-def drop_values(web):
-    """Metres said for the theory, L_s, the median, and where 16 and 84 % have dropped."""
-    texts = web.locator("#drop-values dd").all_inner_texts()
-    return [float(text.split(" m")[0]) for text in texts]
-
-
-def test_strength_moves_the_drop(web, modes, settings):
-    exact = growth(modes[0], Perturbation(kind="normal_load"))
-    web.select_option("#drop-kind", "normal_load")
-    theory = theory_length(0.02, settings.base.material, settings.main_text_interface)
-    for eps in (1e-4, 1e-6):
-        web.fill("#number-eps", str(eps))
-        own = drop_values(web)
-        assert own[0] == pytest.approx(theory, rel=1e-3)
-        assert own[1] == pytest.approx(exact.closed_form(modes[0], eps).stability_length, rel=1e-3)
-        assert own[2:] == pytest.approx(exact.drop(eps)[:3], rel=1e-3)
-        assert web.inner_text("#drop-doubt") == ""
-    web.focus("#range-eps")
-    web.keyboard.press("End")
-    assert float(web.input_value("#number-eps")) == 0.1
-    assert "Do not rely on it" in web.inner_text("#drop-doubt")
-    web.select_option("#drop-fault", "1")
-    thicker = web.locator("#drop-values dd").first.inner_text()
-    assert float(thicker.removesuffix(" m")) > theory
-    web.select_option("#drop-fault", "0")
-
-
-# ---- The map
-
-
-def data_of(web, plot, trace, names):
-    """Some values of what a plot shows."""
-    script = "([plot, trace, names]) => names.map((n) => element(plot).data[trace][n])"
-    return web.evaluate(script, [plot, trace, names])
-
-
-def test_map_shows_each_length_over_the_theory(web, grid):
-    x, y = grid["height"].values, grid["zeta_over_a"].values
-    wanted = [mean_over_seeds(grid, "stability_ratio").isel(strength=0)]
-    drops = mean_over_seeds(grid, "length_ratio")
-    wanted += [drops.isel(strength=i) for i in range(2)]
-    choices = web.locator("#map-field option").all_inner_texts()
-    assert choices[0] == "the patch turns unstable" and len(choices) == len(wanted)
-    assert choices[1].endswith(" by 10⁻⁵") and choices[2].endswith(" by 10⁻³")
-    for number, ratio in enumerate(wanted):
-        web.select_option("#map-field", str(number))
-        shown = data_of(web, "map-image", 0, ["x", "y", "z"])
-        np.testing.assert_allclose(shown[0], x)
-        np.testing.assert_allclose(shown[1], y)
-        expected = ratio.transpose("zeta_over_a", "height").values
-        np.testing.assert_allclose(np.array(shown[2], dtype=float), expected, rtol=1e-4)
-    web.select_option("#map-field", "0")
-
-
-def test_slices_of_the_map_are_at_the_chosen_weakening(web, grid):
-    for number, weakening in enumerate(grid["zeta_over_a"].values):
-        web.locator("#map-weakening").fill(str(number))
-        assert web.inner_text("#map-chosen") == f"{weakening:.2f}"
-        assert web.get_attribute("#map-weakening", "aria-valuetext") == f"{weakening:.2f}"
-        at = grid.sel(zeta_over_a=weakening)
-        lines = [at["theory_length"], mean_over_seeds(at, "stability_length").isel(strength=0)]
-        lines += [mean_over_seeds(at, "length").isel(strength=i) for i in range(2)]
-        for trace, line in enumerate(lines):
-            (drawn,) = data_of(web, "map-slice", trace, ["y"])
-            np.testing.assert_allclose(np.array(drawn, dtype=float), line, rtol=1e-4)
-        symbols = [data_of(web, "map-slice", i, ["marker"])[0]["symbol"] for i in (1, 2, 3)]
-        assert len(set(symbols)) == 3
-        for plot, axis, values in (
-            ("map-slice", "xaxis", grid["height"]), ("map-slice", "yaxis", grid["theory_length"]),
-            ("map-image", "xaxis", grid["height"]), ("map-image", "yaxis", grid["zeta_over_a"]),
-        ):  # fmt: skip
-            ends = web.evaluate("([p, a]) => element(p)._fullLayout[a].range", [plot, axis])
-            assert 10.0 ** ends[0] < values.min() and 10.0 ** ends[1] > values.max()
-            assert ends[1] - ends[0] < np.log10(values.max() / values.min()) + 2.0
-
-
-def place_on_map(web, height, weakening):
-    """Where on the screen a point of the map is."""
-    web.locator("#map-image").scroll_into_view_if_needed()
-    script = """([x, y]) => {
-      const plot = element("map-image"), box = plot.getBoundingClientRect();
-      const { xaxis, yaxis } = plot._fullLayout;
-      return [box.left + xaxis._offset + xaxis.d2p(x), box.top + yaxis._offset + yaxis.d2p(y)];
-    }"""
-    return web.evaluate(script, [height, weakening])
-
-
-def test_map_tells_of_the_point_below_the_pointer_and_a_click_chooses_it(web):
-    web.select_option("#map-field", "1")
-    web.locator("#map-weakening").fill("0")
-    said = "document.querySelector('#map-image .hoverlayer')?.textContent"
-    for height, weakening, words in ((0.01, 1.0, "0.615 of it"), (0.1, 3.0, "no event")):
-        web.mouse.move(*place_on_map(web, height, weakening))
-        until(web, f"{said}.includes('{words}')")
-        assert f"H = {height:#.3g} m, ζ/a = {weakening:#.3g}" in web.evaluate(f"() => {said}")
-    web.mouse.click(*place_on_map(web, 0.01, 3.0))
-    until(web, "element('map-weakening').value === '1'")
-    assert web.inner_text("#map-chosen") == "3.00"
-    web.select_option("#map-field", "0")
-
-
-def test_places_without_a_length_are_grey(web):
-    shown = web.evaluate("() => [element('map-image').layout.plot_bgcolor, colour('line')]")
-    assert shown[0] == shown[1]
 
 
 # ---- The player
@@ -403,8 +237,6 @@ def test_player_shows_the_run(web, content, table):
     assert moment(web) == np.abs(run["time"].values - onset).argmin()
     web.locator("#moment").focus()
     web.keyboard.press("ArrowRight")
-    web.click("#forward")
-    web.click("#back")
     for frame in (moment(web), 10):
         web.locator("#moment").fill(str(frame))
         for name, values in expected.items():
@@ -464,34 +296,25 @@ def test_verdicts_can_be_shown_alone(web):
     assert len(column(web, 1)) == 4
 
 
-def test_texts_of_claims_stay_texts(web):
-    assert web.locator("#claims q").first.text_content() == "<b>13 s</b>"
-
-
 # ---- For everyone, on every screen
 
 
 def test_every_control_has_a_name_and_every_picture_a_text(opened):
     session = opened.page.context.new_cdp_session(opened.page)
     nodes = session.send("Accessibility.getFullAXTree")["nodes"]
-    controls = {"button", "slider", "spinbutton", "checkbox", "link", "img", "image", "table"}
+    controls = {"button", "slider", "spinbutton", "link", "img", "image", "table"}
     found = {}
     for node in nodes:
         role = node.get("role", {}).get("value")
         if role in controls and not node["ignored"]:
             found.setdefault(role, []).append(node.get("name", {}).get("value", ""))
-    assert set(found) >= {"button", "slider", "spinbutton", "checkbox", "link"}
-    assert len(found["slider"]) == len(explorer.SLIDERS) + 4  # height, strength, weakening, moment
+    assert set(found) >= {"button", "slider", "spinbutton", "link"}
+    assert len(found["slider"]) == len(QUANTITIES) + 2  # height, moment
     for role, names in found.items():
         assert all(name.strip() for name in names), role
     regions = opened.page.locator("main section")
     for index in range(regions.count()):
         assert regions.nth(index).get_attribute("aria-labelledby")
-
-
-def test_headings_that_sort_are_buttons(web):
-    sortable = web.locator("th[aria-sort]")
-    assert sortable.count() == web.locator("th[aria-sort] > button").count() > 10
 
 
 def test_first_stop_of_the_keyboard_skips_to_the_content(open_report):
@@ -521,7 +344,7 @@ def test_phone_shows_all_without_scrolling_sideways(open_report, width):
 
 def test_dark_screens_get_their_own_colours(open_report):
     web = open_report(color_scheme="light").page
-    shade = "() => element('theory-plot').data[2].line.color"
+    shade = "() => element('theory-plot').data[1].line.color"
     light = web.evaluate(shade)
     web.emulate_media(color_scheme="dark")
     until(web, f"({shade})() !== '{light}'")

@@ -63,7 +63,6 @@ make_rule(
         "player": lambda wildcards: (
             [steps("simulate", space_time_id(wildcards))] if "figure_s2" in REPORTED else []
         ),
-        "modes": lambda wildcards: modes(),
         "claims": lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
         "page_files": sorted(
             str(path)
@@ -71,7 +70,7 @@ make_rule(
             for path in Path(SOURCE, "nucleation", "report").glob(f"*.{kind}")
         ),
     },
-    loads=[*plugins(settings.base), *laws_of(runs_for("quiet"))],
+    loads=plugins(settings.base),
     names=list(ENTRIES),
     dataset_names=catalogue.datasets_of(ENTRIES.values()),
     studies=OWN_STUDIES,

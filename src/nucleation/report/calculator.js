@@ -60,16 +60,6 @@ function words() {
   return all.filter(([, given]) => given !== "").map(([key, given]) => [key.replaceAll("_", "-"), given]);
 }
 
-function body({ H, farSide }) {
-  return H === Infinity ? "a half-space" : `a layer of ${metres(H)}, its far side ${data.far_sides[farSide]}`;
-}
-
-function systemWords(p) {
-  const other = p.second?.farSide === p.farSide ? "one like it" : `one like it, but ${data.far_sides[p.second?.farSide]}`;
-  const below = { same: other, rigid: "a rigid body" }[choice("second_body")] ?? `${body(p.second)}, of another material`;
-  return `${body(p)}, on ${below}; plane ${choice("plane")}; a/b = ${(p.a / (p.a + p.zeta)).toPrecision(3)}.`.replace(/^a/, "A");
-}
-
 function answer(p) {
   const own = Theory.scaled(p);
   const at = Theory.solver(own)(own.reference);
@@ -85,12 +75,7 @@ function answer(p) {
   at.stability = p.zeta > 0 ? lengthOfPatch(bodies)(own.reference, at.length) : null;
   const frequency = p.V ? `${at.frequency.toPrecision(4)} rad/s`
     : `${Theory.solver({ ...own, V: p.ell })(own.reference).frequency.toPrecision(4)} V/D`;
-  return [at, [
-    ["Critical nucleation length L<sub>c</sub>", metres(at.length)],
-    ["Stability length of the patch L<sub>s</sub>", Stability.words(bodies, at, data.stability)],
-    ["Critical wavenumber k<sub>c</sub> = 2π/L<sub>c</sub>", `${at.wavenumber.toPrecision(4)} rad/m`],
-    ["Angular frequency ω of its mode", frequency],
-  ]];
+  return [at, Stability.values(bodies, at, data.stability, frequency)];
 }
 
 // The lengths in use, by the systems that they are for; with two materials the pair's own come first.
@@ -126,7 +111,6 @@ function show() {
   const [p, wrong] = parameters();
   const [at, values] = wrong.length ? [{}, [[`No values: ${wrong.join("; ")}`, ""]]] : answer(p);
   showValues("values", values);
-  element("system").textContent = wrong.length ? "" : systemWords(p);
   element("others").innerHTML = wrong.length ? "" : table(p, at.length);
   const given = words();
   element("command").textContent = `nucleation length ${given.map(([name, text]) => `--${name} ${text}`).join(" ")}`;

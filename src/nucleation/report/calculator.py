@@ -77,7 +77,7 @@ def data() -> dict[str, Any]:
             for length in LENGTHS if length.system != THIS_FAULT
         ],
         "two_materials": TWO_MATERIALS, "half_spaces": HALF_SPACES,
-        "far_sides": FAR_SIDES, "thick": THICK, "stability": stability.in_page(),
+        "thick": THICK, "stability": stability.in_page(),
         "limits": {
             "localised": literature.LOCALISED_LIMIT, "thin": literature.THIN,
             "patch": literature.FINITE_PATCH, "negligible": literature.NEGLIGIBLE,

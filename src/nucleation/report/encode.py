@@ -11,8 +11,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 from numpy.typing import ArrayLike
 
-mimetypes.add_type("application/x-netcdf", ".nc")
-
 HERE = Path(__file__).parent
 
 

@@ -1,30 +1,14 @@
 "use strict";
 // The theory's curve, by the values of the controls, and the measured lengths.
 const heights = data.heights;
-const [lowest, highest] = [heights[0], heights[heights.length - 1]];
-const HEIGHT = { key: "H", factor: 1, low: lowest, high: highest, log: true, value: data.start };
-const controls = [...data.controls, HEIGHT].map((control) => makeControl(control, showTheory));
-const plot = element("theory-plot");
+const controls = data.controls.map((control) => makeControl(control, showTheory));
 
-// A second block is as high as the first, and has its Poisson's ratio.
-function secondBody(p) {
-  const [farSide, contrast] = [element("below").value, Number(element("contrast").value)];
-  return farSide && contrast > 0 ? { mu: p.mu * contrast, nu: p.nu, heightRatio: 1, farSide } : undefined;
-}
-
-function parameters() {
-  const p = Object.fromEntries(controls.map((control) => [control.key, control.si()]));
-  return { ...p, second: secondBody(p) };
-}
-
+const parameters = () => Object.fromEntries(controls.map((control) => [control.key, control.si()]));
 const lengthOfPatch = Stability.reader(data.stability);
 
-function curves(p) {
+function lengths(p) {
   const solve = Theory.solver(p);
-  return {
-    length: heights.map((height) => solve(height).length),
-    thin: heights.map((height) => Theory.thinLength(height, p)),
-  };
+  return heights.map((height) => solve(height).length);
 }
 
 // Figure 3's colours that would vanish on a dark screen.
@@ -59,35 +43,26 @@ function pointTraces() {
   }));
 }
 
-function line(name, y, style, more = {}, symbol = "c") {
+function line(name, y, style, symbol = "c") {
   const hovertemplate = `H = %{x:.4g} m<br>L<sub>${symbol}</sub> = %{y:.4g} m<extra>%{fullData.name}</extra>`;
-  return { name, x: heights, y, mode: "lines", line: style, hovertemplate, ...more };
+  return { name, x: heights, y, mode: "lines", line: style, hovertemplate };
 }
 
 function theoryLayout() {
-  const linear = element("linear").checked;
-  const type = linear ? "linear" : "log";
-  const end = data.linear; // of the linear axes
-  const seen = heights.map((height, i) => (height <= end ? Math.max(plotted.length[i], plotted.stability[i]) : 0));
-  const shown = data.points.flatMap((series) => series.length_high);
-  const top = 1.15 * Math.max(...seen, ...shown);
-  const ticks = linear ? {} : { dtick: "D2" };
-  const ranges = linear ? [[0, end], [0, top]] : [data.seen.map(Math.log10)];
   return layout({
     title: heading("Lengths L<sub>c</sub> and L<sub>s</sub> (m)"),
-    xaxis: axis("Height of the block H (m)", { type, range: ranges[0], ...ticks }),
-    yaxis: axis("", { type, ...ticks, ...(linear ? { range: ranges[1] } : { autorange: true }) }),
+    xaxis: axis("Height of the block H (m)", { type: "log", range: data.seen.map(Math.log10), dtick: "D2" }),
+    yaxis: axis("", { type: "log", dtick: "D2" }),
     legend: legend(),
-    uirevision: type,
+    uirevision: "fixed",
   });
 }
 
-let plotted = { length: [], thin: [], stability: [] };
-const configured = curves(data.base);
+const configured = lengths(parameters());
 
 // The theory of each fault, where there are several.
 const own = data.faults.filter((fault) => fault.values.zeta > 0).slice(0, 12)
-  .map((fault) => ({ ...fault, length: curves(fault.values).length }));
+  .map((fault) => ({ ...fault, length: lengths(fault.values) }));
 
 function ownTraces() {
   return own.map(({ label, length, colour }) =>
@@ -97,35 +72,25 @@ function ownTraces() {
 function drawTheory() {
   const p = parameters();
   const refused = controls.map((control) => control.refused).filter(Boolean);
+  const known = (value) => (refused.length ? null : value);
   const patch = lengthOfPatch(p);
-  plotted = curves(p);
-  plotted.stability = heights.map((height, i) => patch(height, plotted.length[i]));
-  for (const name of refused.length ? Object.keys(plotted) : []) plotted[name] = heights.map(() => null);
+  const length = lengths(p);
+  const stability = heights.map((height, i) => patch(height, length[i]));
   const [blue, green] = [colour("theory"), colour("field-2")];
   const at = Theory.solver(p)(p.H);
   at.stability = patch(p.H, at.length);
   const traces = [
-    line("theory, as configured", configured.length, { color: colour("soft"), width: 1, dash: "dot" }),
-    line("theory, H k → 0", plotted.thin, { color: blue, width: 1.3, dash: "dash" }),
-    line("theory", plotted.length, { color: blue, width: 2.5 }),
-    line("patch turns unstable, L<sub>s</sub>", plotted.stability, { color: green, width: 2.5 }, {}, "s"),
-    { name: "values below", ...cross(p.H, refused.length ? null : at.length, blue) },
-    { name: "values below", ...cross(p.H, refused.length ? null : at.stability, green) },
+    line("theory, as configured", configured, { color: colour("soft"), width: 1, dash: "dot" }),
+    line("theory", length.map(known), { color: blue, width: 2.5 }),
+    line("patch turns unstable, L<sub>s</sub>", stability.map(known), { color: green, width: 2.5 }, "s"),
+    { name: "values below", ...cross(p.H, known(at.length), blue) },
+    { name: "values below", ...cross(p.H, known(at.stability), green) },
     ...ownTraces(),
     ...pointTraces(),
   ];
-  Plotly.react(plot, traces, theoryLayout(), SETTINGS);
-  showValues("values", refused.length ? [[`No values: ${refused.join("; ")}`, ""]] : values(p, at));
-}
-
-function values(p, at) {
-  return [
-    ["Critical length L<sub>c</sub>", `${at.length.toPrecision(5)} m`],
-    ["Stability length of the patch L<sub>s</sub>", Stability.words(p, at, data.stability)],
-    ["Critical wavenumber k<sub>c</sub>", `${at.wavenumber.toPrecision(5)} rad/m`],
-    ["Angular frequency ω", `${at.frequency.toPrecision(5)} rad/s`],
-    ["L<sub>c</sub> for H k → 0, Eq. (11)", `${Theory.thinLength(p.H, p).toPrecision(5)} m`],
-  ];
+  Plotly.react("theory-plot", traces, theoryLayout(), SETTINGS);
+  showValues("values", refused.length ? [[`No values: ${refused.join("; ")}`, ""]]
+    : Stability.values(p, at, data.stability, `${at.frequency.toPrecision(5)} rad/s`));
 }
 
 let waiting = false; // several inputs between two frames of the screen are drawn once
@@ -139,12 +104,8 @@ function showTheory() {
 }
 
 element("controls").addEventListener("submit", (event) => event.preventDefault());
-element("linear").addEventListener("change", showTheory);
-element("below").addEventListener("change", showTheory);
-element("contrast").addEventListener("input", showTheory);
 element("reset").addEventListener("click", () => {
   controls.forEach((control) => control.reset());
-  [element("below").value, element("contrast").value] = ["", "1"];
   showTheory();
 });
 drawTheory();

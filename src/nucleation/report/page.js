@@ -4,7 +4,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 const element = (id) => document.getElementById(id);
 
 // A control is a slider and a number in the unit shown; the number is exact, the slider coarse.
-function makeControl({ key, factor, low, high, log, value, label = "Height", unit = "m" }, changed) {
+function makeControl({ key, factor, low, high, log, value, label, unit }, changed) {
   const slider = element(`range-${key}`);
   const field = element(`number-${key}`);
   const place = (v) => (log ? Math.log(v / low) / Math.log(high / low) : (v - low) / (high - low));

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,14 +13,12 @@ import xarray as xr
 from markupsafe import Markup
 
 from ..analysis.record import parameters_of
-from ..datasets import netcdf
-from ..figures import catalogue, style
+from ..figures import catalogue
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..patch.mode_history import ModeHistory
-from ..report import answer, drop_law, encode, explorer, faults, length_map, own, stability, tables
+from ..report import answer, encode, faults, player, stability, tables
 from ..types import Array
 from .captions import caption_html
 
@@ -29,15 +26,12 @@ HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 """Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""
 
 SEEN = (2e-3, 1.0)
-"""Heights (m) that the page shows first; so close that the curve looks smooth on either axes."""
+"""Heights (m) that the page shows first."""
 
 SCRIPTS = (
     "page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js", "player.js",
-    "drop.js", "map.js",
 )  # fmt: skip
 """What runs in the page, in this order; the first has what the others share."""
-
-CURVES = ("slip_rate", "stress_ratio", "state")
 
 
 class Picture(NamedTuple):
@@ -52,10 +46,10 @@ class Picture(NamedTuple):
     data: tuple[catalogue.Data, ...] = ()
 
 
-class Player(NamedTuple):
+class Played(NamedTuple):
     """The run in the player, thinned, and its entry of the table of lengths."""
 
-    run: xr.Dataset  # of player.player_dataset
+    run: xr.Dataset  # of player.thinned_run
     row: xr.Dataset
 
 
@@ -70,9 +64,8 @@ class Content(NamedTuple):
     results: dict[str, xr.Dataset]  # datasets by name
     pictures: list[Picture]
     claims: list[dict[str, Any]] | None = None
-    player: Player | None = None
-    own: own.OwnStudies | None = None  # with which the page begins
-    modes: Sequence[ModeHistory] = ()  # of quiet runs, for the law of the drop
+    player: Played | None = None
+    own: answer.OwnStudies | None = None  # with which the page begins
 
 
 def build(content: Content) -> str:
@@ -86,65 +79,53 @@ def build(content: Content) -> str:
     lengths = content.results.get("lengths")
     groups, data = _groups(content), _data(content, lengths)
     pictures = {p["name"]: p for group in groups.values() for p in group}
-    first = answer.answer(lengths) if content.own is None and lengths is not None else None
-    if content.own is not None:
+    first, studies, fault_rows, runs = None, [], [], []
+    if lengths is not None:
+        runs = tables.run_rows(lengths, tables.LENGTH_COLUMNS)
+    if lengths is not None and content.own is None:
+        first = answer.of_paper(lengths)
+    elif lengths is not None and content.own is not None:
+        studies, fault_rows = answer.of_studies(content.own, lengths), tables.fault_rows(lengths)
         groups.pop(catalogue.OWN, None)
-    shown_above = {"figure_3"} if first else set()
-    groups = {
-        category: [picture for picture in group if picture["name"] not in shown_above]
-        for category, group in groups.items()
-    }
+    if first and "figure_3" in pictures:
+        groups[pictures["figure_3"]["category"]].remove(pictures["figure_3"])
     printed = {claim["id"]: claim["paper"] for claim in content.claims or []}.get("length-shown")
     return encode.template("template.html").render(
-        answer=first,
-        printed=printed,
+        data, answer=first, printed=printed, groups=groups, pictures=pictures,
+        studies=studies, fault_rows=fault_rows, lengths=runs,
         styles=encode.source("page.css"),
         scripts=[Markup(plotly.offline.get_plotlyjs()), *map(encode.source, SCRIPTS)],
         data=encode.script_json(data),
         claims=tables.claim_rows(content.claims or []),
         counts=tables.verdict_counts(content.claims or []),
-        controls=explorer.controls(content.material, content.interface),
-        groups=groups,
-        studies=own.sections(content.own, lengths) if content.own and lengths is not None else [],
-        ends=data["heights"][:: len(data["heights"]) - 1],
-        run_columns=own.RUN_COLUMNS,
-        fault_columns=own.FAULT_COLUMNS,
-        faults=own.fault_rows(lengths) if content.own and lengths is not None else [],
-        pictures=pictures,
+        run_columns=tables.RUN_COLUMNS,
+        fault_columns=tables.FAULT_COLUMNS,
         table_s1=_parameters(content.friction),
         length_columns=tables.LENGTH_COLUMNS,
-        lengths=tables.length_rows(lengths) if lengths is not None else [],
-        drop=data["drop"],
-        map=data["map"],
-        stability=data["stability"],
-        drop_words=drop_law.WORDS,
-        run=_run(content),
+        played=content.player,
+        parameters=parameters_of(content.player.run) if content.player else None,
         origin=_origin(content),
-    )
+    )  # fmt: skip
 
 
 def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
     """What the page's code reads."""
     heights, seen = _heights(content, lengths)
     known = faults.faults(lengths) if lengths is not None else []
+    height = {
+        "key": "H", "label": "Height of the block, for the values below", "symbol": "H",
+        "unit": "m", "factor": 1, "low": float(f"{heights[0]:.4g}"),
+        "high": float(f"{heights[-1]:.4g}"), "log": True,
+        "value": 0.1 if content.own is None else float(f"{np.sqrt(seen[0] * seen[1]):.2g}"),
+    }  # fmt: skip
     return {
         "faults": [fault.in_page() for fault in known if fault.rigid] if len(known) > 1 else [],
         "seen": seen,
-        "linear": 0.112 if content.own is None else seen[1] / 2.5,
-        "start": 0.1 if content.own is None else float(f"{np.sqrt(seen[0] * seen[1]):.2g}"),
-        "controls": explorer.controls(content.material, content.interface),
-        "base": explorer.si_values(content.material, content.interface),
+        "controls": [*faults.controls(content.material, content.interface), height],
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
-        "player": _player(content),
-        "drop": drop_law.in_page(content.modes, content.friction, content.interface),
-        "map": length_map.in_page(content.results.get("map")),
+        "player": player.in_page(*content.player) if content.player else None,
         "stability": stability.in_page(),
-        "colours": {
-            "theory": style.THEORY,
-            "mark": style.VERMILLION,
-            "fields": [style.BLUE, style.GREEN, style.PURPLE],
-        },
     }
 
 
@@ -156,60 +137,6 @@ def _heights(content: Content, lengths: xr.Dataset | None) -> tuple[Array, list[
     ends = min(HEIGHTS[0], low / 10.0), max(HEIGHTS[-1], high * 10.0)
     points = int(HEIGHTS.size * np.log(ends[1] / ends[0]) / np.log(HEIGHTS[-1] / HEIGHTS[0]))
     return np.geomspace(*ends, points), [low / 3.0, 3.0 * high]
-
-
-def _player(content: Content) -> dict[str, Any] | None:
-    """The player's data: times in seconds from the onset, lengths in m, fields by frame."""
-    if content.player is None:
-        return None
-    run, row = content.player
-    loading = parameters_of(run).loading
-    onset, length = (float(row[name]) for name in ("onset_time", "length"))
-    start = onset if np.isfinite(onset) else 0.0
-    fields = {
-        "slip_rate": np.where(run["slip_rate"] > 0.0, run["slip_rate"], np.nan),
-        "stress_ratio": run["shear_stress"].values / loading.normal_stress,
-        "state": run["state"].values,
-    }
-    return {
-        "onset": start,
-        "length": length if np.isfinite(length) else None,
-        "event": [run.attrs["event_start"] - start, run.attrs["event_end"] - start],
-        "frames": run.sizes["time"],
-        "x": encode.float32(run["x"]),
-        "since": encode.float32(run["time"] - start),
-        "edge": encode.float32(run["patch_length"]),
-        "force_since": encode.float32(run["step_time"] - start),
-        "force": encode.float32(-run["driving_force"] / 1e3),
-        **{name: encode.float32(fields[name]) for name in CURVES},
-    }
-
-
-def _run(content: Content) -> dict[str, Any] | None:
-    """What is said about the player's run, and its data to download."""
-    if content.player is None:
-        return None
-    run, row = content.player
-    parameters = parameters_of(run)
-    below = parameters.below
-    return {
-        "id": str(row["id"].values),
-        "height": parameters.geometry.height,
-        "second_height": below.geometry.height if below else None,
-        "onset": float(row["onset_time"]),
-        "length": float(row["length"]),
-        "frames": run.sizes["time"],
-        "data": encode.download(f"{row['id'].values}.nc", _netcdf(run)),
-    }
-
-
-def _netcdf(dataset: xr.Dataset) -> bytes:
-    """A dataset as the bytes of a netCDF file, numbers with single precision."""
-    with tempfile.TemporaryDirectory() as directory:
-        path = Path(directory, "run.nc")
-        single = dataset.map(lambda v: v.astype("f4") if v.ndim > 1 else v, keep_attrs=True)
-        netcdf.write(single, path)
-        return path.read_bytes()
 
 
 def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:

@@ -1,18 +1,16 @@
 "use strict";
 // The player of one run: its fields along the interface, moment by moment, and its driving force.
 const FIELDS = [
-  { name: "slip_rate", title: "Slip rate v (m/s)", log: true, low: 1e-9 },
-  { name: "stress_ratio", title: "Shear stress τ/σ₀", log: false },
-  { name: "state", title: "State φ (s)", log: true },
+  { name: "slip_rate", title: "Slip rate v (m/s)", shade: "theory", log: true, low: 1e-9 },
+  { name: "stress_ratio", title: "Shear stress τ/σ₀", shade: "field-2", log: false },
+  { name: "state", title: "State φ (s)", shade: "field-3", log: true },
 ];
 
 function makePlayer(run) {
   const x = floats(run.x);
   const since = floats(run.since);
   const edge = floats(run.edge);
-  const fields = FIELDS.map((field, i) => ({
-    ...field, values: floats(run[field.name]), colour: `field-${i + 1}`,
-  }));
+  const fields = FIELDS.map((field) => ({ ...field, values: floats(run[field.name]) }));
   const force = { since: floats(run.force_since), value: floats(run.force) };
   const slider = element("moment");
   const play = element("play");
@@ -44,7 +42,7 @@ function makePlayer(run) {
   function drawFields() {
     for (const field of fields) {
       const trace = {
-        x, y: row(field, frame), mode: "lines", line: { color: colour(field.colour), width: 2 },
+        x, y: row(field, frame), mode: "lines", line: { color: colour(field.shade), width: 2 },
         hovertemplate: "x = %{x:.3g} m<br>%{y:.3g}<extra></extra>",
       };
       Plotly.react(`plot-${field.name}`, [trace], layout({
@@ -136,8 +134,6 @@ function makePlayer(run) {
   const onset = since.reduce((best, t, i) => (Math.abs(t) < Math.abs(since[best]) ? i : best), 0);
   play.addEventListener("click", () => (timer === null ? start() : stop()));
   slider.addEventListener("input", () => jump(Number(slider.value)));
-  element("back").addEventListener("click", () => jump(frame - 1));
-  element("forward").addEventListener("click", () => jump(frame + 1));
   element("to-onset").addEventListener("click", () => jump(onset));
   const draw = () => {
     drawFields();

@@ -1,16 +1,16 @@
 """The data of the player: the run through nucleation, thinned to what a page can show."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from ..analysis.definitions import ExtractionSettings
 from ..analysis.moments import chosen_frames, event_interval, thinned
-from ..analysis.record import Record
-from ..datasets.variables import annotate, some
-from ..patch.growth import FOLLOWED
-from ..simulation.recorded import RECORDED
+from ..analysis.record import Record, parameters_of
 from ..types import Array
+from .encode import float32
 
 MOST_FRAMES = (150, 140, 40)  # before, in and after the event
 MOST_NODES = 401
@@ -26,7 +26,7 @@ def thinned_curve(time: Array, value: Array, most: int) -> NDArray[np.intp]:
     return np.unique(np.concatenate([*kept, [0, time.size - 1]]))
 
 
-def player_dataset(
+def thinned_run(
     simulation: xr.Dataset, row: xr.Dataset, settings: ExtractionSettings
 ) -> xr.Dataset:
     """What the player shows of one simulation.
@@ -62,10 +62,32 @@ def player_dataset(
         ]
     )
     kept = np.unique(steps)
-    shown = fields.assign(
+    return fields.assign(
         patch_length=("time", record.lengths[frames]),
         step_time=("step", step_time[kept]),
         driving_force=("step", force[kept]),
-    )
-    shown = annotate(shown, RECORDED | some(FOLLOWED, "patch_length"))
-    return shown.assign_attrs(event_start=event[0], event_end=event[1])
+    ).assign_attrs(event_start=event[0], event_end=event[1])
+
+
+def in_page(run: xr.Dataset, row: xr.Dataset) -> dict[str, Any]:
+    """The player's data: times in seconds from the onset, lengths in m, fields by frame."""
+    loading = parameters_of(run).loading
+    onset, length = (float(row[name]) for name in ("onset_time", "length"))
+    start = onset if np.isfinite(onset) else 0.0
+    fields = {
+        "slip_rate": np.where(run["slip_rate"] > 0.0, run["slip_rate"], np.nan),
+        "stress_ratio": run["shear_stress"].values / loading.normal_stress,
+        "state": run["state"].values,
+    }
+    return {
+        "onset": start,
+        "length": length if np.isfinite(length) else None,
+        "event": [run.attrs["event_start"] - start, run.attrs["event_end"] - start],
+        "frames": run.sizes["time"],
+        "x": float32(run["x"]),
+        "since": float32(run["time"] - start),
+        "edge": float32(run["patch_length"]),
+        "force_since": float32(run["step_time"] - start),
+        "force": float32(-run["driving_force"] / 1e3),
+        **{name: float32(values) for name, values in fields.items()},
+    }

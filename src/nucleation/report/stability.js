@@ -68,5 +68,15 @@ const Stability = (() => {
         + " all far sides free; <code>nucleation length</code> computes it";
   }
 
-  return { pair, reader, words };
+  // What is said of a critical point, and of L_s there.
+  function values(p, at, tables, frequency) {
+    return [
+      ["Critical nucleation length L<sub>c</sub>", `${Number(at.length.toPrecision(5))} m`],
+      ["Stability length of the patch L<sub>s</sub>", words(p, at, tables)],
+      ["Critical wavenumber k<sub>c</sub> = 2π/L<sub>c</sub>", `${at.wavenumber.toPrecision(5)} rad/m`],
+      ["Angular frequency ω of its mode", frequency],
+    ];
+  }
+
+  return { pair, reader, values };
 })();

@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from ..analysis.rows import rows_of
 from ..figures.laws import USUAL_AGE, looks, usual_law
-from .faults import faults
+from .faults import QUANTITIES, faults, look
 
 VERDICTS = {
     "replicated": ("✓", "yes"),
@@ -113,27 +113,52 @@ LENGTH_COLUMNS = (
     "Simulation", "H (m)", "Onset (s)", "Length (m)", "Range (m)", "Over theory", "Elements",
     "Steps", "Time (s)", "Memory (MB)",
 )  # fmt: skip
+RUN_COLUMNS = (
+    "Simulation", "Fault", "H (m)", "Onset (s)", "Length (m)", "Range (m)", "Theory (m)",
+    "Over theory",
+)  # fmt: skip
 
 
-def length_rows(lengths: xr.Dataset) -> list[list[Cell]]:
-    """One row of :data:`LENGTH_COLUMNS` for every simulation of a table of lengths."""
+def run_rows(lengths: xr.Dataset, columns: tuple[str, ...]) -> list[list[Cell]]:
+    """One row of some columns for every simulation of a table of lengths."""
+    of_run = {i: fault.number for fault in faults(lengths) for i in fault.runs}
     rows = []
-    for run in rows_of(lengths):
-        elements = int(run["n_x"]) * int(run["n_y"])
+    for i, run in enumerate(rows_of(lengths)):
         low, high = (number(run[name], 3) for name in ("length_low", "length_high"))
-        rows.append(
-            [
-                Cell(str(run["id"]), str(run["id"])),
-                *(number(run[name]) for name in ("height", "onset_time", "length")),
-                Cell(f"{low.text} to {high.text}", low.key),
-                number(run["length"] / run["theory_length"], 3),
-                Cell(f"{run['n_x']} × {run['n_y']}", elements),
-                Cell(str(run["steps"]), int(run["steps"])),
-                number(run["wall_seconds"], 3),
-                number(run["peak_megabytes"], 3),
-            ]
-        )
+        span = f"{low.text} to {high.text}" if math.isfinite(run["length_low"]) else "–"
+        cells = {
+            "Simulation": Cell(str(run["id"]), str(run["id"])),
+            "Fault": number(of_run[i]),
+            "H (m)": number(run["height"]),
+            "Onset (s)": number(run["onset_time"]),
+            "Length (m)": number(run["length"]),
+            "Range (m)": Cell(span, low.key),
+            "Theory (m)": number(run["theory_length"]),
+            "Over theory": number(run["length"] / run["theory_length"], 3),
+            "Elements": Cell(f"{run['n_x']} × {run['n_y']}", int(run["n_x"]) * int(run["n_y"])),
+            "Steps": number(run["steps"], 12),
+            "Time (s)": number(run["wall_seconds"], 3),
+            "Memory (MB)": number(run["peak_megabytes"], 3),
+        }
+        rows.append([cells[name] for name in columns])
     return rows
+
+
+FAULT_COLUMNS = (
+    "Fault", *(f"{q.symbol} ({q.unit})" if q.unit else q.symbol for q in QUANTITIES), "Runs",
+)  # fmt: skip
+
+
+def fault_rows(lengths: xr.Dataset) -> list[list[Cell]]:
+    """The faults of a table of lengths, one row of :data:`FAULT_COLUMNS` for each."""
+    return [
+        [
+            number(fault.number),
+            *(number(fault.values[q.variable] / q.factor) for q in QUANTITIES),
+            number(len(fault.runs)),
+        ]
+        for fault in faults(lengths)
+    ]
 
 
 SYMBOLS = {
@@ -153,25 +178,27 @@ def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
     names, laws = (lengths[n].values.astype(str) for n in ("study", "evolution"))
     seen = looks(laws)
     ages, usable = lengths["phi0"].values, np.flatnonzero(np.isfinite(lengths["length"].values))
-    kinds: dict[tuple[str, str, float, str], list[int]] = {}
+    kinds: dict[tuple[str, str, float, int], list[int]] = {}
     for i in usable.tolist():
-        kinds.setdefault((names[i], laws[i], ages[i], of_run[i].letter), []).append(i)
+        kinds.setdefault((names[i], laws[i], ages[i], of_run[i].number), []).append(i)
     result = []
-    for (study, law, age, letter), chosen in kinds.items():
-        runs, fault = lengths.isel(run=chosen), of_run[chosen[0]]
+    for (study, law, age, fault), chosen in kinds.items():
+        runs = lengths.isel(run=chosen)
         aged = not np.isclose(age, USUAL_AGE)
         kind = seen[law, aged]
-        look = (SYMBOLS[kind.marker], kind.colour, runs["role"].values[0] == "paper")
+        symbol, colour = SYMBOLS[kind.marker], kind.colour
+        filled = runs["role"].values[0] == "paper"
         if len(known) > 1:
-            look = (fault.symbol, fault.colour, law == usual_law(lengths))
+            symbol, colour = look(fault)
+            filled = law == usual_law(lengths)
         columns = ("height", "length", "length_low", "length_high", "onset_time", "theory_length")
         result.append(
             {
                 "label": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else "")
-                + (f", fault {letter}" if len(known) > 1 else ""),
-                "symbol": look[0],
-                "colour": look[1],
-                "filled": look[2],
+                + (f", fault {fault}" if len(known) > 1 else ""),
+                "symbol": symbol,
+                "colour": colour,
+                "filled": filled,
                 "id": runs["id"].values.astype(str).tolist(),
                 **{name: runs[name].values.tolist() for name in columns},
             }

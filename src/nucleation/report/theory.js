@@ -179,11 +179,5 @@ const Theory = (() => {
     return { length: (2 * Math.PI) / wavenumber, wavenumber, frequency: (w * p.V) / p.ell };
   }
 
-  // Eq. (11), H k -> 0.
-  function thinLength(height, p) {
-    const modulus = p.mu / (1 - p.nu);
-    return 2 * Math.PI * Math.sqrt((2 * height * modulus * p.ell) / (p.zeta * p.sigma0));
-  }
-
-  return { scaled, solver, thinLength, transfer };
+  return { scaled, solver };
 })();

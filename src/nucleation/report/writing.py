@@ -15,17 +15,16 @@ from ..figures import catalogue
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..patch.mode_history import from_dataset
 from . import page
-from .own import OwnStudies
-from .player import player_dataset
+from .answer import OwnStudies
+from .player import thinned_run
 
 
 def write(
     origin: Mapping[str, str], figures: Sequence[Path], names: Sequence[str],
     captions: Sequence[Path], caption_values: Mapping[str, dict[str, Any]],
     datasets: Sequence[xr.Dataset], dataset_names: Sequence[str],
-    player: Sequence[xr.Dataset], player_id: str, modes: Sequence[xr.Dataset],
+    player: Sequence[xr.Dataset], player_id: str,
     claims: Sequence[Path], page_files: Sequence[Path], studies: dict[str, str],
     warnings: dict[str, list[str]], leads: bool, material: Material, friction: Friction,
     interface: InterfaceState, settings: ExtractionSettings, config: dict[str, Any],
@@ -39,7 +38,6 @@ def write(
     captions, caption_values : templates in the same order, and what is filled in, by name.
     datasets, dataset_names : tables behind the figures.
     player, player_id : the run that is played, or none.
-    modes : histories of quiet runs, for the law of the drop.
     claims : the claims as JSON, or none.
     page_files : on which the page depends as well.
     studies, warnings, leads : studies of the user's own, and whether the page begins with them.
@@ -57,13 +55,12 @@ def write(
     played = None
     if player:
         entry = row(results["lengths"], player_id)
-        played = page.Player(player_dataset(player[0], entry, settings), entry)
+        played = page.Played(thinned_run(player[0], entry, settings), entry)
     content = page.Content(
         material, friction, interface, config, dict(origin), results, pictures,
         claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
         player=played,
         own=OwnStudies(studies, warnings) if leads else None,
-        modes=[from_dataset(mode) for mode in modes],
     )  # fmt: skip
     return {".html": page.build(content)}
 
