@@ -102,12 +102,6 @@ def test_sections_without_content_are_left_out(content):
     assert 'id="theory"' in bare
 
 
-def test_page_has_no_address_of_the_network_in_it(html):
-    """Leaving aside Plotly's own code, which the browser's test watches."""
-    own = re.sub(r"<script>.*?</script>", "", html, flags=re.S)
-    assert not re.findall(r'(?:src|href)="(?!data:|#)[^"]*"', own)
-
-
 def test_every_claim_and_run_is_in_the_tables(html, table):
     assert html.count('<tr role="row" data-kind=') == 4
     (row,) = tables.run_rows(table, tables.LENGTH_COLUMNS)
@@ -126,12 +120,6 @@ def test_claims_as_they_are_shown(content):
     assert wrong["spread"] == "(8 to 11)"
     counts = {c["verdict"]: c["count"] for c in tables.verdict_counts(content.claims)}
     assert counts == dict.fromkeys(set(tables.VERDICTS) - {"taken as given", "not supported"}, 1)
-
-
-def test_unknown_verdict_is_refused(content):
-    claim = {**content.claims[0], "verdict": "probably"}
-    with pytest.raises(ValueError, match="claim onset: verdict 'probably' is not known"):
-        tables.claim_rows([claim])
 
 
 def test_runs_without_an_event_have_dashes_and_no_point(table):
@@ -217,12 +205,8 @@ def test_every_figure_has_a_caption_that_is_valid():
         template = (ROOT / "workflow" / "report" / f"{name}.rst").read_text(encoding="utf-8")
         shown = caption_html(template, {"id": "the-run", "study": "the-run"}, {})
         assert ("the-run" in shown) == ("snakemake" in template)
-        assert "{" not in shown and ":math:" not in shown
-
-
-def test_caption_with_mathematics_needs_no_script():
-    shown = caption_html("Length :math:`L_c` of ``{{ snakemake.params.id }}``.", {"id": "r1"}, {})
-    assert "<math" in shown and "r1" in shown and "<script" not in shown
+        assert "{" not in shown and ":math:" not in shown and "<script" not in shown
+        assert ("<math" in shown) == (":math:" in template)
 
 
 @pytest.mark.parametrize(

@@ -45,17 +45,9 @@ def number(value: float, digits: int = 4) -> Cell:
 
 
 def claim_rows(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The claims, ready to be shown: numbers as text, the verdict's sign and rank.
-
-    Raises
-    ------
-    ValueError
-        If a verdict is none of :data:`VERDICTS`.
-    """
+    """The claims, ready to be shown: numbers as text, the verdict's sign and rank."""
     rows = []
     for claim in claims:
-        if claim["verdict"] not in VERDICTS:
-            raise ValueError(f"claim {claim['id']}: verdict {claim['verdict']!r} is not known")
         sign, kind = VERDICTS[claim["verdict"]]
         shown = {name: _shown(claim[name]) for name in ("paper", "ours", "unit")}
         shown["unit"] = "" if shown["unit"] == "1" else shown["unit"]
