@@ -8,7 +8,7 @@ import resource
 import shutil
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -23,39 +23,37 @@ from harness import (
     require_nothing_made,
     require_same,
     says,
-)
+)  # fmt: skip
 from processes import require
 
 from nucleation.pipeline.store import NOTE, read_note
 
 
-def _write(path: Path, content: bytes) -> None:
-    path.chmod(0o644)  # entries of stores are read-only
-    path.write_bytes(content)
-
-
-def truncate(path: Path, random: random.Random) -> None:
+def truncate(content: bytearray, random: random.Random) -> None:
     """Cut off a random part of the end."""
-    content = path.read_bytes()
-    _write(path, content[: random.randrange(len(content))])
+    del content[random.randrange(len(content)) :]
 
 
-def flip(path: Path, random: random.Random) -> None:
+def flip(content: bytearray, random: random.Random) -> None:
     """Change one bit."""
-    content = bytearray(path.read_bytes())
     content[random.randrange(len(content))] ^= 1 << random.randrange(8)
-    _write(path, content)
 
 
-def zero(path: Path, random: random.Random) -> None:
+def zero(content: bytearray, random: random.Random) -> None:
     """Blocks that a computer without power never wrote are zeros."""
-    content = bytearray(path.read_bytes())
     begin = random.randrange(len(content))
     content[begin : begin + 4096] = bytes(len(content[begin : begin + 4096]))
-    _write(path, content)
 
 
 DAMAGE = (truncate, flip, zero)
+
+
+def damage(path: Path, how: Callable, random: random.Random) -> None:
+    """Damage a file in one of these ways."""
+    content = bytearray(path.read_bytes())
+    how(content, random)
+    path.chmod(0o644)  # entries of stores are read-only
+    path.write_bytes(content)
 
 
 @fault
@@ -64,7 +62,7 @@ def damaged_entry(place, reference, random):
     entry = place.store.entry(random.choice(place.store.listed()))
     path = entry / random.choice([*read_note(entry)["files"], NOTE])
     before = path.stat()
-    random.choice(DAMAGE)(path, random)
+    damage(path, random.choice(DAMAGE), random)
     if random.choice((True, False)):  # as by a failing disk, that leaves its time as it was
         os.utime(path, ns=(before.st_atime_ns, before.st_mtime_ns))
     listed = any(f.path == entry and f.state in ("damaged", "foreign") for f in place.findings())
@@ -85,7 +83,7 @@ def lost_notes(place, reference, random):
     else:
         notes = sorted((place.directory / ".snakemake" / "metadata").rglob("*"))
         note = random.choice([path for path in notes if path.is_file()])
-        truncate(note, random)
+        damage(note, truncate, random)
     with place.unharmed():
         place.finish()
 

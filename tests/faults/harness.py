@@ -34,7 +34,7 @@ from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
 from nucleation.pipeline.keys import key_in
 from nucleation.pipeline.running import UNFINISHED, task_of_run
 from nucleation.pipeline.steps import Task
-from nucleation.pipeline.store import NOTE, Store, StoreError, path_in, read_note
+from nucleation.pipeline.store import Store, StoreError, path_in, read_note
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {
@@ -59,24 +59,12 @@ OF_THE_MOMENT = COSTS | {"created", "content", "command"}
 
 @dataclasses.dataclass(frozen=True)
 class Reference:
-    """An undisturbed workflow.
-
-    Attributes
-    ----------
-    directory : Path
-        The finished workflow.
-    contents : dict
-        Its datasets, by key.
-    shown : dict
-        Keys of what is shown, by path below the results.
-    cpu : float
-        Processor time that it took (s).
-    """
+    """An undisturbed workflow."""
 
     directory: Path
-    contents: dict[str, xr.Dataset]
-    shown: dict[Path, str | None]
-    cpu: float
+    contents: dict[str, xr.Dataset]  # its datasets, by key
+    shown: dict[Path, str | None]  # keys of what is shown, by path below the results
+    cpu: float  # processor time that it took (s)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -84,10 +72,6 @@ class Place:
     """A directory in which the workflow runs."""
 
     directory: Path
-
-    def copy(self, directory: Path) -> Place:
-        """The same in another directory."""
-        return Place(shutil.copytree(self.directory, directory, symlinks=True))
 
     @property
     def results(self) -> Path:
@@ -192,23 +176,21 @@ class Place:
 
     def require_same(self, reference: Reference) -> None:
         """Every dataset has the undisturbed one's values, bit for bit, and its name leads to it."""
-        self.require_contents(reference.contents)
-        shown = self.shown()
-        require(shown == reference.shown, f"shown are {shown}")
-
-    def require_contents(self, expected: dict[str, xr.Dataset]) -> None:
-        """The datasets are those, by key."""
         try:
             contents = self.contents()
         except (variables.DatasetError, StoreError) as error:
             raise Lost(str(error)) from error
-        require(contents.keys() == expected.keys(), f"datasets are {sorted(contents)}")
-        require_same(contents, expected)
+        require(contents.keys() == reference.contents.keys(), f"datasets are {sorted(contents)}")
+        require_same(contents, reference.contents)
+        shown = self.shown()
+        require(shown == reference.shown, f"shown are {shown}")
 
     @contextlib.contextmanager
     def unharmed(self) -> Iterator[None]:
         """Whatever happens within: each entry that exists before is the same after."""
-        before = {path: path.read_bytes() for path in entries(self.store)}
+        whole = (self.store.entry(key) for key in self.store.listed() if self.store.note(key))
+        paths = [path for entry in whole for path in entry.iterdir()]
+        before = {path: path.read_bytes() for path in paths}
         yield
         for path, content in before.items():
             require(path.exists(), f"{path} was lost")
@@ -236,12 +218,6 @@ def datasets(store: Store) -> dict[str, xr.Dataset]:
         read_note(store.entry(key), whole=True)
     paths = [path_in(store.entry(key), ".nc") for key in store.listed()]
     return {str(key_in(path)): netcdf.read(path) for path in paths if path.exists()}
-
-
-def entries(store: Store) -> list[Path]:
-    """All files of finished results; their notes and datasets say when each was made."""
-    found = [path for key in store.listed() for path in sorted(store.entry(key).iterdir())]
-    return [path for path in found if (path.parent / NOTE).exists()]
 
 
 def require_same(datasets: dict[str, xr.Dataset], expected: dict[str, xr.Dataset]) -> None:
@@ -316,7 +292,7 @@ def says(done: Done, *texts: str) -> None:
 
 def disturb(name: str, reference: Reference, directory: Path, seed: str) -> None:
     """Let one fault happen to a copy of the workflow, which must be as undisturbed in the end."""
-    place = Place(reference.directory).copy(directory)
+    place = Place(shutil.copytree(reference.directory, directory, symlinks=True))
     try:
         FAULTS[name](place, reference, random.Random(seed))
         place.require_same(reference)

@@ -1,14 +1,30 @@
-"""Kills. The moment is a random part of the processor time that an undisturbed workflow takes."""
+"""Kills, and an edit of code: at a random part of the processor time that a workflow takes."""
 
 import contextlib
 import functools
+import os
 import random
+import shutil
 import signal
 
 import psutil
-from damage import DAMAGE, truncate
-from harness import CONFIG, FAULTS, IDS, OTHER, Place, Reference, configure, fault
-from processes import Running, processor_time, require
+from damage import DAMAGE, damage, truncate
+from harness import (
+    CONFIG,
+    FAULTS,
+    IDS,
+    OTHER,
+    Place,
+    Reference,
+    configure,
+    datasets,
+    fault,
+    require_same,
+    says,
+)  # fmt: skip
+from processes import ROOT, Running, processor_time, require
+
+from nucleation.pipeline.store import Store
 
 TERM, KILL, INT = signal.SIGTERM, signal.SIGKILL, signal.SIGINT
 
@@ -72,7 +88,7 @@ for _name, _stop, _number in (
 @fault
 def damaged_checkpoint(place, reference, random):
     """It is refused, unless the damage is of bits without meaning."""
-    id, damage = random.choice(IDS), random.choice(DAMAGE)
+    id, how = random.choice(IDS), random.choice(DAMAGE)
     place.forget(id)
     with place.unharmed():
         running = place.start()
@@ -81,9 +97,9 @@ def damaged_checkpoint(place, reference, random):
         running.end()
         left = place.checkpoint(id).exists()
         if left:
-            damage(place.checkpoint(id), random)
+            damage(place.checkpoint(id), how, random)
         place.finish()
-    if left and damage is truncate:
+    if left and how is truncate:
         said = place.log(id)
         require("the run starts at the beginning" in said, f"it was not refused: {said}")
 
@@ -117,3 +133,30 @@ def scheduler_killed_and_parameters_changed(place, reference, random: random.Ran
         configure(place, CONFIG)
         place.finish()
         place.prune()
+
+
+@fault
+def code_edited_during_a_run(place, reference, random):
+    """At any moment: what is kept is of the code that made it, also in another store."""
+    place.forget(*IDS)
+    beside = place.directory.parent
+    checkout, other = (beside / f"{place.directory.name}.{name}" for name in ("checkout", "store"))
+    for part in ("src", "workflow", "config", "docs"):
+        shutil.copytree(ROOT / part, checkout / part)
+    shutil.copy(ROOT / "Snakefile", checkout)
+    other.mkdir()
+    file = checkout / "src/nucleation/simulation/control.py"
+    text = file.read_text()
+    running = place.start(checkout=checkout, NUCLEATION_STORES=str(other))
+    running.spend(random.uniform(0.0, 1.0) * reference.cpu)
+    file.write_text(text.replace("SAFETY = 0.85", "SAFETY = 0.5"))
+    done = running.end()
+    if done.status != 0:
+        says(done, "have changed since this job was planned")
+    file.write_text(text)
+    os.utime(file)
+    done = place.start(checkout=checkout, NUCLEATION_STORES=str(other)).end()
+    require(done.status == 0, done.output)
+    require_same(datasets(Store(other)), reference.contents)
+    for directory in (checkout, other):
+        shutil.rmtree(directory)

@@ -10,10 +10,9 @@ import random
 import damage
 import kills
 import pytest
-import reuse
 from harness import FAULTS, disturb, make_reference
 
-MODULES = (kills, damage, reuse)
+MODULES = (kills, damage)
 """Importing one enters its faults into the registry."""
 
 SEED = os.environ.get("FAULT_SEED", "1")

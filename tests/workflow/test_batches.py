@@ -17,7 +17,7 @@ SHORT = {
     "n_x": 40, "n_y": 3, "longest_step": 0.5, "tolerance": 5.0e-2, "end_time": 1.0,
     "record": "lengths",
 }  # fmt: skip
-HEIGHTS = (0.02, 0.03, 0.04, 0.05, 0.06)
+HEIGHTS = (0.02, 0.03, 0.04)
 
 
 def configuration(per_job, heights=HEIGHTS, study_name="many"):
@@ -65,8 +65,8 @@ def datasets(workflow):
 
 def test_a_job_configures_its_own_runs_alone():
     runs = configure(configuration(2)).runs
-    assert Counter(run.batch for run in runs) == {"many-0": 2, "many-1": 2, "many-2": 1}
-    assert [run.batch for run in configure(configuration(1)).runs] == [""] * 5
+    assert Counter(run.batch for run in runs) == {"many-0": 2, "many-1": 1}
+    assert [run.batch for run in configure(configuration(1)).runs] == [""] * 3
     own = configure(configuration(2), only={"many-1"}).runs
     assert own == tuple(run for run in runs if run.batch == "many-1")
     assert {run.batch for run in own} == {"many-1"}
@@ -94,7 +94,7 @@ def batched(workflow_type, tmp_path_factory):
     (directory / "single").mkdir()
     workflow = workflow_type(directory).configured(configuration(2))
     single = workflow_type(directory / "single").configured(configuration(1))
-    assert workflow.planned("lengths")["batch"] == 3
+    assert workflow.planned("lengths")["batch"] == 2
     for one in (workflow, single):
         done = one("lengths", "--cores", "2")
         assert done.returncode == 0, done.stdout
@@ -107,7 +107,7 @@ def test_results_are_those_of_single_jobs(batched):
     pd.testing.assert_frame_equal(
         lengths_of(workflow).drop(columns=cost), lengths_of(single).drop(columns=cost)
     )
-    assert len(datasets(workflow)) == 5
+    assert len(datasets(workflow)) == 3
     assert datasets(workflow).keys() == datasets(single).keys()
     assert_same_datasets(workflow, single)
     assert workflow.planned("lengths") == {}
@@ -128,21 +128,22 @@ def assert_same_datasets(one, other):
 def test_what_exists_is_not_made_again(batched):
     workflow, _ = batched
     before = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
-    more = workflow.configured(configuration(3, (0.02, 0.025, 0.03, 0.04, 0.05, 0.06)), "more.yaml")
+    heights = [0.02, 0.025, 0.03, 0.04]
+    more = workflow.configured(configuration(3, heights), "more.yaml")
     done = more("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
     after = {name: path.stat().st_mtime_ns for name, path in datasets(workflow).items()}
-    assert before.items() <= after.items() and len(after) == 6
-    assert list(lengths_of(more)["height"]) == [0.02, 0.025, 0.03, 0.04, 0.05, 0.06]
+    assert before.items() <= after.items() and len(after) == 4
+    assert list(lengths_of(more)["height"]) == heights
     checked = more("check", "--cores", "1", "--quiet", "all")
     assert checked.returncode == 0, checked.stdout
 
 
 def test_a_run_of_two_studies_is_made_once(workflow):
     """By the batch or by its own job, whichever comes first; the other takes it."""
-    values = configuration(3, HEIGHTS[:3])
+    values = configuration(3)
     values["studies"]["alone"] = values["studies"]["many"] | {"runs_per_job": 1}
-    values["studies"]["alone"]["runs"] = [{"height": [HEIGHTS[0], HEIGHTS[4]]}]
+    values["studies"]["alone"]["runs"] = [{"height": [HEIGHTS[0], 0.06]}]
     both = workflow.configured(values)
     assert both.planned("lengths").items() >= {"simulate": 2, "batch": 1}.items()
     done = both("lengths", "--cores", "1")
@@ -166,7 +167,7 @@ def test_runs_that_fail_do_not_take_the_others_with_them(workflow, study_name):
 
 def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
     """And is, once run again, as one that nothing happened to."""
-    slow = workflow.configured(configuration(5))
+    slow = workflow.configured(configuration(3))
     process = slow.start("lengths", "--cores", "1")
     while not datasets(slow):
         time.sleep(0.02)
@@ -175,11 +176,11 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
         os.kill(int(child), signal.SIGKILL)
     process.communicate(timeout=120)
     kept = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
-    assert process.returncode != 0 and 1 <= len(kept) < 5
+    assert process.returncode != 0 and 1 <= len(kept) < 3
     done = slow("lengths", "--cores", "1")
     assert done.returncode == 0, done.stdout
     after = {name: path.stat().st_mtime_ns for name, path in datasets(slow).items()}
-    assert kept.items() <= after.items() and len(after) == 5
+    assert kept.items() <= after.items() and len(after) == 3
     _, single = batched
     assert datasets(slow).keys() == datasets(single).keys()
     assert_same_datasets(slow, single)
@@ -189,14 +190,15 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     """Without a table of its own; of what is there already, nothing is made again."""
     quiet = workflow.configured(configuration(2, study_name=READ_ONE_BY_ONE))
     planned = quiet.planned("lengths")
-    assert {name: planned[name] for name in planned if "simulate" in name} == {
-        "simulate_quiet_0": 1, "simulate_quiet_1": 1, "simulate_quiet_2": 1,
-    }  # fmt: skip
+    assert [name for name in planned if "simulate" in name] == [
+        "simulate_quiet_0",
+        "simulate_quiet_1",
+    ]
     done = quiet("lengths", "--cores", "2")
     assert done.returncode == 0, done.stdout
     made, (_, single) = datasets(quiet), batched
     assert_same_datasets(quiet, single)
-    assert len(made) == begun(quiet) == 5 and quiet.planned("lengths") == {}
+    assert len(made) == begun(quiet) == 3 and quiet.planned("lengths") == {}
 
     lost, *others = sorted(made.values())
     kept = {path: path.read_bytes() for path in others}

@@ -133,40 +133,27 @@ def pruned(workflow, monkeypatch, remove):
     return re.findall(r"^(results\S*)  (\S+)  .* MB$", done.stdout, re.M)
 
 
-def test_unused_results_are_listed_and_removed_if_that_is_asked_for(workflow, monkeypatch):
+def test_unused_results_alone_are_listed_and_removed_if_that_is_asked_for(workflow, monkeypatch):
+    """Not those of other configurations: below these, in them, or beside them in the same store."""
     first = of_table_s1(workflow, 0.08, "results")
     entry = (first.directory / "results/tables/table_s1.md").resolve().parent
     second = of_table_s1(workflow, 0.09, "results")  # shows others under the same names
-    before = files(workflow.directory / "results/store")
-    for _ in range(2):
-        (line,) = pruned(second, monkeypatch, remove=False)
-        assert line[0].endswith(entry.name) and line[1].startswith("table_s1.")
-        assert files(workflow.directory / "results/store") == before
+    of_table_s1(workflow, 0.1, "results/deep/er")
+    of_table_s1(workflow, 0.085, "results", target="figure_1")
+    (workflow.directory / "beside").mkdir()
+    (workflow.directory / "beside/store").symlink_to(workflow.directory / "results/store")
+    of_table_s1(workflow, 0.095, "beside")
+    before = files(workflow.directory / "results")
+    assert "deep" not in second("check").stdout
+    (line,) = pruned(second, monkeypatch, remove=False)
+    assert line[0].endswith(entry.name) and line[1].startswith("table_s1.")
+    assert files(workflow.directory / "results") == before
     assert pruned(second, monkeypatch, remove=True) == [line]
     assert not entry.exists()
-    left = files(workflow.directory / "results/store")
+    left = files(workflow.directory / "results")
     assert left == {path: content for path, content in before.items() if entry not in path.parents}
-    assert pruned(second, monkeypatch, remove=True) == []
     again = first("table_s1")
     assert again.returncode == 0 and entry.exists(), again.stdout
-
-
-def test_results_of_other_configurations_are_not_pruned(workflow, monkeypatch):
-    """Neither below these results, nor in them, nor beside them in the same store."""
-    outer = of_table_s1(workflow, 0.08, "results")
-    of_table_s1(workflow, 0.09, "results/deep/er")
-    of_table_s1(workflow, 0.085, "results", target="figure_1")
-    beside = workflow.directory / "beside"
-    beside.mkdir()
-    (beside / "store").symlink_to(workflow.directory / "results/store")
-    of_table_s1(workflow, 0.095, "beside")
-    before = files(workflow.directory)
-    assert "deep" not in outer("check").stdout
-    assert pruned(outer, monkeypatch, remove=True) == []
-    after = files(workflow.directory)
-    assert {path: after.get(path) for path in before if ".snakemake" not in path.parts} == {
-        path: content for path, content in before.items() if ".snakemake" not in path.parts
-    }
 
 
 @pytest.mark.parametrize("content", ["[]", "{", '{"keys": 1, "files": []}', "\udcff"])

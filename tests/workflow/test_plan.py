@@ -2,11 +2,13 @@
 
 import dataclasses
 import re
+import shutil
 from pathlib import Path
 
 import pytest
 
 from nucleation.configuration.load import load, read_yaml
+from nucleation.verification.crosscheck import freefem
 
 ROOT = Path(__file__).parents[2]
 
@@ -44,9 +46,12 @@ def test_default_target_is_the_whole_paper(paper):
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
         ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "patch": 1,
                     "evaluate_claims": 1}),
+        ("figure_study_twin_runs", {"simulate": 1, "extract": 1, "draw_study": 1}),
+        ("crosscheck", {"crosscheck_own": 5, "crosscheck_freefem": 5, "compare_crosscheck": 1,
+                        "draw_figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],
 )  # fmt: skip
-def test_targets(workflow, target, expected):
+def test_targets(workflow, target, expected, freefem_program):
     assert workflow.planned(*target.split()) == expected
 
 
@@ -74,12 +79,9 @@ def test_bad_configuration_stops_before_any_job(workflow, config, fragments):
 
 
 def test_results_in_the_place_of_a_file_stop_before_any_job(workflow):
-    place = "taken/below"
     (workflow.directory / "taken").write_text("kept")
-    done = workflow.configured({**QUICK, "results": place})("table_s1")
-    assert done.returncode != 0
-    assert f"results = '{place}' is not allowed" in done.stdout
-    assert "taken is no directory" in done.stdout
+    done = workflow.configured({**QUICK, "results": "taken/below"})("table_s1")
+    assert done.returncode != 0 and "taken is no directory" in done.stdout
     assert (workflow.directory / "taken").read_text() == "kept"
 
 
@@ -145,6 +147,39 @@ def test_examples_plan(workflow, name, runs):
     assert example.planned("figure_studies") == expected | {"simulate": runs}
 
 
-def test_figure_of_one_study_is_a_target(workflow):
-    expected = {"simulate": 1, "extract": 1, "draw_study": 1}
-    assert workflow.planned("figure_study_twin_runs") == expected
+def test_configuration_of_ones_own_needs_no_target(workflow):
+    """By default it makes its lengths and figures; the paper's are not among them."""
+    defaults = {"n_x": 20, "n_y": 4, "end_time": 0.2}
+    studies = {
+        "mine": {"defaults": defaults, "runs": [{"height": [0.01, 0.02]}]},
+        "alone": {"defaults": defaults, "table": "own", "runs": [{"height": 0.01}]},
+    }
+    planned = workflow.configured({"studies": studies}).planned()
+    once = {"extract": 2, "gather_lengths": 1, "draw_study": 2}
+    assert planned == {"simulate": 2, **once}, "a run that two studies have in common is made once"
+
+
+def test_every_target_has_a_text_and_every_figure_is_a_target(workflow):
+    listed = set(re.findall(r"^(\w+)  +\S", workflow("targets", "--quiet", "all").stdout, re.M))
+    modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
+    assert len(modules) > 9
+    figures = {name for name in listed if re.match("figure_(?!study_)", name)}
+    assert modules == figures and {"paper", "lengths", "report"} <= listed
+    assert not {"simulate", "extract", "draw_figure_3"} & listed
+
+
+def test_article_on_paper_has_the_figures_beyond(workflow):
+    planned = workflow.planned("replication")
+    made = {"write_article", "draw_figure_3", "draw_figure_drop", "draw_figure_map"}
+    assert planned["print_article"] == 1 and made <= planned.keys()
+
+
+def test_without_freefem_one_sentence_says_how_to_get_it(workflow, monkeypatch, tmp_path_factory):
+    programs = tmp_path_factory.mktemp("programs")
+    for name in ("bash", "sh", "which"):  # what Snakemake itself wants to find
+        (programs / name).symlink_to(shutil.which(name))
+    monkeypatch.setenv("PATH", str(programs))
+    done = workflow("crosscheck")
+    assert done.returncode != 0 and freefem.MISSING in done.stdout
+    assert "workflow/install-debian.sh crosscheck" in freefem.MISSING
+    assert not (workflow.directory / "results").exists()

@@ -1,7 +1,6 @@
 """The whole workflow on coarse grids: what it leaves behind, and what it does not do again."""
 
 import json
-import re
 from pathlib import Path
 
 import jsonschema
@@ -144,10 +143,3 @@ def test_claims_of_coarse_grids_are_judged_honestly(quick, results):
     written = pd.read_csv(results / "tables" / "claims.csv")
     assert list(written["verdict"]) == [row["verdict"] for row in rows]
     assert f"{len(rows)} of its statements" in (results / "article.md").read_text()
-
-
-def test_every_figure_is_a_target(workflow, freefem_program):
-    modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
-    assert len(modules) > 9
-    targets = set(re.findall(r"^(figure_\w+)", workflow("--list-target-rules").stdout, re.M))
-    assert modules == {name for name in targets if not name.startswith("figure_study_")}

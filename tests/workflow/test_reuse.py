@@ -1,7 +1,6 @@
 """Results are used exactly when parameters, code and content vouch for them, however they came."""
 
 import dataclasses
-import os
 import shutil
 
 import pytest
@@ -65,12 +64,6 @@ def test_new_law_makes_nothing_stale(plain):
     file = laws / "slip.py"
     file.write_text(file.read_text() + "\nSPARE = 1\n")
     assert plain.planned("simulations")["simulate"] == 1, "the one run of the slip law"
-
-
-def test_times_of_files_do_not_matter(plain):
-    for number, path in enumerate(sorted((plain.directory / "results").rglob("*"))):
-        os.utime(path, (1e9 + number % 7, 1e9 + number % 7))
-    assert plain.planned() == {}
 
 
 def test_code_edited_after_planning_is_refused(plain, tmp_path):
