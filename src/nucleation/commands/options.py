@@ -92,8 +92,9 @@ def parameter_options(chosen: Collection[str], changed: Mapping[str, Any] = {}) 
     usual: dict[str, Any] = {}
     for law in (*LAWS, Friction().law):
         usual |= flat(Parameters(friction=Friction(law=law)))
+    known = names()
     notes = {
-        k: f"default {with_unit(v, names().by_short[k])}" for k, v in (usual | changed).items()
+        k: f"default {with_unit(v, known[known.full(k)])}" for k, v in (usual | changed).items()
     }
     notes["length"] = "6 critical lengths if left out"
     entries = {name: entry for name, entry in study_parameters().items() if name in chosen}
