@@ -39,5 +39,5 @@ def formula(law: Friction) -> Callable[..., Any]:
 
 
 def implicit_log_state(law: Friction) -> Callable[..., Any]:
-    """:meth:`StateEvolution.implicit_log_state` of a law's evolution, compiled."""
+    """``implicit_log_state`` of a law's evolution, compiled."""
     return _compiled(law.evolution_law.implicit_log_state)
