@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from .critical import NoInstability
+from .crossings import marginal_stiffness
 from .stiffness import Array
 
 
@@ -39,13 +40,9 @@ def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
     positive numbers. Equally ``1 - |f beta|/w`` with ``w = |omega| ell / V`` the positive root of
     ``a w^2 - |f beta| (a + zeta) w - zeta = 0``.
     """
-    rho, z = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in (f_beta, zeta_over_a)))
-    rho, b = np.abs(rho), 1.0 + z
-    square = (rho * b) ** 2 + 4.0 * z
-    unstable = (square >= 0.0) & (b > 0.0) & ((z != 0.0) | (rho != 0.0))
-    root = np.sqrt(np.where(unstable, square, np.nan))
-    twice_h_plus = (2.0 * z + rho**2 * b + rho * root) / (1.0 + rho**2)
-    return 2.0 * z / twice_h_plus
+    z = np.asarray(zeta_over_a, dtype=float)
+    with np.errstate(invalid="ignore"):  # 0/0 without coupling and weakening
+        return z / marginal_stiffness(f_beta, 1.0, z)[1]
 
 
 def thin_limit_length(height: ArrayLike, material: Material, interface: InterfaceState) -> Array:
