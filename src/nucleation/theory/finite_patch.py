@@ -56,11 +56,8 @@ def softest(answer: NDArray) -> complex:
     return complex(values[np.argmax(values.real)])
 
 
-def marginal_loaded_patch(a_over_b: float) -> tuple[float, float]:
-    """The patch under a steadily rising load where it loses stability, for a/b in (0, 1).
-
-    Its ``L zeta sigma0/(mu* D)``, and the angular frequency of its mode over ``V(0)/D``.
-    """
+def marginal_loaded_patch(a_over_b: float) -> float:
+    """``L zeta sigma0/(mu* D)`` at which a loaded patch loses stability, for a/b in (0, 1)."""
     _, sine, _ = _basis()
 
     def compliance(frequency: float) -> complex:
@@ -71,7 +68,7 @@ def marginal_loaded_patch(a_over_b: float) -> tuple[float, float]:
     while high - low > 1e-9 * high:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if compliance(middle).imag > 0.0 else (low, middle)
-    return (1.0 - a_over_b) / compliance(high).real, high
+    return (1.0 - a_over_b) / compliance(high).real
 
 
 @lru_cache(maxsize=1)
@@ -79,7 +76,7 @@ def polynomial() -> Array:
     """Chebyshev coefficients of the factor's logarithm, over nearness to neutral from -1 to 1."""
     points = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
     ratios = 1.0 - np.exp(0.5 * (1.0 + points) * np.log(1.0 - NEAREST))
-    factors = [marginal_loaded_patch(ratio)[0] for ratio in ratios]
+    factors = [marginal_loaded_patch(ratio) for ratio in ratios]
     return chebyshev.chebfit(points, np.log(factors), DEGREE)
 
 
