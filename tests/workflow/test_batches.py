@@ -63,14 +63,10 @@ def datasets(workflow):
     return {name: path for name, path in names.items() if "-aging-" in name}
 
 
-def test_a_job_configures_its_own_runs_alone():
-    runs = configure(configuration(2)).runs
-    assert Counter(run.batch for run in runs) == {"many-0": 2, "many-1": 1}
+def test_runs_are_put_into_batches():
+    batches = Counter(run.batch for run in configure(configuration(2)).runs)
+    assert batches == {"many-0": 2, "many-1": 1}
     assert [run.batch for run in configure(configuration(1)).runs] == [""] * 3
-    own = configure(configuration(2), only={"many-1"}).runs
-    assert own == tuple(run for run in runs if run.batch == "many-1")
-    assert {run.batch for run in own} == {"many-1"}
-    assert configure(configuration(1), only={runs[2].id}).runs == (runs[2],)
 
 
 def test_batches_are_mixed_whatever_the_grid():
