@@ -184,12 +184,9 @@ def test_table_of_modes_is_that_of_the_reference_and_the_theorys(height, ratio):
 @pytest.mark.slow
 def test_growth_rates_converge_with_the_mesh(monkeypatch):
     """Second order in h; the step is small enough not to be seen."""
-    monkeypatch.setattr(dispersion, "ROWS", (1, 100))
-    monkeypatch.setattr(dispersion, "GRADING", 1.0)
-    monkeypatch.setattr(dispersion, "STEP", 0.002)
-    monkeypatch.setattr(dispersion, "DURATION", 1.0)
-    monkeypatch.setattr(dispersion, "SKIPPED", 120)
-    monkeypatch.setattr(dispersion, "INTERVAL", 30)
+    fine = {"ROWS": (1, 100), "GRADING": 1.0, "STEP": 0.002, "DURATION": 1.0, "SKIPPED": 120}
+    for name, value in (fine | {"INTERVAL": 30}).items():
+        monkeypatch.setattr(dispersion, name, value)
     height, errors, sizes = 0.5, [], (17, 33, 65)
     k, expected = theory(PARAMETERS.replaced({"height": height}), 0.9)
     for nodes in sizes:
@@ -199,13 +196,6 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
     order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
     np.testing.assert_allclose(order, 2.0, atol=0.2)
     assert errors[-1] < 1e-3
-
-
-def test_fit_recovers_two_exponentials():
-    t = 0.1 * np.arange(40)
-    rates = np.array([0.3 + 1.2j, -0.5 - 0.7j])
-    samples = (1.0 - 2.0j) * np.exp(rates[0] * t) + 0.3j * np.exp(rates[1] * t)
-    np.testing.assert_allclose(dispersion.fitted_rates(0.1, samples), rates, rtol=1e-9)
 
 
 # -- two layers ----------------------------------------------------------------------------------

@@ -1,4 +1,1 @@
-"""Why to believe the solver: manufactured solutions, dispersion, an independent solver.
-
-It uses every wing but those of figures, claims, the report and the workflow.
-"""
+"""Why to believe the solver: manufactured solutions, dispersion, an independent solver."""

@@ -64,7 +64,7 @@ MODES_OF_SLIDING = {
 }
 
 
-def sliding_period(parameters: Parameters, interface: Interface | None = None) -> Dynamics:
+def sliding_period(parameters: Parameters) -> Dynamics:
     """A period of a long block or pair that slides homogeneously at V: by traction, or by its top.
 
     ``geometry.length`` is the period, ``mesh.n_x`` must be odd. The reports' driving force has no
@@ -74,9 +74,8 @@ def sliding_period(parameters: Parameters, interface: Interface | None = None) -
     law, loading = parameters.friction, parameters.loading
     shear = loading.normal_stress * float(law.steady_coefficient(loading.velocity))
     load = body.top_load(loading.normal_stress, shear)
-    return Dynamics(
-        body, interface or Interface(law), Steady(loading.velocity, load), BDF(body.crossing_time)
-    )
+    interface, drive = Interface(law, NEWTON_TOLERANCE), Steady(loading.velocity, load)
+    return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
 def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
@@ -122,15 +121,15 @@ def one_wavelength(
     return found.replaced({"second_n_y": below.n_y, "second_grading": below.grading})
 
 
-def follow_mode(parameters: Parameters, seed: float = SEED) -> tuple[float, ComplexArray]:
+def follow_mode(parameters: Parameters) -> tuple[float, ComplexArray]:
     """Integrate homogeneous sliding of one period with its first mode seeded in log(phi).
 
     Returns the time between samples (s) and the samples of the complex amplitude of
     ``exp(-i k x)`` in log(v).
     """
-    dynamics = sliding_period(parameters, Interface(parameters.friction, NEWTON_TOLERANCE))
+    dynamics = sliding_period(parameters)
     n = parameters.mesh.n_x
-    state = sliding_state(dynamics, seed * np.cos(2.0 * np.pi / n * np.arange(n)))
+    state = sliding_state(dynamics, SEED * np.cos(2.0 * np.pi / n * np.arange(n)))
     rung = dynamics.scheme.steady_rung(STEP * parameters.memory_time)
     amplitudes = []
     while state.time < DURATION * parameters.memory_time:
@@ -201,23 +200,20 @@ def dispersion_dataset(
     pairs = list(zip(bodies, mode_k, curve_k, strict=True))
     theory = by_direction([growth_rates(k, b, RIGID, interface).T for b, k, _ in pairs])
     curves = by_direction([growth_rates(k, b, RIGID, interface).T for b, _, k in pairs])
-    at_modes, along = ("height", "mode", "branch"), ("height", "curve", "branch")
-    found = xr.Dataset(
-        {
-            "mode_wavenumber": (("height", "mode"), mode_k),
-            "measured_growth": (at_modes, measured.real),
-            "measured_frequency": (at_modes, measured.imag),
-            "theory_growth": (at_modes, theory.real),
-            "theory_frequency": (at_modes, theory.imag),
-            "curve_wavenumber": (("height", "curve"), curve_k),
-            "curve_growth": (along, curves.real),
-            "curve_frequency": (along, curves.imag),
-            "critical_wavenumber": ("height", critical),
-            "memory_time": parameters.memory_time,
-        },
-        {"height": heights},
-    )
-    return annotate(found, MODES_OF_SLIDING)
+    rates = {"measured": measured, "theory": theory, "curve": curves}
+    columns: dict[str, Any] = {
+        "mode_wavenumber": (("height", "mode"), mode_k),
+        "curve_wavenumber": (("height", "curve"), curve_k),
+        "critical_wavenumber": ("height", critical),
+        "memory_time": parameters.memory_time,
+    }
+    for name, values in rates.items():
+        along = "height", "curve" if name == "curve" else "mode", "branch"
+        columns |= {
+            f"{name}_growth": (along, values.real),
+            f"{name}_frequency": (along, values.imag),
+        }
+    return annotate(xr.Dataset(columns, {"height": heights}), MODES_OF_SLIDING)
 
 
 def disagreement(dataset: xr.Dataset) -> xr.DataArray:

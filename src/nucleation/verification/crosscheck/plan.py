@@ -5,12 +5,11 @@ import dataclasses
 from ...datasets.variables import Variable
 from ...model.checked import Checked
 from ...model.linearised import InterfaceState
-from ...model.material import Material
 from ...model.parameters import Parameters
 from ...model.perturbation import IN_TIME
 from ...model.quantities import quantity
 from ...model.second_body import BOTTOMS, SecondBody
-from ...theory.critical import run_length, theory_length
+from ...theory.critical import run_length
 
 FIXED = {
     "friction.law": "product", "friction.evolution": "aging", "mesh.grading": 1.0,
@@ -123,10 +122,9 @@ def runs(
     common = base.replaced(FIXED | declared | edge)
     found = {}
     for height in settings.heights:
-        length = _block_length(height, base.material, interface, settings)
         mesh = {"mesh.n_x": settings.n_x, "mesh.n_y": settings.n_y}
-        geometry = {"geometry.height": height, "geometry.length": length}
-        found[f"H{height:g}"] = common.replaced(geometry | mesh)
+        block = common.replaced({"geometry.height": height} | mesh)
+        found[f"H{height:g}"] = _long(block, settings, interface)
     timing = {
         "mesh.n_x": settings.timing_n_x, "mesh.n_y": settings.timing_n_y,
         "stepping.end_time": settings.timing_end,
@@ -147,8 +145,7 @@ def _pair(
     both = dataclasses.replace(common, second_body=below).replaced(
         mesh | {"geometry.height": settings.pair_height}
     )
-    length = settings.length_over_critical * run_length(both, interface)
-    return both.replaced({"geometry.length": float(f"{length:.4g}")})
+    return _long(both, settings, interface)
 
 
 def _top(common: Parameters, settings: CrosscheckSettings) -> Parameters:
@@ -162,8 +159,7 @@ def _top(common: Parameters, settings: CrosscheckSettings) -> Parameters:
     return dataclasses.replace(common, second_body=below).replaced(changes)
 
 
-def _block_length(
-    height: float, material: Material, interface: InterfaceState, settings: CrosscheckSettings
-) -> float:
-    critical = theory_length(height, material, interface)
-    return float(f"{settings.length_over_critical * critical:.4g}")
+def _long(run: Parameters, settings: CrosscheckSettings, interface: InterfaceState) -> Parameters:
+    """A run whose blocks are as long as the settings say."""
+    length = settings.length_over_critical * run_length(run, interface)
+    return run.replaced({"geometry.length": float(f"{length:.4g}")})
