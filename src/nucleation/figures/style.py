@@ -45,7 +45,7 @@ LOWER_BODY = ORANGE
 RIGID_BODY = "#8C8C8C"
 
 MARKERS = "osD^vP*X"
-COLOURS = (VERMILLION, BLUE, BLACK, GREEN, PURPLE, ORANGE, SKY_BLUE)
+COLOURS = (VERMILLION, BLUE, BLACK, GREEN, PURPLE, ORANGE, SKY_BLUE, OLD_AGE, FULL_LAW)
 
 SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
 SMALL = 7.5  # points: legends with many entries, panels inside panels
@@ -56,22 +56,14 @@ STYLE: dict[Any, Any] = {
     "font.size": 9.0,
     "axes.labelsize": 9.0,
     "axes.titlesize": 9.0,
-    "xtick.labelsize": 8.5,
-    "ytick.labelsize": 8.5,
     "legend.fontsize": 8.5,
     "axes.linewidth": 0.7,
     "axes.unicode_minus": True,
     "axes.formatter.use_mathtext": True,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
     "xtick.major.pad": 4.5,
     "ytick.major.pad": 4.0,
     "xtick.top": True,
     "ytick.right": True,
-    "xtick.major.width": 0.7,
-    "ytick.major.width": 0.7,
-    "xtick.minor.width": 0.5,
-    "ytick.minor.width": 0.5,
     "lines.linewidth": 1.4,
     "lines.markersize": 5.0,
     "errorbar.capsize": 2.0,
@@ -86,7 +78,9 @@ STYLE: dict[Any, Any] = {
     "pdf.fonttype": 42,  # TrueType, embedded: text stays text
     "pdf.compression": 6,
 }
-
+for _ticks in ("xtick", "ytick"):
+    STYLE |= {f"{_ticks}.labelsize": 8.5, f"{_ticks}.direction": "in"}
+    STYLE |= {f"{_ticks}.major.width": 0.7, f"{_ticks}.minor.width": 0.5}
 
 BOXED: dict[str, Any] = {
     "fontsize": SMALL,
@@ -135,7 +129,7 @@ def panels(rows: int, columns: int, height: float, **how: Any) -> tuple[Figure, 
 
 
 def look(number: int) -> tuple[str, str]:
-    """Marker and colour of one of several kinds; none of 56 has another's."""
+    """Marker and colour of one of several kinds; none of 72 has another's."""
     return MARKERS[number % len(MARKERS)], COLOURS[number % len(COLOURS)]
 
 

@@ -1,4 +1,1 @@
-"""Figures that the paper does not have.
-
-One module each, with a function ``draw``.
-"""
+"""Figures that the paper does not have, one module each, with a function ``draw``."""

@@ -74,7 +74,10 @@ def draw(
     if JUDGED not in table["role"].values:  # growth begins: of the paper's runs
         stability = STABILITY._replace(role="paper")
     for axes, relative in zip(panels, (False, True), strict=True):
-        _draw_theory(axes, theory, relative)
+        length = theory["critical_length"].values
+        for part, dashes in ((1.0, "-"), (0.5, "--")):
+            values = np.full(length.shape, part) if relative else part * length
+            axes.plot(theory["height"], values, dashes, color=style.THEORY, linewidth=1.2)
         if isinstance(noisy, xr.Dataset):
             _draw_band(axes, _means(noisy), lengths, relative)
         for series in (PAPERS, STEADY, stability):
@@ -100,14 +103,6 @@ def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.D
     for name in ("study", "role"):
         own[name] = "run", np.resize(judged[name].values, own.sizes["run"])
     return points.where(noisy, ~more), join([lengths, own])
-
-
-def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
-    """The theory's length, solid, and its half, dashed."""
-    height, length = theory["height"].values, theory["critical_length"].values
-    for part, dashes in ((1.0, "-"), (0.5, "--")):
-        values = np.full(height.shape, part) if relative else part * length
-        axes.plot(height, values, dashes, color=style.THEORY, linewidth=1.2)
 
 
 def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: bool) -> None:

@@ -1,4 +1,1 @@
-"""The paper's figures and table.
-
-One module each, with a function ``draw``.
-"""
+"""The paper's figures and table, one module each, with a function ``draw``."""

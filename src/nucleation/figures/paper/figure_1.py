@@ -19,13 +19,11 @@ Pair = tuple[float, float]
 def draw() -> Figure:
     """Draw the sketch of both systems; it depends on no data."""
     figure, (left, right) = style.panels(1, 2, 5.9)
-    for axes in (left, right):
-        axes.set_axis_off()
     _long_bodies(left)
     _block_on_rigid_base(right)
     for axes in (left, right):
-        axes.set_xlim(-5.6, 5.6)
-        axes.set_ylim(-3.45, 3.85)
+        axes.set_axis_off()
+        axes.set(xlim=(-5.6, 5.6), ylim=(-3.45, 3.85))
     return figure
 
 

@@ -49,7 +49,12 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     for (image, force), window in zip(panels.T, windows, strict=True):
         first, last, origin, scale = window
         part = ratio.isel(time=thin(time, first, last, PIXELS)).transpose("x", "time")
-        edges = (cell_edges(part["time"].values) - origin) * scale, cell_edges(part["x"].values)
+        # cells end half way between their centres, and at the outer centres
+        at, x = (
+            np.r_[own[0], (own[1:] + own[:-1]) / 2.0, own[-1]]
+            for own in (part["time"].values, part["x"].values)
+        )
+        edges = (at - origin) * scale, x
         mesh = image.pcolormesh(*edges, part.values, norm=norm, rasterized=True)
         draw_force(force, simulation, window, 0.0 if origin == 0.0 else np.inf)
         _mark(image, force, row, window)
@@ -80,11 +85,6 @@ def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, fl
     start, end = float(time[fast[0]]), float(time[fast[-1]])
     margin = max(0.5 * (end - start), 1e-6)
     return start - margin, float(time[fast[np.argmax(rate[fast])]]), end + margin
-
-
-def cell_edges(centres: NDArray) -> NDArray:
-    """Edges of the cells about increasing centres: half way between, and the outer centres."""
-    return np.r_[centres[0], (centres[1:] + centres[:-1]) / 2.0, centres[-1]]
 
 
 def thin(time: NDArray, start: float, end: float, columns: int) -> NDArray:
