@@ -26,26 +26,19 @@ def theory() -> xr.Dataset:
     root = (fb * (1 + ratio) + np.sqrt((fb * (1 + ratio)) ** 2 + 4 * ratio)) / 2
     rate = np.geomspace(1e-9, 1.0, 200)
     friction = Friction()
-    state = friction.steady_state(rate)
+    logarithmic = friction.logarithmic(rate, friction.steady_state(rate), VELOCITY)
     return xr.Dataset(
         {
             "bimaterial_length_ratio": (1 - fb / root).transpose("zeta_over_a", "f_beta"),
             "critical_length": ("height", critical_length(height)),
             "thin_limit_length": ("height", np.sqrt(11.5 * height)),
             "steady_friction": ("slip_rate", friction.steady_coefficient(rate)),
-            "steady_friction_logarithmic": (
-                "slip_rate",
-                friction.logarithmic(rate, state, VELOCITY),
-            ),
+            "steady_friction_logarithmic": ("slip_rate", logarithmic),
             "velocity": VELOCITY,
         },
-        coords={
-            "zeta_over_a": ratio.values,
-            "f_beta": f_beta,
-            "height": height,
-            "slip_rate": rate,
-        },
-    )
+        coords={"zeta_over_a": ratio.values, "f_beta": f_beta, "height": height,
+                "slip_rate": rate},
+    )  # fmt: skip
 
 
 @pytest.fixture(scope="session")
@@ -114,24 +107,22 @@ def make_simulation(height: float, length: float) -> xr.Dataset:
 
 
 @pytest.fixture(scope="session")
-def thin_row(lengths: xr.Dataset) -> xr.Dataset:
-    """The entry of the run with H = 0.005 m."""
+def thin_row(lengths):
     return lengths.isel(run=0)
 
 
 @pytest.fixture(scope="session")
-def thick_row(lengths: xr.Dataset) -> xr.Dataset:
-    """The entry of the run with H = 0.1 m."""
+def thick_row(lengths):
     return lengths.isel(run=7)
 
 
 @pytest.fixture(scope="session")
-def thin(thin_row: xr.Dataset) -> xr.Dataset:
+def thin(thin_row):
     """A record for Fig. S2."""
     return make_simulation(0.005, float(thin_row["length"]))
 
 
 @pytest.fixture(scope="session")
-def thick(thick_row: xr.Dataset) -> xr.Dataset:
+def thick(thick_row):
     """A record for the inset of Fig. 3."""
     return make_simulation(0.1, float(thick_row["length"]))

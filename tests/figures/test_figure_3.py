@@ -19,14 +19,6 @@ def points(axes):
     return {c.get_label(): c for c in axes.containers}
 
 
-def test_theory_and_its_thin_limit(axes, theory):
-    by_label = {line.get_label(): line for line in axes.get_lines()}
-    for label, name in (("theory", "critical_length"), (r"theory, $Hk\to 0$", "thin_limit_length")):
-        drawn = by_label[label].get_xydata().T
-        np.testing.assert_array_equal(drawn, [theory["height"], theory[name]])
-    assert axes.get_xlabel().endswith("(m)") and axes.get_ylabel().endswith("(m)")
-
-
 @pytest.mark.parametrize(
     ("label", "marker", "colour", "filled", "runs"),
     [

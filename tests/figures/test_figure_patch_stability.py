@@ -93,11 +93,6 @@ def test_twins_of_the_aging_law(drawn):
     assert points == [(pytest.approx(0.5), -1.0), (pytest.approx(0.6), 1.0)]
 
 
-def test_no_twins_no_legend_of_them(table, patches, twins):
-    drawn = figure_patch_stability.draw(table, patches, twins.isel(twin=slice(0, 0)))
-    assert "twin runs" not in drawn.axes[1].get_legend_handles_labels()[1]
-
-
 def test_shape_of_the_mode_is_its_modulus_over_the_patch(drawn):
     modes = [line for line in drawn.axes[2].lines if len(line.get_xdata()) == X.size]
     assert len(modes) == 3

@@ -2,18 +2,9 @@
 
 import numpy as np
 import pytest
-from matplotlib.text import Text
 
-from nucleation.figures import style
-from nucleation.figures.paper import figure_1, figure_2, figure_s1, table_s1
+from nucleation.figures.paper import figure_2, table_s1
 from nucleation.model.friction.law import Friction
-
-
-def test_figure_1_names_every_quantity_of_the_caption():
-    texts = " ".join(t.get_text() for t in figure_1.draw().findobj(Text))
-    for name in ("H^{(1)}", "H^{(2)}", r"\mu^{(1)}", r"\nu^{(2)}", r"\sigma_0", "$V$", "$x$", "$y$",
-                 "$H$", "$L$", "rigid", "free", "(a)", "(b)"):  # fmt: skip
-        assert name in texts
 
 
 def test_figure_2_has_a_curve_for_each_ratio(theory):
@@ -28,18 +19,6 @@ def test_figure_2_has_a_curve_for_each_ratio(theory):
     heights = [line.get_ydata()[-1] for line in lines]
     assert heights == sorted(heights, reverse=True), "the legend has the order of the curves"
     assert len({line.get_linestyle() + str(line.get_color()) for line in lines}) == len(lines)
-
-
-def test_figure_s1_shows_both_laws_and_the_velocity(theory):
-    (axes,) = figure_s1.draw(theory).axes
-    full, logarithmic, velocity = axes.get_lines()
-    assert axes.get_xscale() == "log" and "(m/s)" in axes.get_xlabel()
-    np.testing.assert_array_equal(full.get_ydata(), theory["steady_friction"])
-    np.testing.assert_array_equal(logarithmic.get_ydata(), theory["steady_friction_logarithmic"])
-    np.testing.assert_array_equal(full.get_xdata(), theory["slip_rate"])
-    assert set(velocity.get_xdata()) == {float(theory["velocity"])}
-    assert velocity.get_linestyle() == "--"
-    assert (full.get_color(), logarithmic.get_color()) == (style.FULL_LAW, style.LOGARITHMIC_LAW)
 
 
 def test_table_s1_holds_the_papers_values():

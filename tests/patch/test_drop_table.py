@@ -18,23 +18,17 @@ FAULT = fault(history().parameters)
 
 
 def drops(**changes):
-    columns = {
-        "study": ["drop"] * 4,
-        "role": ["drop"] * 4,
+    same = {"study": "drop", "role": "drop", "evolution": "aging", "n_x": 800, "n_y": 8,
+            "longest_step": 0.1, "onset_time": 9.0, "theory_length": 0.45}  # fmt: skip
+    columns = {name: [value] * 4 for name, value in same.items()} | {
         "id": list("abcd"),
-        "evolution": ["aging"] * 4,
         "height": [0.02, 0.02, 0.02, 0.3],
         "fault": [FAULT] * 3 + ["of another"],
         "kind": ["normal_load", "none", "state", "state"],
         "strength": [1e-5, 0.0, 1e-6, 1e-6],
         "seed": [3, 0, 1, 1],
         "correlation_length": [0.02, 0.02, 0.05, 0.05],
-        "n_x": [800] * 4,
-        "n_y": [8] * 4,
-        "longest_step": [0.1] * 4,
-        "onset_time": [9.0] * 4,
         "length": [0.32, 0.33, 0.34, 0.5],
-        "theory_length": [0.45] * 4,
     }
     return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
 

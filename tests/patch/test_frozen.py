@@ -92,10 +92,3 @@ def test_modes_and_amplitudes_are_eigenvectors_of_the_whole_matrix(patch):
         weights = patch.amplitude(values[i])
         known = left[:, i].conj() / (left[:, i].conj() @ own)
         np.testing.assert_allclose(weights, known, rtol=0, atol=1e-6 * np.abs(known).max())
-
-
-def test_oscillating_mode_is_the_fastest_of_its_kind(patch):
-    rate = patch.oscillating(1.0)
-    values = patch.eigenvalues
-    assert rate == values[values.imag >= 1.0][0]
-    assert np.isnan(patch.oscillating(1e9))

@@ -16,7 +16,6 @@ from nucleation.model.second_body import SecondBody
 from nucleation.patch import growth
 from nucleation.patch.growth import (
     FITTED,
-    evenly,
     fitted_crossing,
     follow_patch,
     rough_crossing,
@@ -77,23 +76,11 @@ def test_few_frames_equal_all_frames(simulation, followed, monkeypatch):
     assert float(followed["stability_length"]) == pytest.approx(expected, rel=0.015)
 
 
-def test_length_is_the_furthest_that_the_edge_has_come(followed):
-    assert (np.diff(followed["patch_length"].values) >= 0.0).all()
-
-
 def test_run_that_ends_before_growth_has_no_length(simulation):
     early = simulation.isel(time=slice(0, 60))
     patch = follow_patch(early, ExtractionSettings())
     assert all(np.isnan(patch[name]) for name in FITTED)
     assert (patch["mode_real"] == 0.0).all()
-
-
-def test_evenly_spaced_in_length():
-    length = np.linspace(0.0, 1.0, 1001) ** 0.5
-    frames = evenly(np.arange(100, 1001), length, 20)
-    assert frames[0] == 100 and frames[-1] == 1000 and frames.size == 20
-    np.testing.assert_allclose(np.diff(length[frames]), np.diff(length[frames]).mean(), atol=2e-3)
-    assert evenly(np.arange(5), length, 20).size == 5
 
 
 def test_rough_crossing_ignores_single_instants_and_gaps():

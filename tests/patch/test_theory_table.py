@@ -18,12 +18,8 @@ IDS = (
 @pytest.fixture(scope="module")
 def table():
     runs = {run.id: run for run in load(CONFIG / "config.yaml").runs}
-    simulated = xr.Dataset(
-        {
-            "id": ("run", list(IDS)),
-            "stability_length": ("run", [0.4428, 0.4408, 0.3537, np.nan]),
-        }
-    )
+    lengths = [0.4428, 0.4408, 0.3537, np.nan]
+    simulated = xr.Dataset({"id": ("run", list(IDS)), "stability_length": ("run", lengths)})
     return theory_table.gather([runs[i].to_dict() for i in IDS], [simulated])
 
 

@@ -10,7 +10,7 @@ from nucleation.model.linearised import interface_state
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import twins
 from nucleation.patch.tables import TWINS, gather_twins
-from nucleation.patch.twins import difference, fitted_rate, follow_twins, kicked
+from nucleation.patch.twins import difference, follow_twins
 from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run
 
@@ -65,24 +65,6 @@ def test_twin_without_a_kick_is_the_run(monkeypatch):
     change = difference(instant.state, twin.state, nodes)
     assert np.abs(change[: nodes.size]).max() < 1e-12 * PARAMETERS.geometry.length
     assert np.abs(change[nodes.size :]).max() < 1e-7
-
-
-def test_kick_changes_the_log_state_alone():
-    state = next(run(PARAMETERS)).state
-    shape = np.sin(np.arange(state.past_log_states.shape[1]))
-    other = kicked(state, shape, 1e-3)
-    change = other.past_log_states - state.past_log_states
-    assert np.abs(change).max() == pytest.approx(1e-3)
-    for field in dataclasses.fields(state):
-        if field.name != "past_log_states":
-            assert getattr(other, field.name) is getattr(state, field.name)
-
-
-def test_rate_of_a_known_amplitude():
-    time = np.sort(np.random.default_rng(1).random(200)) * 2.0
-    rate = -0.7 + 11.0j
-    fitted = fitted_rate(time, (0.3 - 2.0j) * np.exp(rate * time))
-    assert fitted == pytest.approx(rate, rel=1e-10)
 
 
 def test_table_has_a_row_for_each_twin(followed):

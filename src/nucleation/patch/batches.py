@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from ..analysis import lengths
@@ -37,12 +36,6 @@ def measured(
     return row
 
 
-def in_order(table: xr.Dataset, ids: Sequence[str]) -> xr.Dataset:
-    """The rows of a table in the order of some ids, which are those of its rows."""
-    places = {name: i for i, name in enumerate(table["id"].values.tolist())}
-    return table.isel(run=np.array([places[name] for name in ids], dtype=int))
-
-
 def table(
     runs: Sequence[dict[str, Any]], records: Iterable[xr.Dataset | None],
     settings: ExtractionSettings, measure: str,
@@ -58,5 +51,6 @@ def table(
 
 def of_study(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> lengths.Files:
     """The step ``join_batches``: a study's table, its runs in their order."""
-    joined = in_order(lengths.join(tables), ids)
-    return lengths.with_csv(joined)
+    joined = lengths.join(tables)
+    places = {name: i for i, name in enumerate(joined["id"].values.tolist())}
+    return lengths.with_csv(joined.isel(run=[places[name] for name in ids]))

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from ..types import Array, ComplexArray
 from .mode_history import ModeHistory
@@ -69,8 +70,7 @@ def continued(history: ModeHistory) -> Path:
 
 def exponent_of(path: Path) -> ComplexArray:
     """``int Lambda dt`` from the first time on."""
-    steps = np.diff(path.time) * 0.5 * (path.rate[1:] + path.rate[:-1])
-    return np.append(0.0, np.cumsum(steps))
+    return np.asarray(cumulative_trapezoid(path.rate, path.time, initial=0))
 
 
 def roughness_weights(

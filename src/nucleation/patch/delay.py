@@ -25,6 +25,7 @@ import dataclasses
 from typing import NamedTuple
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from ..model.perturbation import Perturbation
 from ..simulation.realisation import Series, Sheet, correlation, profile, spectral_density
@@ -94,7 +95,7 @@ class Growth:
         """The part of the realisations that have dropped by each length; it never falls."""
         late = np.maximum.accumulate(self.log_amplitude) + np.log(strength)
         reached = np.exp(-np.exp(np.minimum(-2.0 * late, 700.0)))
-        area = np.append(0.0, np.cumsum(0.5 * (reached[1:] + reached[:-1]) * np.diff(self.length)))
+        area = cumulative_trapezoid(reached, self.length, initial=0)
         ends = [self.length + side * 0.5 * self.per_period for side in (-1.0, 1.0)]
         below, above = (
             np.interp(end, self.length, area) + np.maximum(end - self.length[-1], 0.0)

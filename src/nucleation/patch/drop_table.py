@@ -5,9 +5,8 @@ fluctuating load, or state, would make the law's median drop there: the noise of
 those steps, in the units of a declared perturbation.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import cache
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -50,33 +49,32 @@ FLOORS = some(
 """Columns that say something of a quiet run."""
 
 
-class Law:
-    """The law of the drop for one fault, from the mode of its quiet run."""
+def law_of(history: ModeHistory) -> Callable[[Row], Row]:
+    """The law of the drop for one fault, from the mode of its quiet run.
 
-    def __init__(self, history: ModeHistory) -> None:
-        self._history, usual = history, history.parameters.perturbation
+    It gives the columns :data:`PREDICTED` for one run; NaN where there is nothing to say.
+    """
+    usual = history.parameters.perturbation
 
-        @cache
-        def known(kind: str, length: float) -> Growth:
-            scale, time = length or usual.correlation_length, usual.correlation_time
-            declared = Perturbation(kind=kind, correlation_time=time, correlation_length=scale)
-            return growth(history, declared)
+    @cache
+    def known(kind: str, length: float) -> Growth:
+        scale, time = length or usual.correlation_length, usual.correlation_time
+        declared = Perturbation(kind=kind, correlation_time=time, correlation_length=scale)
+        return growth(history, declared)
 
-        self._growth = known
-
-    def row(self, run: Row) -> Row:
-        """The columns :data:`PREDICTED` for one run; NaN where there is nothing to say."""
+    def row_of(run: Row) -> Row:
         row = dict.fromkeys(PREDICTED, float("nan"))
         if run["kind"] == "none":
-            row["stability_length"] = self._closed("normal_load", 0.0, 1e-5).stability_length
+            closed = known("normal_load", 0.0).closed_form(history, 1e-5)
+            row["stability_length"] = closed.stability_length
             for kind in ("normal_load", "state"):
-                found = self._growth(kind, 0.0).strength_at(run["length"])
-                row[f"floor_{kind}"] = found
+                row[f"floor_{kind}"] = known(kind, 0.0).strength_at(run["length"])
             return row
         kind, strength, scale = run["kind"], run["strength"], run["correlation_length"]
-        drop, closed = self._growth(kind, scale).drop(strength), self._closed(kind, scale, strength)
+        law = known(kind, scale)
+        drop, closed = law.drop(strength), law.closed_form(history, strength)
         declared = Perturbation(kind=kind, correlation_length=scale, seed=int(run["seed"]))
-        own, _ = realised(self._history, declared).at(1.0 / strength)
+        own, _ = realised(history, declared).at(1.0 / strength)
         return row | {
             "stability_length": closed.stability_length,
             "predicted_length": drop.length,
@@ -87,8 +85,7 @@ class Law:
             "effective_strength": closed.effective,
         }
 
-    def _closed(self, kind: str, scale: float, strength: float) -> Any:
-        return self._growth(kind, scale).closed_form(self._history, strength)
+    return row_of
 
 
 def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
@@ -96,20 +93,15 @@ def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Datas
 
     `drops` are tables with :data:`MEASURED` and ``fault``, `modes` histories as datasets.
     """
-    laws = {fault(parameters_of(mode)): Law(from_dataset(mode)) for mode in modes}
-    rows = [run | laws[run["fault"]].row(run) for run in _runs(drops) if run["fault"] in laws]
-    return table(rows, COLUMNS)
+    laws = {fault(parameters_of(mode)): law_of(from_dataset(mode)) for mode in modes}
+    runs = [run for own in drops for run in rows_of(own, names=(*MEASURED, "fault"))]
+    return table([run | laws[run["fault"]](run) for run in runs if run["fault"] in laws], COLUMNS)
 
 
 def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
     """:data:`FLOORS` on ``run``: how noisy the meshes of quiet runs are with their steps."""
     found = gather(quiet, modes)
     return found[list(FLOORS)].isel(run=np.flatnonzero(found["kind"].values == "none"))
-
-
-def _runs(tables: Iterable[xr.Dataset]) -> Iterator[Row]:
-    for own in tables:
-        yield from rows_of(own, names=(*MEASURED, "fault"))
 
 
 def drop_files(

@@ -56,7 +56,7 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
     NaN where no mode oscillates, and where growth does not begin.
     """
     record = _Creep(Record(simulation, settings))
-    frames = record.usable_frames()
+    frames = np.flatnonzero(record.length >= FEWEST_NODES * record.grid.dx)
     scanned = evenly(frames, record.length, SCANNED)
     crossing = rough_crossing(record.length[scanned], record.growth(scanned).real)
     fit = dict.fromkeys(FITTED, float("nan"))
@@ -81,10 +81,6 @@ class _Creep(Frames):
     def __init__(self, record: Record) -> None:
         super().__init__(record)
         self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
-
-    def usable_frames(self) -> NDArray[np.intp]:
-        """Frames whose patch is resolved."""
-        return np.flatnonzero(self.length >= FEWEST_NODES * self.grid.dx)
 
     def growth(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""

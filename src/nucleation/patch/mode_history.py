@@ -18,7 +18,6 @@ Left out is what freezing leaves out: dl/dt, and the nodes at the front that beg
 """
 
 import dataclasses
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -35,6 +34,9 @@ from .frozen import Frames
 
 INSTANTS = 80  # at which the patch is frozen, evenly in length
 FROM = 0.6  # they begin at this part of the length at the end of the creep
+
+Loads = tuple[tuple[Array, Array], tuple[Array, Array]]
+"""Tangential and normal forces (N/m) at the nodes 0..n_x: of the load at fixed w, of w = 1 m."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,18 +74,14 @@ FOLLOWED = {
 
 def to_dataset(history: ModeHistory) -> xr.Dataset:
     """A history as a dataset, real and imaginary parts on ``part``."""
-
-    def parts(values: ComplexArray) -> Array:
-        return np.array([values.real, values.imag])
-
     data: dict[str, tuple[tuple[str, ...], Array]] = {
         "mode_time": (("instant",), history.time),
         "mode_length": (("instant",), history.length),
-        "mode_rate": (("part", "instant"), parts(history.rate)),
     }
-    for name, along in WEIGHTS.items():
+    for name, along in {"rate": "instant", **WEIGHTS}.items():
+        values = getattr(history, name)
         dims = ("part", "instant", "x") if along == "x" else ("part", "instant")
-        data[f"mode_{name}"] = (dims, parts(getattr(history, name)))
+        data[f"mode_{name}"] = dims, np.array([values.real, values.imag])
     attributes = {"parameters": history.parameters.to_json()}
     found = xr.Dataset(data, coords={"x": history.x}, attrs=attributes)
     return annotate(found, FOLLOWED)
@@ -99,13 +97,6 @@ def from_dataset(dataset: xr.Dataset) -> ModeHistory:
         parameters_of(dataset), dataset["x"].values, dataset["mode_time"].values,
         dataset["mode_length"].values, **weights,
     )  # fmt: skip
-
-
-class _Loads(NamedTuple):
-    """Forces (N/m) at the nodes 0..n_x per unit of a forcing: tangential and normal ones."""
-
-    load: tuple[Array, Array]  # the load on the top, at fixed w
-    shift: tuple[Array, Array]  # w = 1 m everywhere
 
 
 def follow_mode(
@@ -139,16 +130,16 @@ def follow_mode(
     return ModeHistory(parameters, run.grid.x, *columns)
 
 
-def _loads(operator: BodyOperator, parameters: Parameters) -> _Loads:
+def _loads(operator: BodyOperator, parameters: Parameters) -> Loads:
     n, load = operator.body.grid.n_x, operator.body.top_load(parameters.loading.normal_stress)
     at_rest, (tangential, normal) = operator.respond(load, np.zeros(n)), operator.apply(np.ones(n))
-    loads = np.append(0.0, at_rest.tangential), at_rest.normal
-    return _Loads(loads, (np.append(0.0, tangential), normal))
+    shift = np.append(0.0, tangential), normal
+    return (np.append(0.0, at_rest.tangential), at_rest.normal), shift
 
 
 def _weights(
     patch: FrozenPatch, rate: complex, parameters: Parameters, fields: tuple[Array, Array, Array],
-    loads: _Loads,
+    loads: Loads,
 ) -> tuple[complex, complex, ComplexArray, ComplexArray]:  # fmt: skip
     """The weights of a :class:`ModeHistory` at one instant, from the fields at all nodes."""
     n, nodes = patch.nodes.size, patch.nodes

@@ -30,19 +30,17 @@ TWINS = {
 }
 
 
-def gather_stability(
-    runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset], reference: str = "converged"
-) -> xr.Dataset:
+def gather_stability(runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset]) -> xr.Dataset:
     """:data:`STABILITY` on ``run``: the lengths at which the frozen patches turn unstable.
 
     `patches` are of :func:`.growth.follow_patch`, in the order of the runs. ``stability_change`` is
-    the length over that of the same fault's run in the role `reference`, minus one; NaN without.
+    the length over that of the same fault's run in the role `converged`, minus one; NaN without.
     """
     rows = [
         description(run) | {name: float(patch[name]) for name in FITTED}
         for run, patch in zip(runs, patches, strict=True)
     ]
-    compared = {row["fault"]: row["stability_length"] for row in rows if row["role"] == reference}
+    compared = {row["fault"]: row["stability_length"] for row in rows if row["role"] == "converged"}
     for row in rows:
         value = compared.get(row["fault"], float("nan"))
         row["stability_ratio"] = row["stability_length"] / row["theory_length"]

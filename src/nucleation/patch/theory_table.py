@@ -69,11 +69,9 @@ def gather(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> xr.D
         if run["id"] in known:
             own = fault(Parameters.from_dict(run["parameters"]))
             faults.setdefault((run["study"], own), []).append(run)
-    rows = [
-        _row(same[0], float(np.mean([known[run["id"]] for run in same])))
-        for same in faults.values()
-    ]
     first = {same[0]["id"]: same[0] for same in faults.values()}
+    means = [float(np.mean([known[run["id"]] for run in same])) for same in faults.values()]
+    rows = [_row(run, mean) for run, mean in zip(first.values(), means, strict=True)]
     drawn = xr.Dataset(
         {
             "curve_ratio": ("curve", CURVE),
@@ -126,19 +124,17 @@ def _profiles(rows: list[dict[str, Any]], runs: dict[str, dict[str, Any]]) -> di
     ordered = list({round(row["f_beta"], 6): row for row in ordered}.values())
     shown = [ordered[i] for i in np.linspace(0, len(ordered) - 1, PROFILES).round().astype(int)]
     shown = list({row["id"]: row for row in shown}.values())
-    x, rate, stress = [], [], []
+    creeps = []
     for row in shown:
         parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
         made = advance(
             Patches.of(parameters), [row["front_length"]], parameters.loading.initial_state
         )
-        creep = made.creeps[0]
-        x.append(np.cos(creep.response.modes.theta))
-        rate.append(creep.slip_rate)
-        stress.append(creep.normal_stress)
+        creeps.append(made.creeps[0])
+    at = "case", "place"
     return {
         "shown_beta": ("case", [row["f_beta"] for row in shown]),
-        "shown_x": (("case", "place"), np.array(x)),
-        "shown_rate": (("case", "place"), np.array(rate)),
-        "shown_stress": (("case", "place"), np.array(stress)),
+        "shown_x": (at, np.array([np.cos(creep.response.modes.theta) for creep in creeps])),
+        "shown_rate": (at, np.array([creep.slip_rate for creep in creeps])),
+        "shown_stress": (at, np.array([creep.normal_stress for creep in creeps])),
     }

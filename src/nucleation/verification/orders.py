@@ -179,7 +179,8 @@ def convergence_dataset() -> xr.Dataset:
         for j, name in enumerate(REFINEMENTS[: 2 if alone else 3]):
             measured = mesh_errors(problem) if name == "mesh" else step_errors(problem, name)
             found[i, j] = np.where([True, not alone, not alone], measured, np.nan)
-    sizes = [GEOMETRY.length / (2.0 * np.array(ROWS)), *map(step_sizes, REFINEMENTS[1:])]
+    sizes = [GEOMETRY.length / (2.0 * np.array(ROWS))]
+    sizes += [np.array([*map(BDF().steady_step, STEP_RUNGS[name])]) for name in REFINEMENTS[1:]]
     errors_on = {
         name: (("problem", "refinement", "level"), found[..., i]) for i, name in enumerate(ERRORS)
     }
@@ -187,11 +188,6 @@ def convergence_dataset() -> xr.Dataset:
     coordinates = {"problem": list(PROBLEMS), "refinement": list(REFINEMENTS)}
     dataset = xr.Dataset(errors_on | levels, coordinates)
     return annotate(dataset, COORDINATES | SPACINGS | ERRORS)
-
-
-def step_sizes(name: str) -> Array:
-    """Lengths (s) of the steps of :data:`STEP_RUNGS`."""
-    return np.array([BDF().steady_step(rung) for rung in STEP_RUNGS[name]])
 
 
 def to_csv(dataset: xr.Dataset) -> str:

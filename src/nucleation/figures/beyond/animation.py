@@ -54,11 +54,10 @@ def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
     """Write a GIF that repeats for ever, whole or not at all."""
     images = list(images)
     palette = images[-1].quantize(COLOURS, Image.Quantize.MAXCOVERAGE)  # keeps white white
-    small = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    pauses = [PAUSE] * (len(small) - 1) + [LAST_PAUSE]
+    first, *others = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    film: Any = {"append_images": others, "duration": [PAUSE] * len(others) + [LAST_PAUSE]}
     with replacing(path) as temporary:
-        film: Any = {"save_all": True, "append_images": small[1:], "duration": pauses, "loop": 0}
-        small[0].save(temporary, format="GIF", optimize=True, **film)
+        first.save(temporary, format="GIF", save_all=True, loop=0, optimize=True, **film)
 
 
 def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:

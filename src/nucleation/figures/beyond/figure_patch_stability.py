@@ -68,7 +68,16 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
     if twins.sizes["twin"]:
         frequency.plot([], [], "o", color="black", markerfacecolor="none", label="twin runs")
     frequency.legend(loc="lower left", labelspacing=0.3)
-    _finish_shape(shape)
+    # the homogeneous mode of the theory: a wave of constant modulus, whole in the patch
+    x = np.linspace(0.0, 1.0, 201)
+    shape.plot(x, np.sin(2.0 * np.pi * x), "--", color=style.THEORY, linewidth=1.1)
+    style.level(shape, 0.0)
+    text: Any = {"fontsize": style.SMALL, "va": "top"}
+    shape.text(0.05, -0.15, "patch, $L=L_s$:\nhalf a wavelength\n(modulus)", **text)
+    theory = "theory, $L=L_c$: one wavelength"
+    shape.text(0.95, -1.08, theory, color=style.THEORY, ha="right", **text)
+    shape.set(xlim=(0.0, 1.0), ylim=(-1.35, 1.15))
+    shape.set(xlabel="Position over patch length $x/L$", ylabel="Slip in the mode")
     style.letters(growth, frequency, shape, minor=True)
     return figure
 
@@ -90,16 +99,3 @@ def _draw_patch(panels: Sequence[Axes], patch: xr.Dataset, row: xr.Dataset, colo
     if np.isfinite(length):
         modulus = np.hypot(patch["mode_real"].values, patch["mode_imaginary"].values)
         shape.plot(patch["x"].values / length, modulus, linewidth=1.0, **look)
-
-
-def _finish_shape(axes: Axes) -> None:
-    """The homogeneous mode of the theory: a wave of constant modulus, whole in the patch."""
-    x = np.linspace(0.0, 1.0, 201)
-    axes.plot(x, np.sin(2.0 * np.pi * x), "--", color=style.THEORY, linewidth=1.1)
-    style.level(axes, 0.0)
-    look: Any = {"fontsize": style.SMALL, "va": "top"}
-    axes.text(0.05, -0.15, "patch, $L=L_s$:\nhalf a wavelength\n(modulus)", **look)
-    theory = "theory, $L=L_c$: one wavelength"
-    axes.text(0.95, -1.08, theory, color=style.THEORY, ha="right", **look)
-    axes.set(xlim=(0.0, 1.0), ylim=(-1.35, 1.15))
-    axes.set(xlabel="Position over patch length $x/L$", ylabel="Slip in the mode")

@@ -80,8 +80,7 @@ def draw(
     kinds = _kinds(varied, told, entries, table.sizes["run"])
     if over:
         given = theory or {}
-        between = {kind: _between(table.isel(run=own), across[own]) for kind, own in kinds}
-        _curves(axes, {kind: given.get(kind, own) for kind, own in between.items()})
+        _curves(axes, {kind: given.get(kind, _between(table, across, own)) for kind, own in kinds})
     for i, (kind, own) in enumerate(kinds):
         marker, colour = style.look(i)
         happened, lost = own[~quiet[own]], across[own[quiet[own]]]
@@ -187,10 +186,10 @@ def _scale(axes: Axes, which: str, values: Array) -> None:
             axis.set_minor_formatter(ticker.NullFormatter())
 
 
-def _between(part: xr.Dataset, x: Array) -> Mapping[str, Array]:
+def _between(table: xr.Dataset, x: Array, runs: NDArray[np.intp]) -> Mapping[str, Array]:
     """The theory's lengths of some runs, in the order of a number."""
-    order = np.argsort(x, kind="stable")
-    return {"x": x[order], "length": part["theory_length"].values[order]}
+    order = runs[np.argsort(x[runs], kind="stable")]
+    return {"x": x[order], "length": table["theory_length"].values[order]}
 
 
 def _curves(axes: Axes, theory: Curves) -> None:

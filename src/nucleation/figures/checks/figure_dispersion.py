@@ -43,7 +43,16 @@ def draw(dispersion: xr.Dataset) -> Figure:
         _limit_to_lines(axes)
     style.level(panels[0], 0.0)
     style.letters(*panels, minor=True)
-    _legend(figure, heights, shades)
+    keys = [
+        style.key(f"$H={height:.3g}$ m", "", "-", shade)
+        for height, shade in zip(heights, shades, strict=True)
+    ]
+    keys += [
+        style.key(f"mode along {direction}", marker, dash, markersize=3.6, **style.OPEN)
+        for direction, (marker, dash) in zip(("$+x$", "$-x$"), BRANCHES, strict=True)
+    ]
+    keys += [style.key("lines: Eq. (5)"), style.key("symbols: time integration")]
+    figure.legend(handles=keys, loc="outside lower center", ncols=4)
     return figure
 
 
@@ -65,19 +74,6 @@ def _limit_to_lines(axes: Axes) -> None:
     for line in axes.get_lines():
         if line.get_transform() == axes.transData:
             x, y = np.asarray(line.get_xydata()).T
-            shown.append(y[(x >= left) & (x <= right)])
-    low, high = np.concatenate(shown).min(), np.concatenate(shown).max()
-    axes.set_ylim(low - 0.04 * (high - low), high + 0.04 * (high - low))
-
-
-def _legend(figure: Figure, heights: np.ndarray, shades: list[tuple[float, ...]]) -> None:
-    keys = [
-        style.key(f"$H={height:.3g}$ m", "", "-", shade)
-        for height, shade in zip(heights, shades, strict=True)
-    ]
-    keys += [
-        style.key(f"mode along {direction}", marker, dash, markersize=3.6, **style.OPEN)
-        for direction, (marker, dash) in zip(("$+x$", "$-x$"), BRANCHES, strict=True)
-    ]
-    keys += [style.key("lines: Eq. (5)"), style.key("symbols: time integration")]
-    figure.legend(handles=keys, loc="outside lower center", ncols=4)
+            shown += [*y[(x >= left) & (x <= right)]]
+    margin = 0.04 * (max(shown) - min(shown))
+    axes.set_ylim(min(shown) - margin, max(shown) + margin)

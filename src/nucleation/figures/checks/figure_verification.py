@@ -14,15 +14,13 @@ LAWS: Any = (
     ("aging", {"marker": "o", "color": style.AGING, "ms": 3.8}),
     ("slip", {"marker": "^", "color": style.SLIP, "mfc": "none", "ms": 6.5}),
 )
-BODY: Any = {"marker": "D", "color": style.BLUE, "ms": 3.8}
 SERIES: Any = [
-    *(
-        (law, name, f"{law} law, {of}", look | {"ls": line})
-        for law, look in LAWS
-        for name, of, line in LINES
-    ),
-    ("elastodynamics", "displacement_error", "elastodynamics, displacement", BODY),
+    (law, name, f"{law} law, {of}", look | {"ls": line})
+    for law, look in LAWS
+    for name, of, line in LINES
 ]
+BODY: Any = {"marker": "D", "color": style.BLUE, "ms": 3.8}
+SERIES += [("elastodynamics", "displacement_error", "elastodynamics, displacement", BODY)]
 """Problem, variable, label and look."""
 
 # refinement, its spacing in the dataset, unit of the abscissa, its label, title, order

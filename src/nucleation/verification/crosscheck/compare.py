@@ -6,7 +6,7 @@ patch is some elements long until the growing oscillation of the patch, which ev
 front from node to node shakes, begins to tell the two apart.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -85,16 +85,13 @@ def _largest(values: Array) -> float:
     return float(np.abs(values).max()) if values.size else np.nan
 
 
-def gather(rows: Mapping[str, Mapping[str, float]]) -> xr.Dataset:
-    """The table of all rows, by the runs' names, on the dimension ``run``."""
-    listed: Sequence[dict[str, object]] = [{"id": name, **row} for name, row in rows.items()]
-    return table(listed, COLUMNS)
-
-
 def files(
     ids: Sequence[str], own: Iterable[xr.Dataset], freefem: Iterable[xr.Dataset],
     settings: ExtractionSettings,
 ) -> Files:  # fmt: skip
     """The step ``compare_crosscheck``: each run by both solvers."""
-    records = zip(ids, own, freefem, strict=True)
-    return with_csv(gather({id: compare(one, other, settings) for id, one, other in records}))
+    rows = [
+        {"id": id, **compare(one, other, settings)}
+        for id, one, other in zip(ids, own, freefem, strict=True)
+    ]
+    return with_csv(table(rows, COLUMNS))

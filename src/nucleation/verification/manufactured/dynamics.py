@@ -112,8 +112,6 @@ class Manufactured(Drive):
             state, report = self.dynamics.advance(state, rung)
         return state, report
 
-    # -- exact values ---------------------------------------------------------------------------
-
     def nodal_exact(self, time: float, **orders: int) -> Array:
         """Exact w_x and u_y (m) at the nodes, or a derivative, (2, n_y + 1, n_x + 1)."""
         x, y = self.grid.x[None], self.grid.y[:, None]
@@ -147,8 +145,6 @@ class Manufactured(Drive):
         motions = tuple(self.exact_motion(t) for t in times[:2])
         return State(motions, times, rates, states, w, self.body.no_memory)
 
-    # -- errors ---------------------------------------------------------------------------------
-
     def displacement_error(self, state: State) -> float:
         """Root mean square over the area of the nodal error (m)."""
         error = np.array(self.body.nodal_values(state.displacement)) - self.nodal_exact(state.time)
@@ -156,18 +152,14 @@ class Manufactured(Drive):
 
     def slip_rate_error(self, state: State) -> float:
         """Root mean square over the interface of the nodal error (m/s)."""
-        exact = self.exact_slip_rate(self.grid.x, state.time)
-        return self._interface_mean(state.past_slip_rates[0] - exact)
+        return self._mean(state.past_slip_rates[0] - self.exact_slip_rate(self.grid.x, state.time))
 
     def log_state_error(self, state: State) -> float:
         """Root mean square over the interface of the nodal error of psi."""
-        exact = self.exact_log_state(self.grid.x, state.time)
-        return self._interface_mean(state.past_log_states[0] - exact)
+        return self._mean(state.past_log_states[0] - self.exact_log_state(self.grid.x, state.time))
 
-    def _interface_mean(self, error: Array) -> float:
+    def _mean(self, error: Array) -> float:
         return float(np.sqrt(error**2 @ self.grid.nodal_lengths / self.grid.length))
-
-    # -- what friction asks for ------------------------------------------------------------------
 
     def friction_coefficient(self, x: Array, time: float) -> Array:
         """f(v, phi) of the exact slip rate and state at x (m)."""

@@ -81,11 +81,9 @@ class Displacement:
             orders = {"by_x": by_x + along_x, "by_y": by_y + along_y}
             return self.value(component, x, y, t, **orders)
 
-        xx, yy = slope(0, 1, 0), slope(1, 0, 1)
+        xx, xy, yy = slope(0, 1, 0), slope(0, 0, 1) + slope(1, 1, 0), slope(1, 0, 1)
         trace = lame * (xx + yy)
-        return trace + 2 * shear * xx, shear * (slope(0, 0, 1) + slope(1, 1, 0)), (
-            trace + 2 * shear * yy
-        )  # fmt: skip
+        return trace + 2 * shear * xx, shear * xy, trace + 2 * shear * yy
 
     def body_force(self, x: Array, y: Array, t: float) -> tuple[Array, Array]:
         """``rho u_tt - div sigma`` (N/m^3), both components."""
@@ -97,13 +95,12 @@ class Displacement:
 def quadrature(nodes: Array) -> tuple[Array, Array]:
     """Gauss points (m) and the matrix of ``weight_g N_i(point_g)`` (m) of linear elements."""
     points, weights = np.polynomial.legendre.leggauss(POINTS)
-    lengths, local = np.diff(nodes), 0.5 * (1 + points)
-    n, g = lengths.size, points.size
-    weighted = np.zeros((n + 1, n, g))
-    for e in range(n):
-        weighted[e, e] = 0.5 * lengths[e] * weights * (1 - local)
-        weighted[e + 1, e] = 0.5 * lengths[e] * weights * local
-    return (nodes[:-1, None] + lengths[:, None] * local).ravel(), weighted.reshape(n + 1, n * g)
+    lengths, local = np.diff(nodes)[:, None], 0.5 * (1 + points)
+    e = np.arange(lengths.size)
+    weighted = np.zeros((e.size + 1, e.size, POINTS))
+    weighted[e, e] = 0.5 * lengths * weights * (1 - local)
+    weighted[e + 1, e] = 0.5 * lengths * weights * local
+    return (nodes[:-1, None] + lengths * local).ravel(), weighted.reshape(e.size + 1, -1)
 
 
 class Loads:
