@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 CHECKOUT = Path(__file__).parents[1]
-RUN = "converged-aging-H0.02-phi1-seed1"  # declared, 800 x 16
+RUN = "converged-aging-H0.02-phi1-seed1"  # declared, 400 x 16
 TURNS = 4
 
 MEASURE = """
