@@ -31,7 +31,7 @@ def sequence(refined, values, height, **fixed):
     usual = {
         "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
         "strength": 1e-5, "seed": 1, "evolution": "aging", "phi0": 1.0,
-        "fault": f"{height}{fixed.get('phi0')}",
+        "fault": f"{height}{fixed.get('phi0')}", "block_length": 6.0, "theory_length": 1.5,
     }  # fmt: skip
     for i, value in enumerate(values):
         error = 0.1 * 0.1**i if i + 1 < len(values) else 0.0
@@ -168,7 +168,8 @@ def test_quiet_runs_are_dashed_beside_perturbed_ones(refinements, convergence, p
         rows = refinements.to_dataframe()
         rows = rows[(rows["refinement"] == refined) & rows["height"].isin([0.005, 0.02])]
         rows = rows[rows["kind"].eq(kind) & rows["evolution"].eq("aging")]
-        assert drawn == set(zip(rows[refined], rows["length_over_theory"], strict=True))
+        size = rows["n_x"] / 4.0 if refined == "n_x" else rows[refined]  # of elements, within L_c
+        assert drawn == set(zip(size, rows["length_over_theory"], strict=True))
     if refined == "longest_step":
         assert axes.get_xlim()[0] > axes.get_xlim()[1]
 

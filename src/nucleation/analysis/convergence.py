@@ -27,7 +27,7 @@ COLUMNS = {
     "refinement": Variable("", "what is refined from level to level"),
     **some(
         LENGTHS, "id", "evolution", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
-        "grading", "longest_step", "tolerance", "onset_time",
+        "grading", "block_length", "longest_step", "tolerance", "onset_time",
     ),
     "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
     "length": LENGTHS["length"],

@@ -11,6 +11,7 @@ from matplotlib.ticker import NullLocator
 
 from ...figures import points, style
 from ...model.friction.registry import USUAL_EVOLUTION
+from ...types import Array
 
 PERCENT = 100.0
 LEAST = 1e-3  # per cent: smaller differences are drawn there
@@ -32,7 +33,10 @@ REFINED = {
     "longest_step": "longest step",
     "tolerance": "tolerance",
 }
-ALONG = {"n_x": "Elements along $x$", "longest_step": r"Longest step $\times V/D$"}
+ALONG = {
+    "n_x": "Elements $N$ within the theory's $L_c$",
+    "longest_step": r"Longest step $\times V/D$",
+}
 FAULT = ("kind", "evolution", "phi0", "height", "strength", "seed", "fault")
 EVERY_FAULT = "normal_load"  # the kind whose faults are told apart
 SIZE: Any = {"markersize": 3.8}
@@ -114,6 +118,11 @@ def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
     return points.groups(points.where(rows, refinement=refined), *FAULT, *others)
 
 
+def _elements_within(rows: xr.Dataset) -> Array:
+    """Number of elements along x in the theory's critical length, whatever the block's length."""
+    return np.rint((rows["n_x"] * rows["theory_length"] / rows["block_length"]).values)
+
+
 def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     """Lengths of quiet runs, and of perturbed ones of the same faults, against what is refined."""
     heights = np.unique(points.where(table, kind="none")["height"].values).tolist()
@@ -123,13 +132,14 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     for sequence in _sequences(points.where(table, alike, evolution=USUAL_EVOLUTION), refined):
         height, calm = float(sequence["height"][0]), bool(sequence["kind"][0] == "none")
         marker, colour = style.look(heights.index(height))
-        size, ratio = sequence[refined].values, sequence["length_over_theory"].values
+        ratio, within = sequence["length_over_theory"].values, _elements_within(sequence)
+        size = within if refined == "n_x" else sequence[refined].values
         sizes.update(size.tolist())
         look: Any = {"color": colour, "mfc": "white" if calm else colour, "linewidth": 1.0, **SIZE}
         axes.plot(size, ratio, marker=marker, linestyle="--" if calm else "-", **look)
         text: Any = {"textcoords": "offset points", "fontsize": style.SMALL, "color": colour}
         if calm and refined == "longest_step":  # what sets quiet runs of one height apart
-            mesh = f"$N_x={int(sequence['n_x'][0])}$"
+            mesh = f"$N={within[0]:g}$"
             axes.annotate(mesh, (size[0], ratio[0]), xytext=(3, -10), **text)
         elif calm and height == heights[-1]:
             step = f"{float(sequence['longest_step'][0]):g} $D/V$"
