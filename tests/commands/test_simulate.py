@@ -114,7 +114,7 @@ def test_parameters_from_a_file(nucleation, tmp_path, name, text):
 def test_a_run_of_the_configuration(nucleation, tmp_path):
     words = ["simulate", tmp_path / "run.nc", "--config", CONFIG, "--dry-run"]
     found = planned(nucleation(*words, "--run", "converged-slip-H0.05-phi1-seed2"))
-    assert (found["evolution"], found["n_x"], found["grading"]) == ("slip", "800", "20")
+    assert (found["evolution"], found["n_x"], found["grading"]) == ("slip", "400", "20")
     assert found["time_after_event"] == "0"
 
 

@@ -88,7 +88,7 @@ def build(content: Content) -> str:
         studies, fault_rows = answer.of_studies(content.own, lengths), tables.fault_rows(lengths)
         groups.pop(catalogue.OWN, None)
     if first and "figure_3" in pictures:
-        groups[pictures["figure_3"]["category"]].remove(pictures["figure_3"])
+        groups[catalogue.PAPER].remove(pictures["figure_3"])
     printed = {claim["id"]: claim["paper"] for claim in content.claims or []}.get("length-shown")
     return encode.template("template.html").render(
         data, answer=first, printed=printed, groups=groups, pictures=pictures,
