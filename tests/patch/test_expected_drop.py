@@ -38,6 +38,7 @@ def test_drop_follows_loss_of_stability():
     assert drop.length / THEORY == pytest.approx(0.685, abs=0.025)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["drive_velocity", "normal_load", "strength", "state"])
 def test_the_less_it_is_shaken_the_later_it_drops(kind):
     shaken = FAULT.replaced({"perturbation.kind": kind})

@@ -84,6 +84,7 @@ def test_csv_has_only_the_datasets_own_columns():
 # ---- Parts
 
 
+@pytest.mark.slow
 def test_the_player_says_what_lies_below(content):
     """A pair's run shows the interface, which both blocks have; the page gives both heights."""
     run = content.player.run
