@@ -8,7 +8,7 @@ import pytest
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.composition import at_rest, composed
-from nucleation.simulation.drive import Imposed, Steady
+from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
 from nucleation.simulation.step import Dynamics
 
@@ -54,22 +54,6 @@ def test_strength_multiplies_friction():
     for name in ("slip_rate", "log_state", "tangential", "normal"):
         one, other = getattr(found.interface, name), getattr(expected.interface, name)
         np.testing.assert_allclose(one, other, rtol=1e-7, atol=1e-9 * np.abs(other).max())
-
-
-def test_state_forcing_is_a_rate_of_the_log_state():
-    """Ahead of the patch nothing slips: the state ages, and is forced."""
-    rate = 40.0  # 1/s
-
-    class Forced(Steady):
-        def at(self, time):
-            return Imposed(time, self.velocity * time, self.velocity, None, np.full(17, rate))
-
-    steady = composed(PARAMETERS).drive
-    state, found = last_step(PARAMETERS, Forced(steady.velocity, steady.constant_load))
-    _, without = last_step(PARAMETERS)
-    assert without.interface.slip_rate[8] < 1e-9
-    change = found.interface.log_state[8] - without.interface.log_state[8]
-    assert change == pytest.approx(rate * state.time, rel=0.05)
 
 
 def test_load_is_that_of_the_end_of_the_step():

@@ -88,16 +88,6 @@ def test_strength_varies_as_declared(records):
     np.testing.assert_allclose(stated.values, 1e-2 * profile(7, 0.02, x), rtol=1e-12, atol=1e-16)
 
 
-def test_friction_of_slipping_nodes_is_the_uneven_law(records):
-    record, law = records["strength"], QUIET.friction
-    last = record.isel(time=-1)
-    slipping = last["slip_rate"].values > 1e-7
-    friction = last["shear_stress"] / -last["normal_stress"]
-    even = law.coefficient(last["slip_rate"].values, last["state"].values)
-    uneven = even * (1.0 + record["perturbation"].values)
-    np.testing.assert_allclose(friction.values[slipping], uneven[slipping], rtol=1e-6)
-
-
 @pytest.mark.slow
 def test_state_is_forced_as_declared():
     # of a fault at rest in the slip law nothing changes but by the source

@@ -90,19 +90,6 @@ def test_the_regularised_law_nucleates(evolution):
 
 
 @pytest.mark.slow
-def test_block_length_plays_no_role():
-    """L >> L_c: the same nodes near the loaded edge slip the same (Text S2)."""
-    short = dataclasses.replace(COARSE, stepping=Stepping(end_time=3.0))
-    longer = dataclasses.replace(
-        short, geometry=Geometry(0.005, 1.35), mesh=Mesh(n_x=90, n_y=6, grading=2.0)
-    )
-    one, two = simulate(short), simulate(longer)
-    assert float(one["driving_force"][-1]) == pytest.approx(
-        float(np.interp(one["step_time"][-1], two["step_time"], two["driving_force"])), rel=1e-6
-    )
-
-
-@pytest.mark.slow
 def test_quasi_static_run_covers_its_event(coarse_run):
     """Friction strengthens at high rates and bounds the slip rate in place of inertia."""
     stepping = dataclasses.replace(COARSE.stepping, time_after_event=0.0)
@@ -122,16 +109,6 @@ def test_step_underflow_is_a_named_failure():
     dataset = simulate(parameters)
     assert dataset.attrs["completed"] == 0
     assert dataset.attrs["status"] == Outcome.STEP_UNDERFLOW.value
-
-
-def test_progress_sees_every_step():
-    seen = []
-    dataset = simulate(
-        dataclasses.replace(COARSE, stepping=Stepping(end_time=1e-5)),
-        progress=lambda instant: seen.append(instant.state.time),
-    )
-    np.testing.assert_array_equal(seen, dataset["step_time"])
-    assert dataset.attrs["status"] == Outcome.END_TIME.value
 
 
 def test_tension_is_a_named_failure(monkeypatch):
