@@ -28,21 +28,20 @@ class Quantity(NamedTuple):
     logarithmic: bool = True
 
 
-MATERIAL, INTERFACE = Material, InterfaceState
 QUANTITIES = tuple(Quantity(*row) for row in (
-    ("shear_modulus", MATERIAL, "shear_modulus", "mu", "Shear modulus", "μ", "GPa", 1e9, 0.1, 1e2),
-    ("poisson_ratio", MATERIAL, "poisson_ratio", "nu", "Poisson's ratio", "ν", "", 1.0, 0.0, 0.49,
+    ("shear_modulus", Material, "shear_modulus", "mu", "Shear modulus", "μ", "GPa", 1e9, 0.1, 1e2),
+    ("poisson_ratio", Material, "poisson_ratio", "nu", "Poisson's ratio", "ν", "", 1.0, 0.0, 0.49,
      False),
-    ("applied_stress", INTERFACE, "normal_stress", "sigma0", "Normal stress", "σ₀", "MPa", 1e6,
+    ("applied_stress", InterfaceState, "normal_stress", "sigma0", "Normal stress", "σ₀", "MPa", 1e6,
      0.1, 2e2),
-    ("friction_coefficient", INTERFACE, "friction", "f", "Friction coefficient", "f", "", 1.0,
+    ("friction_coefficient", InterfaceState, "friction", "f", "Friction coefficient", "f", "", 1.0,
      0.0, 1.0, False),
-    ("direct_effect", INTERFACE, "a", "a", "Direct effect", "a", "", 1.0, 0.001, 0.05),
-    ("velocity_weakening", INTERFACE, "zeta", "zeta", "Velocity weakening", "ζ", "", 1.0, 0.001,
-     0.05),
-    ("slip_distance", INTERFACE, "slip_length", "ell", "Slip distance", "ℓ = D", "µm", 1e-6, 0.05,
-     1e3),
-    ("velocity", INTERFACE, "velocity", "V", "Sliding velocity", "V", "µm/s", 1e-6, 1e-3, 1e4),
+    ("direct_effect", InterfaceState, "a", "a", "Direct effect", "a", "", 1.0, 0.001, 0.05),
+    ("velocity_weakening", InterfaceState, "zeta", "zeta", "Velocity weakening", "ζ", "", 1.0,
+     0.001, 0.05),
+    ("slip_distance", InterfaceState, "slip_length", "ell", "Slip distance", "ℓ = D", "µm", 1e-6,
+     0.05, 1e3),
+    ("velocity", InterfaceState, "velocity", "V", "Sliding velocity", "V", "µm/s", 1e-6, 1e-3, 1e4),
 ))  # fmt: skip
 """What makes a fault of its own for the theory, on what lies below (:data:`BELOW`). Runs of other
 heights, laws and ages are of the same one: they lie about one curve."""
