@@ -229,18 +229,19 @@ def rate_of_change(c1, c2, beta, new, u, u_past, out):
 
 
 @compiled
-def edge_profiles(matrices, edge, out):
-    """``out[k] = A_k edge`` for tridiagonal matrices, (number, 3, length)."""
-    last = edge.size - 1
+def products(matrices, vector):
+    """``A_k vector`` for tridiagonal matrices, (number, 3, length): (number, length)."""
+    out, last = np.empty((matrices.shape[0], vector.size)), vector.size - 1
     for k in range(matrices.shape[0]):
         lower, diagonal, upper = matrices[k]
         for j in range(last + 1):
-            total = diagonal[j] * edge[j]
+            total = diagonal[j] * vector[j]
             if j > 0:
-                total += lower[j] * edge[j - 1]
+                total += lower[j] * vector[j - 1]
             if j < last:
-                total += upper[j] * edge[j + 1]
+                total += upper[j] * vector[j + 1]
             out[k, j] = total
+    return out
 
 
 @compiled
@@ -252,7 +253,8 @@ def edge_residual(matrices, weights, field, edge, load, levels):
     given = min(field.shape[0], edge.size)
     sums = np.empty((4, given))
     edge_sums(weights, field, 0, sums)
-    sums[3] = edge[:given]
+    for j in range(given):
+        sums[3, j] = edge[j]
     out = np.empty(levels)
     for j in range(levels):
         total = load[j]

@@ -107,9 +107,7 @@ class RightEdge(EdgeValues):
 
     def profiles(self, edge: Array) -> Array:
         """Profiles along y of ``G^T e``, one per edge weight, shape (3, n_y + 1)."""
-        profiles = np.empty((3, edge.size))
-        kernels.edge_profiles(self._transposed, edge, profiles)
-        return profiles
+        return kernels.products(self._transposed, edge)
 
     def residual(self, load: Field, modes: Array, edge: Array) -> Array:
         """Unbalanced force on the edge values (N/m), shape (n_y + 1,)."""

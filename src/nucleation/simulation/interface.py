@@ -215,10 +215,11 @@ class Interface:
     ) -> tuple[Array, Array, Array]:
         """Friction coefficient, its total derivative by v, and psi, state at the new time."""
         distance = self.friction.characteristic_slip_distance
-        speed = self.friction.slip_speed(v)
-        psi, psi_by_rate = self._evolved(log_state_history, beta, speed / distance)
+        v0 = self.friction.regularisation_slip_rate
+        speed, rate = newton.slip_speed(v, v0, distance)
+        psi, psi_by_rate = self._evolved(log_state_history, beta, rate)
         coefficient, by_rate, by_log_state = self._formula(v, psi, self.friction.constants)
-        slope = by_rate + by_log_state * psi_by_rate * v / (speed * distance)
+        slope = newton.total_slope(by_rate, by_log_state, psi_by_rate, v, speed, distance)
         return coefficient, slope, psi
 
     def _updated(self, v: Array, change: Array) -> Array:

@@ -48,9 +48,8 @@ def _uniform(seed: int, stream: int, row: int, number: int) -> Array:
     return (bits.astype(np.float64) + 0.5) * 2.0**-52
 
 
-def spline(u: ArrayLike) -> Array:
+def spline(u: float | Array) -> Array:
     """Values at ``0 <= u < 1`` of the four cubic B-splines about -1, 0, 1, 2; shape (4, ...)."""
-    u = np.asarray(u, dtype=float)
     return np.array(
         [
             (1.0 - u) ** 3,

@@ -83,8 +83,11 @@ class BDF:
         """The formula for slip and state."""
         if past_times.size < 3 or formula.step < QUASI_STATIC * self.crossing_time:
             return formula
-        intervals = np.append(formula.step, past_times[:-1] - past_times[1:])
-        if (intervals[:-1] > LARGEST_GROWTH_OF_BDF3 * intervals[1:]).any():
+        now, before, earlier = past_times.tolist()
+        last, last_but_one = now - before, before - earlier
+        if formula.step > LARGEST_GROWTH_OF_BDF3 * last or (
+            last > LARGEST_GROWTH_OF_BDF3 * last_but_one
+        ):
             return formula
         return Formula.bdf3(formula.step, past_times)
 

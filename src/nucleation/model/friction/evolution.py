@@ -35,14 +35,12 @@ def wright_omega(z: ArrayLike) -> Array:
     """The positive solution of ``w + log(w) = z`` for real z >= -700, exp(z) below -36 or so.
 
     Fritsch, Shafer & Crowley's fourth-order iteration (Comm. ACM 16, 123, 1973) on whole arrays,
-    from a rational function of exp(z) or, for z > 0, a straight line. Twice as fast as
+    from a rational function of exp(z) that a straight line goes on from for z > 0. Twice as fast as
     :func:`scipy.special.wrightomega`, and the simulation calls it two to four times in each step.
     """
     z = np.maximum(z, -700.0)
     e = np.exp(np.minimum(z, 0.0))
-    w = np.where(
-        z < 0.0, e * (1.0 + e * (4 / 3)) / (1.0 + e * (7 / 3 + e * (5 / 6))), 0.56 + 0.8 * z
-    )
+    w = e * (1.0 + e * (4 / 3)) / (1.0 + e * (7 / 3 + e * (5 / 6))) + 0.8 * np.maximum(z, 0.0)
     while True:
         r, near = z - w - np.log(w), 1.0 + w
         t = near * (near + r * (2 / 3))
