@@ -1,8 +1,8 @@
 """One block or two solved by FreeFem++: its command line, and its records as a dataset.
 
-FreeFem++ (Hecht, 2012) is the program the paper used. The scripts ``workflow/crosscheck/block.edp``
-and ``pair.edp`` solve the same problems as :mod:`nucleation.simulation.run` with triangles and a
-time integration of their own; they take all numbers from their command line.
+FreeFem++ (Hecht, 2012) is the program the paper used. The script ``workflow/crosscheck/blocks.edp``
+solves the same problems as :mod:`nucleation.simulation.run` with triangles and a time integration
+of its own; it takes all numbers from its command line.
 """
 
 import os
@@ -41,8 +41,7 @@ UNUSED = (
     "recording.record",
 )  # fmt: skip
 """Parameters without meaning for the script, or for what is handed over to it."""
-BLOCK, PAIR = "block.edp", "pair.edp"
-"""The scripts for a block on a rigid base, and for two blocks."""
+SCRIPT = "blocks.edp"
 REALISATION = "realisation.txt"  # in the directory of a run
 FIELDS = ("slip_rate", "state", "slip", "shear_stress", "normal_stress")
 STEPS = {
@@ -87,17 +86,16 @@ def arguments(
     values |= {"drop": extraction.drop, "fast": FAST, "most_steps": MOST_STEPS}
     values["loading"] = parameters.loading.kind
     below = parameters.below
-    if below is not None:
-        if below.mesh.grading != 1.0:
-            raise FreeFemError("the script for FreeFem++ has second_body.grading = 1.0 only")
-        values |= {f"second_{name}": value for name, value in asdict(below.material).items()}
-        del values["second_plane"]
-        values |= {
-            "second_poisson_ratio": below.material.in_plane_ratio,
-            "second_height": below.geometry.height,
-            "second_n_y": below.mesh.n_y,
-            "second_bottom": below.bottom,
-        }
+    if below is not None and below.mesh.grading != 1.0:
+        raise FreeFemError("the script for FreeFem++ has second_body.grading = 1.0 only")
+    lower = below or parameters  # of a rigid base nothing tells but that it is held
+    values |= {f"second_{name}": value for name, value in asdict(lower.material).items()}
+    values |= {
+        "second_poisson_ratio": lower.material.in_plane_ratio,
+        "second_height": lower.geometry.height,
+        "second_n_y": below.mesh.n_y if below else 1,
+        "second_bottom": below.bottom if below else "rigid",
+    }
     return {name: str(value) for name, value in values.items()}
 
 
@@ -151,8 +149,7 @@ def run(
     given = arguments(parameters, settings, extraction) | {"directory": str(directory)}
     if parameters.perturbation.kind != "none":
         (directory / REALISATION).write_text(realisation(parameters), encoding="ascii")
-    script = scripts / (BLOCK if parameters.below is None else PAIR)
-    command = [PROGRAM, "-nw", "-v", "0", str(script)]
+    command = [PROGRAM, "-nw", "-v", "0", str(scripts / SCRIPT)]
     command += [f"{name}={value}" for name, value in given.items()]
     environment = os.environ | {"FF_LOADPATH": os.environ.get("FF_LOADPATH", PLUGINS)}
     done = subprocess.run(
