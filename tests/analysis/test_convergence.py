@@ -47,7 +47,7 @@ def test_table_compares_with_the_finest_run():
         row(id=f"n{n}", n_x=n, length=0.3 + 10.0 / n, onset_time=12.0 - 100.0 / n)
         for n in (1600, 400, 800)
     ]
-    found = refinement_table(table(rows))
+    found = refinement_table([table(rows)])
     assert tuple(found.data_vars) == tuple(COLUMNS)
     assert list(found["id"].values) == ["n400", "n800", "n1600"]
     sizes = np.array([400.0, 800.0, 1600.0])
@@ -61,7 +61,7 @@ def test_table_compares_with_the_finest_run():
 
 def test_a_run_stands_in_each_of_its_sequences():
     rows = [row(), *(row(n_x=n) for n in (800, 1600)), *(row(n_y=n) for n in (10, 40))]
-    found = refinement_table(table(rows))
+    found = refinement_table([table(rows)])
     usual = (found["n_x"] == 400) & (found["n_y"] == 20)
     assert list(found["refinement"].values[usual.values]) == ["n_x", "n_y"]
     assert found.sizes["run"] == 6

@@ -1,9 +1,11 @@
 """Published laboratory faults: what the file may hold, and the lengths that follow."""
 
 import math
+from importlib import resources
 
 import numpy as np
 import pytest
+import yaml
 
 from nucleation.analysis import laboratory
 from nucleation.analysis.laboratory import NEEDED, READ, laboratory_table, read_fault
@@ -11,7 +13,10 @@ from nucleation.api import ParameterError, critical_length, stability_length
 from nucleation.figures.beyond import figure_laboratory
 
 FAULTS = {fault.name: fault for fault in laboratory.laboratory_faults()}
-TABLE = laboratory_table(tuple(FAULTS.values()))
+ENTRIES = yaml.safe_load(
+    resources.files("nucleation.analysis").joinpath("laboratory.yaml").read_text()
+)
+TABLE = laboratory_table(ENTRIES)
 WORDS = {"title": "A (2000)", "material": "glass", "source": "doi:1", "read": "all", "says": "long"}
 
 

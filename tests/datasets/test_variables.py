@@ -9,7 +9,14 @@ import xarray as xr
 from declared import VARIABLES, declarations
 
 from nucleation.analysis import lengths
-from nucleation.datasets.variables import DatasetError, Variable, annotate, require_annotated, table
+from nucleation.datasets.variables import (
+    DatasetError,
+    Variable,
+    annotate,
+    require_annotated,
+    table,
+    to_csv,
+)
 from nucleation.pipeline import code
 
 RECORDED = "nucleation.simulation.recorded"
@@ -58,7 +65,7 @@ def test_a_table_has_its_columns_in_their_order():
     assert found["length"].attrs == {"units": "m", "long_name": "its length", "symbol": "L"}
     assert found["id"].attrs == {"long_name": "name"}
     require_annotated(found)
-    assert lengths.to_csv(found) == "id,length\na,1.0\nb,2.0\n"
+    assert to_csv(found) == "id,length\na,1.0\nb,2.0\n"
     require_annotated(table([], COLUMNS, "twin"))
 
 

@@ -41,7 +41,7 @@ make_rule(
 
 make_rule(
     "compare_crosscheck",
-    call="nucleation.verification.crosscheck.compare:files",
+    call="nucleation.verification.crosscheck.compare:compared",
     shows="crosscheck",
     inputs={"own": crosschecks("own"), "freefem": crosschecks("freefem")},
     ids=list(CROSSCHECKS),

@@ -36,7 +36,7 @@ for _study in PATCHED_TOGETHER:
 
 make_rule(
     "gather_patches",
-    call="nucleation.patch.tables:stability_files",
+    call="nucleation.patch.tables:gather_stability",
     shows="{name}",
     constraint="|".join(PATCH_TABLES),
     local=True,
@@ -63,7 +63,7 @@ make_rule(
 
 make_rule(
     "gather_twins",
-    call="nucleation.patch.tables:twin_files",
+    call="nucleation.patch.tables:gather_twins",
     shows="twin_runs",
     local=True,
     inputs={"twins": lambda wildcards: twins()},

@@ -65,7 +65,7 @@ for _name in BATCHED_ONE_BY_ONE:
 # A table with onset time and critical length for each study, and one of the studies that share it.
 make_rule(
     "extract",
-    call="nucleation.analysis.lengths:of_study",
+    call="nucleation.analysis.lengths:gather",
     shows="lengths/{name}",
     constraint=one_of(study for study in settings.studies if study not in TABLED),
     priority=1,

@@ -1,7 +1,7 @@
 # Tables beyond the paper: each is made of others, of simulations, or of what was read from these.
 make_rule(
     "gather_drop",
-    call="nucleation.patch.drop_table:drop_files",
+    call="nucleation.patch.drop_table:gather",
     shows="drop",
     local=True,
     inputs={
@@ -15,7 +15,7 @@ make_rule(
 
 make_rule(
     "gather_floors",
-    call="nucleation.patch.drop_table:floor_files",
+    call="nucleation.patch.drop_table:floors",
     shows="floors",
     local=True,
     inputs={
@@ -57,7 +57,7 @@ make_rule(
 # All studies whose base is deformable in every run.
 make_rule(
     "gather_pairs",
-    call="nucleation.patch.pairs:files",
+    call="nucleation.patch.pairs:gather",
     shows="pairs",
     local=True,
     inputs={
@@ -74,7 +74,7 @@ make_rule(
 
 make_rule(
     "convergence",
-    call="nucleation.analysis.convergence:files",
+    call="nucleation.analysis.convergence:refinement_table",
     shows="convergence",
     inputs={
         "tables": needed(
@@ -86,7 +86,7 @@ make_rule(
 
 make_rule(
     "sensitivity",
-    call="nucleation.analysis.sensitivity:files",
+    call="nucleation.analysis.sensitivity:sensitivity_table",
     shows="sensitivity",
     inputs={
         "simulations": needed(
@@ -100,7 +100,7 @@ make_rule(
 
 make_rule(
     "gather_literature",
-    call="nucleation.analysis.literature:files",
+    call="nucleation.analysis.literature:literature_table",
     shows="literature",
     inputs={
         "simulations": needed(
@@ -114,7 +114,7 @@ make_rule(
 # Published laboratory faults: the lengths observed, and those of the theory where enough was read.
 make_rule(
     "gather_laboratory",
-    call="nucleation.analysis.laboratory:files",
+    call="nucleation.analysis.laboratory:laboratory_table",
     shows="laboratory",
     faults=read_yaml(Path(SOURCE, "nucleation", "analysis", "laboratory.yaml")),
     message="Laboratory faults: lengths observed and computed",

@@ -11,7 +11,7 @@ import xarray as xr
 
 from ..datasets.variables import Variable, some, table
 from .lengths import COLUMNS as LENGTHS
-from .lengths import Files, join, with_csv
+from .lengths import join
 
 REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
@@ -47,13 +47,13 @@ def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
     return [own.sort_values(refined, ascending=ascending) for own in groups if len(own) > 1]
 
 
-def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
-    """The sequences found in a table of lengths, each run beside the finest one.
+def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
+    """The sequences found in tables of lengths, each run beside the finest one.
 
     :data:`COLUMNS` on ``run``: a run has a row in each of its sequences, with its differences from
     the finest run of it. NaN without an event.
     """
-    frame, rows = lengths.to_dataframe(), []
+    frame, rows = join(tables).to_dataframe(), []
     for refined in REFINED:
         for own in sequences(frame, refined):
             finest = own.iloc[-1]
@@ -67,8 +67,3 @@ def refinement_table(lengths: xr.Dataset) -> xr.Dataset:
             )
             rows += found.to_dict("records")
     return table(rows, COLUMNS)
-
-
-def files(tables: Iterable[xr.Dataset]) -> Files:
-    """The step ``convergence``: :func:`refinement_table` of some tables, with its CSV."""
-    return with_csv(refinement_table(join(tables)))

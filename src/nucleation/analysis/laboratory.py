@@ -6,7 +6,6 @@ was read. What nobody has read is unknown: no length is computed from it.
 
 import dataclasses
 import math
-from collections.abc import Iterable
 from importlib.resources import files as resources
 from typing import Any, NamedTuple
 
@@ -24,7 +23,6 @@ from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES
 from ..theory.specimen import SPECIMEN
 from .lengths import COLUMNS as LENGTHS
-from .lengths import Files, with_csv
 
 READ = ("measured", "assumed")
 NEEDED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "b", "slip_distance")
@@ -156,15 +154,10 @@ def _number(fault: str, key: str, value: Any, status: str, where: str) -> Number
     return Number(low, high, status, where)
 
 
-def files(faults: dict[str, dict[str, Any]]) -> Files:
-    """The step ``gather_laboratory``: :data:`COLUMNS` of the file's entries, with CSV."""
-    return with_csv(laboratory_table(read_fault(*item) for item in faults.items()))
-
-
-def laboratory_table(faults: Iterable[LaboratoryFault]) -> xr.Dataset:
-    """:data:`COLUMNS` of some faults: lengths observed, and computed where all is known."""
+def laboratory_table(faults: dict[str, dict[str, Any]]) -> xr.Dataset:
+    """:data:`COLUMNS` of a file's entries: lengths observed, and computed where all is known."""
     rows = []
-    for own in faults:
+    for own in map(read_fault, faults, faults.values()):
         parameters, numbers = own.parameters, own.numbers
         rows.append({
             "laboratory_fault": own.name,

@@ -225,28 +225,6 @@ def columns_csv() -> str:
     return pd.DataFrame(described).rename(columns={"long_name": "meaning"}).to_csv(index=False)
 
 
-def to_csv(table: xr.Dataset) -> str:
-    """A table as comma-separated text, in the order of its columns."""
-    return table.to_dataframe()[list(table.data_vars)].to_csv(index=False)
-
-
-Files = dict[str, Any]
-"""The files of a result by their suffix: a dataset, texts."""
-
-
-def with_csv(table: xr.Dataset) -> Files:
-    """A table as dataset and as comma-separated text."""
-    return {".nc": table, ".csv": to_csv(table)}
-
-
-def of_study(
-    runs: list[dict[str, Any]], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
-) -> Files:
-    """The step ``extract``: the lengths of one study."""
-    return with_csv(gather(runs, simulations, settings))
-
-
-def of_studies(tables: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_lengths``: those of several, and what the columns are."""
-    joined = join(tables)
-    return with_csv(joined) | {".columns.csv": columns_csv()}
+def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:
+    """The table of several studies, and what the columns are."""
+    return {".nc": join(tables), ".columns.csv": columns_csv()}

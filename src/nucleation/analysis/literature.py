@@ -20,7 +20,6 @@ from ..theory.literature import LOCALISED_LIMIT
 from ..theory.literature_table import LENGTHS, TWO_MATERIALS, values_of
 from ..types import Array
 from .definitions import slipping_zone
-from .lengths import Files, with_csv
 from .rows import Row
 
 SLIP_RATES = (1e-4, 1e-2, 1e-1)  # m/s, at which lengths are read
@@ -181,8 +180,3 @@ def _not_simulated(simulated: set[str]) -> Iterator[Row]:
             if length.system == TWO_MATERIALS:
                 reason = "the formula of one material, with M in the place of mu*"
             yield empty | {"name": length.key, "definition": reason}
-
-
-def files(runs: list[Row], simulations: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_literature``: :func:`literature_table`, with its CSV."""
-    return with_csv(literature_table(runs, simulations))

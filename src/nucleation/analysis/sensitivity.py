@@ -20,7 +20,6 @@ from .convergence import LENGTH_OVER_THEORY
 from .definitions import ExtractionSettings
 from .extraction import extract
 from .lengths import COLUMNS as LENGTHS
-from .lengths import Files, with_csv
 from .record import Record
 from .rows import Row
 
@@ -181,10 +180,3 @@ def _row(
         "onset_change": found["onset_time"] / usual["onset_time"] - 1.0,
         "status": case.simulation.attrs["status"],
     }
-
-
-def files(
-    runs: list[Row], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
-) -> Files:
-    """The step ``sensitivity``: :func:`sensitivity_table`, with its CSV."""
-    return with_csv(sensitivity_table(runs, simulations, settings))

@@ -64,6 +64,16 @@ def table(
     )
 
 
+def is_table(dataset: xr.Dataset) -> bool:
+    """Whether all of a dataset's variables are columns, on one dimension."""
+    return len(dataset.dims) == 1 and all(v.ndim == 1 for v in dataset.data_vars.values())
+
+
+def to_csv(table: xr.Dataset) -> str:
+    """A table as comma-separated text, in the order of its columns."""
+    return table.to_dataframe()[list(table.data_vars)].to_csv(index=False)
+
+
 def require_annotated(dataset: xr.Dataset) -> None:
     """Make sure that every variable says what it is: long name, and the unit of numbers.
 

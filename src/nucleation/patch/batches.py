@@ -40,7 +40,7 @@ def table(
     runs: Sequence[dict[str, Any]], records: Iterable[xr.Dataset | None],
     settings: ExtractionSettings, measure: str,
 ) -> xr.Dataset:  # fmt: skip
-    """The step ``batch``: the rows of its runs, without those that have no record."""
+    """The rows of a batch's runs, without those that have no record."""
     rows = [
         measured(run, record, settings, measure)
         for run, record in zip(runs, records, strict=True)
@@ -49,8 +49,8 @@ def table(
     return lengths.join(rows) if rows else xr.Dataset()  # which is not kept
 
 
-def of_study(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> lengths.Files:
-    """The step ``join_batches``: a study's table, its runs in their order."""
+def of_study(tables: Iterable[xr.Dataset], ids: Sequence[str]) -> xr.Dataset:
+    """A study's table, its runs in their order."""
     joined = lengths.join(tables)
     places = {name: i for i, name in enumerate(joined["id"].values.tolist())}
-    return lengths.with_csv(joined.isel(run=[places[name] for name in ids]))
+    return joined.isel(run=[places[name] for name in ids])

@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.lengths import Files, with_csv
 from ..analysis.record import parameters_of
 from ..analysis.rows import Row, rows_of
 from ..datasets.variables import Variable, some, table
@@ -88,13 +87,16 @@ def law_of(history: ModeHistory) -> Callable[[Row], Row]:
     return row_of
 
 
-def gather(drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
+def gather(
+    drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset], quiet: Iterable[xr.Dataset] = ()
+) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, for the runs of faults whose mode is known.
 
-    `drops` are tables with :data:`MEASURED` and ``fault``, `modes` histories as datasets.
+    `drops` and `quiet` are tables with :data:`MEASURED` and ``fault``, `modes` histories as
+    datasets.
     """
     laws = {fault(parameters_of(mode)): law_of(from_dataset(mode)) for mode in modes}
-    runs = [run for own in drops for run in rows_of(own, names=(*MEASURED, "fault"))]
+    runs = [run for own in (*drops, *quiet) for run in rows_of(own, names=(*MEASURED, "fault"))]
     return table([run | laws[run["fault"]](run) for run in runs if run["fault"] in laws], COLUMNS)
 
 
@@ -102,15 +104,3 @@ def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Datas
     """:data:`FLOORS` on ``run``: how noisy the meshes of quiet runs are with their steps."""
     found = gather(quiet, modes)
     return found[list(FLOORS)].isel(run=np.flatnonzero(found["kind"].values == "none"))
-
-
-def drop_files(
-    drops: Iterable[xr.Dataset], quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]
-) -> Files:
-    """The step ``gather_drop``: :func:`gather`, with its CSV."""
-    return with_csv(gather([*drops, *quiet], modes))
-
-
-def floor_files(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_floors``: :func:`floors`, with its CSV."""
-    return with_csv(floors(quiet, modes))

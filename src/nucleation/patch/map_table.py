@@ -10,9 +10,8 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.lengths import Files, to_csv
 from ..analysis.rows import RATIO_COLUMNS, ratios
-from ..datasets.variables import DatasetError, annotate, some
+from ..datasets.variables import DatasetError, annotate, some, to_csv
 from .batches import STABILITY
 
 COLUMNS = {
@@ -74,7 +73,7 @@ def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
     return grid[name].mean("seed", skipna=False)
 
 
-def files(lengths: xr.Dataset) -> Files:
-    """The step ``gather_map``: the table as CSV, and on its grid."""
+def files(lengths: xr.Dataset) -> dict[str, Any]:
+    """The table as CSV, and on its grid."""
     rows = gather(lengths)
     return {".nc": on_grid(rows), ".csv": to_csv(rows)}

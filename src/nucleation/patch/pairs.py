@@ -12,7 +12,7 @@ from ..analysis.definitions import ExtractionSettings
 from ..analysis.extraction import MEASURED as EXTRACTED
 from ..analysis.extraction import extract
 from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.lengths import Files, description, with_csv
+from ..analysis.lengths import description
 from ..analysis.rows import RATIO_COLUMNS, ratios
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
@@ -112,11 +112,3 @@ def chosen(table: xr.Dataset, rows: NDArray[np.bool_]) -> xr.Dataset:
 def of_role(table: xr.Dataset, role: str) -> xr.Dataset:
     """The rows of the studies with one role."""
     return chosen(table, table["role"].values == role)
-
-
-def files(
-    runs: list[dict[str, Any]], simulations: Iterable[xr.Dataset],
-    patches: Iterable[xr.Dataset], settings: ExtractionSettings,
-) -> Files:  # fmt: skip
-    """The step ``gather_pairs``: :func:`gather`, with its CSV."""
-    return with_csv(gather(runs, simulations, patches, settings))

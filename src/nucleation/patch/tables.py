@@ -5,11 +5,11 @@ from typing import Any
 
 import xarray as xr
 
-from ..analysis.lengths import COLUMNS, Files, description, with_csv
+from ..analysis.lengths import COLUMNS, description
 from ..analysis.rows import RATIO_COLUMNS
 from ..datasets.variables import Variable, some, table
-from . import twins
 from .growth import FITTED
+from .twins import MEASURED
 
 STABILITY = {
     **some(
@@ -25,7 +25,7 @@ STABILITY = {
 
 TWINS = {
     **some(COLUMNS, "id", "evolution", "height", "phi0", "n_x", "n_y"),
-    **twins.MEASURED,
+    **MEASURED,
     **some(COLUMNS, "theory_length", "fault"),
 }
 
@@ -48,21 +48,11 @@ def gather_stability(runs: Iterable[dict[str, Any]], patches: Iterable[xr.Datase
     return table(rows, STABILITY)
 
 
-def gather_twins(runs: Iterable[dict[str, Any]], datasets: Iterable[xr.Dataset]) -> xr.Dataset:
+def gather_twins(runs: Iterable[dict[str, Any]], twins: Iterable[xr.Dataset]) -> xr.Dataset:
     """:data:`TWINS` on ``twin``: all kicks, with the runs that they belong to."""
     rows = [
-        description(run) | {name: float(found[name][i]) for name in twins.MEASURED}
-        for run, found in zip(runs, datasets, strict=True)
+        description(run) | {name: float(found[name][i]) for name in MEASURED}
+        for run, found in zip(runs, twins, strict=True)
         for i in range(found.sizes["twin"])
     ]
     return table(rows, TWINS, "twin")
-
-
-def stability_files(runs: list[dict[str, Any]], patches: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_patches``: :func:`gather_stability`, with its CSV."""
-    return with_csv(gather_stability(runs, patches))
-
-
-def twin_files(runs: list[dict[str, Any]], twins: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_twins``: :func:`gather_twins`, with its CSV."""
-    return with_csv(gather_twins(runs, twins))

@@ -9,9 +9,8 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.lengths import Files, to_csv
 from ..datasets.shared import SHARED
-from ..datasets.variables import Variable, annotate, some, table
+from ..datasets.variables import Variable, annotate, some, table, to_csv
 from ..model.identity import fault
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
@@ -82,8 +81,8 @@ def gather(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> xr.D
     return annotate(table(rows, COLUMNS).merge(drawn), DRAWN)
 
 
-def files(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> Files:
-    """The step ``gather_patch_theory``: :func:`gather`, and its rows as CSV."""
+def files(runs: Iterable[dict[str, Any]], tables: Iterable[xr.Dataset]) -> dict[str, Any]:
+    """What :func:`gather` finds, and its rows as CSV."""
     found = gather(runs, tables)
     return {".nc": found, ".csv": to_csv(found[list(COLUMNS)])}
 

@@ -21,7 +21,7 @@ from typing import Any, NoReturn
 import xarray as xr
 
 from ..datasets import netcdf, provenance
-from ..datasets.variables import DatasetError
+from ..datasets.variables import DatasetError, is_table, to_csv
 from ..model.quantities import ParameterError
 from . import code, keys
 from .steps import LINKS, Task, plain_paths, task_of
@@ -103,12 +103,17 @@ class Job:
             raise self.store.refused(key, error) from None
 
     def put(self, task: Task, made: Any) -> None:
-        """Put what a function has returned into the store: all files of the result."""
+        """Put what a function has returned into the store: all files of the result.
+
+        A table is put as comma-separated text, too.
+        """
         key, origin = str(keys.key_in(task.link)), self.origin(task)
         if isinstance(made, xr.Dataset):
             made = {".nc": made}
         elif not isinstance(made, Mapping):
             made = {"": made}  # a figure, which has several files
+        if ".csv" not in made and is_table(found := made.get(".nc", xr.Dataset())):
+            made = {**made, ".csv": to_csv(found)}
 
         def write(place: Path) -> None:
             for suffix, content in made.items():

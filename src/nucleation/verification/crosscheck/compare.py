@@ -14,7 +14,6 @@ import xarray as xr
 from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
 from ...analysis.lengths import COLUMNS as LENGTHS
-from ...analysis.lengths import Files, with_csv
 from ...analysis.record import Record
 from ...datasets.variables import Variable, some, table
 from ...types import Array
@@ -85,13 +84,13 @@ def _largest(values: Array) -> float:
     return float(np.abs(values).max()) if values.size else np.nan
 
 
-def files(
+def compared(
     ids: Sequence[str], own: Iterable[xr.Dataset], freefem: Iterable[xr.Dataset],
     settings: ExtractionSettings,
-) -> Files:  # fmt: skip
-    """The step ``compare_crosscheck``: each run by both solvers."""
+) -> xr.Dataset:  # fmt: skip
+    """:data:`COLUMNS` on ``run``, each run by both solvers."""
     rows = [
         {"id": id, **compare(one, other, settings)}
         for id, one, other in zip(ids, own, freefem, strict=True)
     ]
-    return with_csv(table(rows, COLUMNS))
+    return table(rows, COLUMNS)
