@@ -4,7 +4,6 @@ import doctest
 import inspect
 import math
 import signal
-import warnings
 
 import numpy as np
 import pint
@@ -13,12 +12,11 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from nucleation import api
-from nucleation.model import plausible
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory import arrays, critical, spectrum
-from nucleation.theory.transfer import RIGID, Body
+from nucleation.theory import arrays, critical
+from nucleation.theory.transfer import Body
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
 FRICTION = {"a": 0.010, "b": 0.015, "slip_distance": 5e-6}
@@ -99,14 +97,6 @@ def test_units_are_converted_and_results_carry_theirs():
             arrays.critical_length(**FAULT | {"normal_stress": wrong})
 
 
-def test_implausible_magnitudes_are_warned_of():
-    with pytest.warns(plausible.ImplausibleWarning, match="shear_modulus = 30 Pa"):
-        arrays.critical_length(**FAULT | {"shear_modulus": 30.0})
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        arrays.critical_length(**FAULT, height=[1e-3, np.inf])
-
-
 def test_texts_have_units_as_on_the_command_line():
     texts = {"shear_modulus": "30GPa", "normal_stress": ["50 MPa", 50e6], "slip_distance": "5um"}
     assert_allclose(arrays.critical_length(**FAULT | texts), arrays.critical_length(**FAULT))
@@ -147,23 +137,6 @@ def test_spectrum_has_a_marginal_mode_at_the_critical_wavenumber():
     assert rates[0, 0].real > 0.0 > rates[0, 2].real
     marginal = rates[np.argmin(abs(rates[:, 1].real)), 1]
     assert marginal.imag == pytest.approx(mode.angular_frequency)
-
-
-def test_spectrum_broadcasts():
-    k, height = np.array([3.0, 5.0, 9.0]), np.array([[0.01], [0.1]])
-    rates = arrays.spectrum(k, **PAPER, velocity=1e-5, height=height)
-    assert rates.shape == (2, 2, 3)
-    interface = InterfaceState(velocity=1e-5)
-    for i, h in enumerate(height[:, 0]):
-        body = Body(Material(3.1e9, 1 / 3), h, "traction")
-        expected = spectrum.growth_rates(k, body, RIGID, interface)
-        assert_allclose(rates[:, i], expected, rtol=1e-13)
-
-
-def test_transfer_functions_need_no_friction():
-    g1, g2 = arrays.transfer_functions([2.0, -3.0], shear_modulus=1e9, poisson_ratio=0.25)
-    assert_allclose(g1, [2 / 3, -2 / 3])
-    assert_allclose(g2, 0.0, atol=1e-15)
 
 
 def test_named_arrays_keep_their_names():

@@ -3,7 +3,6 @@
 import ast
 import importlib.metadata
 import os
-import pkgutil
 import re
 import shutil
 import subprocess
@@ -84,10 +83,6 @@ def test_what_is_asked_for_is_what_the_extra_brings(extra):
     own = [each for each in EXTRAS[extra] if not each.startswith(PROJECT["name"])]
     assert set(map(normal, modules)) == named(own)
     assert PROJECT["name"] == installed.DISTRIBUTION
-
-
-def test_the_command_is_there():
-    assert callable(pkgutil.resolve_name(PROJECT["scripts"]["nucleation"]))
 
 
 def test_everything_declared_is_pinned():

@@ -25,6 +25,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from .answers.in_use import lengths_in_use
 from .datasets.installed import require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
@@ -42,21 +43,20 @@ from .theory.arrays import (
     transfer_functions,
 )
 from .theory.fault import Fault
-from .theory.literature_table import lengths_in_use
 
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings
     from .analysis.extraction import extract
     from .analysis.laboratory import laboratory_faults
     from .analysis.watched import simulate
+    from .answers.specimen import specimen_fit
+    from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
     from .datasets.netcdf import read, write
     from .figures.overview import film, plot_length, plot_run, plot_spectrum
     from .patch.expected_drop import NoDrop, expected_drop
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
-    from .theory.specimen import specimen_fit
-    from .theory.uncertainty import length_quantiles
 
 __all__ = [
     "CriticalMode",
@@ -111,8 +111,8 @@ _LATER = {
     ".patch.expected_drop": ("NoDrop", "expected_drop"),
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
-    ".theory.specimen": ("specimen_fit",),
-    ".theory.uncertainty": ("length_quantiles",),
+    ".answers.specimen": ("specimen_fit",),
+    ".answers.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 

@@ -1,9 +1,8 @@
 """Runs without an event are counted, and each is told why."""
 
-import pandas as pd
 import pytest
 
-from nucleation.analysis.events import in_table, why, without_event
+from nucleation.analysis.events import why, without_event
 
 ROW = {
     "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),
@@ -32,9 +31,3 @@ def test_all_are_named_and_counted():
 )
 def test_reasons(changed, said):
     assert said in why(ROW | changed)
-
-
-def test_what_a_table_says(tmp_path):
-    path = tmp_path / "lengths.csv"
-    pd.DataFrame([ROW]).to_csv(path, index=False)
-    assert in_table(path) == without_event([ROW])

@@ -47,22 +47,6 @@ def test_lengths_only_where_all_is_known():
     assert rows["theory_length"].notna().sum() == 2
 
 
-def test_a_model_of_a_triaxial_sample():
-    """Half-spaces, Eq. (6); the stress on the plane is that of 90 MPa along the axis."""
-    sample = FAULTS["pyquake3d_laboratory"]
-    sigma = 90e6 * math.cos(math.radians(30.0)) ** 2
-    assert sample.numbers["normal_stress"].low == pytest.approx(sigma)
-    expected = math.pi * 30.04e9 * 1e-7 / (0.0055 * 0.75 * sigma)
-    assert critical_length(**sample.parameters) == pytest.approx(expected)
-
-
-def test_the_moduli_of_a_plate():
-    plate = FAULTS["crackdyn_pmma"]
-    modulus = plate.numbers["shear_modulus"]
-    assert modulus.low == pytest.approx(3e9 / 2.7) and modulus.status == "measured"
-    assert plate.plane == "stress" and plate.parameters is None
-
-
 @pytest.mark.parametrize("function", [critical_length, stability_length])
 def test_lengths_fall_inversely_with_the_stress(function):
     """As Latour and others (2013) saw: of half-spaces; thin bodies give way as its root."""

@@ -2,9 +2,7 @@
 
 import dataclasses
 import io
-import itertools
 import re
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -48,16 +46,6 @@ def test_log_gets_lines_with_what_one_wants_to_know(monkeypatch):
     assert max(np.diff(done)) <= 10 and min(np.diff(done)) >= 0
 
 
-def test_log_is_not_flooded(monkeypatch):
-    """A line in PAUSE seconds, by a clock that goes on by one with every step."""
-    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=itertools.count(1.0).__next__))
-    log, short = io.StringIO(), dataclasses.replace(COARSE, stepping=Stepping(end_time=0.5))
-    record = simulate(short, progress=Progress(COARSE, log))
-    steps = [int(re.match(r"step (\d+):", line)[1]) for line in log.getvalue().splitlines()]
-    assert record.sizes["step"] > 5 * progress.PAUSE
-    assert steps == list(range(0, record.sizes["step"], int(progress.PAUSE)))
-
-
 def test_terminal_gets_a_bar_that_goes_away(monkeypatch):
     monkeypatch.setattr(progress, "PAUSE_ON_TERMINAL", 0.0)
     terminal = Terminal()
@@ -79,10 +67,3 @@ def test_part_done_is_by_the_patch_or_the_end_time():
     assert 0.3 < part(1.0, 0.1) < 0.6
     assert part(15.0, 10.0) == 0.99
     assert part(30.0, 0.0) == 1.0
-
-
-def test_part_done_never_falls():
-    """A run that goes on from its checkpoint begins to measure its patch again."""
-    bar, random = Progress(COARSE, io.StringIO()), np.random.default_rng(3)
-    parts = [bar.part_done(*random.uniform(0.0, [25.0, 0.3])) for _ in range(50)]
-    assert min(np.diff(parts)) >= 0.0 and parts[-1] > parts[0]

@@ -9,8 +9,8 @@ import xarray as xr
 from theory.test_literature import crack_coefficients
 
 from nucleation.analysis import literature
+from nucleation.answers.in_use import LENGTHS
 from nucleation.figures.beyond import figure_literature
-from nucleation.theory.literature_table import LENGTHS
 
 FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")
 

@@ -7,7 +7,7 @@ import jinja2
 import pytest
 from reference_evidence import ROOT, evaluate, evaluated, evidence
 
-from nucleation.claims.article import digits, paired, percent, render, rounded
+from nucleation.claims.article import digits, render, rounded
 
 TEMPLATE = (ROOT / "docs" / "article.md.in").read_text(encoding="utf-8")
 
@@ -65,11 +65,6 @@ def test_unknown_name_is_an_error(given):
         render("{{ claim('nonsense').ours }}", *given)
 
 
-def test_numbers_in_words():
-    assert digits(0.123456, 3) == "0.123" and digits(None, 3) == "–"
-    assert percent(0.1234) == "12 %" and percent(-0.0266, 1) == "-2.7 %" and percent(None) == "–"
-
-
 def test_our_numbers_are_rounded_to_their_range():
     row = {"ours": -0.00342, "uncertainty": (-0.0067, 0.0755), "unit": "1"}
     assert rounded(row) == "-0.0034 (-0.0067 to 0.0755)"
@@ -84,8 +79,3 @@ def test_what_is_cited_is_listed_and_what_is_listed_cited():
     assert len(entries) == len(re.findall("^- ", listed, re.M)) > 4
     cited = re.findall(r"([A-Z]\w+)(?: and \w+)?, (\d{4})\b", text)
     assert {*cited, ("Aldam", "2017")} == set(entries)  # the paper itself, by its title
-
-
-def test_runs_are_paired_by_fault():
-    one, two, other = {"fault": "a"}, {"fault": "b"}, {"fault": "a", "length": 3.0}
-    assert paired([one, two], [other]) == [(one, other), (two, None)]

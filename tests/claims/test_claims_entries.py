@@ -18,7 +18,6 @@ from nucleation.claims import table
 from nucleation.claims.claim import Verdict
 from nucleation.claims.measure import Measures
 from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
-from nucleation.claims.statements import bimaterial
 from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
@@ -48,13 +47,6 @@ def rows():
 def reference():
     with open(REFERENCE / "claims.csv", encoding="utf-8") as stream:
         return {row["id"]: row for row in csv.DictReader(stream)}
-
-
-def test_claims_are_many_and_told_apart():
-    assert len(CLAIMS) >= 30
-    assert len({claim.id for claim in CLAIMS}) == len(CLAIMS)
-    assert len({claim.statement for claim in CLAIMS}) == len(CLAIMS)
-    assert all(STATED.values())
 
 
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
@@ -206,20 +198,6 @@ def test_theory_by_hand(rows):
     assert {name: rows[name]["ours"] for name in expected} == pytest.approx(expected, rel=1e-6)
 
 
-def test_changes_of_law_and_age_take_the_same_definition_for_both_runs():
-    """A common factor of all lengths of a run changes the number and not only its range."""
-    base, spread = evidence(), 1.0 + 0.1 * np.arange(9)
-    ids = {"paper-slip-H0.01-phi1": 1.05, "paper-aging-H0.01-phi1": 1.0}
-    for seed, off in ((1, -0.02), (2, 0.0), (3, 0.02)):  # of which the mean counts
-        ids |= {f"converged-slip-H0.01-phi1-seed{seed}": 1.05 + off}
-        ids |= {f"converged-aging-H0.01-phi1-seed{seed}": 1.0}
-    measures = {id: measured(lengths=factor * spread) for id, factor in ids.items()}
-    row = BY_ID["slip-law-low"].evaluate(evidence(measures=measures))
-    assert row["uncertainty"] == pytest.approx([min(0.05, row["ours"]), max(0.05, row["ours"])])
-    lengths = [base.row("converged", law, 0.01)["length"] for law in ("slip", "aging")]
-    assert row["ours"] == pytest.approx(lengths[0] / lengths[1] - 1.0)
-
-
 def test_configuration_without_the_runs_can_not_be_checked():
     nothing = evidence(lengths=(), patches={})
     for name in ("onset-time", "theory-agreement", "stability-lost-at-length", "mesh-along"):
@@ -243,11 +221,6 @@ def test_tables_hold_every_row(rows):
     for claim, text in zip(CLAIMS, body[1:], strict=True):
         assert table.escaped(claim.method) in text
     assert sum(table.counts(listed).values()) == len(rows)
-
-
-def test_page_on_the_papers_own_point():
-    ratio = 0.15 / realisations("paper", "aging", 0.005).theory_length.item()
-    assert f"which is {ratio:.2f} of the theory" in " ".join(PAGE.split())
 
 
 def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
@@ -287,18 +260,3 @@ def test_runs_of_another_material_are_not_taken_for_the_papers():
         both = evidence(lengths=(on.lengths[0], *tables))
         found, expected = both.rows("converged"), on.rows("converged")
         assert [row["length"] for row in found] == [row["length"] for row in expected]
-
-
-@pytest.mark.slow
-def test_contrast_of_nearly_identical_bodies_is_judged_on_bodies_that_differ(monkeypatch):
-    """It compared identical ones, for which any coupling whatever would have passed."""
-    claim = BY_ID["bimaterial-contrast-limit"]
-    assert claim.evaluate(evidence())["verdict"] == Verdict.REPLICATED
-    coupled = bimaterial.half_spaces
-
-    def other(*pair):
-        g1, g2 = coupled(*pair)
-        return g1, g2 + 1e-5
-
-    monkeypatch.setattr(bimaterial, "half_spaces", other)
-    assert claim.evaluate(evidence())["verdict"] == Verdict.NOT_REPLICATED

@@ -1,7 +1,5 @@
 """The independent evaluations against exact cases, and that a wrong formula is found out."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from reference_evidence import BY_ID, evidence
@@ -9,9 +7,8 @@ from theory import layer_problem
 
 from nucleation.claims.claim import Verdict
 from nucleation.claims.independent import marginal, printed
-from nucleation.claims.independent.elastic_layers import Layer, block_field, chebyshev, compliance
-from nucleation.claims.statements import finite_height, sliding
-from nucleation.model.material import Material
+from nucleation.claims.independent.elastic_layers import Layer, compliance
+from nucleation.claims.statements import finite_height
 from nucleation.theory.critical import critical_wavenumber
 from nucleation.theory.transfer import RIGID, Body
 
@@ -21,12 +18,6 @@ def evidence_of_theory():
     return evidence()
 
 
-def test_chebyshev_matrix_differentiates_polynomials():
-    y, d = chebyshev(12, -2.5)
-    assert y[0] == 0.0 and y[-1] == pytest.approx(-2.5)
-    np.testing.assert_allclose(d @ y**5, 5.0 * y**4, atol=1e-10)
-
-
 @pytest.mark.parametrize("far_side", ["velocity", "traction"])
 @pytest.mark.parametrize("q", [0.3, 4.0, -1.0])
 def test_compliance_is_that_of_the_general_solution_with_150_digits(q, far_side):
@@ -34,13 +25,6 @@ def test_compliance_is_that_of_the_general_solution_with_150_digits(q, far_side)
     expected = np.array([[float(xx), -1j * float(xy)], [1j * float(yx), float(yy)]])
     ours = compliance(Layer(q, 0.3, far_side=far_side), 32)
     np.testing.assert_allclose(ours, expected, rtol=1e-8, atol=1e-8)
-
-
-def test_block_field_keeps_its_boundary_conditions():
-    y, u, w = block_field(Layer(1.5, 0.3, far_side="traction"))
-    assert u[0] == pytest.approx(1.0) and w[0] == pytest.approx(0.0, abs=1e-12)
-    assert y[-1] == pytest.approx(1.5)
-    assert np.isfinite(u).all() and np.isfinite(w).all()
 
 
 @pytest.mark.parametrize("height", [0.005, 0.1])
@@ -76,9 +60,3 @@ def test_wrong_formula_is_not_replicated(monkeypatch, evidence_of_theory, name, 
     assert claim.evaluate(evidence_of_theory)["verdict"] == Verdict.REPLICATED
     monkeypatch.setattr(printed, name, change(getattr(printed, name)))
     assert claim.evaluate(evidence_of_theory)["verdict"] == Verdict.NOT_REPLICATED
-
-
-def test_eta_follows_poissons_ratio(evidence_of_theory):
-    for nu in (0.1, 0.25, 0.4):
-        case = dataclasses.replace(evidence_of_theory, material=Material(poisson_ratio=nu))
-        assert sliding.eta_of(case) == pytest.approx(np.pi / (1.0 - nu), rel=1e-9)

@@ -58,12 +58,6 @@ def test_numbers_of_a_steady_front():
     assert ONSET / found.drop_time > 1e3
 
 
-def test_fast_slip_is_timed():
-    run = made_up()
-    faster = run.assign(maximal_slip_rate=run["maximal_slip_rate"] * 10.0)
-    assert measure(faster, SETTINGS).rupture_time == pytest.approx(2e-3)
-
-
 def test_time_of_acceleration_is_from_ten_to_a_hundred_times_the_velocity():
     run = made_up()
     fastest = run["maximal_slip_rate"].values.copy()

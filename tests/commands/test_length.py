@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from nucleation import api
+from nucleation.answers.in_use import LENGTHS, TWO_MATERIALS
 from nucleation.theory import arrays
-from nucleation.theory.literature_table import LENGTHS, TWO_MATERIALS
 
 WORDS = [
     "length", "--shear-modulus", "30GPa", "--poisson", "0.25", "--normal-stress", "50MPa",

@@ -1,6 +1,5 @@
 """The command as a whole: help, version, completion, exit codes."""
 
-import importlib
 import shlex
 import subprocess
 
@@ -19,11 +18,6 @@ def test_help(nucleation, words):
 
 def test_version(nucleation):
     assert nucleation("--version").out == f"nucleation, version {__version__}\n"
-
-
-def test_no_command_shows_the_help(nucleation):
-    ended = nucleation()
-    assert ended.code == 2 and "length" in ended.err and "simulate" in ended.err
 
 
 def test_completion():
@@ -62,9 +56,3 @@ def test_a_reader_that_leaves_is_no_failure_with_a_traceback(program):
         shell=True, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert ended.stdout.startswith("Usage") and ended.stderr == ""
-
-
-def test_listed_help_is_the_commands_own():
-    for name, text in commands.COMMANDS.items():
-        module = importlib.import_module(f"nucleation.commands.{name}")
-        assert module.command.help.splitlines()[0] == text

@@ -85,11 +85,6 @@ def test_summary_of_lengths(nucleation, files, settings):
     assert f"  {length / run.theory_length:.3f}" in said
 
 
-def test_variables_of_other_datasets(nucleation, files):
-    said = nucleation("show", files["other"]).out
-    assert "onset_time" in said and "2 one; 1 to 2 s" in said and "2 one; 0.1 m" in said
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if name != "other"])
 def test_plot(nucleation, files, tmp_path, name):

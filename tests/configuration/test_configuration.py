@@ -6,7 +6,6 @@ import pytest
 import yaml
 from configurations import CONFIG, PAPER, study
 
-from nucleation.configuration.grids import expand
 from nucleation.configuration.load import configure, load, schema
 from nucleation.configuration.runs import first_realisations
 from nucleation.configuration.studies import theory_curves
@@ -170,13 +169,6 @@ def test_constants_of_the_law_in_a_study():
         assert run.value("phi0") == 1.0
 
 
-def test_ranges():
-    assert expand({"start": 0.0, "stop": 0.3, "num": 4}) == (0.0, 0.1, 0.2, 0.3)
-    assert expand({"start": 1e-3, "stop": 10, "num": 3, "scale": "log"}) == (0.001, 0.1, 10.0)
-    assert expand([3, 1]) == (3, 1)
-    assert expand("slip") == ("slip",)
-
-
 def curves(*runs, **settings):
     made = configure(study(*runs, **settings))
     return made.runs, theory_curves(
@@ -201,11 +193,6 @@ def test_constants_of_friction_may_vary():
     runs, found = curves({"height": 0.01, "zeta_over_a": [1.0, 4.0]})
     assert found[""]["length"][0] == pytest.approx(runs[0].theory_length, rel=1e-6)
     assert found[""]["length"][0] > 1.5 * found[""]["length"][-1]
-
-
-def test_no_curve_over_two_numbers_or_numbers_of_elements():
-    assert curves({"height": [0.01, 0.1], "phi0": [1.0, 2.0]})[1] == {}
-    assert curves({"height": 0.01, "n_x": [100, 200]})[1] == {}
 
 
 @pytest.mark.slow

@@ -3,7 +3,6 @@
 import pytest
 from configurations import changed, messages, study
 
-from nucleation.configuration.advice import advise
 from nucleation.configuration.load import configure
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.model.parameters import Parameters
@@ -69,12 +68,6 @@ def test_each_run_has_the_theory_of_its_own_far_sides(bottom):
     assert run.parameters.geometry.length == pytest.approx(6 * run.theory_length, rel=1e-3)
 
 
-def test_memory_counts_both_meshes():
-    one = Parameters().replaced({"n_x": 400, "n_y": 20})
-    pair = one.replaced({"second_body": "deformable", "second_n_y": 30})
-    assert estimated_megabytes(pair) == estimated_megabytes(one.replaced({"n_y": 50}))
-
-
 def test_memory_counts_dense_factors_under_a_moved_top():
     pair = {"second_body": "deformable", "second_bottom": "clamped", "n_x": 1200, "n_y": 16}
     measured = 798.0  # MB, the first 0.3 s for H = 0.02 m
@@ -94,9 +87,3 @@ def test_estimates_go_with_the_softer_body():
         own * 2 * 0.01, rel=1e-4
     )
     assert growth_time(soft, 0.1) > 20 * growth_time(thick, 0.1)
-
-
-def test_warned_of_the_second_mesh():
-    entry = {**PAIR, "second_height": 1.0, "second_n_y": 4, "n_x": 800, "n_y": 20, "end_time": 60.0}
-    (warning,) = advise(configure(study(entry)).runs)
-    assert "second_n_y = 4 and second_grading = 1 make elements of 0.25 m" in warning

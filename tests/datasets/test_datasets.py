@@ -1,7 +1,6 @@
 """Datasets on disk: complete metadata, whole or not at all, damage noticed; where they are from."""
 
 import errno
-import json
 import os
 import resource
 
@@ -66,12 +65,6 @@ def test_failed_write_leaves_the_old_file(record, tmp_path, monkeypatch):
     assert [file.name for file in tmp_path.iterdir()] == ["record.nc"]
 
 
-def test_text_is_replaced_whole(tmp_path):
-    for text in ("a\n", "φ\n"):
-        netcdf.write_text(text, tmp_path / "table.csv")
-    assert [file.read_text("utf-8") for file in tmp_path.iterdir()] == ["φ\n"]
-
-
 @pytest.mark.parametrize("part", [0.0, 0.01, 0.5, 0.99])
 def test_truncated_file_is_refused(record, tmp_path, part):
     path = tmp_path / "record.nc"
@@ -91,14 +84,6 @@ def test_foreign_missing_and_incomplete_files_are_refused(record, tmp_path):
     netcdf.write(record, path)
     with pytest.raises(DatasetError, match=r"lacks the variables \['state'\]"):
         netcdf.read(path, requires=["state", "slip_rate"])
-
-
-def test_attributes_are_text(monkeypatch):
-    monkeypatch.setenv("SOURCE_DATE_EPOCH", "0")
-    attributes = provenance.attributes({"b": 1e-9, "a": [1]}, "digest", "make it")
-    assert attributes["created"] == "1970-01-01T00:00:00+00:00"
-    assert attributes["parameters"] == '{"a": [1], "b": 1e-09}'
-    assert json.loads(attributes["versions"])["numpy"] == np.__version__
 
 
 def test_joined_tables_keep_their_longest_text(tmp_path):

@@ -11,9 +11,9 @@ import pytest
 import xarray as xr
 from docs.samples import DOCS, ROOT
 
+from nucleation.answers.finite_patch import loaded_patch_factor
+from nucleation.answers.formulas import FINITE_PATCH
 from nucleation.patch.pairs import over_realisations
-from nucleation.theory.finite_patch import loaded_patch_factor
-from nucleation.theory.literature import FINITE_PATCH
 
 FINDINGS = (DOCS / "findings.md").read_text(encoding="utf-8")
 CONTRASTS = (-0.38, -0.2, 0.0, 0.2, 0.38)

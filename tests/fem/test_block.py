@@ -79,14 +79,6 @@ def test_inertia_and_top_load_equal_assembled(grid):
     np.testing.assert_allclose(top, block.top_load(3.0), atol=1e-14)
 
 
-def test_momentum_is_mass_times_velocity(grid):
-    body, block = Block(grid, MATERIAL), AssembledBlock(grid, MATERIAL)
-    velocity = random_load(body, np.random.default_rng(3))
-    values = np.zeros(block.stiffness.shape[0])
-    values[block.x] = body.nodal_values(velocity)[0]
-    assert body.momentum_x(velocity) == pytest.approx((block.mass @ values)[block.x].sum())
-
-
 @pytest.mark.parametrize("s", [STATIC, SLOW, FAST])
 def test_condensed_operator(grid, s):
     """apply() is the response of solve(), tangent() and diagonal are its matrix, D is SPD."""

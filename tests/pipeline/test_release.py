@@ -61,13 +61,3 @@ def test_metadata_agree():
     doi = CITED["references"][0]["doi"]
     assert doi == ZENODO["related_identifiers"][0]["identifier"]
     assert CODEMETA["referencePublication"]["@id"] == f"https://doi.org/{doi}"
-
-
-def test_files_of_the_forge_call_what_is_there():
-    container = json.loads((ROOT / ".devcontainer/devcontainer.json").read_text("utf-8"))
-    flow = yaml.safe_load((ROOT / ".github/workflows/ci.yml").read_text("utf-8"))
-    job = flow["jobs"]["run"]
-    assert job["steps"][-1]["run"] == ".ci/run" and job["container"] == container["image"]
-    assert "make .venv/environment.stamp" in container["postCreateCommand"]
-    for form in (ROOT / ".github/ISSUE_TEMPLATE").glob("*.yml"):
-        assert {"name", "description", "body"} == set(yaml.safe_load(form.read_text("utf-8")))

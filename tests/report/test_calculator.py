@@ -191,13 +191,3 @@ def test_bad_values_have_no_result(web, field):
         (said,) = web.locator("#values dt").all_inner_texts()
         assert said.startswith(f"No values: {field.label} must lie in (")
         assert web.locator("#others tbody").count() == 0
-
-
-def test_needs_no_network_and_fits_a_phone(calculating):
-    assert len({url.split("#")[0] for url in calculating.requests}) == 1
-    web = calculating.page
-    web.set_viewport_size({"width": 360, "height": 800})
-    assert web.evaluate("document.documentElement.scrollWidth") <= 360
-    web.set_viewport_size({"width": 1280, "height": 900})
-    unnamed = "[...document.querySelectorAll('input, select')].filter((one) => !one.labels.length"
-    assert web.evaluate(f"{unnamed} && !one.ariaLabel).length") == 0

@@ -14,7 +14,6 @@ import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
-from nucleation.analysis import moments
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import parameters_of
 from nucleation.figures import catalogue, laws
@@ -70,15 +69,6 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
     assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
     assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "0.001"
     assert answer.of_paper(run(role="own")) is None
-
-
-def test_csv_has_only_the_datasets_own_columns():
-    metres = {"units": "m"}
-    table = xr.Dataset(
-        {"height": ("run", [0.1, 0.2], metres), "id": ("run", ["a", "b"]), "steps": ("run", [1, 2])}
-    )
-    assert tables.csv_text(table) == "height (m),id,steps\n0.1,a,1\n0.2,b,2\n"
-    assert tables.csv_text(table, ("id",)) == "id\na\nb\n"
 
 
 # ---- Parts
@@ -138,13 +128,6 @@ def test_points_have_the_marks_of_figure_3(table):
     assert series["length"] == table["length"].values.tolist()
 
 
-def test_points_of_a_law_that_the_paper_does_not_have(table):
-    other = table.assign(evolution=("run", ["halfway"]), role=("run", ["own"]), phi0=("run", [7.0]))
-    (series,) = tables.point_series(other)
-    assert series["label"] == "paper, halfway law, φ(0) = 7 s" and not series["filled"]
-    assert series["symbol"] == tables.SYMBOLS[laws.OTHERS[0][0]]
-
-
 def test_sliders_are_parameters_of_the_library_at_the_configurations_values(settings):
     material, interface = settings.base.material, settings.main_text_interface
     controls = faults.controls(material, interface)
@@ -181,19 +164,6 @@ def test_player_keeps_the_event_and_the_look_of_the_force(simulation, table):
     assert run["patch_length"].sel(time=onset, method="nearest") == pytest.approx(
         float(row["length"]), rel=0.02
     )
-
-
-def test_run_without_an_event_is_shown_evenly(simulation, table):
-    time = simulation["time"].values
-    event = moments.event_interval(simulation, np.nan)
-    chosen = moments.chosen_frames(time, event, (20, 20, 20))
-    assert chosen[0] == 0 and time[chosen[-1]] == time[-1]
-    assert chosen.size in (20, 21)  # the last one may count as after the event
-
-
-def test_thinned_keeps_ends_and_few_as_they_are():
-    assert moments.thinned(np.arange(5), 7).tolist() == [0, 1, 2, 3, 4]
-    assert moments.thinned(np.arange(101), 3).tolist() == [0, 50, 100]
 
 
 # ---- Texts

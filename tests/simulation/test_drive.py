@@ -3,9 +3,7 @@
 import dataclasses
 
 import numpy as np
-import pytest
 
-from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.composition import at_rest, composed
 from nucleation.simulation.drive import Steady
@@ -54,17 +52,3 @@ def test_strength_multiplies_friction():
     for name in ("slip_rate", "log_state", "tangential", "normal"):
         one, other = getattr(found.interface, name), getattr(expected.interface, name)
         np.testing.assert_allclose(one, other, rtol=1e-7, atol=1e-9 * np.abs(other).max())
-
-
-def test_load_is_that_of_the_end_of_the_step():
-    """Without inertia the interface bears what rests on it."""
-    parameters = dataclasses.replace(PARAMETERS, material=Material(density=0.0))
-    body = composed(parameters).body
-
-    class Growing(Steady):
-        def load(self, time):
-            return body.top_load(2e5 * (1.0 + 10.0 * time))
-
-    state, report = last_step(parameters, Growing(1e-3, body.top_load(2e5)))
-    total = 2e5 * (1.0 + 10.0 * state.time) * parameters.geometry.length
-    assert report.interface.normal.sum() == pytest.approx(total, rel=1e-9)

@@ -119,24 +119,3 @@ def test_step_error_falls_with_the_second_order_of_the_steps():
     runs = [last(step) for step in (0.08, 0.04, 0.005)]
     at = [np.interp(0.5, r["step_time"].values, r["driving_force"].values) for r in runs]
     assert abs(at[1] - at[2]) < 0.5 * abs(at[0] - at[2])
-
-
-def test_realisation_does_not_depend_on_mesh_or_steps():
-    fine = perturbed("strength").replaced({"n_x": 240, "longest_step": 0.01})
-    coarse, refined = (
-        composed(each).drive.at(0.0).strength for each in (perturbed("strength"), fine)
-    )
-    np.testing.assert_allclose(coarse, refined[::4], rtol=1e-12)
-
-
-def test_inertia_of_the_drive_is_that_of_the_mass():
-    parameters = perturbed("drive_velocity", 0.1)
-    body = composed(parameters).body
-    load = body.translation_load(2.0)
-    nodal = body.sine_values(load.modes[:, 0] * body.grid.n_x / 2.0)
-    # back to forces: the basis' last node counts by one half
-    mass = body.total_mass
-    assert mass == pytest.approx(1200.0 * 0.9 * 0.005)
-    first = 0.5 * body.grid.dx / 0.9  # share of the driven edge's own nodes
-    weights = np.append(np.ones(59), 0.5) * 2.0 / 60
-    assert (nodal @ weights).sum() == pytest.approx(-2.0 * mass * (1.0 - first), rel=1e-9)

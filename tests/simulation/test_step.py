@@ -10,7 +10,7 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.composition import at_rest, composed
-from nucleation.simulation.interface import NewtonFailure, Past
+from nucleation.simulation.interface import NewtonFailure
 
 
 def small(law="aging", **mesh):
@@ -90,73 +90,6 @@ def test_a_step_changes_nothing_and_repeats_exactly():
     again, _ = composed(small()).advance(state, -58)
     np.testing.assert_array_equal(first.past_slip_rates, again.past_slip_rates)
     np.testing.assert_array_equal(first.displacement.modes, again.displacement.modes)
-
-
-@pytest.mark.parametrize("law", ["aging", "slip"])
-def test_right_edge_moves_as_predicted_until_waves_reach_it(law, monkeypatch):
-    """One sweep with the predicted edge gives what two sweeps give, and says when it does not."""
-    parameters = dataclasses.replace(
-        small(law, n_x=48, n_y=24), geometry=Geometry(height=0.02, length=0.8)
-    )
-
-    def swept(round_off):
-        monkeypatch.setattr("nucleation.fem.right_edge.ROUND_OFF", round_off)
-        sweeps = []
-        monkeypatch.setattr(
-            "nucleation.fem.block.BlockOperator.swept",
-            lambda self, load, edge: sweeps.append(0) or sweep(self, load, edge),
-        )
-        dynamics = composed(parameters)
-        state, report = at_rest(dynamics, parameters.loading)
-        reports = []
-        for rung in LADDER:
-            state, report = dynamics.advance(state, rung)
-            reports.append(report)
-        return state, reports, len(sweeps) / len(LADDER)
-
-    sweep = BlockOperator.swept
-    (state, found, sweeps), (expected_state, expected, all_sweeps) = swept(4.0), swept(0.0)
-    assert all_sweeps > 2.0 > 1.5 > sweeps
-    for one, two in zip(found, expected, strict=True):
-        for name in ("tangential", "normal"):
-            p, q = getattr(one.interface, name), getattr(two.interface, name)
-            assert np.abs(p - q).max() < 1e-10 * np.abs(q).max()
-        assert one.driving_force == pytest.approx(two.driving_force, rel=1e-9)
-    u, v = state.displacement, expected_state.displacement
-    assert np.abs(u.modes - v.modes).max() < 1e-11 * np.abs(v.modes).max()
-    assert np.abs(u.edge - v.edge).max() < 1e-11 * np.abs(v.edge).max()
-
-
-def test_newton_converges_quadratically():
-    """Residuals of successive iterations: the exponent of their decay is two."""
-    parameters = small()
-    dynamics = composed(parameters)
-    state, _ = at_rest(dynamics, parameters.loading)
-    for rung in LADDER:
-        state, _ = dynamics.advance(state, rung)
-    interface = dataclasses.replace(dynamics.interface, most_iterations=20)
-    step = dynamics.scheme.step(-58, state.past_times)
-    operator = dynamics.operator(step.s)
-    errors, updated = [], type(interface)._updated
-
-    def spy(self, v, change):
-        errors.append(np.max(np.abs(change) / (np.abs(v) + 1e-9)))
-        return updated(self, v, change)
-
-    imposed = dynamics.drive.at(state.time + step.length)
-    load = dynamics._load_with_past(state, step, imposed)
-    past = Past.of(state, step.body, imposed, step.first)
-    guess = state.past_slip_rates[0][1:] * 1.05
-    response = operator.respond(load, past.w + past.beta * (guess - 1e-3))
-    type(interface)._updated = spy
-    try:
-        interface.solve(operator, response, past, imposed, guess)
-    finally:
-        type(interface)._updated = updated
-    errors = [e for e in errors if e > 1e-13]
-    assert len(errors) >= 3
-    rates = [np.log(b) / np.log(a) for a, b in zip(errors[-3:-1], errors[-2:], strict=True)]
-    assert max(rates) > 1.8, errors
 
 
 def test_a_residual_that_is_undefined_at_one_node_is_a_failure():

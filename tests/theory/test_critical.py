@@ -159,12 +159,6 @@ def test_marginal_stiffness_solves_its_quadratic(zeta, rho):
         np.testing.assert_allclose([minus, plus], np.sort(expected), rtol=1e-10)
 
 
-def test_marginal_stiffness_without_coupling():
-    assert marginal_stiffness(0.0, 0.0068, 0.016) == (pytest.approx(0.016),) * 2
-    assert marginal_stiffness(0.0, 0.0068, 0.0) == (0.0, 0.0)
-    assert np.all(np.isnan(marginal_stiffness(0.5, 0.0068, -0.01)))
-
-
 def test_certainly_stable_intervals_are_stable():
     """No root grows in a certified interval, and a tight one with a margin is certified."""
     rng = np.random.default_rng(3)
@@ -231,22 +225,6 @@ def test_narrow_unstable_band_is_found(excess, scale):
     assert k[scan[1]] / k[scan[0]] < 1.0 + 4.0 * excess**0.5
     point = critical_wavenumber(upper, RIGID, state)
     assert k[scan[1]] <= point.wavenumber <= k[scan[1] + 1]
-
-
-def test_symmetric_layers_have_the_uncoupled_frequency():
-    layer = Body(MATERIAL, 0.02, "traction")
-    point = critical_wavenumber(layer, layer, MAIN_TEXT)
-    assert point.angular_frequency == pytest.approx(20 * np.sqrt(0.016 / 0.0068), rel=1e-12)
-
-
-def test_held_block_is_a_spring_for_long_waves():
-    """Stiffness mu/H per area against Eq. (1): stable below ``H = mu ell / (zeta sigma0)``."""
-    height = MATERIAL.shear_modulus * 0.5e-6 / (0.016 * 1e6)
-    uncoupled = dataclasses.replace(MAIN_TEXT, friction=0.0)
-    with pytest.raises(NoInstability):
-        critical_wavenumber(Body(MATERIAL, height * 0.9999), RIGID, uncoupled)
-    point = critical_wavenumber(Body(MATERIAL, height * 1.0001), RIGID, uncoupled)
-    assert point.wavenumber * height < 0.1
 
 
 @pytest.mark.parametrize(

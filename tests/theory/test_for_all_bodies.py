@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from nucleation.answers.formulas import bimaterial
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.theory.closed_forms import (
@@ -14,7 +15,6 @@ from nucleation.theory.closed_forms import (
     thin_limit_length,
 )
 from nucleation.theory.critical import NoInstability, critical_length, critical_wavenumber
-from nucleation.theory.literature import bimaterial
 from nucleation.theory.spectrum import growth_rates
 from nucleation.theory.stiffness import FAR_SIDES
 from nucleation.theory.transfer import RIGID, Body, transfer_functions

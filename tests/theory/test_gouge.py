@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from nucleation.api import critical_length, specimen_fit, transfer_functions
+from nucleation.api import critical_length, transfer_functions
 
 GOUGE = {"shear_modulus": 1e8, "poisson_ratio": 0.3, "height": 2e-3, "far_side": "clamped",
          "second_shear_modulus": math.inf}  # fmt: skip
@@ -23,8 +23,3 @@ def test_the_threshold():
     stress = THRESHOLD * np.array([0.5, 0.9999, 1.0001, 2.0])
     stable = np.isnan(critical_length(**GOUGE, **FRICTION, normal_stress=stress))
     assert stable.tolist() == [True, True, False, False]
-
-
-def test_a_specimen_of_any_length_needs_the_threshold():
-    [(low, _)] = specimen_fit("normal_stress", 5.0, **GOUGE, **FRICTION).intervals
-    assert low == pytest.approx(THRESHOLD, rel=1e-4) and low > THRESHOLD

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 
 from benchmarks.assembled import assemble
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.analysis.lengths import gather
 from nucleation.api import (
     Material,
     ParameterError,
@@ -16,10 +14,8 @@ from nucleation.api import (
     stability_length,
     transfer_functions,
 )
-from nucleation.configuration.load import configure
 from nucleation.fem.grid import Grid
 from nucleation.model.identity import fault
-from nucleation.report.faults import faults
 from nucleation.simulation.run import simulate
 
 PMMA = {"shear_modulus": 3.1e9, "normal_stress": 1e6, "a": 0.0068, "zeta": 0.016,
@@ -106,17 +102,3 @@ def test_other_planes_are_refused():
         Material(plane="antiplane")
     with pytest.raises(ParameterError, match=refused):
         critical_length(**PMMA, poisson_ratio=NU, plane="antiplane")
-
-
-def test_a_study_of_both_planes():
-    """Both are varied as any parameter, and tables of lengths and the report tell them apart."""
-    settings = {"n_x": 40, "n_y": 4, "end_time": 0.1}
-    runs = [{"height": 0.01, "plane": ["strain", "stress"]}]
-    found = configure({"studies": {"s": {"defaults": settings, "runs": runs}}}).runs
-    done = [simulate(run.parameters) for run in found]
-    table = gather([run.to_dict() for run in found], done, ExtractionSettings())
-    assert table["plane"].values.tolist() == ["strain", "stress"]
-    ratios = [own.in_page()["values"]["nu"] for own in faults(table)]
-    assert ratios == pytest.approx([1 / 3, 1 / 4])
-    first, second = table["theory_length"].values
-    assert second / first == pytest.approx(0.943, abs=0.002)

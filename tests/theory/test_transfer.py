@@ -1,6 +1,5 @@
 import itertools
 import warnings
-from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -17,7 +16,7 @@ from nucleation.theory.transfer import (
     Body,
     transfer_functions,
 )
-from nucleation.theory.waves import Waves, scaled_sinh_excess
+from nucleation.theory.waves import Waves
 
 LAYER_NUMBERS = (1e-8, 3e-3, 0.4, 1.3, 6.0, 24.0, 26.0, 100.0)
 SOFT, STIFF, AUXETIC = Material(3.1e9, 1 / 3), Material(8.7e9, 0.21), Material(1e9, -0.6)
@@ -45,15 +44,6 @@ PAIRS = [pair for pair in itertools.product(UPPER, LOWER) if pair != (None, None
 
 def or_rigid(body):
     return RIGID if body is None else body
-
-
-@pytest.mark.parametrize("x", [1e-150, 1e-8, 0.1, 0.999, 1.0, 1.5, 9.0, 400.0])
-def test_scaled_sinh_excess(x):
-    d = Decimal(x)
-    exact = ((d.exp() - (-d).exp()) / 2 - d) * (-d).exp()
-    if x < 1e-100:
-        exact = d**3 / 6
-    assert scaled_sinh_excess(x) == pytest.approx(float(exact), rel=3e-15, abs=0.0)
 
 
 @pytest.mark.parametrize("q", LAYER_NUMBERS)

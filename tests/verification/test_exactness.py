@@ -14,9 +14,7 @@ from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.composition import at_rest, composed
-from nucleation.verification.manufactured.dynamics import Manufactured
-from nucleation.verification.manufactured.fields import Displacement, Power, Term
-from nucleation.verification.orders import GEOMETRY, MATERIAL
+from nucleation.verification.orders import MATERIAL
 
 VELOCITY = 1e-3  # m/s; a patch forms within some steps
 # growing steps, then many of 3e-5 s, some of them shorter, while the first nodes break loose
@@ -100,16 +98,3 @@ def test_rigid_motion_needs_no_force(grading):
     tangential, normal = operator.apply(np.ones(grid.n_x))
     assert np.abs(tangential).max() < 1e-13 * operator.diagonal.max()
     assert np.abs(normal).max() < 1e-13 * operator.diagonal.max()
-
-
-def test_a_block_that_translates_with_its_driven_edge_feels_nothing():
-    """Unloaded, with an interface that moves along, it stays free of strain at any step."""
-    nothing = (Term(0.0, Power(1.0), Power(1.0), Power(1.0)),)
-    parameters = Parameters(MATERIAL, geometry=GEOMETRY, mesh=Mesh(n_x=12, n_y=6, grading=2.0))
-    problem = Manufactured(parameters, Displacement((nothing, nothing), MATERIAL))
-    state, report = problem.run(*range(-80, -40, 2))
-    moved = problem.velocity * state.time
-    assert problem.displacement_error(state) < 1e-14 * moved
-    held = MATERIAL.shear_modulus * moved  # N/m, the order of the forces if it were held back
-    for force in (report.interface.tangential, report.interface.normal, report.driving_force):
-        assert np.abs(force).max() < 1e-13 * held

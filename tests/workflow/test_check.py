@@ -10,7 +10,6 @@ import xarray as xr
 
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.pipeline import check
-from nucleation.pipeline.store import Store
 
 RUN = "paper-slip-H0.02-phi1"
 
@@ -154,13 +153,3 @@ def test_unused_results_alone_are_listed_and_removed_if_that_is_asked_for(workfl
     assert files(workflow.directory / "results") == kept
     again = first("table_s1")
     assert again.returncode == 0 and entry.exists(), again.stdout
-
-
-@pytest.mark.parametrize("content", ["[]", "{", '{"keys": 1, "files": []}', "\udcff"])
-def test_nothing_is_pruned_beside_a_damaged_record(content, tmp_path):
-    store = Store(tmp_path / "store")
-    record = store.directory / "views" / "0.paper.json"
-    record.parent.mkdir(parents=True)
-    record.write_text(content, errors="surrogateescape")
-    with pytest.raises(check.StoreError, match="nothing can be said of unused results"):
-        check.prune(tmp_path, {}, remove=True)

@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 import yaml
 
+from ..answers.specimen import SPECIMEN
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.material import PLANES
@@ -21,7 +22,6 @@ from ..model.units import parse
 from ..theory.arrays import critical_length
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES
-from ..theory.specimen import SPECIMEN
 from .lengths import COLUMNS as LENGTHS
 
 READ = ("measured", "assumed")

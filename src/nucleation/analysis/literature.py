@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from ..answers.formulas import LOCALISED_LIMIT
+from ..answers.in_use import LENGTHS, TWO_MATERIALS, values_of
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.parameters import Parameters
 from ..theory.fault import Fault
-from ..theory.literature import LOCALISED_LIMIT
-from ..theory.literature_table import LENGTHS, TWO_MATERIALS, values_of
 from ..types import Array
 from .definitions import slipping_zone
 from .rows import Row

@@ -9,13 +9,13 @@ from typing import Any
 
 import click
 
+from ..answers.uncertainty import parse_range
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
-from ..theory.uncertainty import parse_range
 from .given import given_of, merged_parameters, sourced
 from .options import (
     option,

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ..answers.uncertainty import Range, parse_range
 from ..configuration.load import configure, load
 from ..configuration.runs import Run
 from ..configuration.strict_yaml import read_yaml
@@ -15,7 +16,6 @@ from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, check
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES
-from ..theory.uncertainty import Range, parse_range
 from .options import flat
 
 STUDY = "command"  # name of the study of one run that a command line amounts to

@@ -8,14 +8,7 @@ from typing import Any
 
 import click
 
-from ..model.friction.law import Friction
-from ..model.loading import LOADINGS
-from ..model.material import Material
-from ..model.quantities import ParameterError, declarations
-from ..theory.arrays import critical_mode, reason_of_stability
-from ..theory.creep.lengths import stability_values
-from ..theory.fault import Fault
-from ..theory.literature_table import (
+from ..answers.in_use import (
     HALF_SPACES,
     LENGTHS,
     TWO_MATERIALS,
@@ -24,7 +17,14 @@ from ..theory.literature_table import (
     of_two_materials,
     values_of,
 )
-from ..theory.uncertainty import Range, parse_range
+from ..answers.uncertainty import Range, parse_range
+from ..model.friction.law import Friction
+from ..model.loading import LOADINGS
+from ..model.material import Material
+from ..model.quantities import ParameterError, declarations
+from ..theory.arrays import critical_mode, reason_of_stability
+from ..theory.creep.lengths import stability_values
+from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, parameters_of, said_of
 from .given import given_of

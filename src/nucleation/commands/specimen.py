@@ -4,9 +4,9 @@ from typing import Any
 
 import click
 
+from ..answers.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
-from ..theory.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, said_of
 from .options import option

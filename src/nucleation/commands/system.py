@@ -4,10 +4,10 @@ import math
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from ..answers.in_use import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
 from ..theory.fault import Fault
-from ..theory.literature_table import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
 from ..theory.transfer import RigidBody, bodies_of
 
 

@@ -9,11 +9,11 @@ from typing import Any
 import click
 import numpy as np
 
+from ..answers.in_use import LENGTHS, THIS_FAULT, TWO_MATERIALS
+from ..answers.uncertainty import QUANTILES, Range, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
 from ..theory.fault import Fault
-from ..theory.literature_table import LENGTHS, THIS_FAULT, TWO_MATERIALS
-from ..theory.uncertainty import QUANTILES, Range, length_quantiles
 from . import DONE, STABLE
 from .fault_options import doubts_told, parameters_of, said_of
 from .system import systems_of_lengths

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ..answers.uncertainty import SAMPLED
 from ..model.quantities import ParameterError
 from ..model.units import rescaled
 from ..theory.arrays import aliases
-from ..theory.uncertainty import SAMPLED
 from ..types import Array
 
 _HEADER = re.compile(r"\s*(\w+)\s*(?:\((.*)\)|\[(.*)\])?\s*")

@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..answers import finite_patch, formulas
+from ..answers.in_use import HALF_SPACES, LENGTHS, THIS_FAULT, TWO_MATERIALS
 from ..model.units import bounds, parse
-from ..theory import finite_patch, literature
 from ..theory.fault import QUANTITIES
-from ..theory.literature_table import HALF_SPACES, LENGTHS, THIS_FAULT, TWO_MATERIALS
 from . import encode, stability
 
 SCRIPTS = ("page.js", "theory.js", "stability.js", "lengths.js", "calculator.js")
@@ -79,8 +79,8 @@ def data() -> dict[str, Any]:
         "two_materials": TWO_MATERIALS, "half_spaces": HALF_SPACES,
         "thick": THICK, "stability": stability.in_page(),
         "limits": {
-            "localised": literature.LOCALISED_LIMIT, "thin": literature.THIN,
-            "patch": literature.FINITE_PATCH, "negligible": literature.NEGLIGIBLE,
+            "localised": formulas.LOCALISED_LIMIT, "thin": formulas.THIN,
+            "patch": formulas.FINITE_PATCH, "negligible": formulas.NEGLIGIBLE,
             "nearest": finite_patch.NEAREST, "chebyshev": finite_patch.polynomial().tolist(),
         },
     }  # fmt: skip

@@ -1,5 +1,5 @@
 "use strict";
-// The lengths in use, by the keys and within the limits of nucleation.theory.literature_table; NaN
+// The lengths in use, by the keys and within the limits of nucleation.answers.in_use; NaN
 // outside their validity.
 const Lengths = (() => {
   // The factor of a loaded patch, a polynomial by Clenshaw's rule.

@@ -14,7 +14,7 @@ const Stability = (() => {
     return sums;
   }
 
-  // M (Pa) and beta of the bodies as half-spaces, Eq. (8); nucleation.theory.literature.bimaterial.
+  // M (Pa) and beta of the bodies as half-spaces, Eq. (8); nucleation.answers.formulas.bimaterial.
   function pair(p) {
     const [softness, nu2] = p.second ? [p.mu / p.second.mu, p.second.nu] : [0, 0];
     const total = 1 - p.nu + (1 - nu2) * softness;

@@ -136,7 +136,7 @@ def test_no_patch():
 
 @pytest.mark.parametrize("ratio", [0.3, 1.0, 2.288, 6.0])
 def test_a_patch_in_the_interior_of_a_full_space(ratio):
-    """It is the pinned patch under a rising load, solved otherwise in theory/finite_patch.py."""
+    """It is the pinned patch under a rising load, solved otherwise in answers/finite_patch.py."""
     fault = FAULT | {"second_shear_modulus": None, "zeta": ratio * FAULT["a"]}
     expected = float(lengths_in_use(**fault)["loaded_patch"])
     assert stability_length(**fault, loading="remote") == pytest.approx(expected, rel=1e-5)

@@ -7,9 +7,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...answers.formulas import FINITE_PATCH
 from ...figures import points, style
 from ...patch.pairs import over_realisations
-from ...theory.literature import FINITE_PATCH
 
 SIDES = (
     ("free", "o", style.VERMILLION),

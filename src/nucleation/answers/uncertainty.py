@@ -11,11 +11,11 @@ from scipy.special import ndtri
 
 from ..model.quantities import ParameterError, Quantity, check
 from ..model.units import NUMBER, magnitude, parse
+from ..theory.arrays import critical_length, fault_of, without_aliases
+from ..theory.creep.lengths import stability_values
+from ..theory.fault import QUANTITIES, Values, checked, inside, takes_fault
 from ..types import Array
-from .arrays import critical_length, fault_of, without_aliases
-from .creep.lengths import stability_values
-from .fault import QUANTITIES, Values, checked, inside, takes_fault
-from .literature_table import LENGTHS, THIS_FAULT, WEAKENING_RATE, values_of
+from .in_use import LENGTHS, THIS_FAULT, WEAKENING_RATE, values_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -187,7 +187,7 @@ def length_quantiles(
     Dataset
         ``value(key, quantile)`` (m) of the draws that have the length, and their ``share(key)``
         of all valid ones. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
-        :data:`~nucleation.theory.literature_table.LENGTHS`. Attributes: ``draws``; ``invalid``,
+        :data:`~nucleation.answers.in_use.LENGTHS`. Attributes: ``draws``; ``invalid``,
         no valid faults, with parameters that were ``outside``; ``stable``, without L_c.
 
     Raises

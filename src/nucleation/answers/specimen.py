@@ -10,9 +10,9 @@ from scipy.optimize import brentq
 from ..model.parameters import Geometry
 from ..model.plausible import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
-from .arrays import critical_length
-from .creep.lengths import stability_length
-from .fault import QUANTITIES, Values, checked, takes_fault
+from ..theory.arrays import critical_length
+from ..theory.creep.lengths import stability_length
+from ..theory.fault import QUANTITIES, Values, checked, takes_fault
 
 UNKNOWNS = Quantity(
     "what is looked for", choices=("normal_stress", "slip_distance", "shear_modulus"), kind="str"

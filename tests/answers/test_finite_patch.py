@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eig
 
-from nucleation.theory import finite_patch, literature
-from nucleation.theory.literature_table import lengths_in_use
+from nucleation.answers import finite_patch, formulas
+from nucleation.answers.in_use import lengths_in_use
 
 ROCK = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3}
 FAULT = ROCK | {"normal_stress": 1e6, "slip_distance": 5e-7}
@@ -59,12 +59,12 @@ def test_the_collocated_operator_is_the_singular_integral():
 def test_the_asperity_is_that_of_uenishi_and_rice():
     x, crack = collocated(80)
     values = eig(crack, np.diag(ellipse(x)), right=False).real
-    assert pytest.approx(2.0 * values.min(), abs=5e-4) == literature.FINITE_PATCH
+    assert pytest.approx(2.0 * values.min(), abs=5e-4) == formulas.FINITE_PATCH
 
 
 @pytest.mark.parametrize("ratio", [0.3, 0.9])
 def test_an_asperity_loses_stability_at_its_length(ratio):
-    half = 0.5 * literature.FINITE_PATCH / (1.0 - ratio)
+    half = 0.5 * formulas.FINITE_PATCH / (1.0 - ratio)
     uniform = np.ones_like
     assert growth(0.995 * half, ratio, uniform) < 0.0 < growth(1.005 * half, ratio, uniform)
 

@@ -53,12 +53,6 @@ def test_the_end_is_that_of_the_equation(unknown, bodies):
         assert found.monotonic and other in found.searched
 
 
-def test_modulus_of_identical_half_spaces():
-    [(low, high)] = specimen_fit("shear_modulus", 0.2, **PMMA, **without("shear_modulus")).intervals
-    assert high == pytest.approx(0.2 * 0.016 * (1.0 - 0.35) * 1e6 / (math.pi * 5e-7), rel=1e-10)
-    assert low == 1e2
-
-
 @pytest.mark.parametrize("bodies", BODIES.values(), ids=BODIES)
 def test_the_creeping_patch_fits_where_it_says(bodies):
     found = specimen_fit("normal_stress", 0.2, "stability", **PMMA, **without("normal_stress"),

@@ -1,6 +1,6 @@
 """The nucleation lengths in use, each with formula, source and validity in words.
 
-What they are made of, and what holds for all of them, is :mod:`nucleation.theory.literature`.
+What they are made of, and what holds for all of them, is :mod:`nucleation.answers.in_use`.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..model.quantities import Quantity
-from . import literature
-from .fault import Fault, Values, checked, labelled, takes_fault, where
+from ..theory.fault import Fault, Values, checked, labelled, takes_fault, where
+from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
-from .literature import Setting, nan0, valid
+from .formulas import Setting, nan0, valid
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,7 +55,7 @@ class Length:
             modulus, coupling = of_two_materials(fault)
             own |= {"shear_modulus": modulus, "poisson_ratio": 0.0}  # of which mu* = M
         value = self.compute(Setting(*(own[n] if n in own else getattr(fault, n) for n in names)))
-        return valid(coupling < literature.NEGLIGIBLE, value) if two else value
+        return valid(coupling < formulas.NEGLIGIBLE, value) if two else value
 
     def of_two(self) -> Length:
         """The same for two materials, with M in the place of mu*."""
@@ -66,7 +66,7 @@ class Length:
             source=f"{self.source}; M of Aldam et al. (2017), Eq. (8)",
             validity=f"{self.validity}; normal stress hardly changed by slip",
             system=TWO_MATERIALS,
-            needs=f"{self.needs} and f |beta| < {literature.NEGLIGIBLE}",
+            needs=f"{self.needs} and f |beta| < {formulas.NEGLIGIBLE}",
         )
 
     def words(self) -> dict[str, str]:
@@ -78,14 +78,14 @@ class Length:
 def of_two_materials(fault: Fault) -> tuple[Any, Any]:
     """The modulus M (Pa) of the pair as half-spaces and ``f |beta|``."""
     nu, second_nu = fault.in_plane_ratios
-    modulus, beta = literature.bimaterial(
+    modulus, beta = formulas.bimaterial(
         fault.shear_modulus, nu, fault.second_shear_modulus, second_nu
     )
     return modulus, abs(beta) * (0.0 if fault.friction is None else fault.friction)
 
 
 def _stability_length(fault: Fault) -> Any:
-    from .creep.lengths import stability_values  # with SciPy, which takes a while
+    from ..theory.creep.lengths import stability_values  # with SciPy, which takes a while
 
     return stability_values(fault)[0]
 
@@ -140,7 +140,7 @@ _OF_ONE_MATERIAL = (
             compute=methodcaller("conventional", eta),
         )
         for end, words, eta in zip(
-            ("shortest", "longest"), ("2/pi", "4/3"), literature.CONVENTIONAL_ETA, strict=True
+            ("shortest", "longest"), ("2/pi", "4/3"), formulas.CONVENTIONAL_ETA, strict=True
         )
     ),
     Length(
@@ -158,9 +158,9 @@ _OF_ONE_MATERIAL = (
         formula="2 x 1.3774 mu* D/(b sigma0)",
         source="Rubin and Ampuero (2005), 2 L_nu",
         validity="aging law, far above steady state; a/b < 0.3781",
-        needs=f"a/b < {literature.LOCALISED_LIMIT}",
+        needs=f"a/b < {formulas.LOCALISED_LIMIT}",
         compute=lambda s: valid(
-            s.a < literature.LOCALISED_LIMIT * s.b, 2.0 * 1.3774 * s.state_evolution()
+            s.a < formulas.LOCALISED_LIMIT * s.b, 2.0 * 1.3774 * s.state_evolution()
         ),
     ),
     Length(
@@ -178,9 +178,9 @@ _OF_ONE_MATERIAL = (
         formula="1.158 mu*/W, W = b sigma0/D unless given",
         source="Uenishi and Rice (2003)",
         validity="strength falls linearly with slip, without direct effect",
-        needs=f"a/b < {literature.NEGLIGIBLE} unless W is given",
+        needs=f"a/b < {formulas.NEGLIGIBLE} unless W is given",
         compute=lambda s: valid(
-            s.weakening_rate > 0.0, literature.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
+            s.weakening_rate > 0.0, formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
         ),
     ),
     Length(
@@ -190,7 +190,7 @@ _OF_ONE_MATERIAL = (
         source="Viesca and Garagash (2025), first scenario, by our derivation; "
         "Uenishi and Rice (2003)",
         validity="velocity weakening, patch of fixed length in steady creep, either law",
-        compute=lambda s: s.plane(literature.FINITE_PATCH),
+        compute=lambda s: s.plane(formulas.FINITE_PATCH),
     ),
     Length(
         key="loaded_patch",
@@ -208,7 +208,7 @@ _OF_ONE_MATERIAL = (
         source="Aldam et al. (2017), Eq. (11)",
         validity=f"{_STEADY}; 2 pi H/L << 1",
         system=RIGID_BASE,
-        needs=f"zeta > 0 and 2 pi H/L < {literature.THIN}",
+        needs=f"zeta > 0 and 2 pi H/L < {formulas.THIN}",
         compute=lambda s: s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi),
     ),
     Length(
@@ -218,7 +218,7 @@ _OF_ONE_MATERIAL = (
         source="Viesca (2016)",
         validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
         system=RIGID_BASE,
-        needs=f"a/b < 1/2 and 2 pi H/L < {literature.THIN}",
+        needs=f"a/b < 1/2 and 2 pi H/L < {formulas.THIN}",
         compute=lambda s: s.thin(2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution())),
     ),
 )
@@ -279,7 +279,7 @@ def values_of(
     """The lengths (m) by key, as arrays or DataArrays."""
     if weakening_rate is None:
         weakening_rate = fault.b * fault.normal_stress / fault.slip_distance
-        small = fault.a < literature.NEGLIGIBLE * fault.b
+        small = fault.a < formulas.NEGLIGIBLE * fault.b
         weakening_rate = where(small, weakening_rate, np.nan)
     else:
         weakening_rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)

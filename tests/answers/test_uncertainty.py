@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.stats import norm
 
+from nucleation.answers.uncertainty import QUANTILES, draw
 from nucleation.api import (
     critical_length,
     length_quantiles,
@@ -15,7 +16,6 @@ from nucleation.api import (
     stability_length,
 )
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.uncertainty import QUANTILES, draw
 
 FAULT = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
 FRICTION = {"a": 0.010, "zeta": 0.005}
@@ -75,11 +75,6 @@ def test_samples_are_joint():
     for key, other in (("stability_length", "creeping_patch"), ("loaded_patch", "loaded_patch")):
         expected = np.quantile(each[other], QUANTILES, method="hazen")
         assert_allclose(of(found, key), expected, rtol=1e-12)
-
-
-def test_many_samples_are_thinned_evenly():
-    drawn = draw(KNOWN | {"slip_distance": np.linspace(1e-6, 2e-6, 1001)}, draws=101)
-    assert_allclose(drawn.values["slip_distance"], np.linspace(1e-6, 2e-6, 101))
 
 
 def test_draws_repeat_and_do_not_depend_on_other_ranges():

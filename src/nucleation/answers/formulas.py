@@ -1,4 +1,4 @@
-"""What the nucleation lengths in use are made of; :mod:`.literature_table` lists them.
+"""What the nucleation lengths in use are made of; :mod:`.in_use` lists them.
 
 All are full lengths (not half-lengths), in plane strain, with ``mu* = mu/(1 - nu)``,
 ``b = a + zeta`` and ``zeta = b - a``; a and b belong to **natural** logarithms. SI units; numbers,
@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .fault import Values, where
+from ..theory.fault import Values, where
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 """Range of the prefactor eta of Eq. (3) (Dieterich, 1992, Table 1)."""
