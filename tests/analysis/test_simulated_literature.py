@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from theory.test_literature import crack_coefficients
+from answers.test_in_use import crack_coefficients
 
 from nucleation.analysis import literature
 from nucleation.answers.in_use import LENGTHS
