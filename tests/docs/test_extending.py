@@ -84,14 +84,3 @@ def test_study_and_figure(checkout, drawn):
     assert (paper["halfway"] != paper["aging"]).all()
     for ratio in (paper["halfway"] / paper["aging"], other["halfway"] / paper["halfway"].loc[0.02]):
         assert ratio.between(0.7, 1.4).all()
-
-
-@pytest.mark.slow
-def test_report_has_the_laws(checkout, drawn):
-    """To the end: nothing between the law's file and the page names the laws that there are."""
-    target, *arguments = drawn
-    assert target == "by_law"
-    run(["snakemake", "report", *arguments], checkout)
-    page = (checkout / "results" / "laws" / "report.html").read_text(encoding="utf-8")
-    for law in ("halfway", "aging", "slip"):
-        assert re.search(rf'"label": ?"laws, {law} law', page), law

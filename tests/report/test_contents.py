@@ -128,6 +128,13 @@ def test_points_have_the_marks_of_figure_3(table):
     assert series["length"] == table["length"].values.tolist()
 
 
+def test_points_of_a_law_that_the_paper_does_not_have(table):
+    other = table.assign(evolution=("run", ["halfway"]), role=("run", ["own"]), phi0=("run", [7.0]))
+    (series,) = tables.point_series(other)
+    assert series["label"] == "paper, halfway law, φ(0) = 7 s" and not series["filled"]
+    assert series["symbol"] == tables.SYMBOLS[laws.OTHERS[0][0]]
+
+
 def test_sliders_are_parameters_of_the_library_at_the_configurations_values(settings):
     material, interface = settings.base.material, settings.main_text_interface
     controls = faults.controls(material, interface)

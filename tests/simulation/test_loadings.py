@@ -109,7 +109,6 @@ def test_what_does_not_go_together_is_refused(parameters, change, words):
 
 EDGE = Parameters(geometry=Geometry(0.02, 0.6), mesh=Mesh(60, 6, 2.0))
 CASES = {
-    "edge": EDGE,
     "edge, two": dataclasses.replace(EDGE, second_body=TOP.second_body),
     "top, two": TOP,
     "remote": REMOTE,

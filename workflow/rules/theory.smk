@@ -15,7 +15,7 @@ make_rule(
     "dispersion",
     call="nucleation.verification.dispersion:files",
     shows="dispersion",
-    priority=1,  # the verdicts wait for it
+    priority=3,  # the verdicts wait for it, and nothing that it needs
     loads=plugins(settings.base),
     message="Dispersion: growth of single modes, time integration and theory",
     **CONFIGURED("material", "friction", "loading"),
