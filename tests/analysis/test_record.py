@@ -37,11 +37,3 @@ def test_onset_creep_and_extraction_agree():
     assert record.time[record.creep[-1]] <= record.drop_times[0] < record.time[record.creep[-1] + 1]
     length = record.lengths[record.frames_at(record.drop_times)][0]
     assert extract(record.simulation, SETTINGS)["length"] == length
-
-
-def test_a_run_without_event_creeps_all_along():
-    record = Record(synthetic_simulation(onset=50.0).isel(step=slice(0, 900)))
-    assert record.onset is None
-    assert record.creep.size == record.time.size
-    with pytest.raises(ValueError, match="the run has no event"):
-        _ = record.drop_times

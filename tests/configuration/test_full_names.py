@@ -1,7 +1,7 @@
 """Parameters of studies by full and short names, and the friction laws' own ones."""
 
 import pytest
-from configurations import assert_one_problem, messages, study, with_run
+from configurations import assert_one_problem, study, with_run
 
 from nucleation.configuration.load import configure
 from nucleation.model.friction.constants import constants
@@ -106,13 +106,3 @@ def test_laws_are_compared_by_one_study():
     assert runs[0].theory_length == pytest.approx(runs[1].theory_length, rel=1e-9)
     assert runs[1].value("friction_law") == "dieterich_ruina"
     assert runs[1].value("aging_coefficient") is None
-
-
-def test_weakening_may_be_given_alone():
-    """As zeta, the name that the theory has for it, and with the direct effect's own value."""
-    one, other = runs_of({"height": 0.1, "zeta": [0.008, 0.02]})
-    assert one.id == "s-aging-H0.1-phi1-velocity_weakening0.008"
-    assert [run.interface.zeta for run in (one, other)] == pytest.approx([0.008, 0.02])
-    assert one.interface.a == pytest.approx(other.interface.a)
-    text = messages(study({"height": 0.1, "zeta": 0.01, "zeta_over_a": 1.0}))
-    assert "zeta_over_a is not allowed together" in text

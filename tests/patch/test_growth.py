@@ -76,13 +76,6 @@ def test_few_frames_equal_all_frames(simulation, followed, monkeypatch):
     assert float(followed["stability_length"]) == pytest.approx(expected, rel=0.015)
 
 
-def test_run_that_ends_before_growth_has_no_length(simulation):
-    early = simulation.isel(time=slice(0, 60))
-    patch = follow_patch(early, ExtractionSettings())
-    assert all(np.isnan(patch[name]) for name in FITTED)
-    assert (patch["mode_real"] == 0.0).all()
-
-
 def test_rough_crossing_ignores_single_instants_and_gaps():
     growth = np.array([-3.0, np.nan, 0.5, -1.0, -0.5, 0.1, 0.7, -5.0, 2.0, 3.0])
     assert rough_crossing(np.arange(10.0), growth) == 5.0

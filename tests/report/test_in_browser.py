@@ -319,12 +319,3 @@ def test_phone_shows_all_without_scrolling_sideways(open_report, width):
       .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.innerText)"""
     assert width > 760 or web.evaluate(cut) == []
     assert opened.complaints == []
-
-
-def test_dark_screens_get_their_own_colours(open_report):
-    web = open_report(color_scheme="light").page
-    shade = "() => element('theory-plot').data[1].line.color"
-    light = web.evaluate(shade)
-    web.emulate_media(color_scheme="dark")
-    until(web, f"({shade})() !== '{light}'")
-    assert web.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(22, 24, 27)"

@@ -17,7 +17,7 @@ from nucleation.theory.critical import (
 from nucleation.theory.crossings import certainly_stable, marginal_stiffness
 from nucleation.theory.spectrum import growth_rates, system
 from nucleation.theory.stiffness import FAR_SIDES
-from nucleation.theory.transfer import RIGID, Body, transfer_functions
+from nucleation.theory.transfer import RIGID, Body
 
 pytestmark = pytest.mark.filterwarnings("error")
 MATERIAL = Material(3.1e9, 1 / 3)
@@ -126,16 +126,6 @@ def test_many_systems_at_once_are_each_alone():
     assert theory_lengths([]).shape == (0,)
 
 
-def test_numbers_of_pairs_with_a_far_side_each():
-    """Identical blocks of 20 mm, the upper one free (m): the lower one glued, or free as well."""
-    block = Body(MATERIAL, 0.02, "free")
-    lengths = theory_lengths(
-        (block, Body(MATERIAL, 0.02, kind), MAIN_TEXT) for kind in ("clamped", "free", "roller")
-    )
-    np.testing.assert_allclose(lengths[:2], [0.400, 0.166], atol=5e-4)
-    assert lengths[1] < lengths[2] < lengths[0]
-
-
 @pytest.mark.parametrize("kind", ["clamped", "roller", "velocity"])
 def test_a_thin_stiff_layer_below_is_a_rigid_base_or_a_free_body(kind):
     """A glued layer of no height is the base itself; high layers forget their far side."""
@@ -183,24 +173,6 @@ def test_certainly_stable_intervals_are_stable():
             if width == 1e-5 and interface.zeta > 0.0:
                 assert np.all(stable[(margin < 0.0) & (growth < 0.0)])
     assert min(certified.values()) > 500
-
-
-def test_onset_at_the_lower_root():
-    """The coupling fades at short waves; strengthening friction turns unstable at h_minus."""
-    material = Material(3e9, 0.0)
-    upper, lower = Body(material, 0.01, "traction"), Body(material)
-    interface = InterfaceState(friction=1.5, a=0.01, zeta=-1e-4, normal_stress=1.6e9)
-    k = np.geomspace(1.0, 1e4, 20000)
-    scan = crossings(upper, lower, interface, k)
-    point = critical_wavenumber(upper, lower, interface)
-    assert k[scan[-1]] <= point.wavenumber <= k[scan[-1] + 1]
-    roots = growth_rates(point.wavenumber, upper, lower, interface)
-    assert np.abs(roots - 1j * point.angular_frequency).min() < 1e-9 * abs(roots).max()
-    g1, g2 = transfer_functions(point.wavenumber, upper, lower)
-    load = 3e9 * point.wavenumber * interface.slip_length / interface.normal_stress * g1
-    minus, plus = marginal_stiffness(1.5 * g2 / g1, interface.a, interface.zeta)
-    assert load == pytest.approx(float(minus), rel=1e-9)
-    assert plus > 1.05 * minus
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e5])
