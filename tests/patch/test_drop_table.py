@@ -19,7 +19,8 @@ FAULT = fault(history().parameters)
 
 def drops(**changes):
     same = {"study": "drop", "role": "drop", "evolution": "aging", "n_x": 800, "n_y": 8,
-            "longest_step": 0.1, "onset_time": 9.0, "theory_length": 0.45}  # fmt: skip
+            "block_length": 2.7, "longest_step": 0.1, "onset_time": 9.0,
+            "theory_length": 0.45}  # fmt: skip
     columns = {name: [value] * 4 for name, value in same.items()} | {
         "id": list("abcd"),
         "height": [0.02, 0.02, 0.02, 0.3],

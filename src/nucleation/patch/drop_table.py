@@ -23,7 +23,8 @@ from .mode_history import ModeHistory, from_dataset
 
 MEASURED = some(
     LENGTHS, "study", "role", "id", "evolution", "height", "kind", "strength", "seed",
-    "correlation_length", "n_x", "n_y", "longest_step", "onset_time", "length", "theory_length",
+    "correlation_length", "n_x", "n_y", "block_length", "longest_step", "onset_time", "length",
+    "theory_length",
 )  # fmt: skip
 
 PREDICTED = {

@@ -93,13 +93,14 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> Non
     strength = quiet[f"floor_{kind}"].values
     shown = points.where(quiet, (2.0 * STRENGTHS[0] < strength) & (strength < STRENGTHS[1]))
     strength, ratio = shown[f"floor_{kind}"].values, shown["length"].values / theory
+    elements = np.rint(shown["n_x"].values * theory / shown["block_length"].values).astype(int)
     look: Any = {"color": style.BLACK, "markersize": 4.0, "markeredgewidth": 0.8}
-    label = "nothing perturbed, with its elements along $x$"
+    label = "nothing perturbed, with its elements within $L_c$"
     axes.plot(strength, ratio, "x", label=label, **look)
     first = 0
     while first < strength.size:  # those that are close have one label
         end = int(np.searchsorted(strength, CLOSE * strength[first]))
-        names = ", ".join(f"{n_x}" for n_x in np.unique(shown["n_x"].values[first:end]))
+        names = ", ".join(map(str, np.unique(elements[first:end])))
         place = strength[end - 1], ratio[end - 1]
         text: Any = {"textcoords": "offset points", "fontsize": style.SMALL}
         axes.annotate(names, place, (4, 3), **text)
