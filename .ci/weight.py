@@ -15,6 +15,9 @@ BUDGETS = {
 }
 """What is counted, the most that is allowed, and the files as git names them."""
 
+WING = 3_000
+"""The most lines of one wing."""
+
 
 def tracked(patterns: list[str], root: Path = ROOT) -> list[Path]:
     """The files that git tracks and that are there."""
@@ -30,9 +33,19 @@ def weight(what: str, patterns: list[str], root: Path = ROOT) -> int:
     return sum(text.count(b"\n") if lines else len(text.split()) for text in contents)
 
 
+def wings() -> dict[str, tuple[int, list[str]]]:
+    """A budget for each directory of the package."""
+    package = ROOT / "src" / "nucleation"
+    names = sorted(path.name for path in package.iterdir() if (path / "__init__.py").is_file())
+    return {f"lines of src/nucleation/{name}": (WING, [f"src/nucleation/{name}"]) for name in names}
+
+
 def main() -> bool:
-    """Print all weights; whether each is within its budget."""
+    """Print all weights, of the wings the largest; whether each is within its budget."""
     found = {what: weight(what, patterns) for what, (_, patterns) in BUDGETS.items()}
+    of_wings = {what: weight(what, patterns) for what, (_, patterns) in wings().items()}
+    largest = max(of_wings, key=of_wings.__getitem__)
+    found[largest], BUDGETS[largest] = of_wings[largest], wings()[largest]
     for what, count in found.items():
         print(f"{count:6} of {BUDGETS[what][0]} {what}")
     return all(count <= BUDGETS[what][0] for what, count in found.items())
