@@ -14,6 +14,7 @@ import os
 import runpy
 import shlex
 import sys
+import threading
 from dataclasses import asdict
 from math import ceil
 from pathlib import Path
@@ -178,6 +179,21 @@ def make_rule(
             message
         script:
             str(Path(BASE, "workflow", "scripts", f"{script_name}.py"))
+
+
+def no_more_timers():
+    """End at once: a timer of Snakemake's would let it wait until it looks for work once more."""
+    for thread in threading.enumerate():
+        if isinstance(thread, threading.Timer):
+            thread.cancel()
+
+
+onsuccess:
+    no_more_timers()
+
+
+onerror:
+    no_more_timers()
 
 
 include: "workflow/rules/studies.smk"
