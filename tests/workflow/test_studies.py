@@ -1,4 +1,7 @@
-"""The targets of refinement and sensitivity on coarse grids."""
+"""The targets of refinement and sensitivity on coarse grids; and that they end."""
+
+import os
+import signal
 
 import pandas as pd
 import pytest
@@ -32,3 +35,14 @@ def test_targets_leave_figures_and_tables_and_are_complete(studies):
     runs = [run.id for run in load(studies.config).runs_of("sensitivity")]
     assert set(pd.read_csv(results / "sensitivity.csv")["id"]) == set(runs)
     assert studies.planned(*TARGETS) == {}
+
+
+def test_snakemake_ends_once_all_is_done(workflow):
+    """No timer of Snakemake's keeps it, however seldom it looks for work."""
+    process = workflow.start("table_s1", "--cores", "1", "--max-jobs-per-timespan", "100/10m")
+    try:
+        printed, _ = process.communicate(timeout=200)
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+    assert process.returncode == 0, printed
