@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from analysis.made_up_patch import force_record
 
-from nucleation.analysis.definitions import Extent, find_onset, slipping_edge
+from nucleation.analysis.definitions import find_onset, slipping_edge
 from nucleation.simulation.event import DropWatch
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
@@ -76,13 +76,3 @@ def test_slipping_edge_limits():
     holed = np.where((x < 0.3) & ~((x > 0.1) & (x < 0.2)), 1e-5, 1e-12)
     assert 0.25 <= slipping_edge(x, holed, 1e-6) <= 0.3  # the furthest edge counts
     assert slipping_edge(x, np.full(21, 1e-2), 1e-6) == 0.5  # all slips: the part searched
-
-
-def test_a_patch_keeps_its_extent():
-    """The edge goes to and fro with the slip rate; what has crept belongs to the patch."""
-    x, lengths = np.linspace(0.0, 1.0, 41), []
-    extent = Extent(x, 1e-6)
-    for speed in (1.0, 10.0, 0.1, 20.0):
-        lengths.append(extent.reach(speed * 1e-5 * 10.0 ** (-x / 0.06)))
-    np.testing.assert_allclose(lengths, 0.06 * np.log10([10.0, 100.0, 100.0, 200.0]), rtol=1e-9)
-    assert extent.length == lengths[-1]

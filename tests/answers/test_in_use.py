@@ -190,16 +190,6 @@ def test_ranges_of_validity_in_a_over_b(key, inside, outside):
     assert all(np.isnan(length(ratio)) for ratio in outside)
 
 
-def test_how_thin_a_thin_layer_is():
-    """At the end of its validity Eq. (11) is 8 % above the theory with the paper's friction."""
-    height = (formulas.THIN / (2 * math.pi)) ** 2 * one("thin_limit", height=1e-3) ** 2 / 1e-3
-    thin = one("thin_limit", height=0.999 * height)
-    paper = ROCK | LOAD | WEAKENING | {"friction": 0.41, "second_shear_modulus": math.inf}
-    theory = critical_length(**paper, height=0.999 * height)
-    assert thin / theory == pytest.approx(1.08, abs=0.005)
-    assert np.isnan(one("thin_limit", height=1.001 * height))
-
-
 def test_arrays_and_names():
     a = xr.DataArray([0.004, 0.006, 0.02], dims="a")
     stress = xr.DataArray([1e6, 2e6], dims="stress", coords={"stress": [1.0, 2.0]})
