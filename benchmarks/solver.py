@@ -18,8 +18,8 @@ from nucleation.model.perturbation import KINDS
 from nucleation.model.second_body import BOTTOMS
 from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run, simulate
-from nucleation.stepping.ladder import rung_value
-from nucleation.stepping.scheme import BDF
+from nucleation.simulation.stepping.ladder import rung_value
+from nucleation.simulation.stepping.scheme import BDF
 
 from .assembled import assemble
 

@@ -25,7 +25,7 @@ from nucleation.model.perturbation import KINDS, Perturbation
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.composition import composed
 from nucleation.simulation.run import run
-from nucleation.stepping.bdf import Formula, beta_of_step
+from nucleation.simulation.stepping.bdf import Formula, beta_of_step
 
 pytestmark = pytest.mark.slow
 

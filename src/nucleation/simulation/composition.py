@@ -5,11 +5,11 @@ import numpy as np
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..model.parameters import Loading, Parameters
-from ..stepping.scheme import BDF
 from .forcing import drive_of
 from .interface import Interface, InterfaceSolution
 from .state import State
 from .step import Dynamics, StepReport
+from .stepping.scheme import BDF
 
 NEWTON = 1e-3
 """Of Newton's tolerance over the step's, at most; nor is it above a perturbation's strength."""

@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 
 from ..model.parameters import Stepping
-from ..stepping.ladder import rung_below, rung_value
-from ..stepping.scheme import BDF
 from .interface import NewtonFailure, Tension
 from .outcome import Outcome
 from .state import State
 from .step import Dynamics, StepReport
+from .stepping.ladder import rung_below, rung_value
+from .stepping.scheme import BDF
 
 SAFETY = 0.85  # of the step size against the estimated error
 SMALLEST_SHRINKING = 0.2  # of the step size after a rejection

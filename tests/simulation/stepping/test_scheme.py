@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nucleation.stepping.ladder import rung_value
-from nucleation.stepping.scheme import BDF
+from nucleation.simulation.stepping.ladder import rung_value
+from nucleation.simulation.stepping.scheme import BDF
 
 TIMES = np.array([1.0, 0.6, 0.35])  # s
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nucleation.stepping.bdf import (
+from nucleation.simulation.stepping.bdf import (
     LARGEST_GROWTH,
     LARGEST_GROWTH_OF_BDF3,
     Formula,
@@ -15,7 +15,12 @@ from nucleation.stepping.bdf import (
     error_factor,
     extrapolation_weights,
 )
-from nucleation.stepping.ladder import RUNGS_PER_OCTAVE, rung_below, rung_nearest, rung_value
+from nucleation.simulation.stepping.ladder import (
+    RUNGS_PER_OCTAVE,
+    rung_below,
+    rung_nearest,
+    rung_value,
+)
 
 steps = st.floats(-9.0, 2.0).map(lambda exponent: 10.0**exponent)  # s
 ratios = st.floats(0.05, LARGEST_GROWTH)

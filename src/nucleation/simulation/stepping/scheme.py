@@ -9,7 +9,7 @@ import dataclasses
 
 import numpy as np
 
-from ..types import Array
+from ...types import Array
 from .bdf import (
     LARGEST_GROWTH,
     LARGEST_GROWTH_OF_BDF3,

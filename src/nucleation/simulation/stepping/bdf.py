@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from ..types import Array
+from ...types import Array
 
 LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step,
 LARGEST_GROWTH_OF_BDF3 = 1.5  # BDF3 up to (1 + sqrt(5)) / 2
