@@ -1,11 +1,13 @@
 """Sphinx: these pages, the tutorials (executed) and the reference of the API (`make docs`)."""
 
 import re
+import shutil
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "src"))
+shutil.rmtree(ROOT / "docs" / "generated", ignore_errors=True)  # of modules that are gone
 
 import docutils.nodes  # noqa: E402
 import numpydoc.numpydoc  # noqa: E402
