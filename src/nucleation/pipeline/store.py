@@ -171,16 +171,19 @@ class Store:
             flush(path)
         place.chmod(0o755)
         flush(place)
-        with contextlib.suppress(StoreError):
-            read_note(self.entry(key), whole=True)
-            return
-        self.set_aside(key)
         self._known.pop(key, None)
         try:
             place.rename(self.entry(key))
-        except OSError:
-            if self.note(key) is None:  # else one has appeared this very moment
-                raise
+        except OSError:  # there is one
+            with contextlib.suppress(StoreError):
+                read_note(self.entry(key), whole=True)
+                return
+            self.set_aside(key)
+            try:
+                place.rename(self.entry(key))
+            except OSError:
+                if self.note(key) is None:  # else one has appeared this very moment
+                    raise
         flush(self.directory)
 
     def set_aside(self, key: str) -> None:
