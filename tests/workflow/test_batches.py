@@ -57,8 +57,8 @@ def lengths_of(workflow):
 
 
 def datasets(workflow):
-    """The simulations in the store by their names with keys."""
-    notes = (workflow.directory / "results/store").glob("*/entry.json")
+    """The finished simulations in the store by their names with keys."""
+    notes = (workflow.directory / "results/store").glob("[!.]*/entry.json")
     names = {json.loads(note.read_text())["name"]: note.with_name("result.nc") for note in notes}
     return {name: path for name, path in names.items() if "-aging-" in name}
 
