@@ -56,7 +56,7 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
-from nucleation.pipeline.launch import configuration_files
+from nucleation.pipeline.launch import options
 from nucleation.pipeline.steps import Steps
 from nucleation.pipeline.store import StoreError, others
 
@@ -69,7 +69,7 @@ if "studies" not in config:
 
 
 # Jobs have other arguments.
-os.environ.setdefault("NUCLEATION_CONFIGFILES", shlex.join(configuration_files()))
+os.environ.setdefault("NUCLEATION_CONFIGFILES", shlex.join(options().configfile))
 
 
 try:
@@ -135,6 +135,10 @@ def needed(files, what):
     return given
 
 
+SHOWN_BY = {}
+"""The rules by the names of their results."""
+
+
 def make_rule(
     rule_name, call, shows, message, suffix="nc", inputs={}, constraint=r"[^/]+", priority=0,
     local=False, megabytes=None, script_name="step", **params,
@@ -155,6 +159,7 @@ def make_rule(
     script_name : what runs the function.
     params : all else that the result depends on.
     """
+    SHOWN_BY[shows] = rule_name
     simulates = {"mem_mb": megabytes, "runtime": ceil(settings.limits.runtime)}
 
     rule:

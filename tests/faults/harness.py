@@ -130,15 +130,12 @@ class Place:
             done = warm()(asked, self.directory, printed, **{**ENVIRONMENT, **environment})
         return Done(done.returncode, done.stdout, math.nan)
 
-    def finish(self, *targets: str, **environment: str) -> bool:
-        """What a user does next: run it again and do what messages ask for, if it stops with any.
-
-        Returns whether it did.
-        """
-        for attempt in range(4):
-            done = self.run(*targets, **environment)
+    def finish(self) -> None:
+        """What a user does next: run it again and do what messages ask for, if it stops."""
+        for _ in range(4):
+            done = self.run()
             if done.status == 0:
-                return attempt > 0
+                return
             if "cannot be locked" in done.output:
                 require(self.run("--unlock").status == 0, "it can't be unlocked")
                 continue

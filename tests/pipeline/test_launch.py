@@ -19,7 +19,7 @@ GOOD = "studies: {s: {runs: [{height: 0.01}]}}\n"
     ],
 )
 def test_configuration_files_of_a_command_line(arguments, files):
-    assert list(launch.configuration_files(arguments.split())) == files
+    assert launch.options(arguments.split()).configfile == files
 
 
 BAD = {

@@ -60,7 +60,7 @@ def content(settings, simulation, table, tmp_path_factory):
                          entry.data)
         ],
         claims=CLAIMS,
-        player=page.Played(thinned_run(simulation, row, ExtractionSettings()), row),
+        player=thinned_run(simulation, row, ExtractionSettings()),
     )  # fmt: skip
 
 

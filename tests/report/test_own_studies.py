@@ -66,7 +66,7 @@ def test_the_pages_theory_is_not_drawn_for_a_second_block(content, two_faults):
 
 def test_points_have_the_marker_of_their_fault(two_faults):
     seen = two_faults.assign(length=("run", [0.1, 0.5]))
-    looks = {series["label"]: series["symbol"] for series in tables.point_series(seen)}
+    looks = {series["name"]: series["symbol"] for series in tables.point_series(seen)}
     assert looks == {"mine, aging law, fault 1": "circle", "mine, aging law, fault 2": "square"}
     assert len({faults.look(n) for n in range(1, 85)}) == 84
 

@@ -8,7 +8,6 @@ import pytest
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.record import Record
-from nucleation.analysis.seas import time_series
 from nucleation.datasets import netcdf
 from nucleation.datasets.variables import DatasetError
 from nucleation.model.parameters import Parameters
@@ -61,6 +60,6 @@ def test_the_smallest_record_is_small(records, tmp_path):
 
 def test_what_was_not_recorded_is_said(records):
     with pytest.raises(DatasetError, match=r"slip, shear_stress.*recording\.record is lengths"):
-        time_series(records["lengths"], 0.0)
-    assert time_series(records["interface"], 0.0).startswith("# ")
+        Record(records["lengths"]).require("slip", "shear_stress")
+    Record(records["interface"]).require("slip", "shear_stress")
     Record(records["lengths"]).require("slip_rate")

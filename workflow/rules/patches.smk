@@ -66,7 +66,7 @@ make_rule(
     call="nucleation.patch.tables:gather_twins",
     shows="twin_runs",
     local=True,
-    inputs={"twins": lambda wildcards: twins()},
+    inputs={"twins": lambda wildcards: of_runs("twin", runs_for("twin_runs"))},
     runs=as_dicts(runs_for("twin_runs")),
     message="Growth of kicks in twin runs",
 )

@@ -9,12 +9,6 @@ OWN_STUDIES = {
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
 """What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
 the paper's figures nor the verdicts, which are about the paper's runs."""
-TABLES = {"theory": "theory", "lengths": "gather_lengths", "drop": "gather_drop",
-          "map": "gather_map", "patch_theory": "gather_patch_theory", "twin_runs": "gather_twins",
-          "sensitivity": "sensitivity", "pairs": "gather_pairs",
-          "literature": "gather_literature", "convergence": "convergence",
-          "dispersion": "dispersion", "verification": "verification"}  # fmt: skip
-"""The rules of the datasets that figures are downloaded with."""
 
 
 def explored():
@@ -25,20 +19,6 @@ def explored():
     return own[0].parameters.material, own[0].interface
 
 
-def pictured(name):
-    """A picture of the report."""
-    if name in FIGURES:
-        return steps(f"draw_{name}")
-    return steps("draw_study", name.removeprefix("study_"))
-
-
-def dataset_behind(name):
-    """A dataset that figures are downloaded with."""
-    if name in PATCH_TABLES:
-        return steps("gather_patches", name)
-    return steps(TABLES[name])
-
-
 def caption_values(wildcards):
     shown = {name: {"id": chosen(wildcards)} for name, chosen in SHOWN_RUNS.items()
              if name in REPORTED}  # fmt: skip
@@ -47,18 +27,22 @@ def caption_values(wildcards):
 
 make_rule(
     "write_report",
-    call="nucleation.report.writing:write",
+    call="nucleation.report.page:write",
     shows="report",
     suffix="html",
     local=True,
     inputs={
-        "figures": lambda wildcards: [pictured(name) for name in ENTRIES],
+        "figures": lambda wildcards: [
+            *[steps(f"draw_{name}") for name in REPORTED],
+            *steps.several("draw_study", OWN_STUDIES),
+        ],
         "captions": [
             str(BASE / f"workflow/report/{name if name in FIGURES else 'figure_studies'}.rst")
             for name in ENTRIES
         ],
         "datasets": lambda wildcards: [
-            dataset_behind(name) for name in catalogue.datasets_of(ENTRIES.values())
+            steps("gather_patches", name) if name in PATCH_TABLES else steps(SHOWN_BY[name])
+            for name in catalogue.datasets_of(ENTRIES.values())
         ],
         "player": lambda wildcards: (
             [steps("simulate", space_time_id(wildcards))] if "figure_s2" in REPORTED else []

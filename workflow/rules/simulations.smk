@@ -82,7 +82,7 @@ make_rule(
     shows="lengths/{name}",
     constraint=one_of(TABLED),
     local=True,
-    inputs={"tables": lambda wildcards: steps.several("batch", batches_of(wildcards.name))},
+    inputs={"tables": lambda wildcards: made_by_jobs(wildcards.name)},
     ids=lambda wildcards: [run.id for run in settings.runs_of(wildcards.name)],
     message="Critical lengths of the study {wildcards.name}",
 )

@@ -54,12 +54,13 @@ def together(rule, runs, job):
     return steps.together(rule, [run.id for run in runs], job)
 
 
-def batches_of(study):
-    return dict.fromkeys(run.batch for run in settings.runs_of(study))
+def of_runs(rule, runs):
+    """The results of a rule for each of some runs."""
+    return steps.several(rule, [run.id for run in runs])
 
 
 def simulations_of(runs):
-    return [steps("simulate", run.id) for run in runs]
+    return of_runs("simulate", runs)
 
 
 def simulations(*studies):
@@ -99,7 +100,7 @@ def patched_runs(*studies):
 
 
 def patches(*studies):
-    return steps.several("patch", [run.id for run in patched_runs(*studies)])
+    return of_runs("patch", patched_runs(*studies))
 
 
 def patch_tables():
@@ -113,14 +114,6 @@ PATCHED_TOGETHER = [
     for study in dict.fromkeys([*sum(PATCH_TABLES.values(), []), *PAIR_STUDIES])
     if len(patched_runs(study)) > 1
 ]
-
-
-def twins():
-    return steps.several("twin", [run.id for run in runs_for("twin_runs")])
-
-
-def modes():
-    return steps.several("mode", [run.id for run in runs_for("quiet")])
 
 
 def floor_runs():

@@ -7,7 +7,9 @@ make_rule(
     inputs={
         "drops": needed(lambda wildcards: lengths_of(*in_role("drop")), "study with role: drop"),
         "quiet": lambda wildcards: lengths_of(*FLOORS),
-        "modes": needed(lambda wildcards: modes(), "study with role: quiet"),
+        "modes": needed(
+            lambda wildcards: of_runs("mode", runs_for("quiet")), "study with role: quiet"
+        ),
     },
     loads=laws_of(runs_for("quiet")),
     message="Drops, and the law of the drop",
@@ -21,7 +23,7 @@ make_rule(
     inputs={
         "quiet": lambda wildcards: lengths_of(*FLOORS),
         "modes": needed(
-            lambda wildcards: steps.several("mode", [run.id for run in floor_runs()]),
+            lambda wildcards: of_runs("mode", floor_runs()),
             "fault with the roles convergence_quiet and quiet",
         ),
     },

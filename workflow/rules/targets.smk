@@ -18,6 +18,7 @@ def shared(results):
     return lambda: needed(lambda _: results(SHARED), "study with table: lengths")(None)
 
 
+COMPARED = ["draw_figure_crosscheck", "compare_crosscheck"]
 ARTICLE = ["write_article", "evaluate_claims", *(f"draw_{name}" for name in PAPERS_FIGURES)]
 TARGETS = {
     "paper": (
@@ -58,13 +59,8 @@ TARGETS = {
         "Where patches turn unstable on refined meshes.",
         lambda: [steps("gather_patches", "patch_convergence")],
     ),
-    **{
-        name: (text, made("draw_figure_crosscheck", "compare_crosscheck"))
-        for name, text in {
-            "figure_crosscheck": "The figure of both solvers.",
-            "crosscheck": "The same runs by an independent solver.",
-        }.items()
-    },
+    "figure_crosscheck": ("The figure of both solvers.", made(*COMPARED)),
+    "crosscheck": ("The same runs by an independent solver.", made(*COMPARED)),
     "report": ("Everything on one page, results/report.html.", made("write_report")),
 }
 """What each target is for, and the results it leads to; `steps.behind` adds what these stand on."""

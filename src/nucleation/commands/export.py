@@ -1,49 +1,36 @@
-"""``nucleation export``: fields of a simulation, or time series at points of its fault, as text."""
+"""``nucleation export``: fields of a simulation as text."""
 
+import io
 from pathlib import Path
 
 import click
+import xarray as xr
 
-from ..model.parameters import Geometry
-from ..model.quantities import declarations
-from ..model.units import parse
 from . import DONE, EXIT_CODES
 from .output import require_directory, require_writable
-
-LENGTH = declarations(Geometry)["length"]
 
 
 @click.command("export", epilog=EXIT_CODES)
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.argument("folder", type=click.Path(file_okay=False, path_type=Path))
-@click.option(
-    "--at", "places", multiple=True, metavar="VALUE[m]",
-    help="distance from the loaded edge; may be given several times. Without: all fields as CSV",
-)  # fmt: skip
 @click.option("--force", is_flag=True, help="replace files that exist")
-def command(file: Path, folder: Path, places: tuple[str, ...], force: bool) -> int:
-    """Write the fields of a simulation's fault as CSV, or with --at their time series at points.
+def command(file: Path, folder: Path, force: bool) -> int:
+    """Write the fields of a simulation's fault as CSV.
 
-    CSV: a file for each field, in SI units; the first column is the time, the first row x. Time
-    series: a file for each point, in the format of the SEAS community's benchmark BP3 (fields t
-    slip slip_rate shear_stress normal_stress state), which its tools for comparison read.
+    A file for each field, in SI units; the first column is the time, the first row x.
 
     \b
     Example:
       nucleation export run.nc fields
-      nucleation export run.nc series --at 5cm --at 10cm
     """
-    from ..analysis.seas import field_tables, time_series
     from ..datasets import netcdf
 
     dataset = netcdf.read(file, requires=["slip_rate", "driving_force"])
-    texts = {}
-    if not places:
-        tables = field_tables(dataset).items()
-        texts = {folder / f"{file.stem}_{name}.csv": text for name, text in tables}
-    for place in places:
-        position = parse("at", place, LENGTH)
-        texts[folder / f"{file.stem}_x{position:g}m.dat"] = time_series(dataset, position)
+    texts = {
+        folder / f"{file.stem}_{name}.csv": _csv(field)
+        for name, field in dataset.data_vars.items()
+        if set(field.dims) == {"time", "x"}
+    }
     if not folder.exists():  # it alone is made
         require_directory(folder, folder.absolute().parent)
         folder.mkdir()
@@ -53,3 +40,15 @@ def command(file: Path, folder: Path, places: tuple[str, ...], force: bool) -> i
         netcdf.write_text(text, path)
         click.echo(f"written to {path}")
     return DONE
+
+
+def _csv(field: xr.DataArray) -> str:
+    """A field on (time, x), times (s) down and x (m) across."""
+    import numpy as np
+
+    text = io.StringIO()
+    across = ",".join(f"{value:.12g}" for value in field["x"].values)
+    text.write(f"{field.name} ({field.attrs['units']}): time (s) down / x (m) across,{across}\n")
+    rows = np.column_stack([field["time"].values, field.transpose("time", "x").values])
+    np.savetxt(text, rows, fmt="%.9g", delimiter=",")
+    return text.getvalue()

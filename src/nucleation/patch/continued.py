@@ -55,11 +55,7 @@ class Path(NamedTuple):
 
 
 def continued(history: ModeHistory) -> Path:
-    """The run's trend, over its own range of lengths and beyond, evenly in time.
-
-    Lambda and t are polynomials in the length: the front's hops from node to node, which have no
-    place in a law, take both to and fro. Beyond the run's end they go on as straight lines.
-    """
+    """The run's trend, over its own range of lengths and beyond, evenly in time."""
     lengths = np.linspace(history.length[0], BEYOND * history.length[-1], 2000)
     time = trend(history, history.time)(lengths)
     real, imaginary = (trend(history, part) for part in (history.rate.real, history.rate.imag))

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import COLUMNS as LENGTHS
+from ..analysis.lengths import description
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, annotate, some, table, to_csv
 from ..model.identity import fault
@@ -95,14 +96,12 @@ def _row(run: dict[str, Any], measured: float) -> dict[str, Any]:
         f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
     patches, loading = Patches.of(parameters), parameters.loading
     start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
-    row = {
-        "id": run["id"], "study": run["study"], "role": run["role"],
-        "fault": fault(parameters), "evolution": parameters.friction.evolution,
-        "friction_law": parameters.friction.law, "height": parameters.geometry.height,
-        "zeta_over_a": interface.zeta / interface.a, "f_beta": f_beta, "theory_length": critical,
-        "stability_length": measured,
-        **dict.fromkeys(("creep_length", "front_length", "front_frequency", "front_time"),
-                        math.nan),
+    unknown = dict.fromkeys(
+        ("creep_length", "front_length", "front_frequency", "front_time"), math.nan
+    )
+    row = description(run) | unknown
+    row |= {
+        "zeta_over_a": interface.zeta / interface.a, "f_beta": f_beta, "stability_length": measured,
     }  # fmt: skip
     try:
         row["creep_length"] = stability_point(replace(patches, law=None), critical).length

@@ -6,40 +6,34 @@ in a traceback there, and of one with the key ``__use_yte__`` it runs expression
 core at all it waits forever.
 """
 
+import argparse
 import os
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from ..configuration.load import load
 from ..model.quantities import ParameterError
 
-NO_CORES = re.compile(r" (--cores|-c)[ =]?(0+|-\d+) ")
-OPTIONS = ("--configfile", "--configfiles")
+
+def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+    """What a command line of Snakemake, by default this one, says of cores and configuration."""
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
+    parser.add_argument("--cores", "-c", nargs="?")
+    parser.add_argument("--configfile", "--configfiles", nargs="*", action="extend", default=[])
+    return parser.parse_known_args(arguments)[0]
 
 
-def configuration_files(arguments: Sequence[str] | None = None) -> Iterator[str]:
-    """The configuration files that a command line of Snakemake, by default this one, names."""
-    taking = False  # an option takes all that follow, up to the next one
-    for argument in sys.argv if arguments is None else arguments:
-        option, _, value = argument.partition("=")
-        if argument.startswith("-"):
-            taking = option in OPTIONS
-            if taking and value:
-                yield value
-        elif taking:
-            yield argument
-
-
-def problem(arguments: list[str]) -> str | None:
+def problem(arguments: Sequence[str]) -> str | None:
     """What is wrong with the cores or the configuration files, in words; None if all can be used.
 
     Of several, whose values are merged, only the first must be complete; all must be plain.
     """
-    if NO_CORES.search(f" {' '.join(arguments)} "):
+    given = options(arguments)
+    if re.fullmatch(r"0+|-\d+", given.cores or ""):
         return "--cores must be 1 or more"
     try:
-        for path in configuration_files(arguments):
+        for path in given.configfile:
             load(path)
     except ParameterError as error:
         return str(error)

@@ -1,4 +1,4 @@
-"""Putting files and arrays into a page: data addresses and typed arrays."""
+"""Putting things into a page: files as data addresses, typed arrays, captions."""
 
 import base64
 import json
@@ -7,11 +7,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from docutils.core import publish_parts
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 from numpy.typing import ArrayLike
 
 HERE = Path(__file__).parent
+CAPTIONS = {
+    "math_output": "MathML",  # shown by browsers without any script
+    "report_level": 2,
+    "halt_level": 2,  # a mistake in a caption stops the report
+    "initial_header_level": 3,
+    "file_insertion_enabled": False,
+    "raw_enabled": False,
+}
+"""Settings of docutils."""
 
 
 def template(name: str) -> Template:
@@ -50,3 +60,17 @@ def script_json(value: Any) -> Markup:
     """
     text = json.dumps(value, allow_nan=False, separators=(",", ":"))
     return Markup(text.replace("<", "\\u003c"))
+
+
+def caption_html(template: str, params: dict[str, Any]) -> str:
+    """A caption as HTML, from reStructuredText with Jinja2's placeholders.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        For a placeholder without a value.
+    docutils.utils.SystemMessage
+        For a mistake in the text.
+    """
+    text = Environment(undefined=StrictUndefined).from_string(template).render(params)
+    return publish_parts(text, writer="html5", settings_overrides=CAPTIONS)["body"]

@@ -14,32 +14,12 @@ function lengths(p) {
 // Figure 3's colours that would vanish on a dark screen.
 const BRIGHTER = { "#000000": "#ececec", "#6B3E12": "#c98d4b", "#D55E00": "#ff9248" };
 
+const shade = (given) => (dark.matches && BRIGHTER[given]) || given;
+
 function pointTraces() {
-  return data.points.map((series) => ({
-    name: series.label,
-    x: series.height,
-    y: series.length,
-    error_y: {
-      type: "data",
-      symmetric: false,
-      array: series.length.map((v, i) => Math.max(series.length_high[i] - v, 0)),
-      arrayminus: series.length.map((v, i) => Math.max(v - series.length_low[i], 0)),
-      thickness: 1,
-      width: 3,
-    },
-    customdata: series.id.map((id, i) => [
-      id, series.length_low[i], series.length_high[i], series.onset_time[i],
-      series.length[i] / series.theory_length[i],
-    ]),
-    hovertemplate: "<b>%{customdata[0]}</b><br>H = %{x:.4g} m<br>L<sub>c</sub> = %{y:.4g} m "
-      + "(%{customdata[1]:.3g} to %{customdata[2]:.3g})<br>%{customdata[4]:.3g} of the theory"
-      + "<br>onset at %{customdata[3]:.4g} s<extra></extra>",
-    mode: "markers",
-    marker: {
-      symbol: series.symbol + (series.filled ? "" : "-open"),
-      size: 9,
-      color: (dark.matches && BRIGHTER[series.colour]) || series.colour,
-    },
+  return data.points.map(({ symbol, colour: given, ...series }) => ({
+    ...series, mode: "markers", marker: { symbol, size: 9, color: shade(given) },
+    hovertemplate: "%{text}<extra></extra>",
   }));
 }
 
@@ -53,7 +33,7 @@ function theoryLayout() {
     title: heading("Lengths L<sub>c</sub> and L<sub>s</sub> (m)"),
     xaxis: axis("Height of the block H (m)", { type: "log", range: data.seen.map(Math.log10), dtick: "D2" }),
     yaxis: axis("", { type: "log", dtick: "D2" }),
-    legend: legend(),
+    legend: { orientation: "h", x: 0, xref: "container", y: 0, yref: "container", yanchor: "bottom", font: { size: 12 } },
     uirevision: "fixed",
   });
 }
@@ -66,7 +46,7 @@ const own = data.faults.filter((fault) => fault.values.zeta > 0).slice(0, 12)
 
 function ownTraces() {
   return own.map(({ label, length, colour }) =>
-    line(`theory, ${label}`, length, { color: (dark.matches && BRIGHTER[colour]) || colour, width: 1.2 }));
+    line(`theory, ${label}`, length, { color: shade(colour), width: 1.2 }));
 }
 
 function drawTheory() {

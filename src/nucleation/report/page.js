@@ -48,14 +48,3 @@ function floats(text) {
   const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
   return new Float32Array(bytes.buffer);
 }
-
-// The interval between rising places in which x lies: the number of its lower end.
-function placeBelow(x, places) {
-  let [low, high] = [0, places.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (places[middle] <= x) low = middle;
-    else high = middle;
-  }
-  return low;
-}

@@ -1,9 +1,9 @@
-"""Putting the report's page together."""
+"""Putting the report's page together: the step ``report``."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,15 +12,17 @@ import plotly.offline
 import xarray as xr
 from markupsafe import Markup
 
+from ..analysis.definitions import ExtractionSettings
+from ..analysis.lengths import row
 from ..analysis.record import parameters_of
 from ..figures import catalogue
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
-from ..report import answer, encode, faults, player, stability, tables
+from ..report import answer, encode, faults, stability, tables
 from ..types import Array
-from .captions import caption_html
+from .player import in_page, thinned_run
 
 HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 """Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""
@@ -46,13 +48,6 @@ class Picture(NamedTuple):
     data: tuple[catalogue.Data, ...] = ()
 
 
-class Played(NamedTuple):
-    """The run in the player, thinned, and its entry of the table of lengths."""
-
-    run: xr.Dataset  # of player.thinned_run
-    row: xr.Dataset
-
-
 class Content(NamedTuple):
     """Everything the page shows, read from files."""
 
@@ -64,8 +59,51 @@ class Content(NamedTuple):
     results: dict[str, xr.Dataset]  # datasets by name
     pictures: list[Picture]
     claims: list[dict[str, Any]] | None = None
-    player: Played | None = None
+    player: xr.Dataset | None = None  # of player.thinned_run
     own: answer.OwnStudies | None = None  # with which the page begins
+
+
+def write(
+    origin: Mapping[str, str], figures: Sequence[Path], names: Sequence[str],
+    captions: Sequence[Path], caption_values: Mapping[str, dict[str, Any]],
+    datasets: Sequence[xr.Dataset], dataset_names: Sequence[str],
+    player: Sequence[xr.Dataset], player_id: str,
+    claims: Sequence[Path], page_files: Sequence[Path], studies: dict[str, str],
+    warnings: dict[str, list[str]], leads: bool, material: Material, friction: Friction,
+    interface: InterfaceState, settings: ExtractionSettings, config: dict[str, Any],
+) -> dict[str, str]:  # fmt: skip
+    """The page as HTML, from the workflow's results.
+
+    Parameters
+    ----------
+    origin : of the page, from :func:`nucleation.datasets.provenance.attributes`.
+    figures, names : pictures and their names in the catalogue.
+    captions, caption_values : templates in the same order, and what is filled in, by name.
+    datasets, dataset_names : tables behind the figures.
+    player, player_id : the run that is played, or none.
+    claims : the claims as JSON, or none.
+    page_files : on which the page depends as well.
+    studies, warnings, leads : studies of the user's own, and whether the page begins with them.
+    material, friction, interface, settings, config : of the configuration.
+    """
+    results = dict(zip(dataset_names, datasets, strict=True))
+    entries = catalogue.FIGURES | catalogue.of_studies(studies)
+    pictures = [
+        Picture(
+            name, entries[name].title, entries[name].category,
+            [file for file in (path, path.with_suffix(".pdf")) if file.is_file()],
+            caption.read_text("utf-8"), caption_values.get(name, {}), entries[name].data,
+        )
+        for name, path, caption in zip(names, figures, captions, strict=True)
+    ]  # fmt: skip
+    played = [thinned_run(run, row(results["lengths"], player_id), settings) for run in player]
+    content = Content(
+        material, friction, interface, config, dict(origin), results, pictures,
+        claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
+        player=played[0] if played else None,
+        own=answer.OwnStudies(studies, warnings) if leads else None,
+    )  # fmt: skip
+    return {".html": build(content)}
 
 
 def build(content: Content) -> str:
@@ -98,12 +136,10 @@ def build(content: Content) -> str:
         data=encode.script_json(data),
         claims=tables.claim_rows(content.claims or []),
         counts=tables.verdict_counts(content.claims or []),
-        run_columns=tables.RUN_COLUMNS,
-        fault_columns=tables.FAULT_COLUMNS,
         table_s1=_parameters(content.friction),
-        length_columns=tables.LENGTH_COLUMNS,
-        played=content.player,
-        parameters=parameters_of(content.player.run) if content.player else None,
+        seconds=0.0 if lengths is None else float(lengths["wall_seconds"].sum()),
+        played=None if content.player is None else content.player.attrs,
+        parameters=None if content.player is None else parameters_of(content.player),
         origin=_origin(content),
     )  # fmt: skip
 
@@ -124,7 +160,7 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "controls": [*faults.controls(content.material, content.interface), height],
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
-        "player": player.in_page(*content.player) if content.player else None,
+        "player": None if content.player is None else in_page(content.player),
         "stability": stability.in_page(),
     }
 
@@ -154,7 +190,7 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
                 "title": picture.title,
                 "moves": shown.suffix == ".gif",
                 "image": encode.data_address(shown.read_bytes(), shown.name),
-                "caption": Markup(caption_html(picture.caption, picture.params, content.config)),
+                "caption": Markup(encode.caption_html(picture.caption, picture.params)),
                 "downloads": downloads,
             }
         )
@@ -170,34 +206,32 @@ def _origin(content: Content) -> dict[str, Any]:
     """Versions, the configuration, and which code made each dataset."""
     made = dict(content.results)
     if content.player is not None:
-        made[f"simulations/{content.player.row['id'].values}"] = content.player.run
+        made[f"simulations/{content.player.attrs['id']}"] = content.player
     configuration = json.dumps(content.config, indent=2)
     return {
         "versions": json.loads(content.provenance["versions"]),
         "created": content.provenance["created"],
         "digest": content.provenance["code_digest"],
-        "datasets": [
-            [tables.Cell(text, text) for text in (name, *_origin_of(dataset))]
-            for name, dataset in made.items()
-        ],
+        "datasets": [{"Dataset": name, **_origin_of(dataset)} for name, dataset in made.items()],
         "config": configuration,
         "download": encode.download("configuration.json", configuration.encode()),
     }
 
 
-def _origin_of(dataset: xr.Dataset) -> tuple[str, ...]:
-    digest, made, command = (
-        dataset.attrs.get(key, "") for key in ("code_digest", "created", "command")
-    )
-    return digest[:16], made, command
+def _origin_of(dataset: xr.Dataset) -> dict[str, str]:
+    keys = {"Code digest": "code_digest", "Made": "created", "Made again by": "command"}
+    said = {title: dataset.attrs.get(key, "") for title, key in keys.items()}
+    return said | {"Code digest": said["Code digest"][:16]}
 
 
-def _parameters(friction: Friction) -> list[list[tables.Cell]]:
+def _parameters(friction: Friction) -> list[dict[str, str]]:
     """Table S1."""
     return [
-        [tables.Cell(text, "") for text in (
-            Markup("<i>{}</i>").format(row.symbol), table_s1.value_text(row.value), row.unit,
-            row.description,
-        )]
+        {
+            "Parameter": Markup("<i>{}</i>").format(row.symbol),
+            "Value": table_s1.value_text(row.value),
+            "Unit": row.unit,
+            "Description": row.description,
+        }
         for row in table_s1.rows(friction)
-    ]  # fmt: skip
+    ]

@@ -1,33 +1,24 @@
 "use strict";
 // The player of one run: its fields along the interface, moment by moment, and its driving force.
 const FIELDS = [
-  { name: "slip_rate", title: "Slip rate v (m/s)", shade: "theory", log: true, low: 1e-9 },
-  { name: "stress_ratio", title: "Shear stress τ/σ₀", shade: "field-2", log: false },
-  { name: "state", title: "State φ (s)", shade: "field-3", log: true },
+  { name: "slip_rate", title: "Slip rate v (m/s)", shade: "theory", type: "log" },
+  { name: "stress_ratio", title: "Shear stress τ/σ₀", shade: "field-2", type: "linear" },
+  { name: "state", title: "State φ (s)", shade: "field-3", type: "log" },
 ];
 
 function makePlayer(run) {
   const x = floats(run.x);
   const since = floats(run.since);
+  const times = [since.map((t) => t + run.onset), since.map((t) => 1e3 * t)]; // s; ms from the onset
   const edge = floats(run.edge);
+  const force = floats(run.force);
   const fields = FIELDS.map((field) => ({ ...field, values: floats(run[field.name]) }));
-  const force = { since: floats(run.force_since), value: floats(run.force) };
   const slider = element("moment");
   const play = element("play");
   let frame = 0;
   let timer = null;
 
   const row = (field, i) => field.values.subarray(i * x.length, (i + 1) * x.length);
-
-  function range(field) {
-    let [low, high] = [Infinity, -Infinity];
-    for (const value of field.values) {
-      if (value < low) low = value;
-      if (value > high) high = value;
-    }
-    if (!field.log) return [low - 0.05 * (high - low), high + 0.05 * (high - low)];
-    return [Math.log10(field.low || low) - 0.1, Math.log10(high) + 0.3];
-  }
 
   // Lines across a plot: the patch's edge, which moves, and the critical length, which doesn't.
   function marks(i) {
@@ -48,7 +39,7 @@ function makePlayer(run) {
       Plotly.react(`plot-${field.name}`, [trace], layout({
         title: heading(field.title),
         xaxis: axis("x (m)", { range: [0, x[x.length - 1]] }),
-        yaxis: axis("", { type: field.log ? "log" : "linear", range: range(field) }),
+        yaxis: axis("", { type: field.type, range: run.ranges[field.name] }),
         shapes: marks(frame),
         uirevision: "fixed",
       }), SETTINGS);
@@ -58,22 +49,16 @@ function makePlayer(run) {
   // The force twice: over the whole run, and near the onset, in milliseconds.
   function drawForce() {
     const near = run.event.map((t) => 1e3 * t);
-    const inside = [...force.value].filter((_, i) => {
-      const t = 1e3 * force.since[i];
-      return t >= near[0] && t <= near[1];
-    });
+    const inside = force.filter((_, i) => times[1][i] >= near[0] && times[1][i] <= near[1]);
     const [low, high] = [Math.min(...inside), Math.max(...inside)];
     const pad = 0.08 * (high - low) || 1;
     const style = { mode: "lines", line: { color: colour("theory"), width: 1.6 } };
     const hovertemplate = "%{x:.5g}, %{y:.4g} kN/m<extra></extra>";
     const dot = { mode: "markers", marker: { color: colour("mark"), size: 10 }, hoverinfo: "skip" };
-    const traces = [
-      { x: force.since.map((t) => t + run.onset), y: force.value, ...style, hovertemplate },
-      { x: force.since.map((t) => 1e3 * t), y: force.value, xaxis: "x2", yaxis: "y2", ...style, hovertemplate },
-      { ...moment(frame, 1, run.onset), ...dot },
-      { ...moment(frame, 1e3, 0), xaxis: "x2", yaxis: "y2", ...dot },
-    ];
-    Plotly.react("plot-force", traces, layout({
+    const second = { xaxis: "x2", yaxis: "y2" };
+    const curves = times.map((x, i) => ({ x, y: force, ...(i ? second : {}), ...style, hovertemplate }));
+    const dots = times.map((x, i) => ({ x: [x[frame]], y: [force[frame]], ...(i ? second : {}), ...dot }));
+    Plotly.react("plot-force", [...curves, ...dots], layout({
       title: heading("Driving force −f<sub>d</sub> (kN/m)"),
       showlegend: false,
       xaxis: axis("t (s)", { domain: [0, 0.44] }),
@@ -82,12 +67,6 @@ function makePlayer(run) {
       yaxis2: axis("", { anchor: "x2", range: [low - pad, high + pad] }),
       uirevision: "fixed",
     }), SETTINGS);
-  }
-
-  function moment(i, scale, origin) {
-    const low = placeBelow(since[i], force.since);
-    const near = since[i] - force.since[low] <= force.since[low + 1] - since[i] ? low : low + 1;
-    return { x: [since[i] * scale + origin], y: [force.value[near]] };
   }
 
   function clock(i) {
@@ -105,8 +84,8 @@ function makePlayer(run) {
     for (const field of fields) {
       Plotly.update(`plot-${field.name}`, { y: [row(field, frame)] }, { shapes: marks(frame) });
     }
-    const [whole, zoom] = [moment(frame, 1, run.onset), moment(frame, 1e3, 0)];
-    Plotly.restyle("plot-force", { x: [whole.x, zoom.x], y: [whole.y, zoom.y] }, [2, 3]);
+    const y = [force[frame]];
+    Plotly.restyle("plot-force", { x: times.map((x) => [x[frame]]), y: [y, y] }, [2, 3]);
   }
 
   function stop() {
@@ -126,15 +105,12 @@ function makePlayer(run) {
     }, 60);
   }
 
-  function jump(i) {
-    stop();
-    show(i);
-  }
-
   const onset = since.reduce((best, t, i) => (Math.abs(t) < Math.abs(since[best]) ? i : best), 0);
   play.addEventListener("click", () => (timer === null ? start() : stop()));
-  slider.addEventListener("input", () => jump(Number(slider.value)));
-  element("to-onset").addEventListener("click", () => jump(onset));
+  slider.addEventListener("input", () => {
+    stop();
+    show(Number(slider.value));
+  });
   const draw = () => {
     drawFields();
     drawForce();

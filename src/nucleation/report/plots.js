@@ -4,9 +4,10 @@ const dark = window.matchMedia("(prefers-color-scheme: dark)");
 const SETTINGS = { displayModeBar: false, responsive: true, doubleClick: "reset" };
 
 // Colours come from the style sheet, which knows of dark screens.
-
+const probe = document.head.appendChild(document.createElement("span"));
 function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  probe.style.color = `var(--${name})`;
+  return getComputedStyle(probe).color;
 }
 
 function axis(title, more = {}) {
@@ -40,14 +41,6 @@ function layout(more) {
 // What a plot shows, above it and not beside the axis: that leaves more room on a phone.
 function heading(text) {
   return { text, font: { size: 14 }, x: 0, xref: "container", y: 0.99, yanchor: "top", pad: { l: 8 } };
-}
-
-// Below a plot, for the same reason.
-function legend() {
-  return {
-    orientation: "h", x: 0, xref: "container", y: 0, yref: "container", yanchor: "bottom",
-    font: { size: 12 },
-  };
 }
 
 // A cross at the values that the controls have.

@@ -4,7 +4,7 @@ import html
 import math
 import re
 from collections import Counter
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -30,22 +30,13 @@ TYPESET = ("statement", "method", "paper", "reason")
 """Texts of claims with symbols in them."""
 
 
-class Cell(NamedTuple):
-    """One cell of a table: what is read, and by what it is sorted."""
-
-    text: str
-    key: float | str
-
-
-def number(value: float, digits: int = 4) -> Cell:
+def number(value: float, digits: int = 4) -> str:
     """A number with so many significant digits; a dash where there is none."""
-    if not math.isfinite(value):
-        return Cell("–", -math.inf)
-    return Cell(f"{value:.{digits}g}", float(value))
+    return f"{value:.{digits}g}" if math.isfinite(value) else "–"
 
 
 def claim_rows(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The claims, ready to be shown: numbers as text, the verdict's sign and rank."""
+    """The claims, ready to be shown: numbers as text, the verdict's sign."""
     rows = []
     for claim in claims:
         sign, kind = VERDICTS[claim["verdict"]]
@@ -54,10 +45,8 @@ def claim_rows(claims: list[dict[str, Any]]) -> list[dict[str, Any]]:
         if re.fullmatch(r"[\d.e+-]+", shown["paper"]):  # a number, not words with their own units
             shown["paper"] = f"{shown['paper']} {shown['unit']}".rstrip()
         shown["spread"] = _spread(claim["ours"], claim["uncertainty"])
-        rank = list(VERDICTS).index(claim["verdict"])
         typeset = {name: Markup(_typeset({**claim, **shown}.get(name) or "")) for name in TYPESET}
-        judged = {"sign": sign, "kind": kind, "rank": rank, "typeset": typeset}
-        rows.append({**claim, **shown, **judged})
+        rows.append({**claim, **shown, "sign": sign, "kind": kind, "typeset": typeset})
     return rows
 
 
@@ -80,7 +69,7 @@ def _shown(value: float | str | None) -> str:
     """A number with four digits, a text as it is, None as nothing."""
     if value is None or isinstance(value, str):
         return value or ""
-    return number(float(value)).text
+    return number(float(value))
 
 
 def _spread(ours: float | None, ends: list[float | None] | None) -> str:
@@ -111,44 +100,39 @@ RUN_COLUMNS = (
 )  # fmt: skip
 
 
-def run_rows(lengths: xr.Dataset, columns: tuple[str, ...]) -> list[list[Cell]]:
-    """One row of some columns for every simulation of a table of lengths."""
+def run_rows(lengths: xr.Dataset, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    """One row for every simulation of a table of lengths: texts by column."""
     of_run = {i: fault.number for fault in faults(lengths) for i in fault.runs}
     rows = []
     for i, run in enumerate(rows_of(lengths)):
         low, high = (number(run[name], 3) for name in ("length_low", "length_high"))
-        span = f"{low.text} to {high.text}" if math.isfinite(run["length_low"]) else "–"
         cells = {
-            "Simulation": Cell(str(run["id"]), str(run["id"])),
-            "Fault": number(of_run[i]),
+            "Simulation": str(run["id"]),
+            "Fault": str(of_run[i]),
             "H (m)": number(run["height"]),
             "Onset (s)": number(run["onset_time"]),
             "Length (m)": number(run["length"]),
-            "Range (m)": Cell(span, low.key),
+            "Range (m)": f"{low} to {high}" if math.isfinite(run["length_low"]) else "–",
             "Theory (m)": number(run["theory_length"]),
             "Over theory": number(run["length"] / run["theory_length"], 3),
-            "Elements": Cell(f"{run['n_x']} × {run['n_y']}", int(run["n_x"]) * int(run["n_y"])),
-            "Steps": number(run["steps"], 12),
+            "Elements": f"{run['n_x']} × {run['n_y']}",
+            "Steps": str(run["steps"]),
             "Time (s)": number(run["wall_seconds"], 3),
             "Memory (MB)": number(run["peak_megabytes"], 3),
         }
-        rows.append([cells[name] for name in columns])
+        rows.append({name: cells[name] for name in columns})
     return rows
 
 
-FAULT_COLUMNS = (
-    "Fault", *(f"{q.symbol} ({q.unit})" if q.unit else q.symbol for q in QUANTITIES), "Runs",
-)  # fmt: skip
-
-
-def fault_rows(lengths: xr.Dataset) -> list[list[Cell]]:
-    """The faults of a table of lengths, one row of :data:`FAULT_COLUMNS` for each."""
+def fault_rows(lengths: xr.Dataset) -> list[dict[str, str]]:
+    """The faults of a table of lengths, one row for each: texts by column."""
+    names = {q: f"{q.symbol} ({q.unit})" if q.unit else q.symbol for q in QUANTITIES}
     return [
-        [
-            number(fault.number),
-            *(number(fault.values[q.variable] / q.factor) for q in QUANTITIES),
-            number(len(fault.runs)),
-        ]
+        {
+            "Fault": str(fault.number),
+            **{name: number(fault.values[q.variable] / q.factor) for q, name in names.items()},
+            "Runs": str(len(fault.runs)),
+        }
         for fault in faults(lengths)
     ]
 
@@ -161,7 +145,7 @@ SYMBOLS = {
 
 
 def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
-    """The simulated lengths as series of points, one for each study, law and initial state.
+    """The simulated lengths as the page's plot has them, one series for each study, law and age.
 
     Markers and colours are those of Figure 3; of the faults if there are several.
     """
@@ -183,19 +167,32 @@ def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
         if len(known) > 1:
             symbol, colour = look(fault)
             filled = law == usual_law(lengths)
-        columns = ("height", "length", "length_low", "length_high", "onset_time", "theory_length")
+        length = runs["length"]
+        bars = {"array": runs["length_high"] - length, "arrayminus": length - runs["length_low"]}
+        error = {name: bar.clip(0.0).values.tolist() for name, bar in bars.items()}
         result.append(
             {
-                "label": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else "")
+                "name": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else "")
                 + (f", fault {fault}" if len(known) > 1 else ""),
-                "symbol": symbol,
+                "symbol": symbol if filled else f"{symbol}-open",
                 "colour": colour,
-                "filled": filled,
-                "id": runs["id"].values.astype(str).tolist(),
-                **{name: runs[name].values.tolist() for name in columns},
+                "x": runs["height"].values.tolist(),
+                "y": length.values.tolist(),
+                "error_y": {"type": "data", "symmetric": False, "thickness": 1, "width": 3} | error,
+                "text": [_beside(run) for run in rows_of(runs)],
             }
         )  # fmt: skip
     return result
+
+
+def _beside(run: dict[str, Any]) -> str:
+    """What is read beside a point of the plot, as HTML."""
+    ratio = run["length"] / run["theory_length"]
+    return (
+        f"<b>{html.escape(str(run['id']))}</b><br>H = {run['height']:.4g} m<br>L<sub>c</sub> = "
+        f"{run['length']:.4g} m ({run['length_low']:.3g} to {run['length_high']:.3g})<br>"
+        f"{ratio:.3g} of the theory<br>onset at {run['onset_time']:.4g} s"
+    )
 
 
 def csv_text(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> str:
