@@ -16,8 +16,7 @@ from nucleation.fem.grid import Grid
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import KINDS
 from nucleation.model.second_body import BOTTOMS
-from nucleation.simulation.composition import composed
-from nucleation.simulation.run import run, simulate
+from nucleation.simulation.run import composed, run, simulate
 from nucleation.simulation.stepping.ladder import rung_value
 from nucleation.simulation.stepping.scheme import BDF
 

@@ -47,8 +47,7 @@ from .theory.fault import Fault
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings
     from .analysis.extraction import extract
-    from .analysis.laboratory import laboratory_faults
-    from .analysis.watched import simulate
+    from .analysis.progress import simulate
     from .answers.specimen import specimen_fit
     from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
@@ -80,7 +79,6 @@ __all__ = [
     "expected_drop",
     "extract",
     "film",
-    "laboratory_faults",
     "length_quantiles",
     "lengths_in_use",
     "plot_length",
@@ -103,8 +101,7 @@ require_own()
 _LATER = {
     ".analysis.definitions": ("ExtractionSettings",),
     ".analysis.extraction": ("extract",),
-    ".analysis.laboratory": ("laboratory_faults",),
-    ".analysis.watched": ("simulate",),
+    ".analysis.progress": ("simulate",),
     ".configuration.samples": ("read_samples",),
     ".datasets.netcdf": ("read", "write"),
     ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
@@ -116,9 +113,7 @@ _LATER = {
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
-_LIGHT = {
-    "length_quantiles", "laboratory_faults", "read_samples", "specimen_fit", "stability_length",
-}  # fmt: skip
+_LIGHT = {"length_quantiles", "read_samples", "specimen_fit", "stability_length"}
 """Those that need no extra."""
 
 

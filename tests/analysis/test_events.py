@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.analysis.events import why, without_event
+from nucleation.analysis.rows import why, without_event
 
 ROW = {
     "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),

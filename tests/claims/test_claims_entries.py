@@ -16,7 +16,7 @@ from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated
 
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
-from nucleation.claims.measure import Measures
+from nucleation.claims.evidence import Measures
 from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault

@@ -8,7 +8,7 @@ from made_up_runs import PARAMETERS, record
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
-from nucleation.claims.measure import measure
+from nucleation.claims.evidence import measure
 
 SETTINGS = ExtractionSettings()
 ONSET = 8.0  # s: the front has not come half-way along the block

@@ -33,8 +33,8 @@ BAD = {
         ["studies.s: s-aging-H0.1-phi1-recordlengths: record = lengths is", "interface or every"],
     ),
     "perturbed": (
-        study(TALL, TALL | {"perturbation": "state", "strength": 1e-3}, role="quiet"),
-        ["perturbation = state is not allowed with role = quiet: it must be none"],
+        study(TALL, TALL | {"perturbation": "state", "strength": 1e-3}, role="convergence_quiet"),
+        ["perturbation = state is not allowed with role = convergence_quiet: it must be none"],
     ),
     "one body": (
         study(TALL, role="pairs"),

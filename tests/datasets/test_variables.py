@@ -25,7 +25,7 @@ COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L"
 TEXTS = {
     "id", "study", "role", "evolution", "friction_law", "below", "far_side", "kind",
     "initial_stress", "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
-    "plane", "loading", "name", "definition", "laboratory_fault", "title", "assumed", "unknown",
+    "plane", "loading", "name", "definition",
 }  # fmt: skip
 
 
@@ -48,7 +48,6 @@ def test_a_name_means_the_same_wherever_it_is_declared():
     [
         ("nucleation.simulation.run", {RECORDED}),
         ("nucleation.patch.growth", {RECORDED, "nucleation.patch.growth"}),
-        ("nucleation.patch.mode_history", {RECORDED, "nucleation.patch.mode_history"}),
         ("nucleation.patch.twins", {RECORDED, "nucleation.patch.twins"}),
         (f"{CROSSCHECK}.timed", {RECORDED, f"{CROSSCHECK}.plan"}),
         (f"{CROSSCHECK}.freefem", {RECORDED, f"{CROSSCHECK}.plan", f"{CROSSCHECK}.freefem"}),

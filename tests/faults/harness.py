@@ -31,10 +31,9 @@ from warm_snakemake import warm
 from nucleation.configuration.load import load
 from nucleation.datasets import netcdf, variables
 from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
-from nucleation.pipeline.keys import key_in
 from nucleation.pipeline.running import UNFINISHED, task_of_run
 from nucleation.pipeline.steps import Task
-from nucleation.pipeline.store import Store, StoreError, path_in, read_note
+from nucleation.pipeline.store import Store, StoreError, key_in, path_in, read_note
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {

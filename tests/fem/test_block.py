@@ -6,8 +6,7 @@ from fem.assembled_problem import AssembledBlock
 
 from nucleation.fem.block import Block, BlockOperator
 from nucleation.fem.condensed import Expectation
-from nucleation.fem.field import Field, Motion
-from nucleation.fem.grid import Grid
+from nucleation.fem.grid import Field, Grid, Motion
 from nucleation.model.material import Material
 
 MATERIAL = Material(shear_modulus=3.1e9, poisson_ratio=0.29, density=1200.0)

@@ -8,8 +8,7 @@ from fem.assembled_pair import AssembledPair
 
 from nucleation.fem import pair
 from nucleation.fem.block import Block
-from nucleation.fem.field import Motion
-from nucleation.fem.grid import Grid
+from nucleation.fem.grid import Grid, Motion
 from nucleation.fem.pair import Pair
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping

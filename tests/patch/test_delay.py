@@ -9,7 +9,7 @@ from nucleation.analysis.extraction import extract
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.delay import growth, realised
-from nucleation.patch.mode_history import ModeHistory, follow_mode
+from nucleation.patch.mode_history import ModeHistory, mode_history
 from nucleation.simulation.realisation import spectral_density
 from nucleation.simulation.run import simulate
 
@@ -79,28 +79,20 @@ def test_mean_square_of_realisations(kind):
     assert np.mean(squares) == pytest.approx(np.exp(2 * mean.log_amplitude[late]), rel=0.6)
 
 
-@pytest.fixture(scope="module")
-def quiet():
-    """A run, and its mode."""
+OWN = mode_history(PARAMETERS, 0.4509)
+
+
+def test_less_friction_everywhere_is_as_more_load():
+    assert OWN.rate.real[0] < 0.0 < OWN.rate.real[-1]
+    np.testing.assert_allclose(OWN.normal_load, OWN.strength.sum(axis=1), rtol=0.05)
+
+
+@pytest.mark.slow
+def test_a_perturbed_run_drops_where_its_own_realisation_says():
+    declared = Perturbation(kind="state", strength=1e-3, seed=4)
     stepping = Stepping(end_time=60.0, time_after_event=0.0, longest_step=0.1)
     mesh = Mesh(n_x=400, n_y=6, grading=20.0)
-    parameters = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping)
-    return parameters, follow_mode(simulate(parameters))
-
-
-@pytest.mark.slow
-def test_a_run_and_its_mode(quiet):
-    _, own = quiet
-    assert own.rate.real[0] < 0.0 < own.rate.real[-1]
-    # less friction everywhere is as more load: R follows the load but for the block's ends
-    uniform = own.strength.sum(axis=1)
-    np.testing.assert_allclose(np.abs(own.normal_load), np.abs(uniform), rtol=0.05)
-
-
-@pytest.mark.slow
-def test_a_perturbed_run_drops_where_its_own_realisation_says(quiet):
-    parameters, own = quiet
-    declared = Perturbation(kind="state", strength=1e-3, seed=4)
-    measured = extract(simulate(dataclasses.replace(parameters, perturbation=declared)))
-    expected, _ = realised(own, declared).at(1e3)
+    run = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping, perturbation=declared)
+    measured = extract(simulate(run))
+    expected, _ = realised(OWN, declared).at(1e3)
     assert measured["length"] == pytest.approx(expected, rel=0.05)

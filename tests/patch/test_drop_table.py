@@ -10,11 +10,12 @@ from test_delay import LOAD, START, history
 from nucleation.figures.beyond import figure_drop
 from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
+from nucleation.patch import drop_table
 from nucleation.patch.delay import growth, realised
 from nucleation.patch.drop_table import COLUMNS, FLOORS, floors, gather
-from nucleation.patch.mode_history import from_dataset, to_dataset
 
 FAULT = fault(history().parameters)
+STIFF = history().parameters.replaced({"shear_modulus": 9.3e9})
 
 
 def drops(**changes):
@@ -34,16 +35,23 @@ def drops(**changes):
     return xr.Dataset({name: ("run", values) for name, values in (columns | changes).items()})
 
 
-def test_history_is_the_same_after_its_dataset():
-    own, again = history(), from_dataset(to_dataset(history()))
-    assert again.parameters == own.parameters
-    for field in dataclasses.fields(own)[1:]:
-        np.testing.assert_array_equal(getattr(again, field.name), getattr(own, field.name))
+def described(own):
+    return {"parameters": own.parameters.to_dict(), "theory_length": 0.45}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def histories():
+    """Made-up ones: of the usual fault, and of one that is stiffer."""
+    other = dataclasses.replace(history(), parameters=STIFF, length=1.5 * history().length)
+    with pytest.MonkeyPatch.context() as patched:
+        made = {fault(own.parameters): own for own in (history(), other)}
+        patched.setattr(drop_table, "mode_history", lambda run, _: made[fault(run)])
+        yield
 
 
 @pytest.fixture(scope="module")
-def table():
-    return gather([drops()], [to_dataset(history())])
+def table(histories):
+    return gather([drops()], [described(history())])
 
 
 def test_rows_are_those_of_faults_whose_mode_is_known(table):
@@ -54,12 +62,9 @@ def test_rows_are_those_of_faults_whose_mode_is_known(table):
 
 def test_each_material_has_its_own_law():
     """With the heights, laws and ages of both alike, the modes of one were taken for the other."""
-    own = history()
-    stiff = own.parameters.replaced({"shear_modulus": 9.3e9})
-    other = dataclasses.replace(own, parameters=stiff, length=1.5 * own.length)
-    modes = [to_dataset(own), to_dataset(other)]
-    faults = [FAULT, FAULT, fault(stiff), fault(stiff)]
-    for order in (modes, modes[::-1]):
+    runs = [described(history()), {"parameters": STIFF.to_dict(), "theory_length": 0.45}]
+    faults = [FAULT, FAULT, fault(STIFF), fault(STIFF)]
+    for order in (runs, runs[::-1]):
         found = gather([drops(fault=faults, height=[0.02] * 4)], order)
         expected = START * np.array([1.0, 1.0, 1.5, 1.5])
         np.testing.assert_allclose(found["stability_length"], expected, rtol=2e-3)
@@ -87,7 +92,7 @@ def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
 
 
 def test_floors_are_the_quiet_rows_without_what_they_lack(table):
-    found = floors([drops()], [to_dataset(history())])
+    found = floors([drops()], [described(history())])
     assert tuple(found.data_vars) == tuple(FLOORS)
     assert list(found["id"].values) == ["b"]
     assert float(found["floor_state"][0]) == float(table["floor_state"][1])

@@ -21,9 +21,8 @@ from nucleation.patch.growth import (
     rough_crossing,
 )
 from nucleation.patch.tables import STABILITY, gather_stability
-from nucleation.simulation.composition import composed
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import run, simulate
+from nucleation.simulation.run import composed, run, simulate
 from nucleation.theory.creep.lengths import Patches, stability_point
 from nucleation.theory.critical import theory_lengths
 from nucleation.theory.transfer import bodies_of

@@ -9,10 +9,9 @@ from scipy.signal import savgol_filter
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.record import Record
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.simulation.composition import composed
-from nucleation.simulation.forcing import UnevenStrength
+from nucleation.simulation.drive import UnevenStrength
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import run
+from nucleation.simulation.run import composed, run
 from nucleation.simulation.step import Dynamics
 
 pytestmark = pytest.mark.slow

@@ -11,8 +11,7 @@ from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch import twins
 from nucleation.patch.tables import TWINS, gather_twins
 from nucleation.patch.twins import difference, follow_twins
-from nucleation.simulation.composition import composed
-from nucleation.simulation.run import run
+from nucleation.simulation.run import composed, run
 
 pytestmark = pytest.mark.slow
 

@@ -9,7 +9,7 @@ import tarfile
 
 import pytest
 
-from nucleation.pipeline import bundle, view
+from nucleation.pipeline import bundle, check
 from nucleation.pipeline.bundle import CHECKSUMS, BundleError
 from nucleation.pipeline.store import Store, StoreError
 
@@ -34,7 +34,7 @@ def made(tmp_path):
     results = tmp_path / "made" / "results"
     for key, files in FILES.items():
         put(Store(results / "store"), key, files)
-    view.show(results, "paper", [("simulations/a b", KEY), ("lengths", OTHER)])
+    check.show(results, "paper", [("simulations/a b", KEY), ("lengths", OTHER)])
     (results / "lengths.csv").rename(results / "mine.csv")
     (results / "lengths.csv").write_text("mine")
     (tmp_path / "made" / "config.yaml").write_text(CONFIG)
@@ -99,7 +99,7 @@ def test_nothing_is_written_without_results_or_over_a_file(made, archive):
 
 def test_program_among_results_is_not_packed(made):
     put(Store(made / "results/store"), "3" * 16, {"result.py": b"1"})
-    view.show(made / "results", "own", [("own", "3" * 16)])
+    check.show(made / "results", "own", [("own", "3" * 16)])
     with pytest.raises(BundleError, match=r"result\.py.: it is neither"):
         bundle.write(made / "out.tar", made / "config.yaml", made)
 

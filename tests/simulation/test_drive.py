@@ -5,9 +5,9 @@ import dataclasses
 import numpy as np
 
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.composition import at_rest, composed
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
+from nucleation.simulation.run import at_rest, composed
 from nucleation.simulation.step import Dynamics
 
 PARAMETERS = Parameters(

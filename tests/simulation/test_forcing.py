@@ -7,9 +7,8 @@ import pytest
 
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS, Perturbation
-from nucleation.simulation.composition import composed
 from nucleation.simulation.realisation import profile
-from nucleation.simulation.run import simulate
+from nucleation.simulation.run import composed, simulate
 
 QUIET = Parameters(
     geometry=Geometry(height=0.005, length=0.9),

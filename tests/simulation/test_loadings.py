@@ -12,8 +12,7 @@ from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Ste
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
 from nucleation.model.second_body import SecondBody
-from nucleation.simulation.composition import composed
-from nucleation.simulation.run import simulate
+from nucleation.simulation.run import composed, simulate
 
 STEPPING = Stepping(end_time=10.0, time_after_event=0.0, longest_step=0.2)
 SEED = Heterogeneity(varies="normal_stress", change=-0.1, width=0.3)

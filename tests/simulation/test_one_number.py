@@ -9,9 +9,8 @@ import pytest
 from nucleation.analysis.extraction import extract
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
-from nucleation.simulation.composition import composed
 from nucleation.simulation.recording import Recorder
-from nucleation.simulation.run import run
+from nucleation.simulation.run import composed, run
 from nucleation.simulation.step import Dynamics
 
 

@@ -10,8 +10,8 @@ from nucleation.model.friction.registry import EVOLUTIONS
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation.control import SimulationFailure
+from nucleation.simulation.event import Outcome
 from nucleation.simulation.interface import Interface, Tension
-from nucleation.simulation.outcome import Outcome
 from nucleation.simulation.recorded import RECORDED
 from nucleation.simulation.run import run, simulate
 from nucleation.simulation.step import Dynamics

@@ -9,8 +9,8 @@ from nucleation.fem.block import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.composition import at_rest, composed
 from nucleation.simulation.interface import NewtonFailure
+from nucleation.simulation.run import at_rest, composed
 
 
 def small(law="aging", **mesh):

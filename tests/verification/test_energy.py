@@ -23,8 +23,7 @@ from nucleation.model.heterogeneity import Heterogeneity
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import KINDS, Perturbation
 from nucleation.model.second_body import SecondBody
-from nucleation.simulation.composition import composed
-from nucleation.simulation.run import run
+from nucleation.simulation.run import composed, run
 from nucleation.simulation.stepping.bdf import Formula, beta_of_step
 
 pytestmark = pytest.mark.slow

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from nucleation.fem.bodies import body_of
-from nucleation.fem.field import Motion
+from nucleation.fem.grid import Motion
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.verification.manufactured.dynamics import Manufactured, block_field

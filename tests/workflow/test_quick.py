@@ -12,7 +12,7 @@ from nucleation.analysis.extraction import extract
 from nucleation.configuration.load import load, read_yaml
 from nucleation.datasets import netcdf
 from nucleation.model.parameters import Parameters
-from nucleation.pipeline import keys
+from nucleation.pipeline.store import key_in
 
 ROOT = Path(__file__).parents[2]
 CLAIMING = {"evaluate_claims", "write_article"}
@@ -44,7 +44,7 @@ def test_simulations_carry_their_origin_and_units(quick, results):
         dataset = netcdf.read(path)
         assert Parameters.from_dict(json.loads(dataset.attrs["parameters"])) == run.parameters
         assert set(json.loads(dataset.attrs["versions"])) >= {"numpy", "scipy", "nucleation"}
-        assert dataset.attrs["key"] == keys.key_in(path)
+        assert dataset.attrs["key"] == key_in(path)
         assert dataset["slip_rate"].attrs["units"] == "m/s"
         assert dataset["slip_rate"].attrs["symbol"] == "v"
         for name, variable in dataset.variables.items():

@@ -40,14 +40,9 @@ DRAWN = {
     "figure_pairs": {"table": only("gather_pairs")},
     "figure_2_simulated": {"table": only("gather_pairs")},
     "figure_literature": {"table": only("gather_literature")},
-    "figure_laboratory": {"table": only("gather_laboratory")},
 }
 """The figures that are drawn from datasets alone, with these."""
 
-TITLES = {
-    **{name: entry.title for name, entry in FIGURES.items()},
-    "figure_laboratory": "Laboratory faults: lengths observed and computed",  # not in the report
-}
 SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": inset_id}
 """The simulation of which a figure shows more than its lengths."""
 
@@ -59,7 +54,7 @@ for _name, _inputs in DRAWN.items():
         suffix="png",
         local=True,
         inputs=_inputs,
-        message=TITLES[_name],
+        message=FIGURES[_name].title,
         **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
     )
 

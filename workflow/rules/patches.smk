@@ -1,5 +1,5 @@
-# Beyond the paper: the linear stability of each simulation's own creeping patch, twin runs that
-# confirm it, and the modes of quiet runs.
+# Beyond the paper: the linear stability of each simulation's own creeping patch, and twin runs
+# that confirm it.
 make_rule(
     "patch",
     call="nucleation.patch.growth:follow_patch",
@@ -69,14 +69,4 @@ make_rule(
     inputs={"twins": lambda wildcards: of_runs("twin", runs_for("twin_runs"))},
     runs=as_dicts(runs_for("twin_runs")),
     message="Growth of kicks in twin runs",
-)
-
-make_rule(
-    "mode",
-    call="nucleation.patch.mode_history:of_run",
-    shows="modes/{name}",
-    inputs={"simulation": lambda wildcards: steps("simulate", wildcards.name)},
-    loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
-    settings=asdict(settings.extraction),
-    message="Mode of the creeping patch of {wildcards.name}",
 )

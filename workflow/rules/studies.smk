@@ -116,10 +116,9 @@ PATCHED_TOGETHER = [
 ]
 
 
-def floor_runs():
-    """The runs whose modes say how noisy meshes are: of the faults that have several."""
-    faults = {fault(run.parameters) for run in runs_for("convergence_quiet")}
-    return [run for run in runs_for("quiet") if fault(run.parameters) in faults]
+def one_of_each_fault(runs):
+    """The first of some runs that each fault has."""
+    return list({fault(run.parameters): run for run in reversed(runs)}.values())[::-1]
 
 
 def shown_run(height):

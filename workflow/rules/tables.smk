@@ -7,11 +7,9 @@ make_rule(
     inputs={
         "drops": needed(lambda wildcards: lengths_of(*in_role("drop")), "study with role: drop"),
         "quiet": lambda wildcards: lengths_of(*FLOORS),
-        "modes": needed(
-            lambda wildcards: of_runs("mode", runs_for("quiet")), "study with role: quiet"
-        ),
     },
-    loads=laws_of(runs_for("quiet")),
+    loads=laws_of(runs_for("drop")),
+    runs=as_dicts(one_of_each_fault(runs_for("drop"))),
     message="Drops, and the law of the drop",
 )
 
@@ -21,13 +19,13 @@ make_rule(
     shows="floors",
     local=True,
     inputs={
-        "quiet": lambda wildcards: lengths_of(*FLOORS),
-        "modes": needed(
-            lambda wildcards: of_runs("mode", floor_runs()),
-            "fault with the roles convergence_quiet and quiet",
+        "quiet": needed(
+            lambda wildcards: lengths_of(*FLOORS) if runs_for("convergence_quiet") else [],
+            "study with role: convergence_quiet",
         ),
     },
-    loads=laws_of(runs_for("quiet")),
+    loads=laws_of(runs_for("convergence_quiet")),
+    runs=as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
     message="Noise of meshes and steps",
 )
 
@@ -111,13 +109,4 @@ make_rule(
     },
     runs=as_dicts(runs_for("literature")),
     message="The literature's lengths, simulated",
-)
-
-# Published laboratory faults: the lengths observed, and those of the theory where enough was read.
-make_rule(
-    "gather_laboratory",
-    call="nucleation.analysis.laboratory:laboratory_table",
-    shows="laboratory",
-    faults=read_yaml(Path(SOURCE, "nucleation", "analysis", "laboratory.yaml")),
-    message="Laboratory faults: lengths observed and computed",
 )

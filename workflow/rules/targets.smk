@@ -41,7 +41,7 @@ TARGETS = {
         made(*ARTICLE, "print_article"),
     ),
     "table_s1": ("Table S1: parameters of the friction law.", made("write_table_s1")),
-    **{name: (f"{TITLES[name]}.", made(f"draw_{name}")) for name in [*DRAWN, "animation"]},
+    **{name: (f"{FIGURES[name].title}.", made(f"draw_{name}")) for name in [*DRAWN, "animation"]},
     "figure_studies": ("A figure of each study that shares lengths.csv.", shared(of_studies)),
     **{
         f"figure_study_{study}": (f"Figure of the study {study}.", lambda s=study: of_studies([s]))

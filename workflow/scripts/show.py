@@ -1,5 +1,5 @@
 """Lay links to what a target shows, and say where it is."""
 
-from nucleation.pipeline.view import run
+from nucleation.pipeline.check import run_show
 
-run(snakemake)
+run_show(snakemake)

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from ..datasets.variables import Variable
-from ..simulation.outcome import Outcome
+from ..simulation.event import Outcome
 from .definitions import ExtractionSettings
 from .record import Record
 

@@ -12,9 +12,8 @@ import xarray as xr
 from ..datasets.variables import Variable, annotate
 from ..fem.condensed import Body
 from ..model.material import Material
-from ..simulation.composition import composed
 from ..simulation.recorded import RECORDED
-from ..simulation.run import run
+from ..simulation.run import composed, run
 from ..simulation.state import State
 from ..types import Array
 from .lengths import row

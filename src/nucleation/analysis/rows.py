@@ -1,12 +1,15 @@
-"""Rows of a table and the ratios in them, for whatever goes through a table run by run."""
+"""Rows of a table, the ratios in them, and why a run has no length."""
 
+import math
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable
+from .definitions import SEARCHED
 
 Row = dict[str, Any]
 
@@ -40,3 +43,45 @@ def rows_of(
 def ratios(columns: Mapping[Any, Any]) -> Row:
     """:data:`RATIOS` of one row or of a whole table."""
     return {name: columns[over] / columns[under] for name, (over, under) in RATIOS.items()}
+
+
+NEARLY = 0.98
+"""Part of the searched half of the block from which on the patch counts as having filled it."""
+
+
+def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """How many of some runs had no event, and a line with the reason for each of these.
+
+    `rows` are of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`).
+    """
+    rows = list(rows)
+    quiet = [row for row in rows if not math.isfinite(row["onset_time"])]
+    if not quiet:
+        return []
+    head = f"{len(quiet)} of {len(rows)} runs had no event, and so give no length:"
+    return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
+
+
+def in_table(path: Path) -> list[str]:
+    """The same from the CSV of a study's table."""
+    import pandas as pd  # which takes a while
+
+    return without_event(pd.read_csv(path).to_dict("records"))
+
+
+def why(row: Mapping[str, Any]) -> str:
+    """Why a run had no event, as far as its row of the table of lengths tells."""
+    if not str(row["status"]).startswith("completed"):
+        return str(row["status"])
+    names = ("velocity_weakening", "theory_length", "reached_length", "simulated_time")
+    zeta, theory, reached, end = (row[name] for name in names)
+    patch = f"after {end:.4g} s its patch was {reached:.3g} m long"
+    if not math.isfinite(theory):
+        return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
+    patch += f", {reached / theory:.2g} of the theory's critical length"
+    edge = row["loading"] == "edge"
+    if edge and reached > NEARLY * SEARCHED * row["block_length"]:
+        return f"{patch}, and filled the half of the block in which it is followed"
+    if reached < theory:
+        return f"{patch}: a longer end_time may show it"
+    return f"{patch}, and the force has not dropped"

@@ -15,8 +15,7 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading
 from . import article, table
-from .evidence import Evidence
-from .measure import measure
+from .evidence import Evidence, measure
 from .statements.two_bodies import PairEvidence
 
 Rows = list[dict[str, Any]]

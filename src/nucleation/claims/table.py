@@ -14,7 +14,6 @@ from .claim import Claim, Verdict
 from .said import read
 from .statements import (
     bimaterial,
-    course,
     finite_height,
     friction_law,
     simulations,
@@ -28,7 +27,7 @@ SUBJECTS = {
     "finite height": finite_height,
     "friction law": friction_law,
     "critical lengths": simulations,
-    "course of simulations": course,
+    "course of simulations": simulations,
     "two bodies, simulated": two_bodies,
 }
 """Where the functions of each subject are; the last one has evidence and a table of its own."""

@@ -7,7 +7,7 @@ import click
 import xarray as xr
 
 from . import DONE, EXIT_CODES
-from .output import require_directory, require_writable
+from .text import require_directory, require_writable
 
 
 @click.command("export", epilog=EXIT_CODES)

@@ -17,7 +17,7 @@ from ..analysis.extraction import extract
 from ..analysis.record import parameters_of
 from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
-from ..commands.output import require_writable
+from ..commands.text import require_writable
 from ..datasets import netcdf
 from ..datasets.installed import require
 from ..model.linearised import linearised

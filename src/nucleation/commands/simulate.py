@@ -21,9 +21,8 @@ from ..model.second_body import SecondBody
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
 from .given import STUDY, given_of, merged, planned, sourced
 from .options import flat, option, parameter_options, source_options
-from .output import require_writable
 from .system import told
-from .text import event_lines, outcome, parameter_lines, to_json
+from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]
 MEMORY = declarations(Limits)["memory"]

@@ -2,13 +2,16 @@
 
 import json
 import math
+import os
 import re
+import shlex
 import textwrap
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from ..model.parameters import GROUPS, Parameters
-from ..model.quantities import Quantity, declarations
+from ..model.quantities import ParameterError, Quantity, declarations
 
 
 def parameter_lines(parameters: Parameters) -> list[str]:
@@ -79,3 +82,19 @@ def _plain(value: Any) -> Any:
         return value
     number = float(value)
     return None if math.isnan(number) else "inf" if math.isinf(number) else number
+
+
+def require_writable(path: Path, force: bool) -> None:
+    """Refuse a file that can't be written, or exists and may not be replaced by `force`."""
+    if path.exists() and not force:
+        raise ParameterError(f"{path} exists already; --force replaces it")
+    require_directory(path, path.absolute().parent)
+
+
+def require_directory(path: Path, folder: Path) -> None:
+    """Refuse a path whose directory isn't there, or can't be written to."""
+    if not folder.exists():
+        make = shlex.join(["mkdir", "-p", str(folder)])
+        raise ParameterError(f"{path} can't be written: there is no directory {folder}; {make}")
+    if not folder.is_dir() or not os.access(folder, os.W_OK):
+        raise ParameterError(f"{path} can't be written: {folder} is no writable directory")

@@ -24,13 +24,12 @@ from ..model.units import parse
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import results_directory, results_problems, run_problems, setting_problems
-from .grids import LARGEST_GRID, grid_size, range_problem
 from .roles import role_problems, shown
 from .runs import Run
 from .settings import FigureSettings, Limits
 from .strict_yaml import read_yaml
 from .studies import StudySettings, study_runs, study_settings
-from .study_names import in_type
+from .study_names import LARGEST_GRID, grid_size, in_type, range_problem
 
 
 @dataclasses.dataclass(frozen=True)

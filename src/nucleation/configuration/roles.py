@@ -65,9 +65,6 @@ ROLES = {
     ),
     "noisy": Role("a stronger perturbation, for the band of `figure_3_extended`", False, False),
     "patch_convergence": Role("refined runs whose patches are followed", several=True),
-    "quiet": Role(
-        "unperturbed runs whose modes give the law of the drop", several=True, runs=(QUIET,)
-    ),
     "drop": Role("declared perturbations, for `figure_drop`", True, False),
     "map": Role("heights and weakenings, for `figure_map`", False, False, (STABILITY, BATCHES)),
     "patch_theory": Role(

@@ -13,10 +13,9 @@ from ..model.linearised import InterfaceState
 from ..model.quantities import Quantity, declarations
 from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
-from .grids import RANGE
 from .settings import FigureSettings, Limits
 from .studies import StudySettings
-from .study_names import other_names, study_parameters
+from .study_names import RANGE, other_names, study_parameters
 
 Node = dict[str, Any]
 

@@ -18,10 +18,9 @@ from ..model.quantities import ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
 from ..theory.estimates import growth_time
 from ..theory.transfer import bodies_of
-from .grids import expand
 from .roles import OWN, ROLES
 from .runs import Run, varied
-from .study_names import by_study_name, identifier, study_parameters
+from .study_names import by_study_name, expand, identifier, study_parameters
 
 LATE = 1.5
 """Latest end of a run that is given none, over the estimated time until the critical length."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from ..types import Array
 from .block_modes import BlockModes
 from .condensed_nodes import CondensedOnNodes
-from .field import Field
+from .grid import Field
 from .right_edge import RightEdge
 from .separable import SeparableOperator
 

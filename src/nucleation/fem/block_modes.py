@@ -19,8 +19,7 @@ from scipy import fft
 from ..model.material import Material
 from ..types import Array
 from . import transforms
-from .field import Field
-from .grid import Grid
+from .grid import Field, Grid
 from .separable import SeparableBody
 
 

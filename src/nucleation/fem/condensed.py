@@ -21,8 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array
-from .field import Field, Motion, Motions, Terms
-from .grid import Grid
+from .grid import Field, Grid, Motion, Motions, Terms
 
 
 @dataclasses.dataclass(frozen=True)

@@ -24,7 +24,7 @@ from ..types import Array
 from . import kernels, transforms
 from .block_modes import BlockModes
 from .condensed import Balance, Expectation
-from .field import Field
+from .grid import Field
 from .right_edge import EdgeValues, predicted, relative_error
 from .separable import LoadedResponse
 

@@ -24,8 +24,7 @@ from ..model.material import Material
 from ..types import Array
 from .block import Block
 from .condensed import Balance, Expectation, Response
-from .field import Field, Motion, Motions, Terms
-from .grid import Grid
+from .grid import Field, Grid, Motion, Motions, Terms
 from .pair import Pair
 
 

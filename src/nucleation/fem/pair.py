@@ -17,7 +17,7 @@ import numpy as np
 from ..types import Array
 from .block import Block
 from .condensed_nodes import CondensedOnNodes
-from .field import Field, Motions
+from .grid import Field, Motions
 from .right_edge import EdgeValues, inverse_within
 from .series import Series, TwoBodies
 

@@ -29,8 +29,7 @@ from scipy.linalg import circulant
 from ..model.material import Material
 from ..types import Array
 from .condensed import Balance, Expectation
-from .field import Field
-from .grid import Grid
+from .grid import Field, Grid
 from .separable import LoadedResponse, SeparableBody, SeparableOperator
 
 

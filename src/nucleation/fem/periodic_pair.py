@@ -14,7 +14,7 @@ import numpy as np
 
 from ..types import Array
 from .condensed import Balance, Expectation
-from .field import Field
+from .grid import Field
 from .periodic import Circulant, PeriodicBlock, with_entry_zero
 from .separable import LoadedResponse
 from .series import Series, TwoBodies

@@ -15,7 +15,7 @@ from ..types import Array
 from . import kernels
 from .block_modes import BlockModes
 from .condensed import Expectation
-from .field import Field
+from .grid import Field
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
 

@@ -17,8 +17,7 @@ from ..model.material import Material
 from ..types import Array
 from . import kernels
 from .condensed import Response
-from .field import Field, Motion, Motions, Terms
-from .grid import Grid
+from .grid import Field, Grid, Motion, Motions, Terms
 from .matrices import element_matrices
 
 

@@ -21,8 +21,7 @@ import numpy as np
 
 from ..types import Array
 from . import kernels
-from .field import Field, Motion, Motions, Terms
-from .grid import Grid
+from .grid import Field, Grid, Motion, Motions, Terms
 from .separable import SeparableBody, SeparableOperator, rate_of_change
 
 Layer = TypeVar("Layer", bound=SeparableBody)

@@ -53,7 +53,7 @@ FIGURES: dict[str, Entry] = {
         "Lengths of the drop and of the patch's stability", BEYOND, ("paper",), (LENGTHS, PATCHES)
     ),
     "figure_drop": Entry(
-        "Where the force drops under a declared perturbation", BEYOND, ("drop", "quiet"),
+        "Where the force drops under a declared perturbation", BEYOND, ("drop",),
         (Data("drop"),),
     ),
     "figure_map": Entry(

@@ -1,17 +1,18 @@
-"""How runs are marked by evolution law and by the state they start from, whatever laws there are.
+"""Rows of a table of runs as points with bars, marked by evolution law and by where they start.
 
 The paper's two laws look as in its Figure 3; every other law of a table takes the next free marker.
 """
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from ..model.friction.registry import USUAL_EVOLUTION
-from . import points, style
+from . import style
 
 USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
 
@@ -53,7 +54,7 @@ def kinds(table: xr.Dataset) -> Iterator[tuple[tuple[str, bool], Look, xr.Datase
     """Law and whether the initial state differs, the look, and the rows of each kind."""
     names = table["evolution"].values.astype(str)
     for (law, old), look in looks(names).items():
-        yield (law, old), look, points.where(table, (names == law) & (aged(table) == old))
+        yield (law, old), look, where(table, (names == law) & (aged(table) == old))
 
 
 def aged(table: xr.Dataset) -> NDArray[np.bool_]:
@@ -75,3 +76,26 @@ def usual(table: xr.Dataset) -> NDArray[np.bool_]:
     law = table["evolution"].values.astype(str) == usual_law(table)
     young = law & ~aged(table)
     return young if young.any() else law
+
+
+def where(table: xr.Dataset, chosen: Any = True, **labels: object) -> xr.Dataset:
+    """The rows with these labels in columns of their names, of those that are `chosen`."""
+    found = np.broadcast_to(np.asarray(chosen, dtype=bool), table.sizes["run"])
+    for name, value in labels.items():
+        found = found & (table[name].values == value)
+    return table.isel(run=np.flatnonzero(found))
+
+
+def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
+    """The rows that agree in some columns, set by set, in the order of the table."""
+    keys = list(zip(*(table[name].values.tolist() for name in names), strict=True))
+    for key in dict.fromkeys(keys):
+        yield table.isel(run=[i for i, own in enumerate(keys) if own == key])
+
+
+def draw(axes: Axes, x: Any, table: xr.Dataset, name: str, scale: Any = 1.0, **look: Any) -> None:
+    """Draw a column over `scale`, with bars from that ``_low`` to that ``_high``, where known."""
+    middle, low, high = (table[name + end].values / scale for end in ("", "_low", "_high"))
+    bars = np.clip(np.nan_to_num([middle - low, high - middle]), 0.0, None)
+    usual: Any = {"elinewidth": 0.9, "linestyle": "none"}
+    axes.errorbar(x, middle, bars, **usual | look)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from ..analysis.extraction import extract
 from ..analysis.film import film_dataset
 from ..analysis.record import Record
-from ..figures import points, style
+from ..figures import laws, style
 from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length, critical_mode, fault_of, spectrum
 from ..theory.creep.lengths import stability_length
@@ -40,10 +40,10 @@ def draw_theory(theory: xr.Dataset) -> Figure:
 def draw_lengths(table: xr.Dataset) -> Figure:
     """Draw ``length`` with ``_low`` and ``_high`` (m) against ``theory_length`` (m)."""
     figure, axes = style.column(7.4)
-    for number, rows in enumerate(points.groups(table, "study")):
+    for number, rows in enumerate(laws.groups(table, "study")):
         marker, colour = style.look(number)
         theory, look = rows["theory_length"].values, {"marker": marker, "color": colour}
-        points.draw(axes, theory, rows, "length", label=str(rows["study"].values[0]), **look)
+        laws.draw(axes, theory, rows, "length", label=str(rows["study"].values[0]), **look)
     top = 1.08 * float(max(table["theory_length"].max(), table["length_high"].max()))
     axes.plot([0.0, top], [0.0, top], color=style.GUIDE, linewidth=0.9, zorder=0)
     axes.annotate("theory", (0.8 * top, 0.82 * top), color=style.GUIDE, rotation=45, ha="center")

@@ -2,7 +2,7 @@
 
 A kind of loading says what is imposed and where, what is measured as the load, and where a patch
 begins and ends. What follows from it stands where it acts: the body in
-:mod:`nucleation.fem.bodies`, the drive in :mod:`nucleation.simulation.forcing`, the patch in
+:mod:`nucleation.fem.bodies`, the drive in :mod:`nucleation.simulation.drive`, the patch in
 :mod:`nucleation.analysis.definitions`, the far side of the theory in
 :func:`nucleation.theory.transfer.bodies_of`.
 """

@@ -1,8 +1,7 @@
-"""A quiet run carried on beyond its own drop: its trends over the patch's length.
+"""The creep carried on beyond the patches that were followed: its trends over the patch's length.
 
-Where a mode's growth decides, the front's hops from node to node have no place in a law. They take
-Lambda and L(t) to and fro; polynomials in the patch's length pass between them, and go on beyond
-the run's end, as straight lines where the amplitude's exponent depends on them.
+Lambda and L(t) are polynomials in the patch's length, and go on as straight lines where the
+amplitude's exponent depends on them.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,7 +16,7 @@ from .mode_history import ModeHistory
 DEGREE = 3  # of the polynomials in the patch's length
 FINE = 2400  # times between which the amplitude is integrated
 COARSE = 4  # of them within a step where the sum over positions is taken
-BEYOND = 1.6  # lengths are continued up to so many of the quiet run's last one
+BEYOND = 1.6  # lengths are continued up to so many of the last one followed
 RISE = 0.9  # part of the time up to L_s within which roughness is turned on
 
 
@@ -47,7 +46,7 @@ def complex_trend(history: ModeHistory, values: ComplexArray) -> Callable[..., C
 
 
 class Path(NamedTuple):
-    """A run carried on: times (s), lengths (m) and Lambda (1/s), evenly in time."""
+    """The creep carried on: times (s), lengths (m) and Lambda (1/s), evenly in time."""
 
     time: Array
     length: Array
@@ -55,7 +54,7 @@ class Path(NamedTuple):
 
 
 def continued(history: ModeHistory) -> Path:
-    """The run's trend, over its own range of lengths and beyond, evenly in time."""
+    """The trend over the lengths followed and beyond, evenly in time."""
     lengths = np.linspace(history.length[0], BEYOND * history.length[-1], 2000)
     time = trend(history, history.time)(lengths)
     real, imaginary = (trend(history, part) for part in (history.rate.real, history.rate.imag))
@@ -103,8 +102,7 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     """Weights of the strength at positions (m) for a front at some length (m).
 
     They move with the front: at each distance from it they are a polynomial in the patch's length,
-    fitted to all instants. That averages over the hops from node to node, which would shake the
-    mode in place of the roughness.
+    fitted to all instants.
     """
     dx = history.x[1] - history.x[0]
     behind = np.arange(-history.length[-1] * BEYOND, 4.0 * dx, 0.5 * dx)

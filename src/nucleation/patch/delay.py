@@ -1,4 +1,4 @@
-"""The length at the drop under a declared perturbation, from one quiet run and without a fit.
+"""The length at the drop under a declared perturbation, from theory and without a fit.
 
 At L_s the creeping patch turns unstable, in a slow passage through a Hopf bifurcation. The drop
 follows once its oscillating mode has grown to the size of the loading: the amplitude A of
@@ -126,9 +126,9 @@ class Growth:
 
 
 def growth(history: ModeHistory, declared: Perturbation) -> Growth:
-    """How the mode of a quiet run grows under a declared forcing, in the mean square.
+    """How the mode grows along the creep under a declared forcing, in the mean square.
 
-    The run is carried on beyond its own drop by the trends of L(t) and Lambda(L). Strength and seed
+    The creep is carried on by the trends of L(t) and Lambda(L). Strength and seed
     are not used. ValueError if nothing is declared to be perturbed.
     """
     path = continued(history)

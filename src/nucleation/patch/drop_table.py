@@ -1,25 +1,30 @@
 """Simulated drops beside what the law says of them, one row for each run.
 
-A quiet run drops where mesh, steps and round-off let it. Its row has the strength at which a
-fluctuating load, or state, would make the law's median drop there: the noise of that mesh with
-those steps, in the units of a declared perturbation.
+The law is of the theory's patches (:mod:`.mode_history`). A quiet run drops where mesh, steps and
+round-off let it. Its row has the strength at which a fluctuating load, or state, would make the
+law's median drop there: the noise of that mesh with those steps, in the units of a declared
+perturbation.
 """
 
+import contextlib
+import dataclasses
 from collections.abc import Callable, Iterable
 from functools import cache
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.record import parameters_of
 from ..analysis.rows import Row, rows_of
 from ..datasets.variables import Variable, some, table
 from ..model.identity import fault
+from ..model.parameters import Parameters
 from ..model.perturbation import Perturbation
+from ..theory.creep.lengths import NoPatch
 from .delay import Growth, growth, realised
 from .growth import FITTED
-from .mode_history import ModeHistory, from_dataset
+from .mode_history import ModeHistory, mode_history
 
 MEASURED = some(
     LENGTHS, "study", "role", "id", "evolution", "height", "kind", "strength", "seed",
@@ -50,16 +55,15 @@ FLOORS = some(
 
 
 def law_of(history: ModeHistory) -> Callable[[Row], Row]:
-    """The law of the drop for one fault, from the mode of its quiet run.
+    """The law of the drop for one fault, from the mode along its creep.
 
     It gives the columns :data:`PREDICTED` for one run; NaN where there is nothing to say.
     """
-    usual = history.parameters.perturbation
 
     @cache
     def known(kind: str, length: float) -> Growth:
-        scale, time = length or usual.correlation_length, usual.correlation_time
-        declared = Perturbation(kind=kind, correlation_time=time, correlation_length=scale)
+        usual = Perturbation(kind=kind)
+        declared = dataclasses.replace(usual, correlation_length=length) if length else usual
         return growth(history, declared)
 
     def row_of(run: Row) -> Row:
@@ -89,19 +93,23 @@ def law_of(history: ModeHistory) -> Callable[[Row], Row]:
 
 
 def gather(
-    drops: Iterable[xr.Dataset], modes: Iterable[xr.Dataset], quiet: Iterable[xr.Dataset] = ()
+    drops: Iterable[xr.Dataset], runs: Iterable[dict[str, Any]], quiet: Iterable[xr.Dataset] = ()
 ) -> xr.Dataset:
-    """:data:`COLUMNS` on ``run``, for the runs of faults whose mode is known.
+    """:data:`COLUMNS` on ``run``, for all runs of the faults that some `runs` have.
 
-    `drops` and `quiet` are tables with :data:`MEASURED` and ``fault``, `modes` histories as
-    datasets.
+    `drops` and `quiet` are tables with :data:`MEASURED` and ``fault``. Faults whose patches no
+    theory follows are left out.
     """
-    laws = {fault(parameters_of(mode)): law_of(from_dataset(mode)) for mode in modes}
-    runs = [run for own in (*drops, *quiet) for run in rows_of(own, names=(*MEASURED, "fault"))]
-    return table([run | laws[run["fault"]](run) for run in runs if run["fault"] in laws], COLUMNS)
+    laws = {}
+    for run in runs:
+        parameters = Parameters.from_dict(run["parameters"])
+        with contextlib.suppress(NoPatch):
+            laws[fault(parameters)] = law_of(mode_history(parameters, run["theory_length"]))
+    rows = [row for own in (*drops, *quiet) for row in rows_of(own, names=(*MEASURED, "fault"))]
+    return table([row | laws[row["fault"]](row) for row in rows if row["fault"] in laws], COLUMNS)
 
 
-def floors(quiet: Iterable[xr.Dataset], modes: Iterable[xr.Dataset]) -> xr.Dataset:
+def floors(quiet: Iterable[xr.Dataset], runs: Iterable[dict[str, Any]]) -> xr.Dataset:
     """:data:`FLOORS` on ``run``: how noisy the meshes of quiet runs are with their steps."""
-    found = gather(quiet, modes)
+    found = gather(quiet, runs)
     return found[list(FLOORS)].isel(run=np.flatnonzero(found["kind"].values == "none"))

@@ -1,7 +1,4 @@
-"""The drop that a user's fault is to be expected to have, by theory alone.
-
-The theory of the creeping patch (:mod:`.theory_history`) has all that the law of the drop asks for.
-"""
+"""The drop that a user's fault is to be expected to have, by theory alone."""
 
 from typing import NamedTuple
 
@@ -12,8 +9,7 @@ from ..model.perturbation import Perturbation
 from ..theory.creep.lengths import NoPatch
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
-from .mode_history import ModeHistory
-from .theory_history import theory_history
+from .mode_history import ModeHistory, mode_history
 
 LATEST_GROWTH = 0.85  # of the longest patch followed, up to which L_s leaves something to trend
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
@@ -55,7 +51,7 @@ def expected_drop(parameters: Parameters, theory_length: float) -> ExpectedDrop:
     if not declared.acts:
         raise NoDrop("nothing is perturbed: without a strength the drop depends on round-off")
     try:
-        history = theory_history(parameters, theory_length)
+        history = mode_history(parameters, theory_length)
     except NoPatch as error:
         raise NoDrop(str(error)) from None
     found = _expected(history, declared)

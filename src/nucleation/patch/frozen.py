@@ -23,7 +23,7 @@ from ..analysis.record import Record
 from ..fem.bodies import BodyOperator, body_of
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
-from ..simulation.composition import interface_of
+from ..simulation.run import interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array
 

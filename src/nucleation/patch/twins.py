@@ -24,9 +24,8 @@ from ..analysis.definitions import Extent, ExtractionSettings
 from ..datasets.variables import Variable
 from ..datasets.variables import table as table_of
 from ..model.parameters import Parameters
-from ..simulation.composition import composed
 from ..simulation.control import Instant
-from ..simulation.run import run
+from ..simulation.run import composed, run
 from ..simulation.state import State
 from ..simulation.step import Dynamics, StepReport
 from ..theory.creep.linearised import FrozenPatch

@@ -24,9 +24,8 @@ from typing import Any
 from ..configuration.load import load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .keys import PATTERN, content
-from .store import BAD, NOTE, STEM, Store, StoreError, read_note
-from .view import records
+from .check import records
+from .store import BAD, NOTE, PATTERN, STEM, Store, StoreError, content, read_note
 
 CHECKSUMS, CONFIGURATION = "manifest-sha256.txt", "config.yaml"
 KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"

@@ -23,9 +23,9 @@ import xarray as xr
 from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError, is_table, to_csv
 from ..model.quantities import ParameterError
-from . import code, keys
+from . import code
 from .steps import LINKS, Task, plain_paths, task_of
-from .store import STEM, Store, StoreError, give_all, others, path_in, read_note
+from .store import STEM, Store, StoreError, give_all, key_in, others, path_in, read_note
 
 EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 """Failures that are told in one line: what to do about them is outside of the code."""
@@ -52,7 +52,7 @@ class Job:
         for roots in dict.fromkeys(task.roots for task in self.tasks):
             code.load(*roots)
         for task in self.tasks:
-            if task.key != keys.key_in(task.link):
+            if task.key != key_in(task.link):
                 raise code.CodeError(
                     f"the code, the parameters or the sources of {Path(task.link).name} have "
                     "changed since this job was planned: start the workflow again"
@@ -86,7 +86,7 @@ class Job:
         StoreError
             If it is another result; one in the job's own store is moved aside.
         """
-        key = keys.key_in(path)
+        key = key_in(path)
         if key is None:
             return Path(path)
         file = path_in(self.store.entry(key), Path(path).suffix)  # wherever the link leads
@@ -107,7 +107,7 @@ class Job:
 
         A table is put as comma-separated text, too.
         """
-        key, origin = str(keys.key_in(task.link)), self.origin(task)
+        key, origin = str(key_in(task.link)), self.origin(task)
         if isinstance(made, xr.Dataset):
             made = {".nc": made}
         elif not isinstance(made, Mapping):
@@ -133,7 +133,7 @@ class Job:
 
     def leave_link(self, task: Task) -> None:
         """Tell Snakemake that a result is there."""
-        link, key = Path(task.link), str(keys.key_in(task.link))
+        link, key = Path(task.link), str(key_in(task.link))
         lay(link, path_in(self.store.entry(key), link.suffix))
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..configuration.load import load
 from . import bundle
 from .code import ROOT
-from .keys import content
+from .store import content
 
 CHECKOUT = ROOT.parent.parent
 CHECKSUMS = "SHA256SUMS"

@@ -14,8 +14,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
-from . import code, keys
-from .store import Store, StoreError, path_in, read_note
+from . import code
+from .store import Store, StoreError, key, key_in, of_file, path_in, read_note
 
 LINKS = ".links"  # directory below the results with what jobs tell Snakemake they have made
 ABOUT = ("call", "loads")  # of a rule, and no parameters of a result
@@ -44,12 +44,12 @@ class Task(NamedTuple):
     def key(self) -> str:
         """Of the result, from what it is made of."""
         function = self.call.partition(":")[2]
-        return keys.key(self.code, {"": function, **self.values}, self.source_keys)
+        return key(self.code, {"": function, **self.values}, self.source_keys)
 
     @property
     def source_keys(self) -> dict[str, list[str]]:
         """Keys of what it is made from, by their role."""
-        return {role: [*map(keys.of_file, _listed(p))] for role, p in self.sources.items()}
+        return {role: [*map(of_file, _listed(p))] for role, p in self.sources.items()}
 
     @property
     def code(self) -> str:
@@ -113,7 +113,7 @@ class Steps:
         for name in names:
             self._together[rule, name] = job
             tasks.append(self._task(rule, name)[0])
-            self._links.setdefault(str(keys.key_in(tasks[-1].link)), tasks[-1].link)
+            self._links.setdefault(str(key_in(tasks[-1].link)), tasks[-1].link)
         return tasks
 
     def _task(self, rule: str, name: str) -> tuple[Task, str]:
@@ -133,7 +133,7 @@ class Steps:
 
     def _find(self, rule: str, name: str = "") -> Made:
         task, shown = self._task(rule, name)
-        key, suffix = str(keys.key_in(task.link)), task.link.rpartition(".")[2]
+        key, suffix = str(key_in(task.link)), task.link.rpartition(".")[2]
         done = self.store.note(key) is not None
         link = self._links.setdefault(key, task.link)
         if not done and self._tidies:

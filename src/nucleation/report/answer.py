@@ -6,9 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..analysis.events import without_event
 from ..analysis.lengths import over_realisations
-from ..analysis.rows import rows_of
+from ..analysis.rows import rows_of, without_event
 from ..configuration.roles import JUDGED, PAPERS
 from .tables import RUN_COLUMNS, run_rows
 

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 
 from ..model.parameters import Stepping
+from .event import Outcome
 from .interface import NewtonFailure, Tension
-from .outcome import Outcome
 from .state import State
 from .step import Dynamics, StepReport
 from .stepping.ladder import rung_below, rung_value

@@ -7,12 +7,31 @@ fast somewhere: a slow decrease, as in an oscillation of the creeping patch that
 event, nor is a force that follows a fluctuating load.
 """
 
+import enum
 from collections import deque
 
 import numpy as np
 
 from ..model.parameters import EVENT_DROP
 from ..types import Array
+
+
+class Outcome(enum.Enum):
+    """How a run ended."""
+
+    END_TIME = "completed: the end time was reached"
+    AFTER_EVENT = "completed: the event and the time asked for after it are covered"
+    STEP_UNDERFLOW = "failed: the step size fell below the shortest step allowed"
+    TENSION = "failed: the interface came under tension, where the friction law has no meaning"
+    NOT_FINITE = "failed: a recorded value is not finite"
+
+    INTERRUPTED = "interrupted: what had been recorded until then"
+
+    @property
+    def completed(self) -> bool:
+        """Whether the run reached its planned end."""
+        return self.value.startswith("completed")
+
 
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach

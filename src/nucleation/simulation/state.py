@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..fem.field import Field, Motion
+from ..fem.grid import Field, Motion
 from ..types import Array
 
 

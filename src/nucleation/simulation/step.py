@@ -2,7 +2,7 @@
 
 A step is pure: it returns a new state and changes nothing, so a rejected step leaves no trace and
 a stored state restarts the run exactly. What steps is composed of four parts that know nothing of
-each other (:func:`nucleation.simulation.composition.composed` has the usual ones): a body
+each other (:func:`nucleation.simulation.run.composed` has the usual ones): a body
 (:mod:`nucleation.fem.condensed`), an interface (:mod:`.interface`), a drive (:mod:`.drive`) and a
 scheme (:mod:`nucleation.simulation.stepping.scheme`).
 """
@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..fem.condensed import Body, Expectation, Operator
-from ..fem.field import Field, Motion
+from ..fem.grid import Field, Motion
 from ..types import Array
 from .drive import Drive, Imposed
 from .interface import Friction, InterfaceSolution, Past, Solver

@@ -210,7 +210,7 @@ class Fault:
 
         Parameters
         ----------
-        function : takes :class:`~nucleation.theory.spectrum.Systems` of n faults and n entries of
+        function : takes :class:`~nucleation.theory.critical.Systems` of n faults and n entries of
             each further argument; returns `rows` arrays of length n.
         arrays : further arguments, which broadcast with the parameters.
         rows, dtype : number of values at each point, and their type.

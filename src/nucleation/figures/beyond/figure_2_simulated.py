@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...figures import points, style
+from ...figures import laws, style
 from ...patch.pairs import over_realisations
 from ...theory.closed_forms import bimaterial_length_ratio
 
@@ -22,7 +22,7 @@ def draw(table: xr.Dataset) -> Figure:
     The stiffer body is above on the left of each panel, below on the right; bars are the range of
     the realisations. `table` is that of :func:`nucleation.patch.pairs.gather`.
     """
-    rows = over_realisations(points.where(table, role="figure_2_simulated"))
+    rows = over_realisations(laws.where(table, role="figure_2_simulated"))
     figure, axes = style.panels(1, 2, 8.4, sharey=True)
     for panel, (name, title) in zip(axes, PANELS, strict=True):
         _draw_lengths(panel, rows, name)
@@ -52,10 +52,10 @@ def _draw_lengths(axes: Axes, rows: xr.Dataset, name: str) -> None:
         curve = bimaterial_length_ratio(np.abs(CONTRAST), ratio)
         label = rf"Eq. (9), $\zeta/a={ratio:.3g}$"
         axes.plot(CONTRAST, curve, color=shade, linewidth=1.1, label=label)
-        own = points.where(rows, np.abs(rows["zeta_over_a"].values - ratio) < 1e-2 * ratio)
+        own = laws.where(rows, np.abs(rows["zeta_over_a"].values - ratio) < 1e-2 * ratio)
         # what the theory has for blocks of this height, in units of that without contrast
         unit = 1.0 / own["half_space_ratio"].values
         look: Any = {"color": shade, "marker": marker, "ms": 3.8, "linewidth": 0.7}
         look |= {"linestyle": "--", "capsize": 1.8, "label": rf"simulated, $\zeta/a={ratio:.3g}$"}
-        points.draw(axes, own["f_beta"].values, own, name, unit, **look)
+        laws.draw(axes, own["f_beta"].values, own, name, unit, **look)
     axes.set_xlim(CONTRAST[0], CONTRAST[-1])

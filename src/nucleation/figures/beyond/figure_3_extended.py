@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ...analysis.lengths import join, over_realisations
-from ...figures import laws, points, style
+from ...figures import laws, style
 
 OLDER = ", older interface"
 ABOVE = 1.12  # the axes end at this multiple of the highest block
@@ -97,18 +97,18 @@ def _means(table: xr.Dataset) -> xr.Dataset:
 
 def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
     """The stronger perturbed runs alone, and the others among those judged."""
-    judged = points.where(lengths, role=JUDGED)
+    judged = laws.where(lengths, role=JUDGED)
     more = np.isin(noisy["strength"].values, judged["strength"].values)
-    own = points.where(noisy, more)
+    own = laws.where(noisy, more)
     for name in ("study", "role"):
         own[name] = "run", np.resize(judged[name].values, own.sizes["run"])
-    return points.where(noisy, ~more), join([lengths, own])
+    return laws.where(noisy, ~more), join([lengths, own])
 
 
 def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: bool) -> None:
     """From the drop under the stronger perturbation to that under the role `converged`'s."""
-    quiet = points.where(lengths, role=JUDGED)
-    quiet = points.where(quiet, laws.usual(quiet))
+    quiet = laws.where(lengths, role=JUDGED)
+    quiet = laws.where(quiet, laws.usual(quiet))
     heights = np.intersect1d(noisy["height"].values, quiet["height"].values)
     ends = []
     for runs in (noisy, quiet):
@@ -121,7 +121,7 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
 def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) -> None:
     """One set of lengths, a marker for each law and initial state; quiet runs have no bars."""
     for (_, old), kind, runs in laws.kinds(table):
-        runs = points.where(runs, np.isfinite(runs[series.column].values), role=series.role)
+        runs = laws.where(runs, np.isfinite(runs[series.column].values), role=series.role)
         if not runs.sizes["run"]:
             continue
         if series is PAPERS:
@@ -129,7 +129,7 @@ def _draw_series(axes: Axes, table: xr.Dataset, series: Series, relative: bool) 
         scale = runs["theory_length"].values if relative else 1.0
         look = series.look(kind) | {"elinewidth": 0.8}
         label = f"{series.label}, {kind.label}{OLDER * old}"
-        points.draw(axes, runs["height"].values, runs, series.column, scale, label=label, **look)
+        laws.draw(axes, runs["height"].values, runs, series.column, scale, label=label, **look)
 
 
 def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: bool) -> None:

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...figures import points, style
+from ...figures import laws, style
 from ...model.friction.registry import USUAL_EVOLUTION
 
 SHOWN: Any = {"evolution": USUAL_EVOLUTION, "height": 0.02}  # of the panels over the strength; m
@@ -53,16 +53,16 @@ def draw(table: xr.Dataset) -> Figure:
 def ensembles(table: xr.Dataset) -> list[xr.Dataset]:
     """The realisations of each fault, kind and strength that have dropped."""
     dropped = np.isfinite(table["length"].values) & (table["kind"].values != "none")
-    return list(points.groups(points.where(table, dropped), *ENSEMBLE))
+    return list(laws.groups(laws.where(table, dropped), *ENSEMBLE))
 
 
 def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     """One kind of forcing on the shown fault."""
-    fault = points.where(table, **SHOWN)
+    fault = laws.where(table, **SHOWN)
     if not fault.sizes["run"]:  # a configuration without it: the fault it has
-        fault = points.where(table, **{name: table[name].values[0] for name in SHOWN})
-    fault = points.where(fault, fault=fault["fault"].values[0])  # of one material
-    own = points.where(fault, kind=kind).sortby("strength")
+        fault = laws.where(table, **{name: table[name].values[0] for name in SHOWN})
+    fault = laws.where(fault, fault=fault["fault"].values[0])  # of one material
+    own = laws.where(fault, kind=kind).sortby("strength")
     marker, colour, label = KINDS[kind]
     theory = float(fault["theory_length"].values[0])
     ratio = own["length"].values / theory
@@ -89,9 +89,9 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
 
 def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> None:
     """Where quiet runs drop, at the strength that would make the law's median drop there."""
-    quiet = points.where(fault, kind="none").sortby([f"floor_{kind}", "length", "n_x"])
+    quiet = laws.where(fault, kind="none").sortby([f"floor_{kind}", "length", "n_x"])
     strength = quiet[f"floor_{kind}"].values
-    shown = points.where(quiet, (2.0 * STRENGTHS[0] < strength) & (strength < STRENGTHS[1]))
+    shown = laws.where(quiet, (2.0 * STRENGTHS[0] < strength) & (strength < STRENGTHS[1]))
     strength, ratio = shown[f"floor_{kind}"].values, shown["length"].values / theory
     elements = np.rint(shown["n_x"].values * theory / shown["block_length"].values).astype(int)
     look: Any = {"color": style.BLACK, "markersize": 4.0, "markeredgewidth": 0.8}

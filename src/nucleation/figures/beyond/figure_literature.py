@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...figures import points, style
+from ...figures import laws, style
 
 KINDS = {
     "rubin_ampuero_localised": ("fixed length", "o", style.VERMILLION),
@@ -27,10 +27,10 @@ def draw(table: xr.Dataset) -> Figure:
     `table` is that of :func:`nucleation.analysis.literature.literature_table`.
     """
     figure, (left, right) = style.panels(1, 2, 7.6, sharey=True)
-    table = points.where(table, np.isfinite(table["simulated_length"]))
+    table = laws.where(table, np.isfinite(table["simulated_length"]))
     for name, (label, marker, colour) in KINDS.items():
-        rows = points.where(table, name=name)
-        at = points.where(rows, np.isclose(rows["read_at"], SHOWN_AT))
+        rows = laws.where(table, name=name)
+        at = laws.where(rows, np.isclose(rows["read_at"], SHOWN_AT))
         look: Any = {"marker": marker, "color": colour, "mfc": "none"}
         left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
         _draw_growth(right, rows, look)
@@ -52,8 +52,8 @@ def draw(table: xr.Dataset) -> Figure:
 def _draw_growth(axes: Axes, rows: xr.Dataset, look: Any) -> None:
     """One line for each a/b, of its first run."""
     rows = rows.assign(ratio=rows["a_over_b"].round(6)).sortby("ratio")
-    for same in points.groups(rows, "ratio"):
-        first = next(points.groups(same, "id"))
+    for same in laws.groups(rows, "ratio"):
+        first = next(laws.groups(same, "id"))
         x, y = first["read_at"].values, first["difference"].values + 1.0
         axes.plot(x, y, **look)
         if abs(y[-1] - 1.0) > 0.15:  # near 1 they lie on one another

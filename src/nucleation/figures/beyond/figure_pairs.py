@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...answers.formulas import FINITE_PATCH
-from ...figures import points, style
+from ...figures import laws, style
 from ...patch.pairs import over_realisations
 
 SIDES = (
@@ -34,10 +34,10 @@ def draw(table: xr.Dataset) -> Figure:
     """
     figure, (left, right) = style.panels(1, 2, 7.4)
     table = over_realisations(table)
-    table = points.where(table, n_x=np.median(table["n_x"]))  # the finer mesh is a check
-    _draw_heights(left, points.where(table, role="pairs_identical").sortby("height"))
+    table = laws.where(table, n_x=np.median(table["n_x"]))  # the finer mesh is a check
+    _draw_heights(left, laws.where(table, role="pairs_identical").sortby("height"))
     weakening = table["zeta_over_a"].values / np.median(table["zeta_over_a"])
-    _draw_ratios(right, points.where(table, np.abs(weakening - 1.0) < 0.1))
+    _draw_ratios(right, laws.where(table, np.abs(weakening - 1.0) < 0.1))
     return figure
 
 
@@ -59,7 +59,7 @@ def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
 
 def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
     for side, marker, colour in SIDES:
-        own = points.where(rows, far_side=side)
+        own = laws.where(rows, far_side=side)
         thickness = own["second_height"].values / own["theory_length"].values
         look: Any = {"color": colour, "ms": 4.2}
         axes.plot(thickness, own["length_ratio"].values, marker, label=f"bottom {side}", **look)

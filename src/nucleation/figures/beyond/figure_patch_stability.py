@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from ...figures import laws, points, style
+from ...figures import laws, style
 
 SHOWN = ("converged", "paper")  # the role whose patches are shown: the first that is there
 LEGEND_HEIGHTS = 3  # heights that the legend names, out of those drawn
@@ -84,9 +84,9 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
 
 def _shown(table: xr.Dataset) -> xr.Dataset:
     """The runs with the usual law and the usual initial state, of the role that is shown."""
-    usual = points.where(table, laws.usual(table))
+    usual = laws.where(table, laws.usual(table))
     role = next((name for name in SHOWN if name in usual["role"].values), None)
-    return points.where(usual, role=role) if role else usual
+    return laws.where(usual, role=role) if role else usual
 
 
 def _draw_patch(panels: Sequence[Axes], patch: xr.Dataset, row: xr.Dataset, colour: Any) -> None:

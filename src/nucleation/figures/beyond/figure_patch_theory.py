@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...figures import points, style
+from ...figures import laws, style
 
 BAND = 0.03  # relative error within which theory and simulation agree
 
@@ -30,7 +30,7 @@ def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
     """L_s/L_c over zeta/a: the thin limit, and simulations by their height."""
     curve = table["curve_ratio"], table["curve_length"]
     axes.semilogx(*curve, color=style.THIN_LIMIT, label="thin layers")
-    own = points.where(table, f_beta=0.0)
+    own = laws.where(table, f_beta=0.0)
     ratio, height = own["stability_length"] / own["theory_length"], own["height"]
     look: Any = {"s": 7.0, "norm": "log", "cmap": style.SEQUENCE, "label": "simulated"}
     drawn = axes.scatter(own["zeta_over_a"], ratio, c=height / own["theory_length"], **look)
@@ -43,7 +43,7 @@ def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
 
 def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
     """The theory's L_s over the simulated one, with the front and of steady creep."""
-    for n, own in enumerate(points.groups(table, "study")):
+    for n, own in enumerate(laws.groups(table, "study")):
         marker, colour = style.look(n)
         off = 100.0 * (own["front_length"] / own["stability_length"] - 1.0)
         measured = own["stability_length"] / own["theory_length"]

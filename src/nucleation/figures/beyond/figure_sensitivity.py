@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ...figures import points, style
+from ...figures import laws, style
 
 PERCENT = 1e2
 SPREAD = 0.5  # of the markers of one row, over the distance of rows
@@ -28,7 +28,7 @@ def draw(table: xr.Dataset) -> Figure:
 
     `table` is that of :func:`nucleation.analysis.sensitivity.sensitivity_table`.
     """
-    shown = points.where(table, table["variation"].values != "base")
+    shown = laws.where(table, table["variation"].values != "base")
     rows = list(dict.fromkeys(shown["variation"].values.tolist()))
     figure, panels = style.panels(1, 2, 0.47 * (len(rows) + 4), sharey=True)
     for axes, (name, title) in zip(panels, PANELS, strict=True):
@@ -58,7 +58,7 @@ def label(variation: str) -> str:
 def _draw_changes(axes: Axes, shown: xr.Dataset, rows: list[str], name: str) -> None:
     for i in range(0, len(rows), 2):
         axes.axhspan(i - 0.5, i + 0.5, color="0.95", zorder=0)
-    heights = list(points.groups(shown.sortby("height"), "height"))
+    heights = list(laws.groups(shown.sortby("height"), "height"))
     for i, own in enumerate(heights):
         marker, colour = style.look(i)
         shift = SPREAD * (i - 0.5 * (len(heights) - 1)) / max(len(heights), 2)

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ...figures import points, style
+from ...figures import laws, style
 from ...model.quantities import Quantity
 from ...types import Array
 from ..beyond import figure_sensitivity
@@ -87,7 +87,7 @@ def draw(
         if happened.size:
             label = f"simulation, {kind}" if kind else "simulation"
             look: Any = {"marker": marker, "color": colour, "ms": 4.0, "label": label}
-            points.draw(axes, across[happened], table.isel(run=happened), "length", **look)
+            laws.draw(axes, across[happened], table.isel(run=happened), "length", **look)
         if strip is not None:
             strip.plot(lost, np.zeros(lost.size), marker, color=colour, **style.OPEN)
     (strip or axes).set_xlabel(

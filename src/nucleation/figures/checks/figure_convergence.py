@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from ...figures import points, style
+from ...figures import laws, style
 from ...model.friction.registry import USUAL_EVOLUTION
 from ...types import Array
 
@@ -52,7 +52,7 @@ def draw(table: xr.Dataset) -> Figure:
     figure = style.new_figure(style.DOUBLE_COLUMN, 14.5 * style.CENTIMETRE)
     panels = figure.subplot_mosaic("aa;bb;cd", height_ratios=(1.0, 1.0, 1.1))
     onset, length, meshes, steps = panels.values()
-    declared = points.where(table, table["kind"].values != "none")
+    declared = laws.where(table, table["kind"].values != "none")
     for axes, difference in zip((onset, length), DIFFERENCES, strict=True):
         _draw_differences(axes, declared, *difference)
     onset.tick_params(labelbottom=False)
@@ -76,7 +76,7 @@ def places(table: xr.Dataset) -> dict[tuple[object, ...], xr.Dataset]:
     rows = zip(*(table[name].values.tolist() for name in FAULT), strict=True)
     keys = [row if row[0] == EVERY_FAULT else row[:1] for row in rows]
     order = sorted(set(keys), key=lambda key: (list(KINDS).index(str(key[0])), *key[1:]))
-    return {key: points.where(table, [own == key for own in keys]) for key in order}
+    return {key: laws.where(table, [own == key for own in keys]) for key in order}
 
 
 def _name(key: tuple[object, ...], usual_age: object) -> str:
@@ -115,7 +115,7 @@ def _draw_differences(axes: Axes, declared: xr.Dataset, name: str, label: str, g
 def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
     """The sequences of one refined parameter, each from coarse to fine."""
     others = (name for name in REFINED if name != refined)
-    return points.groups(points.where(rows, refinement=refined), *FAULT, *others)
+    return laws.groups(laws.where(rows, refinement=refined), *FAULT, *others)
 
 
 def _elements_within(rows: xr.Dataset) -> Array:
@@ -125,11 +125,11 @@ def _elements_within(rows: xr.Dataset) -> Array:
 
 def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
     """Lengths of quiet runs, and of perturbed ones of the same faults, against what is refined."""
-    heights = np.unique(points.where(table, kind="none")["height"].values).tolist()
+    heights = np.unique(laws.where(table, kind="none")["height"].values).tolist()
     alike = np.isin(table["kind"].values, ["none", "normal_load"])
     alike &= np.isin(table["height"].values, heights)
     sizes: set[float] = set()
-    for sequence in _sequences(points.where(table, alike, evolution=USUAL_EVOLUTION), refined):
+    for sequence in _sequences(laws.where(table, alike, evolution=USUAL_EVOLUTION), refined):
         height, calm = float(sequence["height"][0]), bool(sequence["kind"][0] == "none")
         marker, colour = style.look(heights.index(height))
         ratio, within = sequence["length_over_theory"].values, _elements_within(sequence)

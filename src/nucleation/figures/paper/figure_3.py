@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ...analysis.lengths import over_realisations, row
-from ...figures import laws, points, style
+from ...figures import laws, style
 
 BESIDE = 1.8
 """Points (1/72 inch) by which the bars of filled and open markers stand apart, of one height."""
@@ -55,7 +55,7 @@ def draw(
     means = over_realisations(lengths)
     usable = np.isfinite(means["length"].values)
     usable &= np.isin(means["role"].values, [role for role, *_ in STUDIES])
-    drawn = points.where(means, usable)
+    drawn = laws.where(means, usable)
     _draw_points(axes, drawn)
     # from zero to a little beyond the highest block that was simulated
     simulated = drawn if drawn.sizes["run"] else theory
@@ -95,11 +95,11 @@ def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
             look["markerfacecolor"] = kind.colour if filled else "white"
             look["transform"] = style.aside(axes, -BESIDE if filled else BESIDE)
             look["zorder"] = 4.0 - 0.1 * kind.size
-            for same in points.groups(points.where(runs, role=role).sortby("phi0"), "phi0"):
+            for same in laws.groups(laws.where(runs, role=role).sortby("phi0"), "phi0"):
                 age = _number(float(same["phi0"][0]))
                 state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
                 label = f"FEM, {kind.label}{state}{suffix}"
-                points.draw(axes, same["height"].values, same, "length", label=label, **look)
+                laws.draw(axes, same["height"].values, same, "length", label=label, **look)
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:

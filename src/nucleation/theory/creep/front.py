@@ -23,8 +23,7 @@ from ...model.friction.law import Friction
 from ...types import Array
 from .lengths import OSCILLATING, NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import MORE_MODES, Half, modes, response
-from .profile import Creep, EdgeSlip, edge_slip
+from .modes import MORE_MODES, Creep, EdgeSlip, Half, edge_slip, modes, response
 
 ROUNDS = 4  # of the three equations: each takes off more than nine tenths of the error
 FINE = 400  # angles at which the state behind the front is followed,

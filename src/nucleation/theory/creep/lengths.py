@@ -30,8 +30,7 @@ from ..fault import Fault, Values, takes_fault
 from ..spectrum import Systems
 from ..transfer import bodies_of
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
-from .modes import modes_for, response
-from .profile import Creep, creep
+from .modes import Creep, creep, modes_for, response
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
 OSCILLATING = 0.01

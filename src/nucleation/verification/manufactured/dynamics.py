@@ -22,8 +22,7 @@ from scipy import fft
 
 from ...fem.block import Block
 from ...fem.condensed import Condensed, Response
-from ...fem.field import Field, Motion
-from ...fem.grid import Grid
+from ...fem.grid import Field, Grid, Motion
 from ...model.friction.law import Friction
 from ...model.parameters import Parameters
 from ...simulation.drive import Drive, Imposed

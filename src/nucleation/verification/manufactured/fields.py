@@ -11,8 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...fem.field import Field
-from ...fem.grid import Grid
+from ...fem.grid import Field, Grid
 from ...model.material import Material
 from ...types import Array
 

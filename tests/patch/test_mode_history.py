@@ -1,0 +1,46 @@
+"""The law of the drop, which is of the theory's patches, against the simulated drops."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from configurations import CONFIG
+
+from nucleation.configuration.load import load
+from nucleation.patch.delay import growth
+from nucleation.patch.mode_history import mode_history
+
+RUNS = {run.id: run for run in load(CONFIG / "config.yaml").runs}
+TABLE = pd.read_csv(CONFIG.parent / "results" / "reference" / "drop.csv")
+TABLE = TABLE[(TABLE.strength > 0.0) & TABLE.id.isin(list(RUNS))]
+KIND = ["evolution", "height", "kind", "strength", "correlation_length"]
+
+
+def drops(table):
+    """The law's drop for each kind of run, with means of the simulated and the table's."""
+    histories, rows = {}, []
+    for _, same in table.groupby(KIND):
+        run, first = RUNS[same.id.iloc[0]], same.iloc[0]
+        fault = first.evolution, first.height
+        if fault not in histories:
+            histories[fault] = mode_history(run.parameters, run.theory_length)
+        declared = run.parameters.perturbation
+        drop = growth(histories[fault], declared).drop(declared.strength)
+        rows.append((same.length.mean(), same.predicted_length.mean(), drop.length))
+    return np.array(rows).T
+
+
+def test_one_fault_under_each_kind():
+    """Normal load, state and drive, 1e-5: sixteen seeds each, six of the drive."""
+    known = TABLE[(TABLE.evolution == "aging") & (TABLE.height == 0.02) & (TABLE.strength == 1e-5)]
+    simulated, tabulated, found = drops(known[known.kind != "strength"])
+    assert simulated.size == 3
+    assert found == pytest.approx(simulated, rel=0.01)
+    assert found == pytest.approx(tabulated, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_all_kinds_heights_and_laws():
+    simulated, tabulated, found = drops(TABLE[TABLE.strength < 2e-4])
+    off = 100.0 * (found / simulated - 1.0)
+    assert np.sqrt(np.mean(off**2)) < 0.8 and np.abs(off).max() < 2.1
+    assert found == pytest.approx(tabulated, rel=1e-6)
