@@ -8,13 +8,10 @@ import numpy as np
 import pytest
 from coarse_run import CONFIG
 
-from nucleation.analysis import lengths
-from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
 from nucleation.report import page
-from nucleation.report.player import thinned_run
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
@@ -37,7 +34,7 @@ CLAIMS = [
 
 
 @pytest.fixture(scope="session")
-def content(settings, simulation, table, tmp_path_factory):
+def content(settings, table, tmp_path_factory):
     """A report with all sections."""
     theory = theory_dataset(
         settings.base.material, settings.base.friction, settings.main_text_interface,
@@ -47,7 +44,6 @@ def content(settings, simulation, table, tmp_path_factory):
     pdf, png = style.save(figure_2.draw(theory), stem)
     entry = catalogue.FIGURES["figure_2"]
     caption = (ROOT / "workflow" / "report" / "figure_2.rst").read_text(encoding="utf-8")
-    row = lengths.row(table, settings.runs[0].id)
     return page.Content(
         material=settings.base.material,
         friction=settings.base.friction,
@@ -60,7 +56,6 @@ def content(settings, simulation, table, tmp_path_factory):
                          entry.data)
         ],
         claims=CLAIMS,
-        player=thinned_run(simulation, row, ExtractionSettings()),
     )  # fmt: skip
 
 

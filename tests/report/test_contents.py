@@ -14,12 +14,10 @@ import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.analysis.record import parameters_of
 from nucleation.figures import catalogue, laws
 from nucleation.model.material import Material
 from nucleation.model.quantities import declarations
-from nucleation.report import answer, encode, faults, page, player, tables
+from nucleation.report import answer, encode, faults, page, tables
 
 ROOT = encode.HERE.parents[2]
 
@@ -73,20 +71,9 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
 # ---- Parts
 
 
-@pytest.mark.slow
-def test_the_player_says_what_lies_below(content):
-    """A pair's run shows the interface, which both blocks have; the page gives both heights."""
-    run = content.player
-    parameters = parameters_of(run).replaced({"second_body": "deformable", "second_height": 0.0375})
-    pair = run.assign_attrs(parameters=parameters.to_json())
-    html = page.build(content._replace(player=pair))
-    assert "on a second block, <i>H</i><sub>2</sub> = 0.0375 m" in html
-    assert "on a second block, <i>H</i>" not in page.build(content)
-
-
 def test_sections_without_content_are_left_out(content):
-    bare = page.build(content._replace(claims=None, player=None, pictures=[], results={}))
-    for part in ("verdicts", "player", "lengths", "answer"):
+    bare = page.build(content._replace(claims=None, pictures=[], results={}))
+    for part in ("verdicts", "lengths", "answer"):
         assert f'id="{part}"' not in bare
     assert "<figure" not in bare
     assert 'id="theory"' in bare
@@ -147,29 +134,6 @@ def test_sliders_are_parameters_of_the_library_at_the_configurations_values(sett
         assert (declaration.unit == "1") == (slider.unit == "")
     wide = faults.controls(dataclasses.replace(material, shear_modulus=1e12), interface)
     assert wide[0]["high"] == wide[0]["value"] == 1000.0
-
-
-# ---- The player's data
-
-
-def test_player_keeps_the_event_and_the_force(simulation, table):
-    row = table.isel(run=0)
-    run = player.thinned_run(simulation, row, ExtractionSettings())
-    times, onset = simulation["time"].values, float(row["onset_time"])
-    start, end = run.attrs["event"]
-    assert start < onset < end
-    peak = simulation["step_time"][simulation["maximal_slip_rate"].values.argmax()]
-    assert start < float(peak) < end
-    kept = run["time"].values
-    inside = times[(times >= start) & (times < end)]
-    assert np.isin(kept, times).all() and (np.diff(kept) > 0).all()
-    assert np.isin(inside, kept).sum() == min(inside.size, player.MOST_FRAMES[1])
-    force = simulation["driving_force"].values[np.isin(simulation["step_time"], kept)]
-    np.testing.assert_array_equal(run["force"], force)
-    assert (np.diff(run["patch_length"]) >= 0.0).all()
-    assert run["patch_length"].sel(time=onset, method="nearest") == pytest.approx(
-        float(row["length"]), rel=0.02
-    )
 
 
 # ---- Texts
@@ -250,7 +214,6 @@ def test_no_text_becomes_a_part_of_the_page(content):
         results={**content.results, "lengths": lengths, EVIL: lengths},
         pictures=[picture._replace(title=EVIL, name=EVIL, category=EVIL)],
         claims=claims,
-        player=content.player.assign_attrs(id=EVIL),
     )
     good, bad = Tags(page.build(content)), Tags(page.build(evil))
     assert EVIL not in page.build(evil)

@@ -1,7 +1,6 @@
-"""The report in a real browser: what it loads, shows, computes and plays."""
+"""The report in a real browser: what it loads, shows and computes."""
 
 import dataclasses
-import time
 
 import numpy as np
 import pytest
@@ -152,89 +151,6 @@ def test_points_tell_their_values(web, table):
         assert f"{float(table[name][0]):.{digits}g}" in text
 
 
-# ---- The player
-
-
-def until(web, condition, seconds=120.0):
-    """Wait for an expression to be true; the page itself forbids that a test's text is run in it
-    as playwright does it for waiting."""
-    end = time.monotonic() + seconds
-    while not web.evaluate(f"() => {condition}"):
-        assert time.monotonic() < end, condition
-        web.wait_for_timeout(20)
-
-
-def moment(web):
-    return int(web.input_value("#moment"))
-
-
-def paused_after(web, frame):
-    """Press Play and, once a frame is past, Pause; the frame it stops at. Within the page: there a
-    slow click misses nothing."""
-    return web.evaluate(
-        """(frame) => new Promise((done) => {
-          const watch = new MutationObserver(() => {
-            if (Number(element("moment").value) <= frame) return;
-            watch.disconnect();
-            if (element("play").textContent !== "Pause") done("it is not called Pause");
-            element("play").click();
-            done(Number(element("moment").value));
-          });
-          watch.observe(element("clock"), { childList: true });
-          element("play").click();
-        })""",
-        frame,
-    )
-
-
-def test_player_plays_pauses_and_stops_at_the_end(web, content):
-    last = content.player.sizes["time"] - 1
-    web.locator("#moment").fill(str(last - 25))
-    assert paused_after(web, last - 20) == last - 19
-    assert web.inner_text("#play") == "Play"
-    web.wait_for_timeout(200)
-    assert moment(web) == last - 19
-    play = web.get_by_role("button", name="Play")
-    play.focus()
-    web.keyboard.press("Enter")
-    until(web, f"Number(element('moment').value) === {last}")
-    until(web, "element('play').textContent === 'Play'")
-    assert paused_after(web, 3) == 4  # once more, from the beginning
-
-
-def test_player_shows_the_run(web, content, table):
-    """Fields, edge, force and clock at moments before and in the event, reached by the keys."""
-    run = content.player
-    sigma = 1e6
-    expected = {
-        "slip_rate": run["slip_rate"].values,
-        "stress_ratio": run["shear_stress"].values / sigma,
-        "state": run["state"].values,
-    }
-    onset = np.abs(run["time"].values - float(table["onset_time"][0])).argmin()
-    web.locator("#moment").fill(str(onset))
-    web.locator("#moment").focus()
-    web.keyboard.press("ArrowRight")
-    for frame in (moment(web), 10):
-        web.locator("#moment").fill(str(frame))
-        for name, values in expected.items():
-            trace = f"element('plot-{name}').data[0]"
-            drawn = web.evaluate(f"() => [Array.from({trace}.x), Array.from({trace}.y)]")
-            np.testing.assert_allclose(drawn[0], run["x"].values, rtol=1e-6)
-            shown = np.array(drawn[1], dtype=float)
-            usable = np.isfinite(shown)
-            np.testing.assert_allclose(shown[usable], values[frame][usable], rtol=1e-5, atol=1e-9)
-            assert (values[frame][~usable] <= 0.0).all()
-        edge = web.evaluate("() => element('plot-slip_rate').layout.shapes[0].x0")
-        assert edge == pytest.approx(float(run["patch_length"][frame]), rel=1e-6)
-        now = float(run["time"][frame])
-        marker = web.evaluate("() => { const t = element('plot-force').data[2];"
-                              " return [t.x[0], t.y[0]]; }")  # fmt: skip
-        assert marker == pytest.approx([now, -float(run["force"][frame]) / 1e3], rel=1e-6)
-        assert f"t = {now:.4f} s" in web.inner_text("#clock")
-        assert web.get_attribute("#moment", "aria-valuetext") == web.inner_text("#clock")
-
-
 # ---- Tables
 
 
@@ -263,7 +179,7 @@ def test_every_control_has_a_name_and_every_picture_a_text(opened):
         if role in controls and not node["ignored"]:
             found.setdefault(role, []).append(node.get("name", {}).get("value", ""))
     assert set(found) >= {"button", "slider", "spinbutton", "link"}
-    assert len(found["slider"]) == len(QUANTITIES) + 2  # height, moment
+    assert len(found["slider"]) == len(QUANTITIES) + 1  # height
     for role, names in found.items():
         assert all(name.strip() for name in names), role
     regions = opened.page.locator("main section")

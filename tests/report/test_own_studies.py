@@ -28,9 +28,7 @@ def two_faults(table):
 def html(content, two_faults):
     figure = content.pictures[0]._replace(name="study_mine", category=catalogue.OWN)
     results = {**content.results, "lengths": two_faults}
-    mine = content._replace(
-        claims=None, player=None, pictures=[figure], own=STUDIES, results=results
-    )
+    mine = content._replace(claims=None, pictures=[figure], own=STUDIES, results=results)
     return page.build(mine)
 
 

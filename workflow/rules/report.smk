@@ -1,5 +1,5 @@
 # The report: one HTML file with every figure that the configuration has the studies for, the theory
-# with sliders, a player of the run of Figure S2, tables and provenance.
+# with sliders, tables and provenance.
 OF_THE_PAPER = DEFAULT == "paper"
 REPORTED = catalogue.drawable({study.role for study in settings.studies.values()}, OF_THE_PAPER)
 OWN_STUDIES = {
@@ -44,9 +44,6 @@ make_rule(
             steps("gather_patches", name) if name in PATCH_TABLES else steps(SHOWN_BY[name])
             for name in catalogue.datasets_of(ENTRIES.values())
         ],
-        "player": lambda wildcards: (
-            [steps("simulate", space_time_id(wildcards))] if "figure_s2" in REPORTED else []
-        ),
         "claims": lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
         "page_files": sorted(
             str(path)
@@ -71,8 +68,6 @@ make_rule(
         }
     ),
     leads=not OF_THE_PAPER,
-    settings=asdict(settings.extraction),
     config=config,
-    player_id=lambda wildcards: space_time_id(wildcards) if "figure_s2" in REPORTED else "",
     message="Report",
 )

@@ -56,7 +56,7 @@ function drawTheory() {
   const patch = lengthOfPatch(p);
   const length = lengths(p);
   const stability = heights.map((height, i) => patch(height, length[i]));
-  const [blue, green] = [colour("theory"), colour("field-2")];
+  const [blue, green] = [colour("theory"), colour("stability")];
   const at = Theory.solver(p)(p.H);
   at.stability = patch(p.H, at.length);
   const traces = [

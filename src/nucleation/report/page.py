@@ -12,9 +12,6 @@ import plotly.offline
 import xarray as xr
 from markupsafe import Markup
 
-from ..analysis.definitions import ExtractionSettings
-from ..analysis.lengths import row
-from ..analysis.record import parameters_of
 from ..figures import catalogue
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
@@ -22,7 +19,6 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..report import answer, encode, faults, stability, tables
 from ..types import Array
-from .player import in_page, thinned_run
 
 HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 """Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""
@@ -30,9 +26,7 @@ HEIGHTS = np.geomspace(1e-3, 10.0, 721)
 SEEN = (2e-3, 1.0)
 """Heights (m) that the page shows first."""
 
-SCRIPTS = (
-    "page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js", "player.js",
-)  # fmt: skip
+SCRIPTS = ("page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js")
 """What runs in the page, in this order; the first has what the others share."""
 
 
@@ -59,7 +53,6 @@ class Content(NamedTuple):
     results: dict[str, xr.Dataset]  # datasets by name
     pictures: list[Picture]
     claims: list[dict[str, Any]] | None = None
-    player: xr.Dataset | None = None  # of player.thinned_run
     own: answer.OwnStudies | None = None  # with which the page begins
 
 
@@ -67,10 +60,9 @@ def write(
     origin: Mapping[str, str], figures: Sequence[Path], names: Sequence[str],
     captions: Sequence[Path], caption_values: Mapping[str, dict[str, Any]],
     datasets: Sequence[xr.Dataset], dataset_names: Sequence[str],
-    player: Sequence[xr.Dataset], player_id: str,
     claims: Sequence[Path], page_files: Sequence[Path], studies: dict[str, str],
     warnings: dict[str, list[str]], leads: bool, material: Material, friction: Friction,
-    interface: InterfaceState, settings: ExtractionSettings, config: dict[str, Any],
+    interface: InterfaceState, config: dict[str, Any],
 ) -> dict[str, str]:  # fmt: skip
     """The page as HTML, from the workflow's results.
 
@@ -80,11 +72,10 @@ def write(
     figures, names : pictures and their names in the catalogue.
     captions, caption_values : templates in the same order, and what is filled in, by name.
     datasets, dataset_names : tables behind the figures.
-    player, player_id : the run that is played, or none.
     claims : the claims as JSON, or none.
     page_files : on which the page depends as well.
     studies, warnings, leads : studies of the user's own, and whether the page begins with them.
-    material, friction, interface, settings, config : of the configuration.
+    material, friction, interface, config : of the configuration.
     """
     results = dict(zip(dataset_names, datasets, strict=True))
     entries = catalogue.FIGURES | catalogue.of_studies(studies)
@@ -96,11 +87,9 @@ def write(
         )
         for name, path, caption in zip(names, figures, captions, strict=True)
     ]  # fmt: skip
-    played = [thinned_run(run, row(results["lengths"], player_id), settings) for run in player]
     content = Content(
         material, friction, interface, config, dict(origin), results, pictures,
         claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
-        player=played[0] if played else None,
         own=answer.OwnStudies(studies, warnings) if leads else None,
     )  # fmt: skip
     return {".html": build(content)}
@@ -138,8 +127,6 @@ def build(content: Content) -> str:
         counts=tables.verdict_counts(content.claims or []),
         table_s1=_parameters(content.friction),
         seconds=0.0 if lengths is None else float(lengths["wall_seconds"].sum()),
-        played=None if content.player is None else content.player.attrs,
-        parameters=None if content.player is None else parameters_of(content.player),
         origin=_origin(content),
     )  # fmt: skip
 
@@ -160,7 +147,6 @@ def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
         "controls": [*faults.controls(content.material, content.interface), height],
         "heights": heights.tolist(),
         "points": tables.point_series(lengths) if lengths is not None else [],
-        "player": None if content.player is None else in_page(content.player),
         "stability": stability.in_page(),
     }
 
@@ -204,15 +190,14 @@ def _table(results: Mapping[str, xr.Dataset], data: catalogue.Data) -> dict[str,
 
 def _origin(content: Content) -> dict[str, Any]:
     """Versions, the configuration, and which code made each dataset."""
-    made = dict(content.results)
-    if content.player is not None:
-        made[f"simulations/{content.player.attrs['id']}"] = content.player
     configuration = json.dumps(content.config, indent=2)
     return {
         "versions": json.loads(content.provenance["versions"]),
         "created": content.provenance["created"],
         "digest": content.provenance["code_digest"],
-        "datasets": [{"Dataset": name, **_origin_of(dataset)} for name, dataset in made.items()],
+        "datasets": [
+            {"Dataset": name, **_origin_of(dataset)} for name, dataset in content.results.items()
+        ],
         "config": configuration,
         "download": encode.download("configuration.json", configuration.encode()),
     }
