@@ -67,7 +67,7 @@ calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, 
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $(PARTS)
 
-REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv twin_runs.csv verification.csv pairs.csv \
+REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv verification.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
 	literature.csv \
 	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \

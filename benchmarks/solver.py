@@ -17,8 +17,7 @@ from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import KINDS
 from nucleation.model.second_body import BOTTOMS
 from nucleation.simulation.run import composed, run, simulate
-from nucleation.simulation.stepping.ladder import rung_value
-from nucleation.simulation.stepping.scheme import BDF
+from nucleation.simulation.stepping import BDF, rung_value
 
 from .assembled import assemble
 

@@ -151,13 +151,6 @@ def error_rows():
         yield line(f"{height:g}", *changes, percent(coarse, 1))
 
 
-def test_frozen_patches_grow_as_twins_do():
-    twins = reference("twin_runs")
-    apart = twins["twin_growth"] - twins["frozen_growth"]
-    assert apart.min() > 0.05 and apart.max() < 0.25
-    assert (twins["twin_frequency"] / twins["frozen_frequency"] - 1.0).abs().max() < 0.02
-
-
 # ---- docs/drop.md, loading.md and patch_theory.md
 
 

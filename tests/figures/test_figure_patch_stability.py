@@ -48,21 +48,8 @@ def patches(table):
 
 
 @pytest.fixture
-def twins():
-    columns = {
-        "evolution": ["aging", "aging", "slip"],
-        "height": [0.005, 0.005, 0.02],
-        "theory_length": critical_length(np.array([0.005, 0.005, 0.02])),
-        "twin_length": critical_length(np.array([0.005, 0.005, 0.02])) * [0.5, 0.6, 0.5],
-        "twin_growth": [-1.0, 1.0, -1.0],
-        "twin_frequency": [13.0, 11.0, 12.0],
-    }
-    return xr.Dataset({name: ("twin", np.asarray(values)) for name, values in columns.items()})
-
-
-@pytest.fixture
-def drawn(table, patches, twins):
-    return figure_patch_stability.draw(table, patches, twins)
+def drawn(table, patches):
+    return figure_patch_stability.draw(table, patches)
 
 
 @pytest.fixture
@@ -79,18 +66,9 @@ def test_growth_and_frequency_of_the_converged_runs(drawn):
             assert line.get_ydata()[0] == first
 
 
-def test_paper_runs_stand_in_where_there_are_no_converged_ones(table, patches, twins):
-    drawn = figure_patch_stability.draw(table.isel(run=slice(0, 5)), patches[:5], twins)
+def test_paper_runs_stand_in_where_there_are_no_converged_ones(table, patches):
+    drawn = figure_patch_stability.draw(table.isel(run=slice(0, 5)), patches[:5])
     assert sum(len(line.get_xdata()) == 30 for line in drawn.axes[0].lines) == 3
-
-
-def test_twins_of_the_aging_law(drawn):
-    points = [
-        (float(line.get_xdata()[0]), float(line.get_ydata()[0]))
-        for line in drawn.axes[0].lines
-        if line.get_marker() == "o" and len(line.get_xdata()) == 1
-    ]
-    assert points == [(pytest.approx(0.5), -1.0), (pytest.approx(0.6), 1.0)]
 
 
 def test_shape_of_the_mode_is_its_modulus_over_the_patch(drawn):

@@ -1,79 +1,131 @@
-"""Twin runs: the same steps, a small kick, and its growth."""
+"""Twin runs: does a small kick of the creeping patch grow as the frozen patch says?
+
+A run goes on twice from the same state, in the same steps: as it is, and with the log of the state
+variable kicked in the shape of the frozen patch's oscillating mode. The difference obeys the full
+equations, with inertia, a moving front and its hops from node to node. The mode's amplitude in it
+follows by the left eigenvector, which other modes do not enter.
+"""
 
 import dataclasses
 
 import numpy as np
 import pytest
 
-from nucleation.analysis.definitions import ExtractionSettings
-from nucleation.model.linearised import interface_state
+from nucleation.analysis.definitions import Extent, ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
-from nucleation.patch import twins
-from nucleation.patch.tables import TWINS, gather_twins
-from nucleation.patch.twins import difference, follow_twins
+from nucleation.patch.frozen import Freezer
 from nucleation.simulation.run import composed, run
+from nucleation.theory.creep.front import advance, oscillating
+from nucleation.theory.creep.lengths import Patches
 
 pytestmark = pytest.mark.slow
 
 PARAMETERS = Parameters(
     geometry=Geometry(height=0.1, length=3.2),
-    mesh=Mesh(n_x=120, n_y=8, grading=4.0),
-    stepping=Stepping(end_time=12.0, tolerance=5e-2, longest_step=0.1),
+    mesh=Mesh(n_x=400, n_y=8, grading=10.0),
+    stepping=Stepping(end_time=14.0, longest_step=0.04),
 )
 THEORY = 0.7949  # m
+SHARES = (0.45, 0.62)  # of it, at which a patch is kicked
+KICK = 1e-4  # of log(phi), largest over the patch
+PERIODS, SKIPPED, FROZEN = 3.0, 0.5, 8  # followed, left out at first; instants of freezing
+
+
+class Twin:
+    """A kicked run beside the run it started from, and what is seen of the two."""
+
+    def __init__(self, freezer, instant, length, kick=KICK):
+        self.freezer, self.dynamics = freezer, composed(PARAMETERS)
+        patch, self.rate = self.freeze(instant)
+        self.nodes, self.weights = patch.nodes, patch.amplitude(self.rate)
+        shape = np.zeros(PARAMETERS.mesh.n_x + 1)
+        shape[patch.nodes] = patch.mode(self.rate)[1].real
+        past = instant.state.past_log_states + kick * shape / np.abs(shape).max()
+        self.state = dataclasses.replace(instant.state, past_log_states=past)
+        self.start, self.first_length = instant.state.time, length
+        self.end = self.start + 2.0 * np.pi * PERIODS / self.rate.imag
+        self.time, self.amplitude, self.frozen, self.lengths = [], [], [], []
+
+    def freeze(self, instant):
+        at = instant.report.interface
+        patch = self.freezer.frozen(at.slip_rate, np.exp(at.log_state), at.normal)
+        return patch, self.freezer.oscillating(patch, at.slip_rate)
+
+    def advance(self, instant, length):
+        """Take the step that the run has taken, whose patch is as long (m)."""
+        rung = self.dynamics.scheme.rung(instant.state.last_step, self.state.last_step)
+        self.state, _ = self.dynamics.advance(self.state, rung)
+        self.time.append(instant.state.time - self.start)
+        self.amplitude.append(self.difference(instant.state) @ self.weights)
+        if self.time[-1] >= len(self.lengths) * (self.end - self.start) / FROZEN:
+            self.lengths.append(length)
+            self.frozen.append(self.freeze(instant)[1])
+
+    def difference(self, state):
+        """Displacement (m) and log state less those of the run, at the patch's nodes."""
+        own, nodes = self.state, self.nodes
+        apart = own.past_w[0] - state.past_w[0], own.past_log_states[0] - state.past_log_states[0]
+        return np.append(apart[0][nodes - 1], apart[1][nodes])
+
+    def measured(self):
+        """Growth rate and frequency (1/s), by least squares."""
+        time = np.array(self.time)
+        used = time >= 2.0 * np.pi * SKIPPED / self.rate.imag
+        amplitude = np.array(self.amplitude)[used]
+        logs = np.log(np.abs(amplitude)) + 1j * np.unwrap(np.angle(amplitude))
+        return complex(np.polyfit(time[used], logs, 1)[0])
+
+
+def twins(shares, kick=KICK):
+    """Twins of the run, each followed to its end."""
+    threshold = ExtractionSettings().edge_threshold * PARAMETERS.loading.velocity
+    freezer = Freezer(PARAMETERS, threshold)
+    extent, waiting, active, found = Extent(freezer.grid.x, threshold), [*shares], [], []
+    for instant in run(PARAMETERS):
+        length = extent.reach(instant.report.interface.slip_rate)
+        for twin in active:
+            twin.advance(instant, length)
+        active = [twin for twin in active if instant.state.time < twin.end]
+        if waiting and length >= waiting[0] * THEORY:
+            waiting.pop(0)
+            active.append(Twin(freezer, instant, length, kick))
+            found.append(active[-1])
+        if not (active or waiting):
+            return found, instant.state
+    raise AssertionError("the run ended before its twins")
 
 
 @pytest.fixture(scope="module")
 def followed():
-    return follow_twins(PARAMETERS, THEORY, ExtractionSettings(), shares=(0.43, 0.62))
+    return twins(SHARES)[0]
 
 
 def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):
-    assert followed.sizes["twin"] == 2
-    growth, frozen = followed["twin_growth"].values, followed["frozen_growth"].values
-    assert growth[0] < -0.5 and frozen[0] < -0.5
-    assert growth[1] > 0.5 and frozen[1] > 0.5
-    np.testing.assert_allclose(growth, frozen, atol=0.6)
-    np.testing.assert_allclose(followed["twin_frequency"], followed["frozen_frequency"], rtol=0.06)
+    """They grow somewhat faster, by about what the patch itself does: docs/patch_stability.md."""
+    measured = np.array([twin.measured() for twin in followed])
+    frozen = np.array([np.mean(twin.frozen) for twin in followed])
+    assert measured.real[0] < -0.5 and frozen.real[0] < -0.5
+    assert measured.real[1] > 0.5 and frozen.real[1] > 0.5
+    assert (measured.real - frozen.real > 0.0).all() and (measured.real - frozen.real < 0.3).all()
+    np.testing.assert_allclose(measured.imag, frozen.imag, rtol=0.02)
 
 
-def test_lengths_are_those_asked_for(followed):
-    first, last = followed["twin_length_first"].values, followed["twin_length_last"].values
-    np.testing.assert_allclose(first, np.array([0.43, 0.62]) * THEORY, rtol=0.05)
-    mean = followed["twin_length"].values
-    assert ((first < mean) & (mean < last)).all()
+def test_the_theory_has_the_time_and_the_growth_of_each_patch(followed):
+    patches, start = Patches.of(PARAMETERS), PARAMETERS.loading.initial_state
+    first = advance(patches, np.array([twin.first_length for twin in followed]), start)
+    assert first.time == pytest.approx([twin.start for twin in followed], rel=0.015)
+    mean = advance(patches, np.array([np.mean(twin.lengths) for twin in followed]), start)
+    rates = oscillating(mean) / PARAMETERS.memory_time
+    frozen = np.array([np.mean(twin.frozen) for twin in followed])
+    assert rates.real == pytest.approx(frozen.real, abs=0.35)
+    assert rates.imag == pytest.approx(frozen.imag, rel=0.025)
 
 
 def test_twin_without_a_kick_is_the_run(monkeypatch):
     """It takes the very steps of the run, and the restarted state loses nothing."""
-    monkeypatch.setattr(twins, "KICK", 0.0)
-    settings = ExtractionSettings()
-    patches, dynamics = twins.Patches(PARAMETERS, settings), composed(PARAMETERS)
-    twin = None
-    for instant in run(PARAMETERS):
-        length = patches.length(instant.report)
-        if twin is not None:
-            twin.advance(instant, length)
-        elif length > 0.3 * THEORY:
-            twin = twins.Twin(patches, dynamics, instant)
-            until = instant.state.time + 0.1
-        if twin is not None and instant.state.time > until:
-            break
-    assert twin.state.time == pytest.approx(instant.state.time, rel=1e-12)
-    nodes = np.arange(1, PARAMETERS.mesh.n_x + 1)
-    change = difference(instant.state, twin.state, nodes)
-    assert np.abs(change[: nodes.size]).max() < 1e-12 * PARAMETERS.geometry.length
-    assert np.abs(change[nodes.size :]).max() < 1e-7
-
-
-def test_table_has_a_row_for_each_twin(followed):
-    description = {
-        "id": "a", "study": "twin_runs", "role": "twin_runs", "parameters": PARAMETERS.to_dict(),
-        "theory_length": THEORY, "interface": dataclasses.asdict(interface_state(PARAMETERS)),
-    }  # fmt: skip
-    table = gather_twins([description, description], [followed, followed])
-    assert table.sizes["twin"] == 4
-    assert set(table.data_vars) == set(TWINS)
-    np.testing.assert_array_equal(table["twin_growth"], np.tile(followed["twin_growth"], 2))
-    empty = gather_twins([], [])
-    assert empty.sizes["twin"] == 0
+    monkeypatch.setattr("test_twins.PERIODS", 0.1)
+    (twin,), state = twins((0.3,), kick=0.0)
+    assert twin.state.time == pytest.approx(state.time, rel=1e-12)
+    displacement, log_state = np.split(twin.difference(state), 2)
+    assert np.abs(displacement).max() < 1e-12 * PARAMETERS.geometry.length
+    assert np.abs(log_state).max() < 1e-7

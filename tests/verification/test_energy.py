@@ -24,7 +24,7 @@ from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Ste
 from nucleation.model.perturbation import KINDS, Perturbation
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.run import composed, run
-from nucleation.simulation.stepping.bdf import Formula, beta_of_step
+from nucleation.simulation.stepping import Formula, beta_of_step
 
 pytestmark = pytest.mark.slow
 

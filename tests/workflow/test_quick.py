@@ -102,7 +102,7 @@ SIMULATIONS = 6  # of the quick configuration
 
 WORDS = {
     "src/nucleation/simulation/run.py": "\n# a remark\n",
-    "src/nucleation/simulation/stepping/bdf.py": '\n"""More words."""\n',
+    "src/nucleation/simulation/stepping.py": '\n"""More words."""\n',
     "src/nucleation/analysis/progress.py": SPARE,
     "workflow/scripts/simulate.py": "\n# a remark\n",
     "workflow/rules/simulations.smk": "\n# a remark\n",

@@ -22,7 +22,6 @@ DRAWN = {
     "figure_patch_stability": {
         "table": only("gather_patches", "patch_stability"),
         "patches": lambda wildcards: patches(*PATCH_TABLES["patch_stability"]),
-        "twins": only("gather_twins"),
     },
     "figure_3_extended": {
         "theory": only("theory"),

@@ -1,5 +1,4 @@
-# Beyond the paper: the linear stability of each simulation's own creeping patch, and twin runs
-# that confirm it.
+# Beyond the paper: the linear stability of each simulation's own creeping patch.
 make_rule(
     "patch",
     call="nucleation.patch.growth:follow_patch",
@@ -48,25 +47,4 @@ make_rule(
     },
     runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.name])),
     message="Patch lengths at which growth begins: {wildcards.name}",
-)
-
-make_rule(
-    "twin",
-    call="nucleation.patch.twins:of_run",
-    shows="twins/{name}",
-    megabytes=lambda wildcards, attempt: 2 * memory(RUNS[wildcards.name], attempt),
-    loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
-    run=lambda wildcards: RUNS[wildcards.name].to_dict(),
-    settings=asdict(settings.extraction),
-    message="Twin runs of {wildcards.name}",
-)
-
-make_rule(
-    "gather_twins",
-    call="nucleation.patch.tables:gather_twins",
-    shows="twin_runs",
-    local=True,
-    inputs={"twins": lambda wildcards: of_runs("twin", runs_for("twin_runs"))},
-    runs=as_dicts(runs_for("twin_runs")),
-    message="Growth of kicks in twin runs",
 )

@@ -198,7 +198,6 @@ KINDS = (
         "table of lengths", ("id", "onset_time", "theory_length"),
         "overview.draw_lengths", _length_rows,
     ),
-    Kind("twin runs", ("twin_growth",)),
     Kind("patch's stability", ("instant_time", "oscillation_growth"), "overview.draw_patch"),
     Kind("dispersion relation", ("measured_growth",), "checks.figure_dispersion.draw"),
     Kind("orders of convergence", ("displacement_error",), "checks.figure_verification.draw"),

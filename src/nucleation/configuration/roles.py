@@ -71,7 +71,6 @@ ROLES = {
         "faults to hold the theory of the patch against, for `figure_patch_theory`", True, False,
         (STABILITY, BATCHES),
     ),
-    "twin_runs": Role("runs that are kicked, for `figure_patch_stability`", True, False),
     "convergence": Role("mesh and steps refined, for `figure_convergence`", True, False),
     "convergence_quiet": Role(
         "the same without a perturbation, for the noise of meshes", True, False, runs=(QUIET,)

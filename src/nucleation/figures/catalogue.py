@@ -61,8 +61,7 @@ FIGURES: dict[str, Entry] = {
         (Data("map"),),
     ),
     "figure_patch_stability": Entry(
-        "Stability of the creeping patch", BEYOND, ("paper", "twin_runs"),
-        (PATCHES, Data("twin_runs")),
+        "Stability of the creeping patch", BEYOND, ("paper",), (PATCHES,),
     ),
     "figure_patch_theory": Entry(
         "Stability of the creeping patch by theory", BEYOND, ("converged",),

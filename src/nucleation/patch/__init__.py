@@ -1,1 +1,1 @@
-"""The creeping patch's own stability: its spectrum when frozen, its growth in twin runs."""
+"""The creeping patch's own stability: its spectrum when frozen, and the law of the drop."""

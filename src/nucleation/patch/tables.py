@@ -1,4 +1,4 @@
-"""Tables of what is read from the patches of many runs: their stability, and the kicks of twins."""
+"""The table of the lengths at which patches of many runs turn unstable."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -9,7 +9,6 @@ from ..analysis.lengths import COLUMNS, description
 from ..analysis.rows import RATIO_COLUMNS
 from ..datasets.variables import Variable, some, table
 from .growth import FITTED
-from .twins import MEASURED
 
 STABILITY = {
     **some(
@@ -22,12 +21,6 @@ STABILITY = {
     "stability_change": Variable("1", "L_s over that of the converged run, minus one"),
     "fault": COLUMNS["fault"],
 }  # fmt: skip
-
-TWINS = {
-    **some(COLUMNS, "id", "evolution", "height", "phi0", "n_x", "n_y"),
-    **MEASURED,
-    **some(COLUMNS, "theory_length", "fault"),
-}
 
 
 def gather_stability(runs: Iterable[dict[str, Any]], patches: Iterable[xr.Dataset]) -> xr.Dataset:
@@ -46,13 +39,3 @@ def gather_stability(runs: Iterable[dict[str, Any]], patches: Iterable[xr.Datase
         row["stability_ratio"] = row["stability_length"] / row["theory_length"]
         row["stability_change"] = row["stability_length"] / value - 1.0
     return table(rows, STABILITY)
-
-
-def gather_twins(runs: Iterable[dict[str, Any]], twins: Iterable[xr.Dataset]) -> xr.Dataset:
-    """:data:`TWINS` on ``twin``: all kicks, with the runs that they belong to."""
-    rows = [
-        description(run) | {name: float(found[name][i]) for name in MEASURED}
-        for run, found in zip(runs, twins, strict=True)
-        for i in range(found.sizes["twin"])
-    ]
-    return table(rows, TWINS, "twin")

@@ -9,8 +9,7 @@ from .event import Outcome
 from .interface import NewtonFailure, Tension
 from .state import State
 from .step import Dynamics, StepReport
-from .stepping.ladder import rung_below, rung_value
-from .stepping.scheme import BDF
+from .stepping import BDF, rung_below, rung_value
 
 SAFETY = 0.85  # of the step size against the estimated error
 SMALLEST_SHRINKING = 0.2  # of the step size after a rejection

@@ -28,7 +28,7 @@ from ..types import Array
 from . import compiled_laws, newton
 from .drive import Imposed
 from .state import State
-from .stepping.bdf import Formula
+from .stepping import Formula
 
 ROUNDING = 1e-14  # relative, of displacements
 LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step

@@ -24,7 +24,7 @@ from .interface import Interface, InterfaceSolution
 from .recording import Recorder
 from .state import State
 from .step import Dynamics, StepReport
-from .stepping.scheme import BDF
+from .stepping import BDF
 
 NEWTON = 1e-3
 """Of Newton's tolerance over the step's, at most; nor is it above a perturbation's strength."""

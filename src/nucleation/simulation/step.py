@@ -4,7 +4,7 @@ A step is pure: it returns a new state and changes nothing, so a rejected step l
 a stored state restarts the run exactly. What steps is composed of four parts that know nothing of
 each other (:func:`nucleation.simulation.run.composed` has the usual ones): a body
 (:mod:`nucleation.fem.condensed`), an interface (:mod:`.interface`), a drive (:mod:`.drive`) and a
-scheme (:mod:`nucleation.simulation.stepping.scheme`).
+scheme (:mod:`nucleation.simulation.stepping`).
 """
 
 import dataclasses
@@ -19,7 +19,7 @@ from ..types import Array
 from .drive import Drive, Imposed
 from .interface import Friction, InterfaceSolution, Past, Solver
 from .state import State, pushed
-from .stepping.scheme import BDF, Step
+from .stepping import BDF, Step
 
 OPERATOR_MEMORY = 400.0  # MB kept for factorised operators
 LARGEST_RATE_EXPONENT = 40.0  # of asinh(v / v_scale) in the extrapolated guess

@@ -26,7 +26,7 @@ from ..simulation.drive import Steady
 from ..simulation.interface import Interface
 from ..simulation.state import State
 from ..simulation.step import Dynamics
-from ..simulation.stepping.scheme import BDF
+from ..simulation.stepping import BDF
 from ..theory.critical import critical_length, critical_wavenumber
 from ..theory.curves import CURVES
 from ..theory.spectrum import growth_rates

@@ -22,7 +22,7 @@ from ..model.friction.law import Friction
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Mesh, Parameters
 from ..simulation.recorded import RECORDED
-from ..simulation.stepping.scheme import BDF
+from ..simulation.stepping import BDF
 from ..types import Array
 from .manufactured.dynamics import Manufactured
 from .manufactured.fields import Displacement, Factor, Power, Sine, Term

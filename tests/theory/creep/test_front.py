@@ -7,7 +7,7 @@ from configurations import CONFIG
 
 from nucleation.configuration.load import load
 from nucleation.theory.creep import front
-from nucleation.theory.creep.front import advance, first_growing, oscillating
+from nucleation.theory.creep.front import advance, first_growing
 from nucleation.theory.creep.lengths import NoPatch, Patches
 
 REFERENCE = CONFIG.parent / "results" / "reference"
@@ -18,28 +18,6 @@ def found_of(run):
     return first_growing(
         Patches.of(run.parameters), run.theory_length, run.parameters.loading.initial_state
     )
-
-
-def test_time_at_which_the_patch_has_a_length():
-    """The twins of simulations start at known times, with patches of known length."""
-    table = pd.read_csv(REFERENCE / "twin_runs.csv")
-    for name, rows in table.groupby("id"):
-        made = advance(
-            Patches.of(RUNS[name].parameters), rows.twin_length_first,
-            RUNS[name].parameters.loading.initial_state,
-        )  # fmt: skip
-        assert made.time == pytest.approx(rows.twin_time.to_numpy(), rel=0.015)
-
-
-def test_growth_of_the_frozen_patch():
-    """At the mean length of the twins, as the patches of the simulation have it when frozen."""
-    table = pd.read_csv(REFERENCE / "twin_runs.csv")
-    for name, rows in table.groupby("id"):
-        run = RUNS[name].parameters
-        made = advance(Patches.of(run), rows.twin_length, run.loading.initial_state)
-        rates = oscillating(made) / run.memory_time
-        assert rates.real == pytest.approx(rows.frozen_growth.to_numpy(), abs=0.35)
-        assert rates.imag == pytest.approx(rows.frozen_frequency.to_numpy(), rel=0.025)
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""The linear stability of the creeping patch: growth against length, twins, and the mode."""
+"""The linear stability of the creeping patch: growth against length, and the mode."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -23,8 +23,8 @@ PANELS = (
 
 
 @style.styled
-def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) -> Figure:
-    """Draw growth and frequency of the frozen patches with twin runs, and the shape of the mode.
+def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
+    """Draw growth and frequency of the frozen patches, and the shape of the mode.
 
     Parameters
     ----------
@@ -34,9 +34,6 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
     patches : sequence of Dataset
         In the same order, with ``patch_length`` (m), ``oscillation_growth`` and
         ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.
-    twins : Dataset
-        On ``twin``: ``evolution``, ``height``, ``twin_length``, ``theory_length`` (m),
-        ``twin_growth`` and ``twin_frequency`` (1/s); those of the usual law are drawn.
     """
     figure, (growth, frequency, shape) = style.panels(1, 3, 6.6)
     shown = _shown(table.assign(patch=("run", np.arange(len(patches)))))
@@ -50,13 +47,7 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
         _draw_patch(
             (growth, frequency, shape), patches[int(row["patch"])], row, colour(row["height"])
         )
-    usual = twins["evolution"].values.astype(str) == laws.usual_law(twins)
-    for axes, (name, limits, label) in zip((growth, frequency), PANELS, strict=True):
-        for i in np.flatnonzero(usual):
-            twin = twins.isel(twin=i)
-            look: Any = {"ms": 4.6, "mfc": "none", "mew": 1.0, "color": colour(twin["height"])}
-            ratio = float(twin["twin_length"] / twin["theory_length"])
-            axes.plot(ratio, float(twin[f"twin_{name}"]), "o", **look)
+    for axes, (_, limits, label) in zip((growth, frequency), PANELS, strict=True):
         axes.set(xlim=(0.3, 0.8), ylim=limits, ylabel=label)
         axes.set_xlabel("Patch length over theory $L/L_c$")
     style.level(growth, 0.0)
@@ -65,8 +56,6 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset], twins: xr.Dataset) ->
     named = np.linspace(0, heights.size - 1, min(LEGEND_HEIGHTS, heights.size)).round().astype(int)
     for height in heights[named]:
         frequency.plot([], [], "-", color=colour(height), label=f"$H={height:g}$ m")
-    if twins.sizes["twin"]:
-        frequency.plot([], [], "o", color="black", markerfacecolor="none", label="twin runs")
     frequency.legend(loc="lower left", labelspacing=0.3)
     # the homogeneous mode of the theory: a wave of constant modulus, whole in the patch
     x = np.linspace(0.0, 1.0, 201)

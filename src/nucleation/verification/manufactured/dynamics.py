@@ -29,7 +29,7 @@ from ...simulation.drive import Drive, Imposed
 from ...simulation.interface import Interface, InterfaceSolution, Past, Solver
 from ...simulation.state import State
 from ...simulation.step import Dynamics, StepReport
-from ...simulation.stepping.scheme import BDF
+from ...simulation.stepping import BDF
 from ...types import Array
 from .fields import Displacement, Loads, Term
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from nucleation.simulation.stepping.ladder import rung_value
-from nucleation.simulation.stepping.scheme import BDF
+from nucleation.simulation.stepping import BDF, rung_value
 
 TIMES = np.array([1.0, 0.6, 0.35])  # s
 

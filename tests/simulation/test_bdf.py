@@ -7,16 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nucleation.simulation.stepping.bdf import (
+from nucleation.simulation.stepping import (
     LARGEST_GROWTH,
     LARGEST_GROWTH_OF_BDF3,
+    RUNGS_PER_OCTAVE,
     Formula,
     beta_of_step,
     error_factor,
     extrapolation_weights,
-)
-from nucleation.simulation.stepping.ladder import (
-    RUNGS_PER_OCTAVE,
     rung_below,
     rung_nearest,
     rung_value,

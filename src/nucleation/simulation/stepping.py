@@ -1,0 +1,208 @@
+"""Time integration: variable-step BDF2, L-stable, with an error estimate; BDF3; and their steps.
+
+For ``dy/dt = g`` the BDF2 step from t to t + h, after a step h', reads (r = h/h')
+
+    y = c1 y_n + c2 y_{n-1} + beta g,   beta = h (1 + r)/(1 + 2 r),
+    c1 = (1 + r)^2/(1 + 2 r),           c2 = -r^2/(1 + 2 r).
+
+The body's operator depends on beta alone. Its values are taken from a geometric ladder, so that few
+operators serve a whole run; the step h follows from beta and h'.
+
+A step solves ``y = sum_i past_i y_{n-i} + beta dy/dt`` for the body, twice for its second time
+derivative, and for slip and state at the interface. Another linear multistep formula is another
+class with the attributes and methods of :class:`BDF`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+import numpy as np
+
+from ..types import Array
+
+LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step,
+LARGEST_GROWTH_OF_BDF3 = 1.5  # BDF3 up to (1 + sqrt(5)) / 2
+
+
+@dataclasses.dataclass(frozen=True)
+class Formula:
+    """Coefficients of one step: ``y = sum_i past_i y_{n-i} + beta dy/dt``, newest value first."""
+
+    step: float
+    beta: float
+    past: tuple[float, ...]
+
+    @classmethod
+    def bdf2(cls, beta: float, previous_step: float) -> Formula:
+        """The BDF2 step with leading coefficient `beta` (s) after `previous_step` (s)."""
+        half = beta - 0.5 * previous_step
+        step = half + math.sqrt(half * half + beta * previous_step)
+        r = step / previous_step
+        return cls(step, beta, ((1 + r) ** 2 / (1 + 2 * r), -(r**2) / (1 + 2 * r)))
+
+    @classmethod
+    def backward_euler(cls, beta: float) -> Formula:
+        """The first step, of first order."""
+        return cls(beta, beta, (1.0, 0.0))
+
+    @classmethod
+    def bdf3(cls, step: float, past_times: Array) -> Formula:
+        """The BDF3 step of length `step` (s) after three past times (s), newest first.
+
+        It is the derivative of the cubic through the new and the past values.
+        """
+        a, b, c = (step + past_times[0] - past_times).tolist()  # from each past time to the new one
+        beta = 1.0 / (1.0 / a + 1.0 / b + 1.0 / c)
+        past = (
+            beta * b * c / ((b - a) * (c - a) * a),
+            beta * a * c / ((a - b) * (c - b) * b),
+            beta * a * b / ((a - c) * (b - c) * c),
+        )
+        return cls(step, beta, past)
+
+    def from_past(self, values: Array) -> Array:
+        """What the step takes from past values, newest first along the first axis.
+
+        Values that are not there yet count as zero: the first step has one past value.
+        """
+        used = min(len(self.past), values.shape[0])
+        return np.asarray(self.past[:used]) @ values[:used]
+
+
+def beta_of_step(step: float, previous_step: float) -> float:
+    """The leading coefficient (s) of a BDF2 step."""
+    r = step / previous_step
+    return step * (1 + r) / (1 + 2 * r)
+
+
+def extrapolation_weights(time: float, past: Array) -> Array:
+    """Lagrange weights that extrapolate values at the `past` times (s) to `time` (s)."""
+    times, weights = past.tolist(), [1.0] * past.size
+    for i, own in enumerate(times):
+        for j, other in enumerate(times):
+            if i != j:
+                weights[i] *= (time - other) / (own - other)
+    return np.array(weights)
+
+
+def error_factor(formula: Formula, past: Array) -> float:
+    """Local error of the BDF2 step over the difference of step and quadratic extrapolation.
+
+    `past` holds the three last times (s), newest first. The local error is ``B y'''`` with
+    ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))`` and the extrapolation's is ``A y'''`` with
+    ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
+    """
+    h, (now, before, earlier) = formula.step, past.tolist()
+    first, second = now - before, now - earlier
+    r = h / first
+    scheme = h**3 * (1 + r) ** 2 / (6 * r * (1 + 2 * r))
+    extrapolation = h * (h + first) * (h + second) / 6
+    return scheme / (scheme + extrapolation)
+
+
+RUNGS_PER_OCTAVE = 4
+
+
+def rung_below(beta: float) -> int:
+    """The largest rung of the ladder ``2^(n / RUNGS_PER_OCTAVE)`` seconds not above `beta`."""
+    return math.floor(RUNGS_PER_OCTAVE * math.log2(beta) + 1e-9)
+
+
+def rung_nearest(beta: float) -> int:
+    """The rung whose value is nearest to `beta` (s)."""
+    return round(RUNGS_PER_OCTAVE * math.log2(beta))
+
+
+def rung_value(rung: int) -> float:
+    """The value of beta (s) of a rung."""
+    return 2.0 ** (rung / RUNGS_PER_OCTAVE)
+
+
+QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step
+
+
+@dataclasses.dataclass(frozen=True)
+class Step:
+    """The formulas of one step."""
+
+    body: Formula
+    interface: Formula
+    extrapolation: Array  # weights of the interface's past values, newest first, for a first guess
+    error_share: float  # local error over the distance between step and guess
+    first: bool  # whether the step starts from rest
+
+    @property
+    def length(self) -> float:
+        """The time (s) that it covers."""
+        return self.body.step
+
+    def error(self, distance: float) -> float:
+        """Local error, given the distance between step and guess; infinite without an estimate."""
+        return np.inf if self.first else self.error_share * distance
+
+    @property
+    def s(self) -> float:
+        """The weight (1/s^2) of inertia in the body's operator ``K + s M``."""
+        return 1.0 / self.body.beta**2
+
+
+@dataclasses.dataclass(frozen=True)
+class BDF:
+    """BDF2 for the body, and BDF3 for slip and state while the body is quasi-static.
+
+    BDF3 is not stable for undamped waves that a step resolves. Where waves cross the body many
+    times within a step, inertia (kept at second order) is a small correction, and the third order
+    follows the nucleating mode with longer steps.
+
+    The leading coefficients of BDF2 are taken from the ladder; its steps follow from them.
+    """
+
+    crossing_time: float = np.inf  # s, of the body by shear waves
+
+    levels = 2  # motions of the body that a step takes from the past,
+    instants = 3  # and values of the interface's fields
+    error_order = 3  # power of the step's length in its local error
+    largest_growth = LARGEST_GROWTH  # of the length from one step to the next
+
+    def step(self, rung: int, past_times: Array) -> Step:
+        """The step with the leading coefficient of a rung, after past times (s), newest first."""
+        beta, known = rung_value(rung), past_times.size
+        if known == 1:
+            formula = Formula.backward_euler(beta)
+        else:
+            formula = Formula.bdf2(beta, float(past_times[0] - past_times[1]))
+        # the second step's guess is too poor to tell an error from
+        share = error_factor(formula, past_times) if known == self.instants else 0.0
+        weights = extrapolation_weights(float(past_times[0]) + formula.step, past_times)
+        interface = self._on_interface(formula, past_times)
+        return Step(formula, interface, weights, share, known == 1)
+
+    def _on_interface(self, formula: Formula, past_times: Array) -> Formula:
+        """The formula for slip and state."""
+        if past_times.size < 3 or formula.step < QUASI_STATIC * self.crossing_time:
+            return formula
+        now, before, earlier = past_times.tolist()
+        last, last_but_one = now - before, before - earlier
+        if formula.step > LARGEST_GROWTH_OF_BDF3 * last or (
+            last > LARGEST_GROWTH_OF_BDF3 * last_but_one
+        ):
+            return formula
+        return Formula.bdf3(formula.step, past_times)
+
+    def coefficient(self, step: float, previous_step: float) -> float:
+        """The leading coefficient (s) of a step after a previous one (both in s)."""
+        return beta_of_step(step, previous_step)
+
+    def rung(self, step: float, previous_step: float) -> int:
+        """The rung of a step that has been taken, from its length and the previous one's (s)."""
+        return rung_nearest(beta_of_step(step, previous_step))
+
+    def steady_rung(self, step: float) -> int:
+        """The largest rung on which steps of one length are no longer than `step` (s)."""
+        return rung_below(beta_of_step(step, step))
+
+    def steady_step(self, rung: int) -> float:
+        """The length (s) of the steps that stay on a rung: at a constant beta, 3/2 of it."""
+        return 1.5 * rung_value(rung)
