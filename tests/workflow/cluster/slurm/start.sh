@@ -1,7 +1,7 @@
 #!/bin/sh
 # Starts Slurm with a controller and two virtual nodes of two cores on this machine, for tests.
 #
-#   workflow/slurm/start.sh        then sinfo, sbatch, squeue, ... work;  workflow/slurm/stop.sh
+#   tests/workflow/cluster/slurm/start.sh        then sinfo, sbatch, squeue, ... work;  tests/workflow/cluster/slurm/stop.sh
 #
 # Needs root or sudo, and the packages of `workflow/install-debian.sh cluster`. Starts only what
 # does not run yet, so it also brings back a node whose daemon died. Refuses to touch a Slurm that
