@@ -33,6 +33,13 @@ CLAIMS = [
 ]  # fmt: skip
 
 
+FAULT = {
+    "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "plane": "strain", "height": 0.1,
+    "normal_stress": 1e6, "a": 0.0068, "b": 0.0228, "slip_distance": 5e-7, "friction": 0.41,
+    "velocity": 1e-5,
+}  # fmt: skip
+
+
 @pytest.fixture(scope="session")
 def content(settings, table, tmp_path_factory):
     """A report with all sections."""
@@ -45,9 +52,8 @@ def content(settings, table, tmp_path_factory):
     entry = catalogue.FIGURES["figure_2"]
     caption = (ROOT / "workflow" / "report" / "figure_2.rst").read_text(encoding="utf-8")
     return page.Content(
-        material=settings.base.material,
+        fault=FAULT,
         friction=settings.base.friction,
-        interface=settings.main_text_interface,
         config=CONFIG,
         provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
         results={"theory": theory, "lengths": table},
@@ -88,7 +94,7 @@ class Opened:
 
     def __init__(self, browser, path: Path, **options) -> None:
         self.page = browser.new_context(**options).new_page()
-        self.page.set_default_timeout(120_000)  # ms: the machine may be busy
+        self.page.set_default_timeout(60_000)  # ms: the machine may be busy
         self.requests: list[str] = []
         self.complaints: list[str] = []
         self.page.on("request", lambda request: self.requests.append(request.url))
@@ -101,7 +107,7 @@ class Opened:
 def opened(browser, report) -> Opened:
     """The report on a wide screen, opened once."""
     one = Opened(browser, report, viewport={"width": 1280, "height": 900})
-    one.page.wait_for_selector("#theory-plot .main-svg")
+    one.page.wait_for_selector("#values dd")
     return one
 
 
@@ -125,7 +131,7 @@ def open_report(browser, report):
 
     def open_(**options) -> Opened:
         made.append(Opened(browser, report, **options))
-        made[-1].page.wait_for_selector("#theory-plot .main-svg")
+        made[-1].page.wait_for_selector("#values dd")
         return made[-1]
 
     yield open_

@@ -1,7 +1,6 @@
 """What the report is made of, without a browser."""
 
 import base64
-import dataclasses
 import io
 import json
 import re
@@ -14,10 +13,8 @@ import xarray as xr
 from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
-from nucleation.figures import catalogue, laws
-from nucleation.model.material import Material
-from nucleation.model.quantities import declarations
-from nucleation.report import answer, encode, faults, page, tables
+from nucleation.figures import catalogue
+from nucleation.report import answer, encode, page, tables
 
 ROOT = encode.HERE.parents[2]
 
@@ -98,42 +95,10 @@ def test_claims_as_they_are_shown(content):
     assert counts == dict.fromkeys(set(tables.VERDICTS) - {"taken as given", "not supported"}, 1)
 
 
-def test_runs_without_an_event_have_dashes_and_no_point(table):
+def test_runs_without_an_event_have_dashes(table):
     without = table.assign(length=("run", [np.nan]), onset_time=("run", [np.nan]))
-    assert tables.point_series(without) == []
     (row,) = tables.run_rows(without, ("Onset (s)", "Over theory"))
     assert row == {"Onset (s)": "–", "Over theory": "–"}
-
-
-def test_points_have_the_marks_of_figure_3(table):
-    (series,) = tables.point_series(table)
-    kind = laws.PAPERS["aging", False]
-    assert series["colour"] == kind.colour and series["symbol"] == tables.SYMBOLS[kind.marker]
-    assert series["name"] == "paper, aging law"
-    assert series["y"] == table["length"].values.tolist()
-    low = series["y"][0] - series["error_y"]["arrayminus"][0]
-    assert low == pytest.approx(float(table["length_low"][0]))
-
-
-def test_points_of_a_law_that_the_paper_does_not_have(table):
-    other = table.assign(evolution=("run", ["halfway"]), role=("run", ["own"]), phi0=("run", [7.0]))
-    (series,) = tables.point_series(other)
-    assert series["name"] == "paper, halfway law, φ(0) = 7 s"
-    assert series["symbol"] == f"{tables.SYMBOLS[laws.OTHERS[0][0]]}-open"
-
-
-def test_sliders_are_parameters_of_the_library_at_the_configurations_values(settings):
-    material, interface = settings.base.material, settings.main_text_interface
-    controls = faults.controls(material, interface)
-    for slider, control in zip(faults.QUANTITIES, controls, strict=True):
-        declaration = declarations(slider.group)[slider.parameter]
-        value = getattr(material if slider.group is Material else interface, slider.parameter)
-        assert control["value"] * control["factor"] == pytest.approx(value, rel=1e-11)
-        assert declaration.low <= slider.low * slider.factor
-        assert slider.high * slider.factor <= declaration.high
-        assert (declaration.unit == "1") == (slider.unit == "")
-    wide = faults.controls(dataclasses.replace(material, shear_modulus=1e12), interface)
-    assert wide[0]["high"] == wide[0]["value"] == 1000.0
 
 
 # ---- Texts
@@ -221,4 +186,3 @@ def test_no_text_becomes_a_part_of_the_page(content):
     assert not [tag for tag, attributes in bad.found if any(a.startswith("on") for a in attributes)]
     kinds = {tag for tag, _ in good.found}
     assert {tag for tag, _ in bad.found} == kinds
-    assert json.loads(bad.scripts[0])["points"][0]["name"].startswith(EVIL)

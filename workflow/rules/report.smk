@@ -1,5 +1,5 @@
 # The report: one HTML file with every figure that the configuration has the studies for, the theory
-# with sliders, tables and provenance.
+# for any fault, tables and provenance.
 OF_THE_PAPER = DEFAULT == "paper"
 REPORTED = catalogue.drawable({study.role for study in settings.studies.values()}, OF_THE_PAPER)
 OWN_STUDIES = {
@@ -12,11 +12,24 @@ the paper's figures nor the verdicts, which are about the paper's runs."""
 
 
 def explored():
-    """Material and interface that the page's controls begin with: the paper's, or the first run's."""
+    """The fault that the calculator begins with: the paper's, or the first run's."""
     own = [run for run in runs_in(*OWN_STUDIES) if run.interface.zeta > 0.0]
-    if OF_THE_PAPER or not own:
-        return settings.base.material, settings.main_text_interface
-    return own[0].parameters.material, own[0].interface
+    material, interface, height = settings.base.material, settings.main_text_interface, 0.1
+    if own and not OF_THE_PAPER:
+        material, interface = own[0].parameters.material, own[0].interface
+        height = own[0].parameters.geometry.height
+    return {
+        "shear_modulus": material.shear_modulus,
+        "poisson_ratio": material.poisson_ratio,
+        "plane": material.plane,
+        "height": height,
+        "normal_stress": interface.normal_stress,
+        "a": interface.a,
+        "b": interface.a + interface.zeta,
+        "slip_distance": interface.slip_length,
+        "friction": interface.friction,
+        "velocity": interface.velocity,
+    }
 
 
 def caption_values(wildcards):
@@ -56,9 +69,8 @@ make_rule(
     dataset_names=catalogue.datasets_of(ENTRIES.values()),
     studies=OWN_STUDIES,
     caption_values=caption_values,
-    material=asdict(explored()[0]),
+    fault=explored(),
     friction=asdict(settings.base.friction),
-    interface=asdict(explored()[1]),
     warnings=(
         {}
         if OF_THE_PAPER

@@ -13,7 +13,7 @@ DISTRIBUTION = "nucleation-length"
 EXTRAS = {
     "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
     "figures": ("matplotlib", "PIL"),
-    "report": ("jinja2", "markupsafe", "plotly", "docutils"),
+    "report": ("jinja2", "markupsafe", "docutils"),
 }
 """Modules that an extra brings."""
 

@@ -1,10 +1,8 @@
 """The report: one HTML file that holds everything a reader needs and works without a network.
 
-:func:`.page.build` puts it together from datasets, figures and captions. What can be moved in the
-page is computed there: the theory's curve by ``theory.js``, ``stability.js`` and ``explorer.js``.
-Plotly draws; ``page.js`` and ``plots.js`` have what the page's parts share.
-
-:mod:`.calculator` is another page, of a fault's lengths alone, by the same code.
+:func:`.page.build` puts it together from datasets, figures and captions. The lengths of any fault
+are computed in the page, by ``theory.js``, ``stability.js`` and ``lengths.js``, as in the page of
+:mod:`.calculator`, which has nothing else.
 """
 
 from ..datasets.installed import require

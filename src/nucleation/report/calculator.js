@@ -1,6 +1,6 @@
 "use strict";
 // The calculator: lengths of the fault in the fields. Their values stand in the page's address as the
-// command line has them, shear-modulus=30GPa, and are read from it.
+// command line has them, shear-modulus=30GPa, and are read from it; a report has them in its data.
 const lengthOfPatch = Stability.reader(data.stability);
 const NONE = { height: Infinity, second_height: Infinity, friction: 0 }; // of fields that are empty
 const fields = Object.fromEntries(data.fields.map((field) => [field.key, field]));
@@ -62,7 +62,7 @@ function words() {
 
 function answer(p) {
   const own = Theory.scaled(p);
-  const at = Theory.solver(own)(own.reference);
+  const at = Theory.solve(own, own.reference);
   if (!(at.length > 0)) {
     return [at, [["No critical length", p.zeta > 0
       ? "sliding is stable: the bodies are stiffer than friction's critical stiffness at every wavelength"
@@ -74,7 +74,7 @@ function answer(p) {
   const bodies = thick ? { ...own, ...half, second: own.second && { ...own.second, ...half } } : own;
   at.stability = p.zeta > 0 ? lengthOfPatch(bodies)(own.reference, at.length) : null;
   const frequency = p.V ? `${at.frequency.toPrecision(4)} rad/s`
-    : `${Theory.solver({ ...own, V: p.ell })(own.reference).frequency.toPrecision(4)} V/D`;
+    : `${Theory.solve({ ...own, V: p.ell }, own.reference).frequency.toPrecision(4)} V/D`;
   return [at, Stability.values(bodies, at, data.stability, frequency)];
 }
 
@@ -114,7 +114,7 @@ function show() {
   element("others").innerHTML = wrong.length ? "" : table(p, at.length);
   const given = words();
   element("command").textContent = `nucleation length ${given.map(([name, text]) => `--${name} ${text}`).join(" ")}`;
-  history.replaceState(null, "", `#${given.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join("&")}`);
+  if (!data.given) history.replaceState(null, "", `#${given.map(([name, text]) => `${name}=${encodeURIComponent(text)}`).join("&")}`);
 }
 
 // A text such as 30GPa into its field and unit; without a unit it is in SI units.
@@ -127,7 +127,7 @@ function put(key, text) {
 }
 
 function readAddress() {
-  const given = new URLSearchParams(location.hash.slice(1).replaceAll("+", "%2B"));
+  const given = new URLSearchParams((data.given ?? location.hash.slice(1)).replaceAll("+", "%2B"));
   if (!given.size) return;
   for (const key of Object.keys(fields)) put(key, given.get(key.replaceAll("_", "-")) ?? "");
   const second = given.get("second-body") ?? "same";
@@ -143,6 +143,6 @@ function readAddress() {
 
 element("fault").addEventListener("submit", (event) => event.preventDefault());
 element("fault").addEventListener("input", show);
-window.addEventListener("hashchange", () => { readAddress(); show(); });
+if (!data.given) window.addEventListener("hashchange", () => { readAddress(); show(); });
 readAddress();
 show();

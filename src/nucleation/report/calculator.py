@@ -5,6 +5,8 @@ The page computes L_c, L_s and the lengths in use by the report's own code (``th
 """
 
 import sys
+import urllib.parse
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,7 +17,7 @@ from ..theory.fault import QUANTITIES
 from . import encode, stability
 
 SCRIPTS = ("page.js", "theory.js", "stability.js", "lengths.js", "calculator.js")
-"""What runs in the page, in this order; all but the last two are the report's as well."""
+"""What runs in this page and in the report, in this order."""
 
 
 class Field(NamedTuple):
@@ -59,13 +61,36 @@ THICK = 20.0
 
 def build() -> str:
     """The whole page as HTML."""
-    ends = stability.TABLES["half_spaces"].ends["zeta_over_a"]
-    return encode.template("calculator.html").render(
-        styles=encode.source("page.css"), scripts=map(encode.source, SCRIPTS),
-        groups=((FIELDS[:3], "The body"), (FIELDS[3:9], "The interface"), (FIELDS[9:], "")),
-        far_sides=FAR_SIDES, ends=ends, precision=stability.PRECISION,
-        data=encode.script_json(data()),
-    )  # fmt: skip
+    return encode.template("calculator.html").render(shown(), level=2)
+
+
+def shown(given: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """What a template with the calculator needs.
+
+    Parameters
+    ----------
+    given : mapping, optional
+        What the fields begin with, as :class:`~nucleation.theory.fault.Fault` has it; else they are
+        read from the page's address, and stand there.
+    """
+    return {
+        "styles": encode.source("page.css"), "scripts": [*map(encode.source, SCRIPTS)],
+        "asked": ((FIELDS[:3], "The body"), (FIELDS[3:9], "The interface"), (FIELDS[9:], "")),
+        "far_sides": FAR_SIDES, "precision": stability.PRECISION,
+        "ends": stability.TABLES["half_spaces"].ends["zeta_over_a"],
+        "data": encode.script_json(data() if given is None else data() | {"given": _words(given)}),
+    }  # fmt: skip
+
+
+def _words(given: Mapping[str, Any]) -> str:
+    """A fault on a rigid base as the page's address has it, each value in its first unit."""
+    words = {"second-body": "rigid", "plane": given["plane"]}
+    for field in FIELDS:
+        if field.key in given:
+            unit = "".join(field.units[:1])
+            value = float(f"{given[field.key] / _in_page(field)['units'].get(unit, 1.0):.10g}")
+            words[field.key.replace("_", "-")] = f"{value!r}{unit}"
+    return urllib.parse.urlencode(words)
 
 
 def data() -> dict[str, Any]:

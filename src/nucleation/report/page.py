@@ -7,27 +7,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-import plotly.offline
 import xarray as xr
 from markupsafe import Markup
 
 from ..figures import catalogue
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
-from ..model.linearised import InterfaceState
-from ..model.material import Material
-from ..report import answer, encode, faults, stability, tables
-from ..types import Array
-
-HEIGHTS = np.geomspace(1e-3, 10.0, 721)
-"""Heights (m) of the theory's curve in the page; of studies of one's own it reaches further."""
-
-SEEN = (2e-3, 1.0)
-"""Heights (m) that the page shows first."""
-
-SCRIPTS = ("page.js", "plots.js", "tables.js", "theory.js", "stability.js", "explorer.js")
-"""What runs in the page, in this order; the first has what the others share."""
+from ..report import answer, calculator, encode, tables
 
 
 class Picture(NamedTuple):
@@ -45,9 +31,8 @@ class Picture(NamedTuple):
 class Content(NamedTuple):
     """Everything the page shows, read from files."""
 
-    material: Material
+    fault: dict[str, Any]  # with which the calculator begins, as theory.fault.Fault has it
     friction: Friction
-    interface: InterfaceState
     config: dict[str, Any]  # as given
     provenance: dict[str, str]  # of nucleation.datasets.provenance.attributes
     results: dict[str, xr.Dataset]  # datasets by name
@@ -61,8 +46,8 @@ def write(
     captions: Sequence[Path], caption_values: Mapping[str, dict[str, Any]],
     datasets: Sequence[xr.Dataset], dataset_names: Sequence[str],
     claims: Sequence[Path], page_files: Sequence[Path], studies: dict[str, str],
-    warnings: dict[str, list[str]], leads: bool, material: Material, friction: Friction,
-    interface: InterfaceState, config: dict[str, Any],
+    warnings: dict[str, list[str]], leads: bool, fault: dict[str, Any], friction: Friction,
+    config: dict[str, Any],
 ) -> dict[str, str]:  # fmt: skip
     """The page as HTML, from the workflow's results.
 
@@ -75,7 +60,7 @@ def write(
     claims : the claims as JSON, or none.
     page_files : on which the page depends as well.
     studies, warnings, leads : studies of the user's own, and whether the page begins with them.
-    material, friction, interface, config : of the configuration.
+    fault, friction, config : what the calculator begins with; of the configuration.
     """
     results = dict(zip(dataset_names, datasets, strict=True))
     entries = catalogue.FIGURES | catalogue.of_studies(studies)
@@ -88,7 +73,7 @@ def write(
         for name, path, caption in zip(names, figures, captions, strict=True)
     ]  # fmt: skip
     content = Content(
-        material, friction, interface, config, dict(origin), results, pictures,
+        fault, friction, config, dict(origin), results, pictures,
         claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
         own=answer.OwnStudies(studies, warnings) if leads else None,
     )  # fmt: skip
@@ -104,7 +89,7 @@ def build(content: Content) -> str:
         What is shown; sections without content are left out.
     """
     lengths = content.results.get("lengths")
-    groups, data = _groups(content), _data(content, lengths)
+    groups = _groups(content)
     pictures = {p["name"]: p for group in groups.values() for p in group}
     first, studies, fault_rows, runs = None, [], [], []
     if lengths is not None:
@@ -118,47 +103,14 @@ def build(content: Content) -> str:
         groups[catalogue.PAPER].remove(pictures["figure_3"])
     printed = {claim["id"]: claim["paper"] for claim in content.claims or []}.get("length-shown")
     return encode.template("template.html").render(
-        data, answer=first, printed=printed, groups=groups, pictures=pictures,
-        studies=studies, fault_rows=fault_rows, lengths=runs,
-        styles=encode.source("page.css"),
-        scripts=[Markup(plotly.offline.get_plotlyjs()), *map(encode.source, SCRIPTS)],
-        data=encode.script_json(data),
+        calculator.shown(content.fault), level=3, answer=first, printed=printed, groups=groups,
+        pictures=pictures, studies=studies, fault_rows=fault_rows, lengths=runs,
         claims=tables.claim_rows(content.claims or []),
         counts=tables.verdict_counts(content.claims or []),
         table_s1=_parameters(content.friction),
         seconds=0.0 if lengths is None else float(lengths["wall_seconds"].sum()),
         origin=_origin(content),
     )  # fmt: skip
-
-
-def _data(content: Content, lengths: xr.Dataset | None) -> dict[str, Any]:
-    """What the page's code reads."""
-    heights, seen = _heights(content, lengths)
-    known = faults.faults(lengths) if lengths is not None else []
-    height = {
-        "key": "H", "label": "Height of the block, for the values below", "symbol": "H",
-        "unit": "m", "factor": 1, "low": float(f"{heights[0]:.4g}"),
-        "high": float(f"{heights[-1]:.4g}"), "log": True,
-        "value": 0.1 if content.own is None else float(f"{np.sqrt(seen[0] * seen[1]):.2g}"),
-    }  # fmt: skip
-    return {
-        "faults": [fault.in_page() for fault in known if fault.rigid] if len(known) > 1 else [],
-        "seen": seen,
-        "controls": [*faults.controls(content.material, content.interface), height],
-        "heights": heights.tolist(),
-        "points": tables.point_series(lengths) if lengths is not None else [],
-        "stability": stability.in_page(),
-    }
-
-
-def _heights(content: Content, lengths: xr.Dataset | None) -> tuple[Array, list[float]]:
-    """Heights (m) of the theory's curves, and the ends of those that are shown first."""
-    if content.own is None or lengths is None:
-        return HEIGHTS, list(SEEN)
-    low, high = float(lengths["height"].min()), float(lengths["height"].max())
-    ends = min(HEIGHTS[0], low / 10.0), max(HEIGHTS[-1], high * 10.0)
-    points = int(HEIGHTS.size * np.log(ends[1] / ends[0]) / np.log(HEIGHTS[-1] / HEIGHTS[0]))
-    return np.geomspace(*ends, points), [low / 3.0, 3.0 * high]
 
 
 def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:

@@ -1,4 +1,4 @@
-"""Tables of the report: verdicts, lengths with their cost, points of the theory's plot, CSV."""
+"""Tables of the report: verdicts, lengths with their cost, CSV."""
 
 import html
 import math
@@ -6,15 +6,13 @@ import re
 from collections import Counter
 from typing import Any
 
-import numpy as np
 import xarray as xr
 from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 from markupsafe import Markup
 
 from ..analysis.rows import rows_of
-from ..figures.laws import USUAL_AGE, looks, usual_law
-from .faults import QUANTITIES, faults, look
+from .faults import QUANTITIES, faults
 
 VERDICTS = {
     "replicated": ("✓", "yes"),
@@ -135,64 +133,6 @@ def fault_rows(lengths: xr.Dataset) -> list[dict[str, str]]:
         }
         for fault in faults(lengths)
     ]
-
-
-SYMBOLS = {
-    "o": "circle", "^": "triangle-up", "s": "square", "v": "triangle-down", "D": "diamond",
-    "P": "cross", "X": "x", "<": "triangle-left",
-}  # fmt: skip
-"""Markers of the figures (:mod:`nucleation.figures.laws`) as plotly calls them."""
-
-
-def point_series(lengths: xr.Dataset) -> list[dict[str, Any]]:
-    """The simulated lengths as the page's plot has them, one series for each study, law and age.
-
-    Markers and colours are those of Figure 3; of the faults if there are several.
-    """
-    known = faults(lengths)
-    of_run = {i: fault for fault in known for i in fault.runs}
-    names, laws = (lengths[n].values.astype(str) for n in ("study", "evolution"))
-    seen = looks(laws)
-    ages, usable = lengths["phi0"].values, np.flatnonzero(np.isfinite(lengths["length"].values))
-    kinds: dict[tuple[str, str, float, int], list[int]] = {}
-    for i in usable.tolist():
-        kinds.setdefault((names[i], laws[i], ages[i], of_run[i].number), []).append(i)
-    result = []
-    for (study, law, age, fault), chosen in kinds.items():
-        runs = lengths.isel(run=chosen)
-        aged = not np.isclose(age, USUAL_AGE)
-        kind = seen[law, aged]
-        symbol, colour = SYMBOLS[kind.marker], kind.colour
-        filled = runs["role"].values[0] == "paper"
-        if len(known) > 1:
-            symbol, colour = look(fault)
-            filled = law == usual_law(lengths)
-        length = runs["length"]
-        bars = {"array": runs["length_high"] - length, "arrayminus": length - runs["length_low"]}
-        error = {name: bar.clip(0.0).values.tolist() for name, bar in bars.items()}
-        result.append(
-            {
-                "name": f"{study}, {law} law" + (f", φ(0) = {age:g} s" if aged else "")
-                + (f", fault {fault}" if len(known) > 1 else ""),
-                "symbol": symbol if filled else f"{symbol}-open",
-                "colour": colour,
-                "x": runs["height"].values.tolist(),
-                "y": length.values.tolist(),
-                "error_y": {"type": "data", "symmetric": False, "thickness": 1, "width": 3} | error,
-                "text": [_beside(run) for run in rows_of(runs)],
-            }
-        )  # fmt: skip
-    return result
-
-
-def _beside(run: dict[str, Any]) -> str:
-    """What is read beside a point of the plot, as HTML."""
-    ratio = run["length"] / run["theory_length"]
-    return (
-        f"<b>{html.escape(str(run['id']))}</b><br>H = {run['height']:.4g} m<br>L<sub>c</sub> = "
-        f"{run['length']:.4g} m ({run['length_low']:.3g} to {run['length_high']:.3g})<br>"
-        f"{ratio:.3g} of the theory<br>onset at {run['onset_time']:.4g} s"
-    )
 
 
 def csv_text(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> str:

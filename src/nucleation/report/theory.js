@@ -4,12 +4,11 @@
 // The same theory as nucleation.theory: the neutral points of Eq. (5) with the transfer functions of
 // both bodies, each with the condition on its own far side (Eq. 10 for free ones). With q = k H, b =
 // a + zeta, rho = f G2 / G1 and the stiffness s = mu ell / (sigma0 H), sliding is marginal where s q
-// G1(q) = h(rho), and h is the upper root of (h - zeta)^2 = rho^2 h (b - h). Only s knows of H, a
-// reference height that both bodies' have given ratios to, so that h / (q G1) is tabulated once for
-// all H. SI units.
+// G1(q) = h(rho), and h is the upper root of (h - zeta)^2 = rho^2 h (b - h). H is a reference height
+// that both bodies' have given ratios to. SI units.
 const Theory = (() => {
   const SATURATION = 25; // above this q the block is a half-space, to round-off
-  const SMALLEST = 1e-6; // q at the lower end of the table
+  const SMALLEST = 1e-6; // q down to which the search has POINTS places
   const LEAST = 1e-15; // of the search: no layer under traction is as thin
   const POINTS = 4000;
 
@@ -125,42 +124,27 @@ const Theory = (() => {
     return { ...p, heightRatio: p.H / reference, second, reference };
   }
 
-  // p: mu (Pa), nu, sigma0 (Pa), f, a, zeta, ell (m), V (m/s). Returns a function of H (m).
-  function solver(p) {
-    const q = new Float64Array(POINTS);
-    const stiffness = new Float64Array(POINTS);
+  // The critical point of p at a height H (m), by the largest marginal q; NaN without one. Sliding is
+  // stable above it, so that the search begins at the top. p: mu (Pa), nu, sigma0 (Pa), f, a, zeta,
+  // ell (m), V (m/s).
+  function solve(p, height) {
+    const s = (p.mu * p.ell) / (p.sigma0 * height);
     const highest = SATURATION / Math.min(1, p.heightRatio ?? 1, p.second ? p.second.heightRatio : 1);
-    const ratio = Math.log(highest / SMALLEST) / (POINTS - 1);
-    for (let i = 0; i < POINTS; i += 1) {
-      q[i] = SMALLEST * Math.exp(ratio * i);
-      stiffness[i] = marginal(q[i], p);
-    }
-    return (height) => {
-      const s = (p.mu * p.ell) / (p.sigma0 * height);
-      return point(largestCrossing(s, p, q, stiffness), height, p);
-    };
-  }
-
-  // The largest marginal q, NaN without one: sliding is stable above it, so that the search begins
-  // at the top.
-  function largestCrossing(s, p, q, stiffness) {
-    const top = (stiffness[POINTS - 1] * q[POINTS - 1]) / s; // G1, G2 are constant up there
-    if (top >= q[POINTS - 1]) return top;
-    let i = POINTS - 1;
-    while (i > 0 && (stiffness[i] < s || (p.zeta < 0 && !grows(q[i], s, p)))) i -= 1;
-    let low = q[i];
-    let high = q[Math.min(i + 1, POINTS - 1)];
+    const top = (marginal(highest, p) * highest) / s; // G1, G2 are constant up there
+    if (top >= highest) return point(top, height, p);
+    const ratio = (highest / SMALLEST) ** (1 / POINTS);
+    let [low, high] = [highest, highest];
     while (!grows(low, s, p)) {
       high = low;
-      low /= 2;
-      if (low < LEAST) return NaN;
+      low /= low > SMALLEST ? ratio : 2;
+      if (low < LEAST) return point(NaN, height, p);
     }
     for (let n = 0; n < 60; n += 1) {
       const middle = Math.sqrt(low * high);
       if (grows(middle, s, p)) low = middle;
       else high = middle;
     }
-    return Math.sqrt(low * high);
+    return point(Math.sqrt(low * high), height, p);
   }
 
   // Length, wavenumber and angular frequency at a marginal q; the frequency is the root of
@@ -179,5 +163,5 @@ const Theory = (() => {
     return { length: (2 * Math.PI) / wavenumber, wavenumber, frequency: (w * p.V) / p.ell };
   }
 
-  return { scaled, solver };
+  return { scaled, solve };
 })();
