@@ -8,9 +8,10 @@ import pytest
 from nucleation.analysis.extraction import extract
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import Perturbation
-from nucleation.patch.delay import growth, realised
+from nucleation.patch.continued import complex_trend, continued, exponent_of, roughness_weights
+from nucleation.patch.delay import SAMPLED, TINY, grown, growth
 from nucleation.patch.mode_history import ModeHistory, mode_history
-from nucleation.simulation.realisation import spectral_density
+from nucleation.simulation.realisation import Series, Sheet, profile, spectral_density
 from nucleation.simulation.run import simulate
 
 PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=2.7), mesh=Mesh(n_x=400, n_y=8))
@@ -28,6 +29,41 @@ def history(share=600.0):
     constant = np.full(40, share, dtype=complex)
     time = (length - 0.18) / SPEED
     return ModeHistory(PARAMETERS, x, time, length, rate, constant, constant, along_x, along_x)
+
+
+def realised(history, declared):
+    """How the mode grows in the realisation of the declared seed; its strength is not used."""
+    path = continued(history)
+    if declared.kind == "strength":
+        x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
+        rough = profile(declared.seed, declared.correlation_length, x)
+        sums = ((log, float(abs(a @ rough))) for log, a in roughness_weights(history, path, x))
+        return grown(path, np.array([log + np.log(max(s, TINY)) for log, s in sums]))
+    return grown(path, log_integrated(path, forcing(history, path, declared)))
+
+
+def forcing(history, path, declared):
+    """``g xi`` (1/s) at the times of a path, for the seed of a forcing in time."""
+    memory, seed = history.parameters.memory_time, declared.seed
+    time = declared.correlation_time * memory
+    if declared.kind == "state":
+        sheet = Sheet(seed, time, declared.correlation_length, history.x)
+        state = complex_trend(history, history.state / memory)
+        places = zip(path.length, path.time, strict=True)
+        return np.array([state(length) @ sheet.values(t) for length, t in places])
+    series = Series(seed, time)
+    if declared.kind == "normal_load":
+        weights = complex_trend(history, history.normal_load)
+        return weights(path.length) * [series.value(t) for t in path.time]
+    weights = complex_trend(history, history.drive * history.parameters.loading.velocity)
+    return weights(path.length) * [series.integral(t) for t in path.time]
+
+
+def log_integrated(path, forcing):
+    """log|A| (per strength) from ``dA/dt = Lambda A + forcing``, from zero on, without overflow."""
+    exponent, step = exponent_of(path), path.time[1] - path.time[0]
+    seeds = np.cumsum(step * forcing * np.exp(-exponent))
+    return exponent.real + np.log(np.maximum(np.abs(seeds), TINY))
 
 
 def exact_median(strength, share=600.0):

@@ -11,7 +11,7 @@ from nucleation.figures.beyond import figure_drop
 from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch import drop_table
-from nucleation.patch.delay import growth, realised
+from nucleation.patch.delay import growth
 from nucleation.patch.drop_table import COLUMNS, FLOORS, floors, gather
 
 FAULT = fault(history().parameters)
@@ -76,8 +76,6 @@ def test_predictions_are_those_of_the_law(table):
     assert float(row["predicted_length"]) == expected.length
     assert float(row["predicted_low"]) == expected.low
     assert float(row["predicted_high"]) == expected.high
-    own, _ = realised(history(), dataclasses.replace(LOAD, seed=3)).at(1e5)
-    assert float(row["realised_length"]) == own
     declared = Perturbation(kind="state", strength=1e-6, correlation_length=0.05)
     other = growth(history(), declared).drop(1e-6)
     assert float(table["predicted_length"].values[2]) == other.length

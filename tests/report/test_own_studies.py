@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from nucleation.figures import catalogue
-from nucleation.report import answer, faults, page
+from nucleation.report import answer, page, tables
 
 STUDIES = answer.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
 
@@ -43,11 +43,11 @@ def test_it_begins_with_the_study_and_has_no_verdicts_of_the_paper(html, two_fau
 
 
 def test_faults_are_told_apart_by_what_the_theory_knows(two_faults):
-    first, second = faults.faults(two_faults)
+    first, second = tables.faults(two_faults)
     assert (first.number, second.number) == (1, 2)
     assert second.values["shear_modulus"] == 3e10
     pair = two_faults.assign(below=("run", ["deformable"] * 2), shear_modulus=("run", [3e9] * 2))
-    assert len(faults.faults(pair.assign(n_x=("run", [8, 9])))) == 1
+    assert len(tables.faults(pair.assign(n_x=("run", [8, 9])))) == 1
     for changes in ({"far_side": ["free", "clamped"]}, {"second_shear_modulus": [3e9, 9e9]}):
         other = pair.assign({name: ("run", values) for name, values in changes.items()})
-        assert len(faults.faults(other)) == 2
+        assert len(tables.faults(other)) == 2

@@ -15,7 +15,6 @@ from .said import read
 from .statements import (
     bimaterial,
     finite_height,
-    friction_law,
     simulations,
     sliding,
     two_bodies,
@@ -25,7 +24,7 @@ SUBJECTS = {
     "homogeneous sliding": sliding,
     "bimaterial interfaces": bimaterial,
     "finite height": finite_height,
-    "friction law": friction_law,
+    "friction law": sliding,
     "critical lengths": simulations,
     "course of simulations": simulations,
     "two bodies, simulated": two_bodies,

@@ -16,12 +16,14 @@ from ..model.parameters import names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
-from .given import given_of, merged_parameters, sourced
 from .options import (
+    given_of,
+    merged_parameters,
     option,
     parameter_options,
     second_body_option,
     source_options,
+    sourced,
     together,
     words,
 )

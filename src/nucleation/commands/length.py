@@ -27,8 +27,7 @@ from ..theory.creep.lengths import stability_values
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, parameters_of, said_of
-from .given import given_of
-from .options import option
+from .options import given_of, option
 from .system import BEGINS, one_material, scales, systems_of_lengths
 from .text import to_json, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain

@@ -194,14 +194,11 @@ KINDS = (
         "sensitivity table", ("varied", "length"), "beyond.figure_sensitivity.draw", _length_rows
     ),
     Kind("table of refinement", ("length_difference", "length"), "", _length_rows),
-    Kind(
-        "table of lengths", ("id", "onset_time", "theory_length"),
-        "overview.draw_lengths", _length_rows,
-    ),
-    Kind("patch's stability", ("instant_time", "oscillation_growth"), "overview.draw_patch"),
+    Kind("table of lengths", ("id", "onset_time", "theory_length"), "", _length_rows),
+    Kind("patch's stability", ("instant_time", "oscillation_growth")),
     Kind("dispersion relation", ("measured_growth",), "checks.figure_dispersion.draw"),
     Kind("orders of convergence", ("displacement_error",), "checks.figure_verification.draw"),
-    Kind("theory", ("critical_length", "thin_limit_length"), "overview.draw_theory"),
+    Kind("theory", ("critical_length", "thin_limit_length"), "paper.figure_2.draw"),
     Kind("dataset", ()),
 )  # fmt: skip
 """The first kind all of whose marks are in a dataset is its own."""

@@ -19,8 +19,17 @@ from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..model.second_body import SecondBody
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .given import STUDY, given_of, merged, planned, sourced
-from .options import flat, option, parameter_options, source_options
+from .options import (
+    STUDY,
+    flat,
+    given_of,
+    merged,
+    option,
+    parameter_options,
+    planned,
+    source_options,
+    sourced,
+)
 from .system import told
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 

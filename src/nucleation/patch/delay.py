@@ -28,9 +28,9 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from ..model.perturbation import Perturbation
-from ..simulation.realisation import Series, Sheet, correlation, profile, spectral_density
-from ..types import Array, ComplexArray
-from .continued import Path, complex_trend, continued, exponent_of, roughness_weights, trend
+from ..simulation.realisation import correlation, spectral_density
+from ..types import Array
+from .continued import Path, continued, exponent_of, roughness_weights, trend
 from .mode_history import ModeHistory
 
 NEAR = 1.3  # lengths over L_s through which the closed form lays its straight lines
@@ -66,7 +66,7 @@ class Growth:
 
     time: Array  # s
     length: Array  # m
-    log_amplitude: Array  # log(sigma / eps), or log(|A| / eps) of one realisation
+    log_amplitude: Array  # log(sigma / eps)
     exponent: Array  # int Re Lambda dt
     per_period: Array  # growth of the patch in a period of the mode (m)
 
@@ -133,9 +133,9 @@ def growth(history: ModeHistory, declared: Perturbation) -> Growth:
     """
     path = continued(history)
     if declared.kind == "strength":
-        return _growth(path, _log_gathered(history, path, declared))
+        return grown(path, _log_gathered(history, path, declared))
     log_power = trend(history, np.log(_power(history, declared)))(path.length)
-    return _growth(path, 0.5 * _log_variance(path, log_power))
+    return grown(path, 0.5 * _log_variance(path, log_power))
 
 
 def _power(history: ModeHistory, declared: Perturbation) -> Array:
@@ -165,47 +165,8 @@ def _log_gathered(history: ModeHistory, path: Path, declared: Perturbation) -> A
     return np.asarray(logs + 0.5 * np.log(np.maximum(squares, TINY)))
 
 
-def realised(history: ModeHistory, declared: Perturbation) -> Growth:
-    """How the mode grows in one realisation, that of the declared seed; its strength is not used.
-
-    ValueError if nothing is declared to be perturbed.
-    """
-    path = continued(history)
-    if declared.kind == "strength":
-        x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
-        rough = profile(declared.seed, declared.correlation_length, x)
-        sums = ((log, float(abs(a @ rough))) for log, a in roughness_weights(history, path, x))
-        return _growth(path, np.array([log + np.log(max(s, TINY)) for log, s in sums]))
-    return _growth(path, _log_integrated(path, _forcing(history, path, declared)))
-
-
-def _forcing(history: ModeHistory, path: Path, declared: Perturbation) -> ComplexArray:
-    """``g xi`` (1/s) at the times of a path, for the seed of a forcing in time."""
-    memory, seed = history.parameters.memory_time, declared.seed
-    time = declared.correlation_time * memory
-    if declared.kind == "state":
-        sheet = Sheet(seed, time, declared.correlation_length, history.x)
-        state = complex_trend(history, history.state / memory)
-        places = zip(path.length, path.time, strict=True)
-        return np.array([state(length) @ sheet.values(t) for length, t in places])
-    series = Series(seed, time)
-    if declared.kind == "normal_load":
-        weights = complex_trend(history, history.normal_load)
-        return weights(path.length) * [series.value(t) for t in path.time]
-    if declared.kind == "drive_velocity":
-        weights = complex_trend(history, history.drive * history.parameters.loading.velocity)
-        return weights(path.length) * [series.integral(t) for t in path.time]
-    raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
-
-
-def _log_integrated(path: Path, forcing: ComplexArray) -> Array:
-    """log|A| (per strength) from ``dA/dt = Lambda A + forcing``, from zero on, without overflow."""
-    exponent, step = exponent_of(path), path.time[1] - path.time[0]
-    seeds = np.cumsum(step * forcing * np.exp(-exponent))
-    return exponent.real + np.log(np.maximum(np.abs(seeds), TINY))
-
-
-def _growth(path: Path, log_amplitude: Array) -> Growth:
+def grown(path: Path, log_amplitude: Array) -> Growth:
+    """The growth along a path, from the logarithm of the amplitude at even times of it."""
     at = np.linspace(0, path.time.size - 1, log_amplitude.size)
     every = np.interp(np.arange(path.time.size), at, log_amplitude)
     speed = np.gradient(path.length, path.time)

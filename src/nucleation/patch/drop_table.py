@@ -22,7 +22,7 @@ from ..model.identity import fault
 from ..model.parameters import Parameters
 from ..model.perturbation import Perturbation
 from ..theory.creep.lengths import NoPatch
-from .delay import Growth, growth, realised
+from .delay import Growth, growth
 from .growth import FITTED
 from .mode_history import ModeHistory, mode_history
 
@@ -37,7 +37,6 @@ PREDICTED = {
     "predicted_length": Variable("m", "length at the drop by the law, median", "L_d"),
     "predicted_low": Variable("m", "length by which 16 % have dropped by the law", "L_d"),
     "predicted_high": Variable("m", "length by which 84 % have dropped by the law", "L_d"),
-    "realised_length": Variable("m", "length at the drop by the law for its own seed", "L_d"),
     "closed_form_length": Variable("m", "length at the drop by the law in one line", "L_d"),
     "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
     "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
@@ -77,14 +76,11 @@ def law_of(history: ModeHistory) -> Callable[[Row], Row]:
         kind, strength, scale = run["kind"], run["strength"], run["correlation_length"]
         law = known(kind, scale)
         drop, closed = law.drop(strength), law.closed_form(history, strength)
-        declared = Perturbation(kind=kind, correlation_length=scale, seed=int(run["seed"]))
-        own, _ = realised(history, declared).at(1.0 / strength)
         return row | {
             "stability_length": closed.stability_length,
             "predicted_length": drop.length,
             "predicted_low": drop.low,
             "predicted_high": drop.high,
-            "realised_length": own,
             "closed_form_length": closed.length,
             "effective_strength": closed.effective,
         }
