@@ -20,7 +20,7 @@ def crosschecks(solver):
 
 make_rule(
     "crosscheck_own",
-    call="nucleation.verification.crosscheck.timed:own",
+    call="nucleation.verification.crosscheck.own:of_run",
     shows="crosscheck/own/{name}",
     loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
     parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
@@ -60,7 +60,6 @@ make_rule(
         "freefem": crosschecks("freefem"),
         "table": only("compare_crosscheck"),
     },
-    ids=list(CROSSCHECKS),
     settings=asdict(settings.extraction),
     message="Crosscheck: patch length and driving force by both solvers",
 )

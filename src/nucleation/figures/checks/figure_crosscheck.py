@@ -12,7 +12,6 @@ from ...analysis.definitions import ExtractionSettings
 from ...analysis.record import Record
 from ...figures import style
 from ...model.parameters import Parameters
-from ...verification.crosscheck import plan
 
 KILO = 1e3
 PERCENT = 1e2
@@ -28,7 +27,6 @@ Curves = list[tuple[np.ndarray, np.ndarray]]
 
 @style.styled
 def draw(
-    ids: Sequence[str],
     own: Sequence[xr.Dataset],
     freefem: Sequence[xr.Dataset],
     table: xr.Dataset,
@@ -36,13 +34,11 @@ def draw(
 ) -> Figure:
     """Draw L(t), the driving force and their relative differences, one column for each run.
 
-    The run that times steps is left out. The column of two blocks says in a legend of its own what
+    The column of two blocks says in a legend of its own what
     the lower one is.
 
     Parameters
     ----------
-    ids : sequence of str
-        The runs.
     own, freefem : sequence of Dataset
         Their records by the project's solver and by FreeFem++: ``slip_rate(time, x)`` (m/s),
         ``driving_force(step)`` (N/m), and the attribute ``parameters``.
@@ -53,9 +49,8 @@ def draw(
         The slip rate at the edge of the patch.
     """
     layout: Any = {"sharex": "col", "squeeze": False, "height_ratios": (1.35, 1.35, 1.0)}
-    shown = [i for i, name in enumerate(ids) if name != plan.TIMING]
-    figure, panels = style.panels(3, len(shown), 13.2, **layout)
-    for i, (length, force, difference) in zip(shown, panels.T, strict=True):
+    figure, panels = style.panels(3, len(own), 13.2, **layout)
+    for i, (length, force, difference) in enumerate(panels.T):
         runs, row = (own[i], freefem[i]), table.isel(run=i)
         records = [Record(run, settings) for run in runs]
         lengths = [(record.time, record.lengths) for record in records]

@@ -31,8 +31,6 @@ COLUMNS = {
     "patch_length_elements": Variable("1", "largest difference of L(t) over the element's length"),
     "driving_force_rms": Variable("1", "relative difference of f_d(t), root mean square"),
     "driving_force_largest": Variable("1", "relative difference of f_d(t), largest"),
-    "step_seconds": Variable("s", "processor time of a step, median"),
-    "step_seconds_freefem": Variable("s", "processor time of a step of FreeFem++, median"),
     "steps": LENGTHS["steps"],
     "steps_freefem": Variable("1", "number of time steps of FreeFem++"),
 }
@@ -41,20 +39,19 @@ COLUMNS = {
 def compare(
     own: xr.Dataset, theirs: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
 ) -> dict[str, float]:
-    """The numbers of one row of the table: onset, critical length, differences, cost.
+    """The numbers of one row of the table: onset, critical length, differences.
 
     Parameters
     ----------
-    own, theirs : records of the same run by :func:`.timed.simulate_timed` and
+    own, theirs : records of the same run by :func:`.own.of_run` and
         :func:`nucleation.verification.crosscheck.freefem.run`.
     settings : edge of the patch and drop of the force.
 
     Returns
     -------
-    All of :data:`COLUMNS` but ``id``. Times in s, lengths in m; the time of a step is the median
-    processor time of the run's steps. Root mean squares and largest differences of L(t) and f_d(t)
-    are relative; the largest difference of L(t) is given in elements as well. NaN where a run has
-    no event or is too short, or has no patch before 0.9 of the onset.
+    All of :data:`COLUMNS` but ``id``. Times in s, lengths in m. Root mean squares and largest
+    differences of L(t) and f_d(t) are relative; the largest of L(t) is given in elements as well.
+    NaN where a run has no event or is too short, or has no patch before 0.9 of the onset.
     """
     runs, records = (own, theirs), [Record(run, settings) for run in (own, theirs)]
     parameters, measured = records[0].parameters, [extract(run, settings) for run in runs]
@@ -75,7 +72,6 @@ def compare(
         row |= {f"{name}_rms": float(rms), f"{name}_largest": _largest(ratio - 1.0)}
     for whose, found, run in zip(("", "_freefem"), measured, runs, strict=True):
         row |= {f"{name}{whose}": found[name] for name in ("onset_time", "length")}
-        row[f"step_seconds{whose}"] = float(np.median(np.diff(run["elapsed_time"].values)))
         row[f"steps{whose}"] = run.attrs["steps"]
     return row
 

@@ -23,7 +23,7 @@ from ...model.quantities import ParameterError
 from ...simulation.event import FAST
 from ...simulation.realisation import Series, Sheet
 from ...simulation.recorded import RECORDED
-from .plan import FIXED, KINDS, LOADINGS, TIMES, CrosscheckSettings
+from .plan import FIXED, KINDS, LOADINGS, CrosscheckSettings
 
 PROGRAM = "FreeFem++-nw"
 PLUGINS = "/usr/lib/freefem++"  # where Debian has them; the program looks elsewhere
@@ -48,7 +48,6 @@ STEPS = {
     **some(RECORDED, "step_time", "step_size", "driving_force", "maximal_slip_rate"),
     "newton_iterations": RECORDED["newton_iterations"],
     "factorisations": Variable("1", "factorised matrices of the step"),
-    **TIMES,
 }
 
 
@@ -184,11 +183,7 @@ def read(directory: Path, parameters: Parameters) -> xr.Dataset:
     data = {name: (("time", "x"), fields[:, i]) for i, name in enumerate(FIELDS)}
     data |= {name: (("step",), row) for name, row in rows.items()}  # type: ignore[misc]
     coords = {"time": frames[:, 0], "x": np.linspace(0.0, geometry.length, nodes)}
-    attributes = {
-        "parameters": parameters.to_json(),
-        "steps": steps.shape[0],
-        "processor_seconds": float(rows["elapsed_time"][-1]),
-    }
+    attributes = {"parameters": parameters.to_json(), "steps": steps.shape[0]}
     return annotate(xr.Dataset(data, coords=coords, attrs=attributes), RECORDED | STEPS)
 
 

@@ -2,7 +2,6 @@
 
 import dataclasses
 
-from ...datasets.variables import Variable
 from ...model.checked import Checked
 from ...model.linearised import InterfaceState
 from ...model.parameters import Parameters
@@ -23,12 +22,8 @@ KINDS = ("none", *IN_TIME)
 LOADINGS = ("edge", "top")
 """Loadings that the script has."""
 
-TIMING = "timing"  # name of the run that times steps on the paper's mesh
 PAIR = "pair"  # name of the run of two blocks
 TOP = "top"  # name of the run of two blocks that is loaded at its top
-
-TIMES = {"elapsed_time": Variable("s", "processor time since the start of the run")}
-"""What either solver's record has of its cost."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -93,13 +88,6 @@ class CrosscheckSettings(Checked):
         "longest time step of both solvers in that run over the memory time D/V, as its load has "
         "no sharp maximum", low=0.0, high=1.0, closed="high", default=0.02,
     )  # fmt: skip
-    timing_n_x: int = quantity("number of elements along x of the mesh on which steps are timed",
-                               low=8, high=100000, closed="both", default=400)  # fmt: skip
-    timing_n_y: int = quantity("number of elements along y of the mesh on which steps are timed",
-                               low=2, high=10000, closed="both", default=150)  # fmt: skip
-    timing_end: float = quantity(
-        "simulated time of the run that times steps", unit="s", low=0.0, high=1e12, default=0.05
-    )
 
 
 def runs(
@@ -125,13 +113,9 @@ def runs(
         mesh = {"mesh.n_x": settings.n_x, "mesh.n_y": settings.n_y}
         block = common.replaced({"geometry.height": height} | mesh)
         found[f"H{height:g}"] = _long(block, settings, interface)
-    timing = {
-        "mesh.n_x": settings.timing_n_x, "mesh.n_y": settings.timing_n_y,
-        "stepping.end_time": settings.timing_end,
-    }  # fmt: skip
     found[PAIR] = _pair(common, settings, interface)
     found[TOP] = _top(common, settings)
-    return found | {TIMING: found[f"H{settings.heights[0]:g}"].replaced(timing)}
+    return found
 
 
 def _pair(
