@@ -12,17 +12,11 @@ import yaml
 
 from .claim import Claim, Verdict
 from .said import read
-from .statements import (
-    bimaterial,
-    finite_height,
-    simulations,
-    sliding,
-    two_bodies,
-)
+from .statements import finite_height, simulations, sliding, two_bodies
 
 SUBJECTS = {
     "homogeneous sliding": sliding,
-    "bimaterial interfaces": bimaterial,
+    "bimaterial interfaces": finite_height,
     "finite height": finite_height,
     "friction law": sliding,
     "critical lengths": simulations,

@@ -19,8 +19,8 @@ from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length, reason_of_stability
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
+from .fault_options import of_parameters, told
 from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
-from .system import of_parameters, told
 from .text import to_json
 
 if TYPE_CHECKING:

@@ -1,6 +1,5 @@
 """``nucleation export``: fields of a simulation as text."""
 
-import io
 from pathlib import Path
 
 import click
@@ -44,11 +43,6 @@ def command(file: Path, folder: Path, force: bool) -> int:
 
 def _csv(field: xr.DataArray) -> str:
     """A field on (time, x), times (s) down and x (m) across."""
-    import numpy as np
-
-    text = io.StringIO()
-    across = ",".join(f"{value:.12g}" for value in field["x"].values)
-    text.write(f"{field.name} ({field.attrs['units']}): time (s) down / x (m) across,{across}\n")
-    rows = np.column_stack([field["time"].values, field.transpose("time", "x").values])
-    np.savetxt(text, rows, fmt="%.9g", delimiter=",")
-    return text.getvalue()
+    head = f"{field.name} ({field.attrs['units']}): time (s) down / x (m) across"
+    table = field.transpose("time", "x").to_pandas()
+    return str(table.to_csv(index_label=head, float_format="%.9g"))

@@ -26,9 +26,18 @@ from ..theory.arrays import critical_mode, reason_of_stability
 from ..theory.creep.lengths import stability_values
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE
-from .fault_options import doubts_told, fault_options, fault_values, parameters_of, said_of
+from .fault_options import (
+    BEGINS,
+    doubts_told,
+    fault_options,
+    fault_values,
+    one_material,
+    parameters_of,
+    said_of,
+    scales,
+    systems_of_lengths,
+)
 from .options import given_of, option
-from .system import BEGINS, one_material, scales, systems_of_lengths
 from .text import to_json, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain
 

@@ -19,6 +19,7 @@ from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..model.second_body import SecondBody
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
+from .fault_options import told
 from .options import (
     STUDY,
     flat,
@@ -30,7 +31,6 @@ from .options import (
     source_options,
     sourced,
 )
-from .system import told
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]

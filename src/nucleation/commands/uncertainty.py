@@ -15,8 +15,7 @@ from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
 from ..theory.fault import Fault
 from . import DONE, STABLE
-from .fault_options import doubts_told, parameters_of, said_of
-from .system import systems_of_lengths
+from .fault_options import doubts_told, parameters_of, said_of, systems_of_lengths
 from .text import to_json, wrapped
 
 samples_option = click.option(

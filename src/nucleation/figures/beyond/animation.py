@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
+from ...analysis.film import event_interval
 from ...analysis.lengths import row
-from ...analysis.moments import event_interval
 from ...analysis.record import parameters_of
 from ...datasets.files import replacing
 from ...figures import style

@@ -1,13 +1,14 @@
 """Which runs are made by both solvers, and on which meshes and steps."""
 
 import dataclasses
+from typing import Any
 
 from ...model.checked import Checked
 from ...model.linearised import InterfaceState
 from ...model.parameters import Parameters
 from ...model.perturbation import IN_TIME
 from ...model.quantities import quantity
-from ...model.second_body import BOTTOMS, SecondBody
+from ...model.second_body import SecondBody
 from ...theory.critical import run_length
 
 FIXED = {
@@ -22,8 +23,20 @@ KINDS = ("none", *IN_TIME)
 LOADINGS = ("edge", "top")
 """Loadings that the script has."""
 
-PAIR = "pair"  # name of the run of two blocks
-TOP = "top"  # name of the run of two blocks that is loaded at its top
+TWO_BLOCKS: dict[str, tuple[dict[str, Any], SecondBody]] = {
+    "pair": (
+        {"geometry.height": 0.02, "mesh.n_x": 300, "mesh.n_y": 6},
+        SecondBody(kind="deformable", bottom="clamped", shear_modulus=6.2e9),
+    ),
+    "top": (  # up to the event: then a corner lifts off; its load has no sharp maximum
+        {
+            "geometry.height": 0.1, "geometry.length": 1.5, "mesh.n_x": 240, "mesh.n_y": 12,
+            "loading.kind": "top", "stepping.longest_step": 0.02, "stepping.time_after_event": 0.0,
+        },
+        SecondBody(kind="deformable", bottom="clamped"),
+    ),
+}  # fmt: skip
+"""Runs of two blocks, both as high: what else they have than the others, and the lower block."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,33 +74,6 @@ class CrosscheckSettings(Checked):
         "time simulated by both solvers after the onset of the event", unit="s", low=0.0,
         high=1e12, closed="low", default=0.05,
     )  # fmt: skip
-    pair_height: float = quantity(
-        "height of both blocks of the run of two", unit="m", low=0.0, high=1e6, default=0.02
-    )
-    pair_shear_modulus: float = quantity(
-        "shear modulus of the lower block of that run", unit="Pa", low=0.0, high=1e13,
-        default=6.2e9,
-    )  # fmt: skip
-    pair_bottom: str = quantity(
-        "far side of the lower block of that run", choices=BOTTOMS, default="clamped"
-    )
-    pair_n_x: int = quantity("number of elements along x in that run", low=8, high=100000,
-                             closed="both", default=300)  # fmt: skip
-    pair_n_y: int = quantity("number of elements along y in either block of that run", low=2,
-                             high=10000, closed="both", default=6)  # fmt: skip
-    top_height: float = quantity(
-        "height of both blocks of the run that is loaded at its top", unit="m", low=0.0, high=1e6,
-        default=0.1,
-    )  # fmt: skip
-    top_length: float = quantity("length of those blocks", unit="m", low=0.0, high=1e9, default=1.5)
-    top_n_x: int = quantity("number of elements along x in that run, an even number", low=8,
-                            high=100000, closed="both", default=240)  # fmt: skip
-    top_n_y: int = quantity("number of elements along y in either block of that run", low=2,
-                            high=10000, closed="both", default=12)  # fmt: skip
-    top_longest_step: float = quantity(
-        "longest time step of both solvers in that run over the memory time D/V, as its load has "
-        "no sharp maximum", low=0.0, high=1.0, closed="high", default=0.02,
-    )  # fmt: skip
 
 
 def runs(
@@ -113,34 +99,10 @@ def runs(
         mesh = {"mesh.n_x": settings.n_x, "mesh.n_y": settings.n_y}
         block = common.replaced({"geometry.height": height} | mesh)
         found[f"H{height:g}"] = _long(block, settings, interface)
-    found[PAIR] = _pair(common, settings, interface)
-    found[TOP] = _top(common, settings)
+    for name, (changes, below) in TWO_BLOCKS.items():
+        both = dataclasses.replace(common, second_body=below).replaced(changes)
+        found[name] = both if "geometry.length" in changes else _long(both, settings, interface)
     return found
-
-
-def _pair(
-    common: Parameters, settings: CrosscheckSettings, interface: InterfaceState
-) -> Parameters:
-    """Two blocks of one height and different stiffness."""
-    below = SecondBody(
-        kind="deformable", bottom=settings.pair_bottom, shear_modulus=settings.pair_shear_modulus
-    )
-    mesh = {"mesh.n_x": settings.pair_n_x, "mesh.n_y": settings.pair_n_y}
-    both = dataclasses.replace(common, second_body=below).replaced(
-        mesh | {"geometry.height": settings.pair_height}
-    )
-    return _long(both, settings, interface)
-
-
-def _top(common: Parameters, settings: CrosscheckSettings) -> Parameters:
-    """Two blocks that are alike, up to the event: then a corner lifts off."""
-    below = SecondBody(kind="deformable", bottom="clamped")
-    changes = {
-        "geometry.height": settings.top_height, "geometry.length": settings.top_length,
-        "mesh.n_x": settings.top_n_x, "mesh.n_y": settings.top_n_y, "loading.kind": "top",
-        "stepping.longest_step": settings.top_longest_step, "stepping.time_after_event": 0.0,
-    }  # fmt: skip
-    return dataclasses.replace(common, second_body=below).replaced(changes)
 
 
 def _long(run: Parameters, settings: CrosscheckSettings, interface: InterfaceState) -> Parameters:
