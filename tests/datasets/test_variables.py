@@ -48,7 +48,6 @@ def test_a_name_means_the_same_wherever_it_is_declared():
     [
         ("nucleation.simulation.run", {RECORDED}),
         ("nucleation.patch.growth", {RECORDED, "nucleation.patch.growth"}),
-        (f"{CROSSCHECK}.own", {RECORDED}),
         (f"{CROSSCHECK}.freefem", {RECORDED, f"{CROSSCHECK}.freefem"}),
     ],
 )

@@ -58,8 +58,7 @@ def content(settings, table, tmp_path_factory):
         provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
         results={"theory": theory, "lengths": table},
         pictures=[
-            page.Picture("figure_2", entry.title, entry.category, [png, pdf], caption, {},
-                         entry.data)
+            page.Picture("figure_2", entry, [png, pdf], caption, {})
         ],
         claims=CLAIMS,
     )  # fmt: skip

@@ -14,7 +14,7 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
 from nucleation.figures import catalogue
-from nucleation.report import answer, encode, page, tables
+from nucleation.report import encode, page, tables
 
 ROOT = encode.HERE.parents[2]
 
@@ -57,12 +57,12 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
     runs = [run(**quiet), run(**quiet | noisy), run(**quiet | {"height": 0.1, "length": 0.2})]
     runs = [run.assign(ensemble=("run", [str(i)])) for i, run in enumerate(runs)]
     runs[2]["fault"] = "run", ["another"]
-    shown = answer.of_paper(xr.concat(runs, "run"))
+    shown = tables.of_paper(xr.concat(runs, "run"))
     assert [shown[name] for name in ("length", "low", "high")] == ["0.156", "0.138", "0.162"]
     assert shown["ratios"] == {"paper": "0.66 to 0.85", "converged": "0.69"}
     assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
     assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "0.001"
-    assert answer.of_paper(run(role="own")) is None
+    assert tables.of_paper(run(role="own")) is None
 
 
 # ---- Parts
@@ -173,11 +173,12 @@ def test_no_text_becomes_a_part_of_the_page(content):
     words = ("where", "statement", "paper", "unit", "reason", "quotation", "method")
     claims = [{**claim, **dict.fromkeys(words, EVIL)} for claim in content.claims]
     (picture,) = content.pictures
+    entry = picture.entry._replace(title=EVIL, category=EVIL)
     evil = content._replace(
         config={**content.config, "studies": {"s": {"description": EVIL}}, EVIL: EVIL},
         provenance={"versions": json.dumps({EVIL: EVIL}), "created": EVIL, "code_digest": EVIL},
         results={**content.results, "lengths": lengths, EVIL: lengths},
-        pictures=[picture._replace(title=EVIL, name=EVIL, category=EVIL)],
+        pictures=[picture._replace(name=EVIL, entry=entry)],
         claims=claims,
     )
     good, bad = Tags(page.build(content)), Tags(page.build(evil))

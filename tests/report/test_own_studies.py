@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 from nucleation.figures import catalogue
-from nucleation.report import answer, page, tables
+from nucleation.report import page, tables
 
-STUDIES = answer.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
+STUDIES = tables.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +24,8 @@ def two_faults(table):
 
 @pytest.fixture(scope="module")
 def html(content, two_faults):
-    figure = content.pictures[0]._replace(name="study_mine", category=catalogue.OWN)
+    figure = content.pictures[0]
+    figure = figure._replace(name="study_mine", entry=figure.entry._replace(category=catalogue.OWN))
     results = {**content.results, "lengths": two_faults}
     mine = content._replace(claims=None, pictures=[figure], own=STUDIES, results=results)
     return page.build(mine)

@@ -20,7 +20,6 @@ from nucleation.model.perturbation import IN_TIME, Perturbation
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.run import simulate
 from nucleation.verification.crosscheck import compare, freefem
-from nucleation.verification.crosscheck import own as own_solver
 from nucleation.verification.crosscheck.plan import CrosscheckSettings, runs
 
 pytestmark = pytest.mark.system
@@ -190,7 +189,7 @@ def test_both_solvers_agree_on_a_pair(tmp_path, loading, bottom, rms):
 
 def test_comparison_of_two_records(pair):
     """A run without an event has no differences. A drop and fast slip make an event."""
-    own = own_solver.of_run(PARAMETERS)
+    own = simulate(PARAMETERS)
     row = compare.compare(own, pair[1])
     assert set(row) == set(compare.COLUMNS) - {"id"}
     assert np.isnan(row["onset_time"]) and np.isnan(row["patch_length_rms"])

@@ -20,7 +20,7 @@ def crosschecks(solver):
 
 make_rule(
     "crosscheck_own",
-    call="nucleation.verification.crosscheck.own:of_run",
+    call="nucleation.simulation.run:simulate",
     shows="crosscheck/own/{name}",
     loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
     parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),

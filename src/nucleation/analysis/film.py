@@ -58,10 +58,7 @@ def chosen_frames(time: Array, event: tuple[float, float], most: tuple[int, int,
 
 MOST_FRAMES = (45, 70, 5)  # before, in and after the event
 MOST_COLUMNS, MOST_ROWS = 241, 31
-FILMED = {
-    **RECORDED,
-    "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy"),
-}
+FILMED = {**RECORDED, "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy")}
 SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 

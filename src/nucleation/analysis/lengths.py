@@ -98,9 +98,7 @@ GIVEN = {parameter.partition(".")[2]: parameter for parameter in _SAME} | {
 
 
 def gather(
-    runs: Iterable[dict[str, Any]],
-    simulations: Iterable[xr.Dataset],
-    settings: ExtractionSettings,
+    runs: Iterable[dict[str, Any]], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
 ) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, with what is extracted from simulations.
 

@@ -107,10 +107,7 @@ def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
 
 
 def role_problems(
-    studies: Mapping[str, Any],
-    runs: Sequence[Run],
-    figures: FigureSettings,
-    base: Parameters,
+    studies: Mapping[str, Any], runs: Sequence[Run], figures: FigureSettings, base: Parameters
 ) -> Iterator[str]:
     """What studies lack for their roles, a line for each, with key, value and what it must be."""
     having: dict[str, str] = {}

@@ -13,19 +13,17 @@ from markupsafe import Markup
 from ..figures import catalogue
 from ..figures.paper import table_s1
 from ..model.friction.law import Friction
-from ..report import answer, calculator, encode, tables
+from ..report import calculator, encode, tables
 
 
 class Picture(NamedTuple):
     """A figure or an animation of the page: files, caption's template and its parameters."""
 
     name: str
-    title: str
-    category: str
+    entry: catalogue.Entry
     files: list[Path]  # the first is shown, the others can be downloaded
     caption: str
     params: dict[str, Any]
-    data: tuple[catalogue.Data, ...] = ()
 
 
 class Content(NamedTuple):
@@ -38,7 +36,7 @@ class Content(NamedTuple):
     results: dict[str, xr.Dataset]  # datasets by name
     pictures: list[Picture]
     claims: list[dict[str, Any]] | None = None
-    own: answer.OwnStudies | None = None  # with which the page begins
+    own: tables.OwnStudies | None = None  # with which the page begins
 
 
 def write(
@@ -66,16 +64,16 @@ def write(
     entries = catalogue.FIGURES | catalogue.of_studies(studies)
     pictures = [
         Picture(
-            name, entries[name].title, entries[name].category,
+            name, entries[name],
             [file for file in (path, path.with_suffix(".pdf")) if file.is_file()],
-            caption.read_text("utf-8"), caption_values.get(name, {}), entries[name].data,
+            caption.read_text("utf-8"), caption_values.get(name, {}),
         )
         for name, path, caption in zip(names, figures, captions, strict=True)
     ]  # fmt: skip
     content = Content(
         fault, friction, config, dict(origin), results, pictures,
         claims=json.loads(claims[0].read_text("utf-8")) if claims else None,
-        own=answer.OwnStudies(studies, warnings) if leads else None,
+        own=tables.OwnStudies(studies, warnings) if leads else None,
     )  # fmt: skip
     return {".html": build(content)}
 
@@ -95,9 +93,9 @@ def build(content: Content) -> str:
     if lengths is not None:
         runs = tables.run_rows(lengths, tables.LENGTH_COLUMNS)
     if lengths is not None and content.own is None:
-        first = answer.of_paper(lengths)
+        first = tables.of_paper(lengths)
     elif lengths is not None and content.own is not None:
-        studies, fault_rows = answer.of_studies(content.own, lengths), tables.fault_rows(lengths)
+        studies, fault_rows = tables.of_studies(content.own, lengths), tables.fault_rows(lengths)
         groups.pop(catalogue.OWN, None)
     if first and "figure_3" in pictures:
         groups[catalogue.PAPER].remove(pictures["figure_3"])
@@ -121,11 +119,14 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
         downloads = [
             encode.download(f"{picture.name}{path.suffix}", path.read_bytes()) for path in others
         ]
-        downloads += [_table(content.results, data) for data in picture.data]
-        groups.setdefault(picture.category, []).append(
+        downloads += [
+            encode.download(data.name, tables.csv_of(content.results[data.dataset], data.variables))
+            for data in picture.entry.data
+        ]
+        groups.setdefault(picture.entry.category, []).append(
             {
                 "name": picture.name,
-                "title": picture.title,
+                "title": picture.entry.title,
                 "moves": shown.suffix == ".gif",
                 "image": encode.data_address(shown.read_bytes(), shown.name),
                 "caption": Markup(encode.caption_html(picture.caption, picture.params)),
@@ -133,11 +134,6 @@ def _groups(content: Content) -> dict[str, list[dict[str, Any]]]:
             }
         )
     return groups
-
-
-def _table(results: Mapping[str, xr.Dataset], data: catalogue.Data) -> dict[str, str]:
-    text = tables.csv_text(results[data.dataset], data.variables)
-    return encode.download(data.name, text.encode())
 
 
 def _origin(content: Content) -> dict[str, Any]:

@@ -1,9 +1,10 @@
-"""Tables of the report: verdicts, lengths with their cost, CSV."""
+"""What the report says in numbers: its answer, verdicts, lengths with their cost, faults, CSV."""
 
 import html
 import math
 import re
 from collections import Counter
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,27 +13,19 @@ from docutils.utils.math import MathError
 from docutils.utils.math.latex2mathml import tex2mathml
 from markupsafe import Markup
 
-from ..analysis.rows import rows_of
+from ..analysis.lengths import over_realisations
+from ..analysis.rows import rows_of, without_event
+from ..configuration.roles import JUDGED, PAPERS
 from ..model.identity import DIGITS
 
-
-class Quantity(NamedTuple):
-    """One number of the theory: a column of a table of lengths, and how it is shown."""
-
-    variable: str
-    symbol: str
-    unit: str = ""
-    factor: float = 1.0  # SI over the unit shown
-
-
-QUANTITIES = (
-    Quantity("shear_modulus", "μ", "GPa", 1e9), Quantity("poisson_ratio", "ν"),
-    Quantity("applied_stress", "σ₀", "MPa", 1e6), Quantity("friction_coefficient", "f"),
-    Quantity("direct_effect", "a"), Quantity("velocity_weakening", "ζ"),
-    Quantity("slip_distance", "ℓ = D", "µm", 1e-6), Quantity("velocity", "V", "µm/s", 1e-6),
-)  # fmt: skip
-"""What makes a fault of its own for the theory, on what lies below (:data:`BELOW`). Runs of other
-heights, laws and ages are of the same one."""
+QUANTITIES = {
+    "shear_modulus": ("μ (GPa)", 1e9), "poisson_ratio": ("ν", 1.0),
+    "applied_stress": ("σ₀ (MPa)", 1e6), "friction_coefficient": ("f", 1.0),
+    "direct_effect": ("a", 1.0), "velocity_weakening": ("ζ", 1.0),
+    "slip_distance": ("ℓ = D (µm)", 1e-6), "velocity": ("V (µm/s)", 1e-6),
+}  # fmt: skip
+"""Columns that make a fault of its own for the theory, on what lies below (:data:`BELOW`), with
+their titles and units. Runs of other heights, laws and ages are of the same one."""
 
 BELOW = ("below", "far_side", "second_shear_modulus", "second_poisson_ratio", "plane")
 
@@ -48,12 +41,11 @@ class Fault(NamedTuple):
 def faults(lengths: xr.Dataset) -> list[Fault]:
     """The faults of a table of lengths, in the order of their first runs."""
     found: dict[tuple[Any, ...], list[int]] = {}
-    names = [quantity.variable for quantity in QUANTITIES]
-    columns = [lengths[name].values.tolist() for name in (*names, *BELOW)]
+    columns = [lengths[name].values.tolist() for name in (*QUANTITIES, *BELOW)]
     for i, values in enumerate(zip(*columns, strict=True)):
         found.setdefault(tuple(map(_mark, values)), []).append(i)
     return [
-        Fault(n, dict(zip(names, mark, strict=False)), runs)
+        Fault(n, dict(zip(QUANTITIES, mark, strict=False)), runs)
         for n, (mark, runs) in enumerate(found.items(), start=1)
     ]
 
@@ -174,22 +166,110 @@ def run_rows(lengths: xr.Dataset, columns: tuple[str, ...]) -> list[dict[str, st
 
 def fault_rows(lengths: xr.Dataset) -> list[dict[str, str]]:
     """The faults of a table of lengths, one row for each: texts by column."""
-    names = {q: f"{q.symbol} ({q.unit})" if q.unit else q.symbol for q in QUANTITIES}
     return [
         {
             "Fault": str(fault.number),
-            **{name: number(fault.values[q.variable] / q.factor) for q, name in names.items()},
+            **{t: number(fault.values[name] / unit) for name, (t, unit) in QUANTITIES.items()},
             "Runs": str(len(fault.runs)),
         }
         for fault in faults(lengths)
     ]
 
 
-def csv_text(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> str:
+def csv_of(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> bytes:
     """Some variables of a dataset (all if none is named) as CSV, units in the header."""
     chosen = dataset[list(variables)] if variables else dataset
     frame = chosen.to_dataframe().reset_index()
     frame = frame.drop(columns=[c for c in frame if c not in dataset.variables])
     units = {name: dataset[name].attrs.get("units", "1") for name in frame}
     titles = {n: n if unit == "1" else f"{n} ({unit})" for n, unit in units.items()}
-    return frame.rename(columns=titles).to_csv(index=False)
+    return bytes(frame.rename(columns=titles).to_csv(index=False).encode())
+
+
+class OwnStudies(NamedTuple):
+    """Studies that the paper does not have, with which the report begins.
+
+    Attributes
+    ----------
+    descriptions : what each study is for, by name.
+    warnings : of each, given before the runs (:mod:`nucleation.configuration.advice`).
+    """
+
+    descriptions: dict[str, str]
+    warnings: dict[str, list[str]]
+
+
+def of_paper(lengths: xr.Dataset) -> dict[str, Any] | None:
+    """Numbers of the first sentences, as text; None where no run of the paper had an event.
+
+    Returns
+    -------
+    dict
+        ``height`` of the lowest block and ``thickest``, ``length`` at the
+        drop with its range ``low`` and ``high`` over the definitions of edge and drop, ``theory``
+        (L_c) and ``stability`` (L_s), all in m; ``ratios``, the ends of length over L_c for all
+        runs of each role; ``creep``, those of L_s/L_c; ``declared``, the same fault under a
+        declared perturbation, its ``kind`` and relative ``strength`` (%), or None.
+    """
+    rows = [row for row in rows_of(over_realisations(lengths)) if np.isfinite(row["length"])]
+    own = {role: [row for row in rows if row["role"] == role] for role in (PAPERS, JUDGED)}
+    if not own[PAPERS]:
+        return None
+    first = min(own[PAPERS], key=lambda row: row["height"])
+    declared = [row for row in own[JUDGED] if row["fault"] == first["fault"]]
+    return {
+        **_numbers(first),
+        "thickest": f"{max(row['height'] for row in own[PAPERS]):g}",
+        "declared": _numbers(declared[0]) if declared else None,
+        "ratios": {role: _over_theory(chosen, "length") for role, chosen in own.items() if chosen},
+        "creep": _over_theory(own[PAPERS], "creep_length"),
+    }
+
+
+def _numbers(row: dict[str, Any]) -> dict[str, str]:
+    names = {"length": "length", "low": "length_low", "high": "length_high"}
+    names |= {"theory": "theory_length", "stability": "creep_length"}
+    return {
+        "height": f"{row['height']:g}",
+        "kind": row["kind"].replace("_", " "),
+        "strength": f"{100.0 * row['strength']:g}",
+        **{name: f"{row[column]:.3g}" for name, column in names.items()},
+    }
+
+
+def of_studies(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
+    """Each study's words and rows (:data:`.tables.RUN_COLUMNS`), for the page's template."""
+    result = []
+    shown = run_rows(lengths, RUN_COLUMNS)
+    for study, description in own.descriptions.items():
+        chosen = np.flatnonzero(lengths["study"].values == study).tolist()
+        rows = rows_of(lengths, chosen)
+        result.append(
+            {
+                "name": study,
+                "description": description,
+                "rows": [shown[i] for i in chosen],
+                "quiet": without_event(rows),
+                "answer": _of_study([row for row in rows if np.isfinite(row["length"])]),
+                "warnings": own.warnings.get(study, []),
+            }
+        )
+    return result
+
+
+def _of_study(rows: list[dict[str, Any]]) -> dict[str, str] | None:
+    """Ends of the runs' lengths, L_c and L_s (m), and their ratios; None without an event."""
+    columns = {"length": "length", "critical": "theory_length", "stability": "creep_length"}
+    said = {name: _ends((row[column] for row in rows), ".3g") for name, column in columns.items()}
+    return said | {"ratio": _over_theory(rows, "length")} if rows else None
+
+
+def _over_theory(rows: list[dict[str, Any]], column: str) -> str:
+    return _ends((row[column] / row["theory_length"] for row in rows), ".2f")
+
+
+def _ends(values: Iterable[float], digits: str) -> str:
+    """The least and the largest of some values, nothing without any."""
+    known = [value for value in values if np.isfinite(value)]
+    ends = (min(known), max(known)) if known else ()
+    return " to ".join(dict.fromkeys(format(end, digits) for end in ends))

@@ -61,10 +61,7 @@ def stiffness_bounds(
 
 def _product(low: Array, high: Array, x_low: Array, x_high: Array) -> tuple[Array, Array]:
     """The extremes of a positive quantity times one of either sign."""
-    return (
-        np.where(x_low > 0.0, low, high) * x_low,
-        np.where(x_high > 0.0, high, low) * x_high,
-    )
+    return (np.where(x_low > 0.0, low, high) * x_low, np.where(x_high > 0.0, high, low) * x_high)
 
 
 def transfer_bounds(k_low: Array, k_high: Array, pair: Pair) -> TransferBounds:

@@ -30,10 +30,7 @@ SHOWN_LENGTHS = 1.4  # width of the panel in critical lengths
 
 @style.styled
 def draw(
-    theory: xr.Dataset,
-    lengths: xr.Dataset,
-    inset_simulation: xr.Dataset,
-    inset_row: xr.Dataset,
+    theory: xr.Dataset, lengths: xr.Dataset, inset_simulation: xr.Dataset, inset_row: xr.Dataset
 ) -> Figure:
     """Draw ``L_c(H)`` with the simulations as points, and slip-rate snapshots as an inset.
 

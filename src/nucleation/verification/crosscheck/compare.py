@@ -15,7 +15,7 @@ from ...analysis.definitions import ExtractionSettings
 from ...analysis.extraction import extract
 from ...analysis.lengths import COLUMNS as LENGTHS
 from ...analysis.record import Record
-from ...datasets.variables import Variable, some, table
+from ...datasets.variables import DatasetError, Variable, some, table
 from ...types import Array
 
 SETTLED = 20.0  # start of the comparison, in units of D/V
@@ -43,7 +43,7 @@ def compare(
 
     Parameters
     ----------
-    own, theirs : records of the same run by :func:`.own.of_run` and
+    own, theirs : records of the same run by :func:`nucleation.simulation.run.simulate` and
         :func:`nucleation.verification.crosscheck.freefem.run`.
     settings : edge of the patch and drop of the force.
 
@@ -85,6 +85,10 @@ def compared(
     settings: ExtractionSettings,
 ) -> xr.Dataset:  # fmt: skip
     """:data:`COLUMNS` on ``run``, each run by both solvers."""
+    own = list(own)
+    for id, run in zip(ids, own, strict=True):
+        if not run.attrs["completed"]:
+            raise DatasetError(f"the run {id} has no result: {run.attrs['status']}")
     rows = [
         {"id": id, **compare(one, other, settings)}
         for id, one, other in zip(ids, own, freefem, strict=True)
