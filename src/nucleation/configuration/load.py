@@ -126,10 +126,6 @@ def _group(name: str, values: dict[str, Any]) -> Any:
     return schema.GROUPS[name](**{key: in_type(entries[key], own) for key, own in values.items()})
 
 
-def _is_integer(_: Any, value: Any) -> bool:
-    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
-
-
 def _is_finite(_: Any, value: Any) -> bool:
     if not isinstance(value, numbers.Real) or isinstance(value, bool):
         return False
@@ -139,7 +135,10 @@ def _is_finite(_: Any, value: Any) -> bool:
 _Validator = jsonschema.validators.extend(
     jsonschema.Draft202012Validator,
     type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine_many(
-        {"integer": _is_integer, "number": _is_finite}
+        {
+            "integer": lambda _, v: isinstance(v, numbers.Integral) and not isinstance(v, bool),
+            "number": _is_finite,
+        }
     ),
 )
 
