@@ -42,7 +42,7 @@ def with_one_that_fails(study_name):
     return values
 
 
-READ_ONE_BY_ONE = "quiet"
+READ_ONE_BY_ONE = "sensitivity"
 """A role, and a study with it, of whose simulations other results are made one by one."""
 
 
@@ -187,8 +187,8 @@ def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     quiet = workflow.configured(configuration(2, study_name=READ_ONE_BY_ONE))
     planned = quiet.planned("lengths")
     assert [name for name in planned if "simulate" in name] == [
-        "simulate_quiet_0",
-        "simulate_quiet_1",
+        "simulate_sensitivity_0",
+        "simulate_sensitivity_1",
     ]
     done = quiet("lengths", "--cores", "2")
     assert done.returncode == 0, done.stdout

@@ -46,7 +46,7 @@ def test_in_the_workflow(workflow):
 
     html = (results / "report.html").read_text(encoding="utf-8")
     body = html.partition("<main")[2]
-    assert body.index("Study granite") < body.index("The theory, for any material")
+    assert body.index("Study granite") < body.index("The theory, for any fault")
     assert "1 of 3 runs had no event" in body and "Warned of before the runs" in body
     assert "What was replicated" not in html and '<figure id="figure_3">' not in html
 

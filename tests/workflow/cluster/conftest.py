@@ -14,7 +14,7 @@ import psutil
 import pytest
 from commands_of_slurm import output_of, wait_for
 
-SCRIPTS = Path(__file__).parents[3] / "workflow" / "slurm"
+SCRIPTS = Path(__file__).parent / "slurm"
 STATE = Path("/run/nucleation-slurm")
 AS_ROOT = [] if os.geteuid() == 0 else ["sudo", "--non-interactive"]
 
