@@ -101,6 +101,15 @@ def test_runs_without_an_event_have_dashes(table):
     assert row == {"Onset (s)": "–", "Over theory": "–"}
 
 
+def test_what_is_downloaded_has_a_line_for_each_row(table):
+    """A table with curves beside its rows once made a report of 650 MB."""
+    beside = table.assign(
+        curve=("place", np.arange(50.0)), profile=(("case", "place"), np.ones((4, 50)))
+    )
+    head, *rows = tables.csv_of(beside).decode().splitlines()
+    assert len(rows) == table.sizes["run"] and "height (m)" in head and "curve" not in head
+
+
 # ---- Texts
 
 

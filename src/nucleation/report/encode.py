@@ -17,7 +17,6 @@ CAPTIONS = {
     "math_output": "MathML",  # shown by browsers without any script
     "report_level": 2,
     "halt_level": 2,  # a mistake in a caption stops the report
-    "initial_header_level": 3,
     "file_insertion_enabled": False,
     "raw_enabled": False,
 }

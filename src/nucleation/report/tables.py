@@ -177,9 +177,10 @@ def fault_rows(lengths: xr.Dataset) -> list[dict[str, str]]:
 
 
 def csv_of(dataset: xr.Dataset, variables: tuple[str, ...] = ()) -> bytes:
-    """Some variables of a dataset (all if none is named) as CSV, units in the header."""
+    """Some variables of a dataset as CSV, all if none is named; of a table its rows alone."""
     chosen = dataset[list(variables)] if variables else dataset
-    frame = chosen.to_dataframe().reset_index()
+    others = {*chosen.dims} - {"run"} if "run" in chosen.dims else ()  # each pair were a line
+    frame = chosen.drop_dims(others).to_dataframe().reset_index()
     frame = frame.drop(columns=[c for c in frame if c not in dataset.variables])
     units = {name: dataset[name].attrs.get("units", "1") for name in frame}
     titles = {n: n if unit == "1" else f"{n} ({unit})" for n, unit in units.items()}
