@@ -81,7 +81,7 @@ function answer(p) {
 // The lengths in use, by the systems that they are for; with two materials the pair's own come first.
 function table(p, critical) {
   const found = Lengths.all(p, data.limits);
-  const two = !p.second || p.second.mu !== p.mu || p.second.nu !== p.nu;
+  const two = p.second && (p.second.mu !== p.mu || p.second.nu !== p.nu);
   const layered = Math.min(p.H, p.second ? p.second.H : Infinity) < Infinity;
   const spaces = [data.two_materials, data.half_spaces];
   const systems = new Set([...(two ? spaces : []), ...data.lengths.map(({ system }) => system)]);

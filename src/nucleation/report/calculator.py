@@ -88,8 +88,8 @@ def _words(given: Mapping[str, Any]) -> str:
     for field in FIELDS:
         if field.key in given:
             unit = "".join(field.units[:1])
-            value = float(f"{given[field.key] / _in_page(field)['units'].get(unit, 1.0):.10g}")
-            words[field.key.replace("_", "-")] = f"{value!r}{unit}"
+            value = given[field.key] / _in_page(field)["units"].get(unit, 1.0)
+            words[field.key.replace("_", "-")] = f"{value:.10g}{unit}"
     return urllib.parse.urlencode(words)
 
 
