@@ -86,7 +86,7 @@ def test_summary_of_lengths(nucleation, files, settings):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name, kind in KINDS.items() if name != "other"])
+@pytest.mark.parametrize("name", ["run", "short", "theory"])
 def test_plot(nucleation, files, tmp_path, name):
     plot = tmp_path / "plot.png"
     ended = nucleation("show", files[name], "--plot", plot)
@@ -97,12 +97,14 @@ def test_plot(nucleation, files, tmp_path, name):
 
 @pytest.mark.slow
 def test_other_formats(nucleation, files, tmp_path):
-    words = ["show", files["patch"], "--plot", tmp_path / "plot.pdf"]
+    words = ["show", files["theory"], "--plot", tmp_path / "plot.pdf"]
     assert [nucleation(*words).code, nucleation(*words, "--force").code] == [0, 0]
     assert (tmp_path / "plot.pdf").read_bytes().startswith(b"%PDF")
     film = tmp_path / "film.gif"
     assert nucleation("show", files["short"], "--plot", film).code == 0
     with Image.open(film) as image:
         assert image.n_frames > 1
-    ended = nucleation("show", files["patch"], "--plot", film, "--force")
+    ended = nucleation("show", files["theory"], "--plot", film, "--force")
     assert ended.code == 2 and "must end in .png or .pdf" in ended.err
+    ended = nucleation("show", files["patch"], "--plot", film, "--force")
+    assert ended.code == 2 and "no plot of this kind of dataset, patch's stability" in ended.err

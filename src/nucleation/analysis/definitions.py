@@ -81,24 +81,24 @@ def _last_maximum(force: Array, end: int) -> int:
     return start
 
 
-def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> float:
-    """Position (m) up to which the interface slips at one instant, faster than a rate (m/s).
+def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> Array:
+    """Position (m) up to which the interface slips, faster than a rate (m/s), at every instant.
 
-    With an edge that is pushed. Before the event the slip rate oscillates, and the patch's edge
-    with it, to and fro. It is needed to find the patch's length, the furthest that it has come
-    (:class:`Extent`), and for nothing else. Between nodes log v is taken as linear in x. Only the
-    part of the block next to the loaded edge is searched, so that slip at the far corner does not
-    count. Zero if nothing slips faster.
+    With an edge that is pushed; `slip_rate` (m/s) is (..., x). Before the event it oscillates, and
+    the patch's edge with it, to and fro. It is needed to find the patch's length, the furthest that
+    it has come (:class:`Extent`), and for nothing else. Between nodes log v is taken as linear in
+    x. Only the part of the block next to the loaded edge is searched, so that slip at the far
+    corner does not count. Zero if nothing slips faster.
     """
-    near = x <= SEARCHED * x[-1]
     rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)  # also of single precision
-    faster = np.flatnonzero(near & (rate > threshold))
-    if faster.size == 0:
-        return 0.0
-    last = int(faster[-1])
-    if last + 1 >= x.size or rate[last + 1] >= threshold:
-        return float(x[last])
-    return _between(x, rate, last, last + 1, threshold)
+    near = int(np.searchsorted(x, SEARCHED * x[-1], side="right"))
+    faster = rate[..., :near] > threshold
+    inside = near - 1 - faster[..., ::-1].argmax(axis=-1)
+    outside = np.minimum(inside + 1, x.size - 1)
+    at = (np.take_along_axis(rate, node[..., None], -1)[..., 0] for node in (inside, outside))
+    (fast, slow), edge = map(np.log, at), np.log(threshold)
+    part = (fast - edge) / np.where((slow < edge) & (edge < fast), fast - slow, np.inf)
+    return np.where(faster.any(axis=-1), x[inside] + part * (x[outside] - x[inside]), 0.0)
 
 
 def _between(x: Array, rate: Array, inside: int, outside: int, threshold: float) -> float:
@@ -135,16 +135,16 @@ def slipping_zone(
     return end(-1), end(1)
 
 
-def patch_length(kind: str, x: Array, slip_rate: Array, threshold: float) -> float:
-    """Length (m) of the patch at one instant, by the kind of loading.
+def patch_lengths(kind: str, x: Array, slip_rates: Array, threshold: float) -> Array:
+    """Length (m) of the patch at every instant, by the kind of loading; slip rates (instant, x).
 
     An edge that is pushed is one end of the patch; otherwise the patch is the zone about the
     fastest node.
     """
     if kind == "edge":
-        return slipping_edge(x, slip_rate, threshold)
-    begin, end = slipping_zone(x, slip_rate, threshold, kind == "remote")
-    return end - begin
+        return slipping_edge(x, slip_rates, threshold)
+    zones = [slipping_zone(x, rate, threshold, kind == "remote") for rate in slip_rates]
+    return np.array([end - begin for begin, end in zones])
 
 
 class Extent:
@@ -157,6 +157,6 @@ class Extent:
 
     def reach(self, slip_rate: Array) -> float:
         """The patch's length (m) now that the slip rates are these (m/s)."""
-        now = patch_length(self._kind, self._x, slip_rate, self._threshold)
-        self.length = max(self.length, now)
+        (now,) = patch_lengths(self._kind, self._x, slip_rate[None], self._threshold)
+        self.length = max(self.length, float(now))
         return self.length

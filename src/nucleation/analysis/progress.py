@@ -58,10 +58,9 @@ class Progress:
     def __call__(self, instant: Instant) -> None:
         """Take note of one accepted step."""
         now, rate = time.monotonic(), instant.report.interface.slip_rate
-        length = self._patch.reach(rate)
         if now < self._next:
             return
-        self._next = now + self._pause
+        self._next, length = now + self._pause, self._patch.reach(rate)
         part = self.part_done(instant.state.time, length)
         text = (
             f"t = {instant.state.time:.5g} s, dt = {instant.state.last_step:.3g} s, "

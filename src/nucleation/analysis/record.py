@@ -15,7 +15,7 @@ from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.event import FAST, WINDOW
 from ..types import Array
-from .definitions import ExtractionSettings, Onset, find_onset, patch_length
+from .definitions import ExtractionSettings, Onset, find_onset, patch_lengths
 
 
 def parameters_of(dataset: xr.Dataset) -> Parameters:
@@ -127,6 +127,5 @@ class Record:
 
     def _lengths(self, share: float) -> Array:
         rates, threshold = self.simulation["slip_rate"].values, share * self.velocity
-        kind = self.parameters.loading.kind
-        edges = [patch_length(kind, self.x, rate, threshold) for rate in rates]
-        return np.maximum.accumulate(np.array(edges))
+        lengths = patch_lengths(self.parameters.loading.kind, self.x, rates, threshold)
+        return np.maximum.accumulate(lengths)

@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,6 @@ from .said import Found, Missing
 SHAKEN = 0.1  # part of dphi/dt by which it may be off and still be well approximated
 FAST = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # from this part of the onset time on the patch counts as developed
-
-
 NONE = float("nan")
 
 
@@ -174,13 +173,16 @@ class Evidence:
         One for each fault of the configuration's material, friction and loads: the mean of its
         realisations, of which ``members`` are the names.
         """
-        records = [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
         wanted = {"role": role, **labels}
-        found = [row for row in records if all(_same(row[k], v) for k, v in wanted.items())]
+        found = [row for row in self._own if all(_same(row[k], v) for k, v in wanted.items())]
         if not found:
             which = "".join(f", {name} {value}" for name, value in labels.items())
             raise Missing(f"The configuration has no such run: role {role}{which}")
         return sorted(found, key=lambda row: row["height"])
+
+    @cached_property
+    def _own(self) -> list[dict[str, Any]]:
+        return [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
 
     def row(self, role: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
         """The one row with these labels; raises Missing if there is none."""
