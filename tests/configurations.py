@@ -1,13 +1,14 @@
 """The paper's configuration with one thing changed, and what is said about it."""
 
 import copy
+import functools
 import json
 from collections.abc import Iterable
 from pathlib import Path
 
 import pytest
 
-from nucleation.configuration.load import configure
+from nucleation.configuration.load import Configuration, configure, load
 from nucleation.configuration.strict_yaml import read_yaml
 from nucleation.model.quantities import ParameterError
 
@@ -15,6 +16,12 @@ CONFIG = Path(__file__).parents[1] / "config"
 # without the sharing of nodes that YAML's aliases bring: a change is to be one change
 PAPER = json.loads(json.dumps(read_yaml(CONFIG / "config.yaml")))
 del PAPER["studies"]["map"]  # a thousand runs more to go through, which are like the others
+
+
+@functools.cache
+def papers() -> Configuration:
+    """The paper's configuration as it is, of which nothing may be changed."""
+    return load(CONFIG / "config.yaml")
 
 
 def changed(place: str, value: object) -> dict:

@@ -3,6 +3,7 @@
 Each file is run by one worker (make test). Were a long one begun last, the other core would wait.
 """
 
+import functools
 import os
 from collections import Counter
 from pathlib import Path
@@ -25,28 +26,25 @@ hypothesis.settings.register_profile(
 )
 hypothesis.settings.load_profile("project")
 
-SYSTEM = ("workflow", "faults")
-"""Directories of tests that start the whole workflow."""
-
 LONG = ("workflow/cluster", "faults", "workflow", "docs", "verification")
 """Directories by the time that their longest file takes; all others take less."""
+
+SYSTEM = range(3)
+"""Ranks of those of tests that start the whole workflow."""
 
 
 @pytest.hookimpl(tryfirst=True)  # marks are chosen from afterwards
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    items.sort(key=_rank)  # within a rank the order stays
+    items.sort(key=lambda item: _rank(item.path))  # within a rank the order stays
     for item in items:
-        if any(_path(item).is_relative_to(name) for name in SYSTEM):
+        if _rank(item.path) in SYSTEM:
             item.add_marker("system")
 
 
-def _path(item: pytest.Item) -> Path:
-    return item.path.relative_to(Path(__file__).parent)
-
-
-def _rank(item: pytest.Item) -> int:
-    path = _path(item)
-    return next((rank for rank, name in enumerate(LONG) if path.is_relative_to(name)), len(LONG))
+@functools.cache
+def _rank(path: Path) -> int:
+    own = path.relative_to(Path(__file__).parent)
+    return next((rank for rank, name in enumerate(LONG) if own.is_relative_to(name)), len(LONG))
 
 
 def pytest_terminal_summary(

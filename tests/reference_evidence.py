@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import xarray as xr
+from configurations import papers
 
 from nucleation.claims import table as table_of_claims
 from nucleation.claims.evidence import Evidence
-from nucleation.configuration.load import load
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[1]
@@ -69,7 +69,7 @@ def _evaluated():
 
 @functools.cache
 def _evidence():
-    config = load(ROOT / "config" / "config.yaml")
+    config = papers()
     lengths = table("lengths.csv")
     patches = table("patch_stability.csv")
     curves = Curves(

@@ -8,15 +8,15 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from configurations import papers
 
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.lengths import over_realisations
-from nucleation.configuration.load import configure, read_yaml
 from nucleation.simulation.run import simulate
 
 ROOT = Path(__file__).parents[1]
 REFERENCE = ROOT / "results" / "reference"
-SETTINGS = configure(read_yaml(ROOT / "config" / "config.yaml"))
+SETTINGS = papers()
 RUNS = {run.id: run for run in SETTINGS.runs if SETTINGS.studies[run.study].table == "lengths"}
 
 

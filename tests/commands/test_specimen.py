@@ -14,6 +14,7 @@ FAULT = {"height": 0.1, "shear_modulus": 3.1e9, "poisson_ratio": 0.35, "a": 0.00
          "slip_distance": 5e-7, "plane": "stress"}  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("criterion", ["critical", "stability"])
 def test_json_has_the_library_s_numbers(nucleation, criterion):
     ended = nucleation(*WORDS, "--criterion", criterion, "--normal-stress", "1MPa", "--json")

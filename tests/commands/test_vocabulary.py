@@ -34,6 +34,7 @@ def theory(ended):
     return json.loads(ended.out)["theory"]["critical_length"]
 
 
+@pytest.mark.slow
 def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
     other = {OTHER_WORDS.get(word, word): value for word, value in FAULT.items()}
     for options in (FAULT, other):
@@ -64,6 +65,7 @@ def test_bodies_alike(nucleation, text):
     assert nucleation("length", *alone, "--second-body", text) == nucleation("length", *alone)
 
 
+@pytest.mark.slow
 def test_two_bodies_are_the_usual_system_everywhere(nucleation, tmp_path):
     fault = ("--height", "2cm")
     for command in (("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):

@@ -3,10 +3,10 @@
 import math
 
 import pytest
-from configurations import CONFIG, messages, study
+from configurations import messages, papers, study
 
 from nucleation.configuration.advice import advise, element_sizes
-from nucleation.configuration.load import configure, load
+from nucleation.configuration.load import configure
 from nucleation.fem.grid import Grid
 from nucleation.model.parameters import Geometry, Mesh, Parameters
 from nucleation.theory.estimates import growth_time, process_zone
@@ -19,7 +19,7 @@ def advice(*runs, **settings):
 
 
 def test_the_papers_configuration_needs_no_warning():
-    assert advise(load(CONFIG / "config.yaml").runs) == []
+    assert advise(papers().runs) == []
 
 
 def test_process_zone_of_the_paper():

@@ -4,7 +4,7 @@ from collections import Counter
 
 import pytest
 import yaml
-from configurations import CONFIG, PAPER, study
+from configurations import CONFIG, PAPER, papers, study
 
 from nucleation.configuration.load import configure, load, schema
 from nucleation.configuration.runs import first_realisations
@@ -22,7 +22,7 @@ def test_committed_schema_is_the_declarations():
 
 
 def test_default_configuration_is_the_papers():
-    paper = load(CONFIG / "config.yaml")
+    paper = papers()
     assert paper.results == "results"
     assert paper.base.material == Material()
     assert paper.base.friction == Friction()
@@ -35,7 +35,7 @@ def test_default_configuration_is_the_papers():
 
 
 def test_papers_study():
-    runs = load(CONFIG / "config.yaml").runs_of("paper")
+    runs = papers().runs_of("paper")
     aging = [r for r in runs if r.labels["evolution"] == "aging" and r.labels["phi0"] == 1.0]
     heights = [0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1]
     assert [run.labels["height"] for run in aging] == heights
@@ -51,7 +51,7 @@ def test_papers_study():
 
 
 def test_converged_study_has_the_papers_runs():
-    config = load(CONFIG / "config.yaml")
+    config = papers()
     runs = config.runs_of("converged")
     first = first_realisations(runs)
     labels = [[r.labels | {"study": ""} for r in some] for some in (config.runs_of("paper"), first)]
@@ -72,7 +72,7 @@ def realisations(runs):
 
 def test_what_is_beyond_the_paper_has_six_realisations():
     """But for checks of meshes, and the map, whose points have three at either strength."""
-    config = load(CONFIG / "config.yaml")
+    config = papers()
     studies = ("pairs_identical", "pairs_far_sides", "pairs_layers", "pairs_weak", "drop",
                "figure_2_simulated")  # fmt: skip
     for name in studies:
@@ -197,7 +197,7 @@ def test_constants_of_friction_may_vary():
 
 @pytest.mark.slow
 def test_parameters_survive_the_way_through_a_rule():
-    for run in load(CONFIG / "config.yaml").runs:
+    for run in papers().runs:
         as_text = yaml.safe_dump(run.parameters.to_dict())
         assert Parameters.from_dict(yaml.safe_load(as_text)) == run.parameters
 

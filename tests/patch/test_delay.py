@@ -115,20 +115,22 @@ def test_mean_square_of_realisations(kind):
     assert np.mean(squares) == pytest.approx(np.exp(2 * mean.log_amplitude[late]), rel=0.6)
 
 
-OWN = mode_history(PARAMETERS, 0.4509)
+@pytest.fixture(scope="module")
+def own():
+    return mode_history(PARAMETERS, 0.4509)
 
 
-def test_less_friction_everywhere_is_as_more_load():
-    assert OWN.rate.real[0] < 0.0 < OWN.rate.real[-1]
-    np.testing.assert_allclose(OWN.normal_load, OWN.strength.sum(axis=1), rtol=0.05)
+def test_less_friction_everywhere_is_as_more_load(own):
+    assert own.rate.real[0] < 0.0 < own.rate.real[-1]
+    np.testing.assert_allclose(own.normal_load, own.strength.sum(axis=1), rtol=0.05)
 
 
 @pytest.mark.slow
-def test_a_perturbed_run_drops_where_its_own_realisation_says():
+def test_a_perturbed_run_drops_where_its_own_realisation_says(own):
     declared = Perturbation(kind="state", strength=1e-3, seed=4)
     stepping = Stepping(end_time=60.0, time_after_event=0.0, longest_step=0.1)
     mesh = Mesh(n_x=400, n_y=6, grading=20.0)
     run = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping, perturbation=declared)
     measured = extract(simulate(run))
-    expected, _ = realised(OWN, declared).at(1e3)
+    expected, _ = realised(own, declared).at(1e3)
     assert measured["length"] == pytest.approx(expected, rel=0.05)

@@ -3,13 +3,12 @@
 import numpy as np
 import pandas as pd
 import pytest
-from configurations import CONFIG
+from configurations import CONFIG, papers
 
-from nucleation.configuration.load import load
 from nucleation.patch.delay import growth
 from nucleation.patch.mode_history import mode_history
 
-RUNS = {run.id: run for run in load(CONFIG / "config.yaml").runs}
+RUNS = {run.id: run for run in papers().runs}
 TABLE = pd.read_csv(CONFIG.parent / "results" / "reference" / "drop.csv")
 TABLE = TABLE[(TABLE.strength > 0.0) & TABLE.id.isin(list(RUNS))]
 KIND = ["evolution", "height", "kind", "strength", "correlation_length"]

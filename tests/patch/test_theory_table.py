@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 import xarray as xr
-from configurations import CONFIG
+from configurations import papers
 
-from nucleation.configuration.load import load
 from nucleation.figures.beyond import figure_patch_theory
 from nucleation.patch import theory_table
 
@@ -17,12 +16,13 @@ IDS = (
 
 @pytest.fixture(scope="module")
 def table():
-    runs = {run.id: run for run in load(CONFIG / "config.yaml").runs}
+    runs = {run.id: run for run in papers().runs}
     lengths = [0.4428, 0.4408, 0.3537, np.nan]
     simulated = xr.Dataset({"id": ("run", list(IDS)), "stability_length": ("run", lengths)})
     return theory_table.gather([runs[i].to_dict() for i in IDS], [simulated])
 
 
+@pytest.mark.slow
 def test_a_row_for_each_fault(table):
     """Realisations are averaged, and runs without a stability length left out."""
     assert list(table["id"].values) == [IDS[0], IDS[2]]
@@ -33,11 +33,13 @@ def test_a_row_for_each_fault(table):
     assert set(theory_table.COLUMNS) <= set(table)
 
 
+@pytest.mark.slow
 def test_profiles_are_those_of_creep(table):
     assert table["shown_x"].values.min() > 0.0 and table["shown_x"].values.max() < 1.0
     assert (np.diff(table["shown_rate"].values[0]) > 0.0).all()  # from the front to the edge
 
 
+@pytest.mark.slow
 def test_figure(table):
     ratio, parity, creep = figure_patch_theory.draw(table).axes[:3]
     assert ratio.get_xlabel() and parity.get_lines()[0].get_xdata().size == 2

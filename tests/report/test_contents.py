@@ -68,6 +68,7 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
 # ---- Parts
 
 
+@pytest.mark.slow
 def test_sections_without_content_are_left_out(content):
     bare = page.build(content._replace(claims=None, pictures=[], results={}))
     for part in ("verdicts", "lengths", "answer"):
@@ -76,6 +77,7 @@ def test_sections_without_content_are_left_out(content):
     assert 'id="theory"' in bare
 
 
+@pytest.mark.slow
 def test_every_claim_and_run_is_in_the_tables(html, table):
     assert html.count('<tr role="row" data-kind=') == 4
     (row,) = tables.run_rows(table, tables.LENGTH_COLUMNS)

@@ -31,6 +31,7 @@ def html(content, two_faults):
     return page.build(mine)
 
 
+@pytest.mark.slow
 def test_it_begins_with_the_study_and_has_no_verdicts_of_the_paper(html, two_faults):
     headings = re.findall(r"<h2[^>]*>(.*?)</h2>", html)
     assert headings[:2] == ["Study mine", "The 2 faults"]

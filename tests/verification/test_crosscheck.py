@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from configurations import papers
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import Record
-from nucleation.configuration.load import load
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import IN_TIME, Perturbation
 from nucleation.model.second_body import SecondBody
@@ -27,7 +27,6 @@ pytestmark = pytest.mark.system
 ROOT = Path(__file__).parents[2]
 SCRIPTS = ROOT / "workflow" / "crosscheck"
 REFERENCE = pd.read_csv(ROOT / "results" / "reference" / "crosscheck.csv", index_col="id")
-SETTINGS = load(ROOT / "config" / "config.yaml")
 END = 2.0  # s
 PARAMETERS = Parameters(
     geometry=Geometry(height=0.005, length=0.5),
@@ -206,7 +205,7 @@ def test_comparison_of_two_records(pair):
 def test_the_solvers_agree_on_the_drop():
     """Under one and the same perturbation, onset and L_c within 0.3 %."""
     rows = REFERENCE
-    asked = runs(SETTINGS.base, SETTINGS.crosscheck, SETTINGS.main_text_interface)
+    asked = runs(papers().base, papers().crosscheck, papers().main_text_interface)
     assert list(rows.index) == [*asked]
     assert list(rows["n_x"]) == [asked[name].mesh.n_x for name in rows.index]
     for name in ("onset_time", "length"):

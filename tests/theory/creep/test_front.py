@@ -3,15 +3,14 @@
 import numpy as np
 import pandas as pd
 import pytest
-from configurations import CONFIG
+from configurations import CONFIG, papers
 
-from nucleation.configuration.load import load
 from nucleation.theory.creep import front
 from nucleation.theory.creep.front import advance, first_growing
 from nucleation.theory.creep.lengths import NoPatch, Patches
 
 REFERENCE = CONFIG.parent / "results" / "reference"
-RUNS = {run.id: run for run in load(CONFIG / "config.yaml").runs}
+RUNS = {run.id: run for run in papers().runs}
 
 
 def found_of(run):
