@@ -1,5 +1,6 @@
 """A report on a small run, and a browser that opens it."""
 
+import json
 import os
 import shutil
 from pathlib import Path
@@ -7,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from coarse_run import CONFIG
+from once import once
 
 from nucleation.datasets import provenance
 from nucleation.figures import catalogue, style
 from nucleation.figures.paper import figure_2
-from nucleation.report import page
+from nucleation.report import page, stability
 from nucleation.theory.curves import Curves, theory_dataset
 
 ROOT = Path(__file__).parents[2]
@@ -33,13 +35,6 @@ CLAIMS = [
 ]  # fmt: skip
 
 
-FAULT = {
-    "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "plane": "strain", "height": 0.1,
-    "normal_stress": 1e6, "a": 0.0068, "b": 0.0228, "slip_distance": 5e-7, "friction": 0.41,
-    "velocity": 1e-5,
-}  # fmt: skip
-
-
 @pytest.fixture(scope="session")
 def content(settings, table, tmp_path_factory):
     """A report with all sections."""
@@ -52,7 +47,11 @@ def content(settings, table, tmp_path_factory):
     entry = catalogue.FIGURES["figure_2"]
     caption = (ROOT / "workflow" / "report" / "figure_2.rst").read_text(encoding="utf-8")
     return page.Content(
-        fault=FAULT,
+        fault={
+            "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "plane": "strain", "height": 0.1,
+            "normal_stress": 1e6, "a": 0.0068, "b": 0.0228, "slip_distance": 5e-7, "friction": 0.41,
+            "velocity": 1e-5,
+        },
         friction=settings.base.friction,
         config=CONFIG,
         provenance=provenance.attributes(CONFIG, "0" * 64, "none"),
@@ -70,6 +69,22 @@ def report(content, tmp_path_factory) -> Path:
     path = tmp_path_factory.mktemp("report") / "report.html"
     path.write_text(page.build(content), encoding="utf-8")
     return path
+
+
+@pytest.fixture(scope="session", autouse=True)
+def tables(tmp_path_factory):
+    """The tables of L_s, which take seconds, made once for all workers, if they are asked for."""
+    made = stability.in_page
+
+    def write(path):
+        path.write_text(json.dumps(made()))
+
+    def read():
+        return json.loads(once(tmp_path_factory, "tables.json", write).read_text())
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stability, "in_page", read)
+        yield
 
 
 @pytest.fixture(scope="session")
