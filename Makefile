@@ -35,9 +35,9 @@ report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(LAUNCH) $(TARGETS) $(OPTIONS) --configfile config/quick.yaml
 
-# One worker more than there are cores: the tests of a cluster mostly wait.
+# Two workers more than there are cores: tests of a cluster and of faults mostly wait.
 test: $(STAMP) ## Run the tests
-	@$(PYTEST) -n $(shell expr $(CORES) + 1)
+	@$(PYTEST) -n $(shell expr $(CORES) + 2)
 
 test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system, in a minute
 	@$(PYTEST) -n $(CORES) -m "not slow and not system"
