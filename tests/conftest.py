@@ -26,11 +26,11 @@ hypothesis.settings.register_profile(
 )
 hypothesis.settings.load_profile("project")
 
-LONG = ("workflow/cluster", "faults", "workflow", "docs", "verification")
-"""Directories by the time that their longest file takes; all others take less."""
+LONG = ("workflow/cluster", "faults", "workflow", "docs", "test_packaging.py", "verification")
+"""What is begun first, by the time that its longest file takes; all others take less."""
 
 SYSTEM = range(3)
-"""Ranks of those of tests that start the whole workflow."""
+"""Ranks of what starts the whole workflow."""
 
 
 @pytest.hookimpl(tryfirst=True)  # marks are chosen from afterwards
