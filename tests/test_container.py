@@ -19,9 +19,11 @@ def instructions():
 def copied():
     """What the recipe takes of the checkout."""
     return [
-        name for word, arguments in instructions() if word == "COPY" and "--from" not in arguments
+        name
+        for word, arguments in instructions()
+        if word == "COPY" and "--from" not in arguments
         for name in shlex.split(arguments)[:-1]
-    ]  # fmt: skip
+    ]
 
 
 def test_what_is_copied_exists():
@@ -34,8 +36,9 @@ def test_the_workflow_needs_nothing_that_is_not_copied():
     texts += [path.read_text() for path in (ROOT / "workflow/rules").glob("*.smk")]
     named = {
         Path(ROOT, *re.findall(r'"([^"]+)"', parts))
-        for text in texts for parts in re.findall(r'Path\(BASE, ((?:"[^"{]+",? ?)+)\)', text)
-    }  # fmt: skip
+        for text in texts
+        for parts in re.findall(r'Path\(BASE, ((?:"[^"{]+",? ?)+)\)', text)
+    }
     assert ROOT / "docs" / "article.md.in" in named and len(named) > 3
     for path in {path for path in named if path.exists()} | {ROOT / "CITATION.cff"}:
         assert any(path.is_relative_to(ROOT / name) for name in copied()), path

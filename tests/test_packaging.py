@@ -239,8 +239,9 @@ def test_it_works_with_the_oldest_versions(wheel, tmp_path):
     venv.create(tmp_path / "environment", with_pip=True)
     python = tmp_path / "environment" / "bin" / "python"
     try:
-        run(python, "-m", "pip", "--quiet", "install", "-c", constraints,
-            f"{wheel}[solver,figures]")  # fmt: skip
+        run(
+            python, "-m", "pip", "--quiet", "install", "-c", constraints, f"{wheel}[solver,figures]"
+        )
     except AssertionError:
         if os.environ.get("CI") == "true":
             raise

@@ -47,9 +47,10 @@ NEEDED_LATER = {
     "dry run": (COMMAND.format(words=DRY_RUN), (*SOLVER, *HEAVY)),
     "plan": (PLAN.format(root=ROOT), COMPILED),
     "reading and drawing": (
-        "import nucleation.analysis.lengths, nucleation.figures.paper.figure_3", COMPILED,
+        "import nucleation.analysis.lengths, nucleation.figures.paper.figure_3",
+        COMPILED,
     ),
-}  # fmt: skip
+}
 """Codes, and modules that they need not load."""
 
 

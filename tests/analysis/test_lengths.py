@@ -46,6 +46,8 @@ def test_rows_say_what_lies_below(table):
          "height": 0.02}
     )  # fmt: skip
     assert second_body(pair) == {
-        "far_side": "clamped", "second_height": 0.02, "second_shear_modulus": 9e9,
+        "far_side": "clamped",
+        "second_height": 0.02,
+        "second_shear_modulus": 9e9,
         "second_poisson_ratio": pair.material.poisson_ratio,
-    }  # fmt: skip
+    }

@@ -55,8 +55,9 @@ def test_the_end_is_that_of_the_equation(unknown, bodies):
 
 @pytest.mark.parametrize("bodies", BODIES.values(), ids=BODIES)
 def test_the_creeping_patch_fits_where_it_says(bodies):
-    found = specimen_fit("normal_stress", 0.2, "stability", **PMMA, **without("normal_stress"),
-                         **bodies)  # fmt: skip
+    found = specimen_fit(
+        "normal_stress", 0.2, "stability", **PMMA, **without("normal_stress"), **bodies
+    )
     [(low, _)] = found.intervals
     at = stability_length(**PMMA, **without("normal_stress"), **bodies, normal_stress=low)
     assert at == pytest.approx(0.2, rel=1e-4)

@@ -114,8 +114,10 @@ def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
     assert Verdict.NOT_REPLICATED not in verdicts.values()
     failed = {id for id, verdict in verdicts.items() if verdict == Verdict.NOT_SUPPORTED}
     assert failed == {
-        "stability-lost-at-length", "slip-law-approximation-ahead", "theory-agreement"
-    }  # fmt: skip
+        "stability-lost-at-length",
+        "slip-law-approximation-ahead",
+        "theory-agreement",
+    }
     shown = ("onset-time", "length-shown", "slip-law-approximation")
     assert {verdicts[id] for id in shown} == {Verdict.REPLICATED}
     given = {id for id, row in reference.items() if row["verdict"] == Verdict.GIVEN}
@@ -253,9 +255,10 @@ def test_runs_of_another_material_are_not_taken_for_the_papers():
         for law, height in zip(table["evolution"].values, table["height"].values, strict=True)
     ]
     other = table.assign(
-        length=3.0 * table["length"], fault=("run", changed),
+        length=3.0 * table["length"],
+        fault=("run", changed),
         ensemble=("run", [str(i) for i in range(table.sizes["run"])]),
-    )  # fmt: skip
+    )
     for tables in ((table, other), (other, table)):
         both = evidence(lengths=(on.lengths[0], *tables))
         found, expected = both.rows("converged"), on.rows("converged")

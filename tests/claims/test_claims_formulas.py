@@ -33,8 +33,10 @@ def test_search_finds_the_librarys_critical_wavenumber(evidence_of_theory, heigh
     point = critical_wavenumber(Body(material, height, "traction"), RIGID, interface)
     k, frequency = marginal.critical_wavenumber(
         lambda k: finite_height.block_transfer(k * height, evidence_of_theory),
-        material.shear_modulus, interface, 2.0 * point.wavenumber,
-    )  # fmt: skip
+        material.shear_modulus,
+        interface,
+        2.0 * point.wavenumber,
+    )
     assert k == pytest.approx(point.wavenumber, rel=1e-8)
     rate = interface.velocity / interface.slip_length
     assert frequency * rate == pytest.approx(abs(point.angular_frequency), rel=1e-7)

@@ -69,8 +69,10 @@ def stability_ratio(upper, lower, uniform=False):
 
 def simulated(sign):
     pairs = pd.read_csv(PAIRS)
-    own = pairs[np.isclose(pairs["zeta_over_a"], WEAKENING)
-                & np.isclose(sign * pairs["f_beta"], 0.38, atol=1e-3)]  # fmt: skip
+    own = pairs[
+        np.isclose(pairs["zeta_over_a"], WEAKENING)
+        & np.isclose(sign * pairs["f_beta"], 0.38, atol=1e-3)
+    ]
     return (own["stability_ratio"] * own["half_space_ratio"]).iloc[0]
 
 

@@ -78,10 +78,12 @@ def test_half_spaces_are_judged_by_the_high_blocks(ratio, verdict):
 
 @pytest.mark.parametrize(
     ("factors", "verdict", "reach"),
-    [((0.95, 1.0, 1.05), "replicated", "across the bound, 0.75"),
-     ((0.93, 0.92, 1.01), "not supported", "across the bound, 0.75"),
-     ((0.99, 1.0, 1.01), "replicated", None)],
-)  # fmt: skip
+    [
+        ((0.95, 1.0, 1.05), "replicated", "across the bound, 0.75"),
+        ((0.93, 0.92, 1.01), "not supported", "across the bound, 0.75"),
+        ((0.99, 1.0, 1.01), "replicated", None),
+    ],
+)
 def test_the_mean_of_the_realisations_decides_and_their_range_stands_beside(
     factors, verdict, reach
 ):
@@ -110,10 +112,12 @@ def test_contrast_has_to_shorten(slope, verdict):
 
 @pytest.mark.parametrize(
     ("factors", "verdicts"),
-    [((1.005, 0.995), ("replicated", "replicated")),
-     ((1.02, 1.0), ("not replicated", "replicated")),
-     ((1.0, -1.0), ("replicated", "not replicated"))],
-)  # fmt: skip
+    [
+        ((1.005, 0.995), ("replicated", "replicated")),
+        ((1.02, 1.0), ("not replicated", "replicated")),
+        ((1.0, -1.0), ("replicated", "not replicated")),
+    ],
+)
 def test_the_response_of_half_spaces_is_read_from_the_rates(factors, verdicts):
     for name, factor, verdict in zip(("pairs-g1", "pairs-g2"), factors, verdicts, strict=True):
         row = judged(name, modes_=modes(*factors))

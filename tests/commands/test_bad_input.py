@@ -106,9 +106,11 @@ SHOW = [
 
 DROP = [
     (["--perturbation", "none"], ["round-off", "must be one of"]),
-    (["--zeta-over-a", "9", "--velocity", "1e-12m/s"],
-     ["dieterich_ruina", "v0 = 1e-09 m/s, regularisation_slip_rate, must be far below V"]),
-]  # fmt: skip
+    (
+        ["--zeta-over-a", "9", "--velocity", "1e-12m/s"],
+        ["dieterich_ruina", "v0 = 1e-09 m/s, regularisation_slip_rate, must be far below V"],
+    ),
+]
 
 LINES = [
     *LENGTH,

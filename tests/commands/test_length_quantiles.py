@@ -54,8 +54,10 @@ def test_the_second_body_is_like_the_first(nucleation, samples):
     """Unless it is another one: the pair's own lengths are among the others then."""
     assert "two half-spaces of the two" not in nucleation(*WORDS, *samples).out
     other = nucleation(*WORDS, *samples, "--second-body", "60GPa,0.3", "--friction", "0.6")
-    pair, first = (f"for two {x} half-spaces of the" if x else "for two half-spaces of the two"
-                   for x in ("", "identical"))  # fmt: skip
+    pair, first = (
+        f"for two {x} half-spaces of the" if x else "for two half-spaces of the two"
+        for x in ("", "identical")
+    )
     assert 0 < other.out.index(pair) < other.out.index(first)
 
 

@@ -12,10 +12,12 @@ FAULT = {
     "--height": "2m", "--second-body": "20GPa,0.3,3m",
 }  # fmt: skip
 OTHER_WORDS = {
-    "--a": "--direct-effect", "--friction": "--friction-coefficient",
-    "--poisson": "--poisson-ratio", "--slip-distance": "--characteristic-slip-distance",
+    "--a": "--direct-effect",
+    "--friction": "--friction-coefficient",
+    "--poisson": "--poisson-ratio",
+    "--slip-distance": "--characteristic-slip-distance",
     "--height": "--geometry.height",
-}  # fmt: skip
+}
 
 
 def words(options):

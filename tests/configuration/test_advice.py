@@ -95,7 +95,7 @@ WARNED = {
         "correlation_length0.01-strength0.001): correlation_length = 0.01 m has 2.8 elements of "
         "0.00352 m, which sample some other roughness; recommended is n_x = 564 or more",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("run", "text"), WARNED.values(), ids=WARNED.keys())

@@ -245,11 +245,13 @@ def test_results_need_a_writable_directory(tmp_path, monkeypatch):
 
 
 BOMBS = {
-    "aliases": "\n".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]" for old, new in
-                         zip("abcdefgh", "bcdefghi", strict=True)),
+    "aliases": "\n".join(
+        f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]"
+        for old, new in zip("abcdefgh", "bcdefghi", strict=True)
+    ),
     "within itself": "b: &b [*b]",
     "mapping within itself": "b: &b {c: *b}",
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("text", BOMBS.values(), ids=BOMBS.keys())

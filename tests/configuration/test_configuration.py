@@ -77,10 +77,11 @@ def test_what_is_beyond_the_paper_has_six_realisations():
                "figure_2_simulated")  # fmt: skip
     for name in studies:
         runs = [
-            run for run in config.runs_of(name)
+            run
+            for run in config.runs_of(name)
             if run.parameters.perturbation.acts
             and not (name == "pairs_far_sides" and run.parameters.mesh.n_x == 1600)
-        ]  # fmt: skip
+        ]
         assert min(realisations(runs)) >= 6, name
     shown = config.runs_of("converged") + config.runs_of("noisy")  # figure_3_extended
     assert realisations(shown) == [6] * 21

@@ -23,7 +23,8 @@ REFUSED = {
         f"{RUN}: second_body.bottom = 'roller' {RIGID}",
     ),
     "in a section": (
-        changed("second_body.bottom", "clamped"), f"second_body.bottom = 'clamped' {RIGID}",
+        changed("second_body.bottom", "clamped"),
+        f"second_body.bottom = 'clamped' {RIGID}",
     ),
     "under a study that fixes the rigid base": (
         study({"height": 0.1, "second_body.height": [0.1, 0.2]}, defaults={"second_body": "rigid"}),
@@ -33,7 +34,7 @@ REFUSED = {
         study({**PAIR, "n_x": 3000, "n_y": 20, "second_n_y": 2000}),
         "n_x = 3000, n_y = 20, second_n_y = 2000 is not allowed: the simulation would need about",
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -20,8 +20,9 @@ def test_units_are_read_wherever_a_parameter_stands(tmp_path):
     path.write_text(
         "studies: {s: {defaults: {shear_modulus: 30 GPa, poisson_ratio: 1/4, density: 2650 kg·m⁻³,"
         " slip_distance: 5 µm, applied_stress: 50MPa, velocity: 1e-6 m s-1},"
-        " runs: [{height: [2cm, 4 cm]}]}}", encoding="utf-8",
-    )  # fmt: skip
+        " runs: [{height: [2cm, 4 cm]}]}}",
+        encoding="utf-8",
+    )
     first, second = configure(read_yaml(path)).runs
     assert {name: first.value(name) for name in SI} == pytest.approx(SI, rel=1e-15)
     assert second.parameters.geometry.height == 0.04
@@ -66,10 +67,11 @@ def test_the_same_names_in_configuration_and_api():
                  height=0.02, second_shear_modulus=np.inf)  # fmt: skip
     lengths = [
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
-        api.critical_length(**fault, characteristic_slip_distance=5e-6, direct_effect=0.01,
-                            friction_coefficient=0.6),
+        api.critical_length(
+            **fault, characteristic_slip_distance=5e-6, direct_effect=0.01, friction_coefficient=0.6
+        ),
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, f=0.6),
-    ]  # fmt: skip
+    ]
     assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.theory_length, rel=1e-6)
     with pytest.raises(api.ParameterError, match="f is not allowed beside friction"):
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)

@@ -168,9 +168,11 @@ def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
 
 
 LITERATURE_ROWS = {
-    "fixed": "rubin_ampuero_localised", "thin layer": "thin_layer",
-    "expanding": "rubin_ampuero_crack", "slip law, over L_b": "state_evolution",
-}  # fmt: skip
+    "fixed": "rubin_ampuero_localised",
+    "thin layer": "thin_layer",
+    "expanding": "rubin_ampuero_crack",
+    "slip law, over L_b": "state_evolution",
+}
 
 
 def test_lengths_of_the_literature_are_those_of_the_reference():
@@ -180,8 +182,9 @@ def test_lengths_of_the_literature_are_those_of_the_reference():
     rows = re.findall(r"^\| ([a-z][^|]+) \| (0\.\d+) \| ([\d. |]+) \|$", page, re.MULTILINE)
     assert len(rows) == 10
     for length, ratio, values in rows:
-        same = table[(table["name"] == LITERATURE_ROWS[length])
-                     & np.isclose(table["a_over_b"], float(ratio))]  # fmt: skip
+        same = table[
+            (table["name"] == LITERATURE_ROWS[length]) & np.isclose(table["a_over_b"], float(ratio))
+        ]
         first = same[same["id"] == same["id"].iloc[0]]["difference"] + 1.0
         assert [f"{value:.2f}" for value in first] == values.split(" | "), (length, ratio)
     fixed = table[(table["name"] == "rubin_ampuero_localised") & np.isclose(table["a_over_b"], 0.3)]

@@ -15,9 +15,7 @@ ROOTS = ("src", "benchmarks", "workflow", "docs")
 FILES = [ROOT / "Snakefile", *sorted((ROOT / "workflow").rglob("*.smk"))]
 FILES += [path for root in ROOTS for path in sorted((ROOT / root).rglob("*.py"))]
 
-ROLE = re.compile(
-    r"[:{](?:mod|class|exc|func|meth|attr|data|obj)[:}]`(?:[^`<]*<)?~?([\w.]+)>?`"
-)  # fmt: skip
+ROLE = re.compile(r"[:{](?:mod|class|exc|func|meth|attr|data|obj)[:}]`(?:[^`<]*<)?~?([\w.]+)>?`")
 DOTTED = re.compile(r"(?<![\w./-])nucleation(?!\.(?:sif|tar))(?:\.[A-Za-z_]\w*)+(?![\w*/])")
 FILE = re.compile(
     r"(?<![\w/.{}<>~:-])((?:[\w.-]+/)+[\w-][\w.-]*\.(?:py|smk|edp|html|js|css|md|rst|yaml|sh)"

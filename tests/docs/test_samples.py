@@ -49,8 +49,9 @@ def simulation(arguments, directory):
     """The command line's simulation says what it would run."""
     assert arguments[0] == "simulate", arguments
     output, *options = arguments[1:]
-    planned = run([sys.executable, "-m", "nucleation", "simulate", directory / output, *options,
-                   "--dry-run"])  # fmt: skip
+    planned = run(
+        [sys.executable, "-m", "nucleation", "simulate", directory / output, *options, "--dry-run"]
+    )
     assert "theory: critical length" in planned
 
 
@@ -139,8 +140,9 @@ def test_targets(tmp_path):
 
 
 @pytest.mark.system
-@pytest.mark.parametrize("page", [page for page in PAGES if any(printed(samples(page)))],
-                         ids=lambda page: page.name)  # fmt: skip
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if any(printed(samples(page)))], ids=lambda page: page.name
+)
 def test_python(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     namespace = {"__name__": "sample"}

@@ -23,7 +23,7 @@ from harness import (
     require_nothing_made,
     require_same,
     says,
-)  # fmt: skip
+)
 from processes import require
 
 from nucleation.pipeline.store import NOTE, read_note

@@ -21,7 +21,7 @@ from harness import (
     fault,
     require_same,
     says,
-)  # fmt: skip
+)
 from processes import ROOT, Running, processor_time, require
 
 from nucleation.pipeline.store import Store

@@ -185,9 +185,11 @@ def test_a_translation_that_has_grown_from_rounding_is_taken_out():
 def test_what_is_taken_out_is_not_felt(monkeypatch):
     """A run of a free pair, from which every step takes the translation, or none does."""
     parameters = Parameters(
-        geometry=Geometry(0.01, 0.4), mesh=Mesh(40, 3), stepping=Stepping(end_time=1.0),
+        geometry=Geometry(0.01, 0.4),
+        mesh=Mesh(40, 3),
+        stepping=Stepping(end_time=1.0),
         second_body=SecondBody(kind="deformable"),
-    )  # fmt: skip
+    )
 
     def last(lifted):
         monkeypatch.setattr(pair, "LIFTED", lifted)

@@ -36,9 +36,8 @@ def theory() -> xr.Dataset:
             "steady_friction_logarithmic": ("slip_rate", logarithmic),
             "velocity": VELOCITY,
         },
-        coords={"zeta_over_a": ratio.values, "f_beta": f_beta, "height": height,
-                "slip_rate": rate},
-    )  # fmt: skip
+        coords={"zeta_over_a": ratio.values, "f_beta": f_beta, "height": height, "slip_rate": rate},
+    )
 
 
 @pytest.fixture(scope="session")

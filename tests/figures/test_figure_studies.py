@@ -12,9 +12,11 @@ from nucleation.figures.beyond import figure_studies
 def table(theory, length):
     theory, length = np.asarray(theory, dtype=float), np.asarray(length, dtype=float)
     columns = {
-        "length": length, "length_low": 0.9 * length, "length_high": 1.2 * length,
+        "length": length,
+        "length_low": 0.9 * length,
+        "length_high": 1.2 * length,
         "theory_length": theory,
-    }  # fmt: skip
+    }
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
 
@@ -73,8 +75,9 @@ def test_two_numbers_on_a_grid_are_maps():
 
 def test_two_values_of_a_second_number_are_two_curves():
     x, y = np.meshgrid([0.01, 0.1], [1.0, 2.0])
-    figure = draw([1, 2, 3, 4], [0.5, 1, 2, 3], height=x.ravel().tolist(),
-                  zeta_over_a=y.ravel().tolist())  # fmt: skip
+    figure = draw(
+        [1, 2, 3, 4], [0.5, 1, 2, 3], height=x.ravel().tolist(), zeta_over_a=y.ravel().tolist()
+    )
     (axes,) = figure.axes
     assert axes.get_xlabel() == "Height $H$ (m)"
     told = axes.get_legend_handles_labels()[1]

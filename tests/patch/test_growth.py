@@ -141,9 +141,11 @@ LOADED = {
 def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
     """They begin where the fault is weakest: the numbers of docs/patch_theory.md, coarser."""
     parameters = dataclasses.replace(
-        LOADED[kind], friction=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039), heterogeneity=WEAK,
+        LOADED[kind],
+        friction=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039),
+        heterogeneity=WEAK,
         stepping=Stepping(longest_step=0.4),
-    )  # fmt: skip
+    )
     dynamics, velocity = composed(parameters), parameters.loading.velocity
     recorder = Recorder(parameters, dynamics)
     for instant in run(parameters, dynamics=dynamics):

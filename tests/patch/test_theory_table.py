@@ -9,9 +9,11 @@ from nucleation.figures.beyond import figure_patch_theory
 from nucleation.patch import theory_table
 
 IDS = (
-    "converged-aging-H0.1-phi1-seed1", "converged-aging-H0.1-phi1-seed2",
-    "converged-slip-H0.05-phi1-seed1", "converged-aging-H0.005-phi1-seed1",
-)  # fmt: skip
+    "converged-aging-H0.1-phi1-seed1",
+    "converged-aging-H0.1-phi1-seed2",
+    "converged-slip-H0.05-phi1-seed1",
+    "converged-aging-H0.005-phi1-seed1",
+)
 
 
 @pytest.fixture(scope="module")

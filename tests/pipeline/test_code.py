@@ -67,11 +67,13 @@ def test_renamed_module_is_the_same(package):
     before = digest(package)
     wing = package / "nucleation" / "wing"
     (wing / "low.py").rename(wing / "ground.py")
-    (wing / "high.py").write_text("from . import ground\nfrom .ground import f as h\n\n"
-                                  "Y = ground.X + h(2)\n")  # fmt: skip
+    (wing / "high.py").write_text(
+        "from . import ground\nfrom .ground import f as h\n\nY = ground.X + h(2)\n"
+    )
     assert digest(package) == before
-    (wing / "high.py").write_text("from . import ground\nfrom .ground import X as h\n\n"
-                                  "Y = ground.X + h(2)\n")  # fmt: skip
+    (wing / "high.py").write_text(
+        "from . import ground\nfrom .ground import X as h\n\nY = ground.X + h(2)\n"
+    )
     assert digest(package) != before, "another definition under the same name"
 
 

@@ -39,9 +39,11 @@ CLAIMS = [
 def content(settings, table, tmp_path_factory):
     """A report with all sections."""
     theory = theory_dataset(
-        settings.base.material, settings.base.friction, settings.main_text_interface,
+        settings.base.material,
+        settings.base.friction,
+        settings.main_text_interface,
         Curves(heights=tuple(np.geomspace(0.004, 0.1, 5))),
-    )  # fmt: skip
+    )
     stem = tmp_path_factory.mktemp("figures") / "figure_2"
     pdf, png = style.save(figure_2.draw(theory), stem)
     entry = catalogue.FIGURES["figure_2"]

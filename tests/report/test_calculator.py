@@ -75,7 +75,7 @@ def computed(web, faults):
           return [answer(p)[0], Lengths.all(p, data.limits), wrong];
         })""",
         [address(fault) for fault in faults],
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("bodies", ["same", "rigid", "other"])
@@ -158,8 +158,10 @@ def test_the_command_beside_gives_the_same(web, capsys):
 
 def test_values_and_units_go_through_the_address(web):
     start = web.url.split("#")[0]
-    web.goto(f"{start}#shear-modulus=30GPa&poisson-ratio=0.25&normal-stress=50MPa&a=0.010&b=0.015"
-             "&slip-distance=5µm&velocity=1mm/yr&height=2km&second-body=10GPa,0.2,inf")  # fmt: skip
+    web.goto(
+        f"{start}#shear-modulus=30GPa&poisson-ratio=0.25&normal-stress=50MPa&a=0.010&b=0.015"
+        "&slip-distance=5µm&velocity=1mm/yr&height=2km&second-body=10GPa,0.2,inf"
+    )
     assert web.input_value("#height") == "2" and web.input_value("#unit-height") == "km"
     assert web.input_value("#unit-slip_distance") == "um"
     assert "the friction coefficient is needed" in web.inner_text("#values")
@@ -181,8 +183,10 @@ NEEDED = [field for field in calculator.FIELDS if not field.empty]
 
 @pytest.mark.parametrize("field", NEEDED, ids=lambda field: field.key)
 def test_bad_values_have_no_result(web, field):
-    web.goto(web.url.split("#")[0] + "#shear-modulus=3e10&poisson-ratio=0.25&normal-stress=5e7"
-             "&a=0.01&b=0.015&slip-distance=5e-6&friction=0.6&second-body=1e10,0.2,1")  # fmt: skip
+    web.goto(
+        web.url.split("#")[0] + "#shear-modulus=3e10&poisson-ratio=0.25&normal-stress=5e7"
+        "&a=0.01&b=0.015&slip-distance=5e-6&friction=0.6&second-body=1e10,0.2,1"
+    )
     assert web.locator("#others tbody").count() == 3
     low = QUANTITIES[field.key.removeprefix("second_")].low
     for bad in ("", str(low), "1e30"):

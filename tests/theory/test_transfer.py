@@ -102,9 +102,11 @@ def test_any_layer_number_is_safe(upper, lower):
 
 @settings(max_examples=60, deadline=None)
 @given(
-    q=st.floats(1e-8, 24.0), width=st.floats(1e-6, 3.0), nu=st.floats(-0.9, 0.4999),
+    q=st.floats(1e-8, 24.0),
+    width=st.floats(1e-6, 3.0),
+    nu=st.floats(-0.9, 0.4999),
     far_side=st.sampled_from(KINDS),
-)  # fmt: skip
+)
 def test_every_term_lies_between_its_extremes(q, width, nu, far_side):
     """Of the whole interval, on a fine grid: monotonic where it is said to be."""
     inside = np.minimum(np.linspace(q, q + width, 101), 25.0)

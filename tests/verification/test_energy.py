@@ -130,8 +130,9 @@ class Accountant:
         if loading.kind == "edge" and self.parameters.below is None:
             stress *= drive.load(state.time).edge[-1] / self.steady.edge[-1]
         shear = loading.initial_shear_stress + loading.stress_rate * state.time
-        return Moment(u, v, relative, a, instant.report, stress, shear, imposed.displacement,
-                      state.last_step)  # fmt: skip
+        return Moment(
+            u, v, relative, a, instant.report, stress, shear, imposed.displacement, state.last_step
+        )
 
     def acceleration(self, step, relative, past):
         """Of the unknowns, by the scheme's own formula."""
@@ -239,10 +240,12 @@ TOP = Parameters(
     second_body=SecondBody(kind="deformable", bottom="clamped"), stepping=STEPPING,
 )  # fmt: skip
 REMOTE = Parameters(
-    loading=Loading(kind="remote", stress_rate=2e5), geometry=Geometry(0.5, 3.0),
-    mesh=Mesh(61, 6, 4.0), stepping=STEPPING,
+    loading=Loading(kind="remote", stress_rate=2e5),
+    geometry=Geometry(0.5, 3.0),
+    mesh=Mesh(61, 6, 4.0),
+    stepping=STEPPING,
     heterogeneity=Heterogeneity(varies="normal_stress", change=-0.1, width=0.3),
-)  # fmt: skip
+)
 
 
 # Where all slips, the forces are balanced to what displacements are rounded to, whatever Newton's

@@ -36,8 +36,9 @@ def with_one_that_fails(study_name):
     values = configuration(3, study_name=study_name)
     study = values["studies"][study_name]
     study["runs"] = [
-        {"height": [0.02, 0.04]}, {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6}
-    ]  # fmt: skip
+        {"height": [0.02, 0.04]},
+        {"height": 0.03, "shortest_step": 9e-8, "longest_step": 3e-6},
+    ]
     study["defaults"] = SHORT | {"tolerance": 1e-9, "end_time": 0.2}
     return values
 
@@ -112,10 +113,12 @@ def test_results_are_those_of_single_jobs(batched):
 def assert_same_datasets(one, other):
     """The same runs by their keys, whatever the study, with the same values to the last bit."""
     found, expected = (
-        {dataset.attrs["key"]: dataset.drop_attrs()
-         for dataset in map(netcdf.read, datasets(made).values())}
+        {
+            dataset.attrs["key"]: dataset.drop_attrs()
+            for dataset in map(netcdf.read, datasets(made).values())
+        }
         for made in (one, other)
-    )  # fmt: skip
+    )
     assert found.keys() == expected.keys()
     for key, dataset in found.items():
         assert dataset.identical(expected[key])

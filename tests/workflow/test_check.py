@@ -64,8 +64,9 @@ def test_other_parameters_are_stale(copied):
 def test_damage_leftovers_and_strangers_are_found(linked):
     results = linked.directory / "results" / "quick"
     store, unfinished = results / "store", results / "unfinished"
-    run, other = (linked.dataset("simulations", f"paper-{law}-H0.02-phi1").parent
-                  for law in ("slip", "aging"))  # fmt: skip
+    run, other = (
+        linked.dataset("simulations", f"paper-{law}-H0.02-phi1").parent for law in ("slip", "aging")
+    )
     run.rename(store / "aside")
     other.rename(run)
     (store / "aside").rename(other)  # whole entries, under each other's key

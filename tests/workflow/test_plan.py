@@ -28,9 +28,11 @@ def test_default_target_is_the_whole_paper(paper):
     assert len(batches) == 9
     once = ("theory", "gather_lengths", "write_table_s1", *DRAWN, *CLAIMING)
     assert paper.planned() == {
-        "extract": 2, "patches_converged": 1, **dict.fromkeys(once, 1),
+        "extract": 2,
+        "patches_converged": 1,
+        **dict.fromkeys(once, 1),
         **{f"simulate_{name.replace('-', '_')}": 1 for name in batches},
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize(

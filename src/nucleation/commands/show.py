@@ -187,12 +187,12 @@ SIMULATION = "simulation"
 
 KINDS = (
     Kind(
-        SIMULATION, ("slip_rate", "driving_force", "step_time"),
-        "overview.plot_run", _simulation_lines,
+        SIMULATION,
+        ("slip_rate", "driving_force", "step_time"),
+        "overview.plot_run",
+        _simulation_lines,
     ),
-    Kind(
-        "sensitivity table", ("varied", "length"), "beyond.figure_sensitivity.draw", _length_rows
-    ),
+    Kind("sensitivity table", ("varied", "length"), "beyond.figure_sensitivity.draw", _length_rows),
     Kind("table of refinement", ("length_difference", "length"), "", _length_rows),
     Kind("table of lengths", ("id", "onset_time", "theory_length"), "", _length_rows),
     Kind("patch's stability", ("instant_time", "oscillation_growth")),
@@ -200,5 +200,5 @@ KINDS = (
     Kind("orders of convergence", ("displacement_error",), "checks.figure_verification.draw"),
     Kind("theory", ("critical_length", "thin_limit_length"), "paper.figure_2.draw"),
     Kind("dataset", ()),
-)  # fmt: skip
+)
 """The first kind all of whose marks are in a dataset is its own."""

@@ -53,8 +53,9 @@ def test_the_map():
 def test_numbers_of_modes():
     """The error that is given covers what twice as many modes change."""
     for height, ratio, below in ((0.005, 2.288, np.inf), (0.1, 6.0, np.inf), (0.5, 1.0, 3.1e8)):
-        fault = fault_of(FAULT | dict(height=height, zeta=ratio * 0.0068,
-                                      second_shear_modulus=below))  # fmt: skip
+        fault = fault_of(
+            FAULT | dict(height=height, zeta=ratio * 0.0068, second_shear_modulus=below)
+        )
         length, _, error = stability_values(fault)
         assert error < 1e-3
 
@@ -148,10 +149,11 @@ def test_where_a_patch_begins():
     """From the loading and the place of the heterogeneity; its slip rate from the load's rise."""
     weak = {"heterogeneity.varies": "f", "heterogeneity.change": -0.5}
     for loading, centre, expected in (
-        ({}, 0.5, "edge"), ({"loading.kind": "top"}, 0.05, "top"),
+        ({}, 0.5, "edge"),
+        ({"loading.kind": "top"}, 0.05, "top"),
         ({"loading.kind": "top"}, 0.5, "remote"),
         ({"loading.kind": "remote", "loading.stress_rate": 1e5}, 0.05, "remote"),
-    ):  # fmt: skip
+    ):
         run = Parameters(geometry=Geometry(height=0.1, length=1.0)).replaced(
             {**weak, **loading, "heterogeneity.centre": centre}
         )

@@ -52,9 +52,11 @@ def test_strong_weakening():
 
     def projected(function, n):
         return quad(
-            lambda y: 2.0 * function(y) * np.sin(np.pi * y) * np.sin(n * np.pi * y), 0.0, 1.0,
+            lambda y: 2.0 * function(y) * np.sin(np.pi * y) * np.sin(n * np.pi * y),
+            0.0,
+            1.0,
             limit=400,
-        )[0]  # fmt: skip
+        )[0]
 
     def first(y):
         return np.sqrt(share) / y - y / np.sqrt(share)
