@@ -1,4 +1,4 @@
-"""What surrounds a computation: a job, its progress, the cache, checks, archives.
+"""What surrounds a computation: jobs, their stores, views of results, checks, archives.
 
 It may use every other wing but the command line.
 """
