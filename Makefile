@@ -29,7 +29,7 @@ help: ## This list
 paper: $(STAMP) ## Make every figure, table and verdict, in results/
 	$(LAUNCH) $(TARGETS) $(OPTIONS) $(CONFIGURED)
 
-report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in forty minutes
+report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in forty to fifty minutes
 	$(LAUNCH) report $(OPTIONS) $(CONFIGURED)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/

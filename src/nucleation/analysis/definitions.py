@@ -84,28 +84,25 @@ def _last_maximum(force: Array, end: int) -> int:
 def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> Array:
     """Position (m) up to which the interface slips, faster than a rate (m/s), at every instant.
 
-    With an edge that is pushed; `slip_rate` (m/s) is (..., x). Before the event it oscillates, and
-    the patch's edge with it, to and fro. It is needed to find the patch's length, the furthest that
-    it has come (:class:`Extent`), and for nothing else. Between nodes log v is taken as linear in
-    x. Only the part of the block next to the loaded edge is searched, so that slip at the far
-    corner does not count. Zero if nothing slips faster.
+    With an edge that is pushed; `slip_rate` (m/s) is (..., x). Before the event the patch's edge
+    goes to and fro: it is needed for the patch's length alone, the furthest that it has come.
+    Between nodes log v is taken as linear in x. Only the part of the block next to the loaded edge
+    is searched, so that slip at the far corner does not count. Zero if nothing slips faster.
     """
     rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)  # also of single precision
     near = int(np.searchsorted(x, SEARCHED * x[-1], side="right"))
     faster = rate[..., :near] > threshold
     inside = near - 1 - faster[..., ::-1].argmax(axis=-1)
-    outside = np.minimum(inside + 1, x.size - 1)
-    at = (np.take_along_axis(rate, node[..., None], -1)[..., 0] for node in (inside, outside))
-    (fast, slow), edge = map(np.log, at), np.log(threshold)
-    part = (fast - edge) / np.where((slow < edge) & (edge < fast), fast - slow, np.inf)
-    return np.where(faster.any(axis=-1), x[inside] + part * (x[outside] - x[inside]), 0.0)
+    ends = np.array([inside, np.minimum(inside + 1, x.size - 1)])
+    return np.where(faster.any(axis=-1), _between(x, rate, ends, threshold), 0.0)
 
 
-def _between(x: Array, rate: Array, inside: int, outside: int, threshold: float) -> float:
-    """Where log v, linear between two neighbours, passes a threshold."""
-    faster, slower = np.log(rate[[inside, outside]])
-    part = (faster - np.log(threshold)) / (faster - slower)
-    return float(x[inside] + part * (x[outside] - x[inside]))
+def _between(x: Array, rate: Array, ends: NDArray[np.intp], threshold: float) -> Array:
+    """Where log v, linear between two neighbours, passes a threshold; the first if it does not."""
+    (first, second), edge = ends, np.log(threshold)
+    faster, slower = (np.log(np.take_along_axis(rate, i[..., None], -1)[..., 0]) for i in ends)
+    part = (faster - edge) / np.where((slower < edge) & (edge < faster), faster - slower, np.inf)
+    return x[first] + part * (x[second] - x[first])
 
 
 def slipping_zone(
@@ -130,7 +127,7 @@ def slipping_zone(
         if not outer.size:
             return float(x[::step][-1])
         i = fastest + step * int(outer[0])
-        return _between(x, rate, i - step, i, threshold)
+        return float(_between(x, rate, np.array([i - step, i]), threshold))
 
     return end(-1), end(1)
 

@@ -60,7 +60,8 @@ class Progress:
         now, rate = time.monotonic(), instant.report.interface.slip_rate
         if now < self._next:
             return
-        self._next, length = now + self._pause, self._patch.reach(rate)
+        self._next = now + self._pause
+        length = self._patch.reach(rate)
         part = self.part_done(instant.state.time, length)
         text = (
             f"t = {instant.state.time:.5g} s, dt = {instant.state.last_step:.3g} s, "

@@ -182,6 +182,7 @@ class Evidence:
 
     @cached_property
     def _own(self) -> list[dict[str, Any]]:
+        """The rows of all roles, which every claim asks for."""
         return [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
 
     def row(self, role: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
