@@ -25,7 +25,7 @@ from . import kernels, transforms
 from .block_modes import BlockModes
 from .condensed import Balance, Expectation
 from .grid import Field
-from .right_edge import EdgeValues, predicted, relative_error
+from .right_edge import EdgeValues, predicted
 from .separable import LoadedResponse
 
 EDGE_FELT = 1e-16  # share of a node's own stiffness, squared coupling: 1e-8 in the coupling
@@ -49,6 +49,7 @@ class CondensedOnNodes(ABC):
 
     body: Any
     edge: EdgeValues
+    _last_asked: tuple[bytes, type] | None = None
 
     @property
     @abstractmethod
@@ -95,7 +96,7 @@ class CondensedOnNodes(ABC):
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)
         transforms.add_edge(found, self.edge.felt, tangential, normal)
-        normal[-1] = self.edge.schur[0] @ found - residual[0]
+        normal[-1] = self.edge.corner_row @ found - residual[0]
         return EdgedResponse(w, tangential, normal, load, found, start)
 
     def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[EdgedResponse]:
@@ -133,21 +134,17 @@ class CondensedOnNodes(ABC):
         if expected is None:
             return Balance(displacement, self.body.no_memory, True)
         foreseen = predicted(expected) if found else response.edge
-        error = relative_error(own, foreseen, edge)
+        error = kernels.relative_error(own, foreseen, edge)
         return Balance(displacement, np.array(error), found or error < self.edge.round_off)
 
     def apply(self, w: Array) -> tuple[Array, Array]:
         """``D w``, shape (n_x,), and ``N w``, (n_x + 1,), for nodal w at nodes 1..n_x (m)."""
-        amplitudes, felt = self.along_x.sine_amplitudes(w), self.edge.felt
-        tangential, normal = self.along_x.forces(self.modal, amplitudes, self._no_load)
-        edge = self.edge.change(w)
-        transforms.add_edge(edge, felt, tangential, normal)
-        normal[-1] = felt[0, 0] @ w[-felt.shape[2] :] + self.edge.schur[0] @ edge
+        tangential, normal = self.along_x.forces_of_nodes(w, self.modal)
+        edge = self.edge
+        transforms.add_edge_in_balance(
+            w, edge.felt, edge.response_near, edge.corner_row, tangential, normal
+        )
         return tangential, normal
-
-    @cached_property
-    def _no_load(self) -> Array:
-        return np.zeros(self.modal.shape)
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:
@@ -184,8 +181,15 @@ class CondensedOnNodes(ABC):
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some interface nodes (sorted, in 1..n_x), (n, n).
 
-        N is returned for the normal forces of those same nodes.
+        N is returned for the normal forces of those same nodes. The last blocks are kept, as the
+        nodes that slip are mostly those of the step before.
         """
+        asked = nodes.tobytes(), dtype
+        if asked != self._last_asked:
+            self._last_asked, self._last_blocks = asked, self._between(nodes, dtype)
+        return self._last_blocks
+
+    def _between(self, nodes: NDArray[np.intp], dtype: type) -> tuple[NDArray, NDArray]:
         n = self.along_x.grid.n_x
         blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
         stiffness, coupling = blocks

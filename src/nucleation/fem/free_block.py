@@ -77,6 +77,10 @@ class EvenHalf(Block):
         tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
         return tangential, np.append(normal, 0.0)
 
+    def forces_of_nodes(self, w: Array, stiffness: Array) -> tuple[Array, Array]:
+        """The same of nodal w at 0..n_x."""
+        return self.forces(stiffness, self.sine_amplitudes(w), np.zeros(1))
+
     def top_load(self, normal_stress: float) -> Field:
         """None: an even stress on the top belongs to the other half."""
         return self.zero_field()

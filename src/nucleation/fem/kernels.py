@@ -10,10 +10,13 @@ For each mode the equations are ``A[j,j-1] u[j-1] + A[j,j] u[j] + A[j,j+1] u[j+1
 and ``T[j] = A[j,j+1] Q[j+1]`` (xx, xy, yx, yy).
 """
 
-import numpy as np
-from numba import njit
+from functools import partial
 
-compiled = njit(cache=True, fastmath={"contract", "reassoc", "nsz"}, error_model="numpy")
+import numpy as np
+
+from . import compiling
+
+compiled = partial(compiling.compiled, fastmath={"contract", "reassoc", "nsz"})
 
 
 @compiled
@@ -127,14 +130,36 @@ def substitute(inverse, lower, rhs):
 
 
 @compiled
-def add_inertia(mass, weight, coefficients, fields, edge_load, edge_weight, load, near, out):
-    """``out = load + weight[m] M f + edge_load[j] edge_weight[m]`` with ``f = sum_i c_i f_i``.
+def products(matrices, vector):
+    """``A_k vector`` for tridiagonal matrices, (number, 3, length): (number, length)."""
+    out, last = np.empty((matrices.shape[0], vector.size)), vector.size - 1
+    for k in range(matrices.shape[0]):
+        lower, diagonal, upper = matrices[k]
+        for j in range(last + 1):
+            total = diagonal[j] * vector[j]
+            if j > 0:
+                total += lower[j] * vector[j - 1]
+            if j < last:
+                total += upper[j] * vector[j + 1]
+            out[k, j] = total
+    return out
 
-    M is the mass matrix in y, the last term acts along y only; ``near[j] = sum_m edge_weight f_y``.
-    `fields` are four.
+
+@compiled
+def add_inertia(
+    mass, weight, edge_mass, edge_weight, scale, coefficients, fields, edges, load, edge_load
+):
+    """``load + M f`` with ``f = sum_i c_i f_i`` of four fields and their edges: modes and edge.
+
+    The mass is `weight` per mode times the matrix `mass` in y; that of an edge value is twice
+    `edge_mass`, and once between it and the modes, by their `edge_weight`, which `scale` loads.
     """
     top, n = mass.shape[1] - 1, load.shape[2]
-    c0, c1, c2, c3 = coefficients[0], coefficients[1], coefficients[2], coefficients[3]
+    c0, c1, c2, c3 = coefficients
+    out, near = np.empty_like(load), np.empty(top + 1)
+    edge = (c0 * edges[0] + c1 * edges[1]) + (c2 * edges[2] + c3 * edges[3])
+    stacked = mass.reshape(1, 3, top + 1)
+    edge_inertia = (edge_mass * scale) * products(stacked, edge)[0]
     rows = np.zeros((3, 2, n))  # f at the levels j - 1, j, j + 1, each at its level modulo 3
     for level in range(top + 2):
         if level <= top:
@@ -154,10 +179,11 @@ def add_inertia(mass, weight, coefficients, fields, edge_load, edge_weight, load
         lo, di, up = mass[0, j], mass[1, j], mass[2, j]  # zero where there is no neighbour
         for c in range(2):
             below, here, above = rows[(j + 2) % 3, c], rows[j % 3, c], rows[(j + 1) % 3, c]
-            r, to, edge = load[j, c], out[j, c], edge_load[j] * c
+            r, to, by_edge = load[j, c], out[j, c], edge_inertia[j] * c  # which acts along y
             for m in range(n):
                 inertia = weight[m] * (lo * below[m] + di * here[m] + up * above[m])
-                to[m] = r[m] + (inertia + edge * edge_weight[m])
+                to[m] = r[m] + (inertia + by_edge * edge_weight[m])
+    return out, edge_load + edge_mass * products(stacked, near + 2.0 * edge)[0]
 
 
 @compiled
@@ -229,22 +255,6 @@ def rate_of_change(c1, c2, beta, new, u, u_past, out):
 
 
 @compiled
-def products(matrices, vector):
-    """``A_k vector`` for tridiagonal matrices, (number, 3, length): (number, length)."""
-    out, last = np.empty((matrices.shape[0], vector.size)), vector.size - 1
-    for k in range(matrices.shape[0]):
-        lower, diagonal, upper = matrices[k]
-        for j in range(last + 1):
-            total = diagonal[j] * vector[j]
-            if j > 0:
-                total += lower[j] * vector[j - 1]
-            if j < last:
-                total += upper[j] * vector[j + 1]
-            out[k, j] = total
-    return out
-
-
-@compiled
 def edge_residual(matrices, weights, field, edge, load, levels):
     """``load - sum_k A_k s_k``, with the :func:`edge_sums` s_0 to s_2 of a field, and s_3 the edge.
 
@@ -304,3 +314,13 @@ def load_couple(compliance, forces, upper, lower, held, start):
         x, y = x1 + x2, y1 + y2
         start[0, m] = compliance[0, m] * x + compliance[1, m] * y
         start[1, m] = compliance[1, m] * x + compliance[2, m] * y
+
+
+@compiled
+def relative_error(found, first, second):
+    """Largest error of two guesses over the largest value found; infinite if all are zero."""
+    largest = error = 0.0
+    for j in range(found.size):
+        largest = max(largest, abs(found[j]))
+        error = max(error, abs(first[j] - found[j]), abs(second[j] - found[j]))
+    return error / largest if largest > 0.0 else np.inf

@@ -130,7 +130,13 @@ class Circulant(ABC):
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
         block = np.ix_(nodes - 1, nodes - 1)
-        stiffness, coupling = (circulant(c)[block].astype(dtype) for c in self._columns)
+        stiffness, coupling = (matrix[block].astype(dtype) for matrix in self._dense)
+        return stiffness, coupling
+
+    @cached_property
+    def _dense(self) -> tuple[Array, Array]:
+        """D and N between all nodes."""
+        stiffness, coupling = map(circulant, self._columns)
         return stiffness, coupling
 
 

@@ -59,8 +59,8 @@ class EdgeValues(ABC):
 
     def change(self, w: Array) -> Array:
         """Change of the edge values (m) in balance, for a change of w at the nodes 1..n_x (m)."""
-        near = self.felt.shape[2]
-        return self.response[:, -near:] @ w[-near:]
+        near = self.response_near
+        return near @ w[-near.shape[1] :]
 
     def correction(self, residual: Array) -> Array:
         """Change of the edge values that balances a residual, interface held, (n_y + 1,)."""
@@ -70,6 +70,16 @@ class EdgeValues(ABC):
     def response(self) -> Array:
         """Edge values per unit of w at each node, bulk and edge in balance, (n_y + 1, n_x)."""
         return -self.compliance @ self.to_interface[0]
+
+    @cached_property
+    def response_near(self) -> Array:
+        """:attr:`response` to the nodes of :attr:`felt`, (n_y + 1, nodes)."""
+        return np.ascontiguousarray(self.response[:, -self.felt.shape[2] :])
+
+    @cached_property
+    def corner_row(self) -> Array:
+        """The row of :attr:`schur` that gives the corner's normal force."""
+        return np.ascontiguousarray(self.schur[0])
 
     @cached_property
     def diagonal(self) -> Array:
@@ -200,9 +210,3 @@ def predicted(expected: Expectation) -> Array:
         return edge
     change = now.velocity.edge - before.velocity.edge
     return edge + (0.5 * step**2 / expected.last_step) * change
-
-
-def relative_error(found: Array, *assumed: Array) -> float:
-    """Largest error of what was assumed over the largest value; infinite if all are zero."""
-    largest = np.abs(found).max()
-    return max(np.abs(a - found).max() for a in assumed) / largest if largest > 0.0 else np.inf

@@ -27,6 +27,7 @@ class Stacked(NamedTuple):
     mass: Array
     stiffness: Array
     derivative: Array
+    row_sums: Array  # of the mass
 
 
 HELD = {
@@ -52,7 +53,8 @@ class SeparableBody(ABC):
     ) -> None:  # fmt: skip
         self.grid, self.material, self.far_side = grid, material, far_side
         self.mass, self.stiffness, self.derivative = element_matrices(grid.y)
-        self.stacked = Stacked(self.mass.stacked, self.stiffness.stacked, self.derivative.stacked)
+        matrices = self.mass.stacked, self.stiffness.stacked, self.derivative.stacked
+        self.stacked = Stacked(*matrices, matrices[0].sum(axis=0))
         self._set_modes(theta, x_integral, edge_weights)
 
     def _set_modes(self, theta: Array, x_integral: Array, edge_weights: Array) -> None:
@@ -121,7 +123,7 @@ class SeparableBody(ABC):
         In the scaling of all loads, per mode times 2/n_x.
         """
         load = self.zero_field()
-        per_level = -self.material.density * acceleration * self.stacked.mass.sum(axis=0)
+        per_level = -self.material.density * acceleration * self.stacked.row_sums
         per_mode = self.sine_amplitudes(np.full(self.modes, self.grid.dx))
         load.modes[:, 0] = per_level[:, None] * per_mode
         return load
@@ -130,18 +132,15 @@ class SeparableBody(ABC):
         """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, in the scaling of `top_load`."""
         load = self.zero_field() if load is None else load
         terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
-        coefficients = np.array([c for c, _ in terms])
-        edge = sum(c * field.edge for c, field in terms)
+        coefficients, fields = zip(*terms, strict=True)
         rho_s = s * self.material.density
-        edge_mass = rho_s * self.grid.dx / 6.0
-        near, modes = np.empty_like(load.edge), np.empty_like(load.modes)
-        kernels.add_inertia(
-            self.stacked.mass, rho_s * self.x_mass, coefficients,
-            tuple(field.modes for _, field in terms),
-            (edge_mass * 2.0 / self.grid.n_x) * (self.mass @ edge), self.edge_weights[2],  # type: ignore[operator]
-            load.modes, near, modes,
+        return Field(
+            *kernels.add_inertia(
+                self.stacked.mass, rho_s * self.x_mass, rho_s * self.grid.dx / 6.0,
+                self.edge_weights[2], 2.0 / self.grid.n_x, coefficients, tuple(field.modes for field in fields),
+                tuple(field.edge for field in fields), load.modes, load.edge,
+            )
         )  # fmt: skip
-        return Field(modes, load.edge + edge_mass * (self.mass @ (near + 2.0 * edge)))
 
     def motion(
         self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
@@ -165,8 +164,8 @@ class SeparableBody(ABC):
 
     def momentum_x(self, velocity: Field) -> float:
         """Momentum along x of the velocity field w_t (kg/s per unit depth)."""
-        along_y = self.stacked.mass.sum(axis=0)
-        return self.material.density * float(along_y @ (velocity.modes[:, 0] @ self.x_integral))
+        along_x = velocity.modes[:, 0] @ self.x_integral
+        return self.material.density * float(self.stacked.row_sums @ along_x)
 
 
 def rate_of_change(

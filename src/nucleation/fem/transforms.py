@@ -6,10 +6,9 @@ to do. rocket-fft lets numba call the same transforms, so that not a bit is diff
 
 import numpy as np
 import rocket_fft  # noqa: F401 - lets numba compile scipy.fft
-from numba import njit
 from scipy import fft
 
-compiled = njit(cache=True, error_model="numpy")
+from .compiling import compiled
 
 
 @compiled
@@ -42,6 +41,24 @@ def nodal_forces(stiffness, amplitudes, reduced, alternating):
     normal[0] *= 0.5
     normal[n] = 0.0
     return tangential, normal
+
+
+@compiled
+def forces_of_nodes(w, stiffness, alternating):
+    """Nodal forces of ``stiffness`` per mode for w at the nodes 1..n."""
+    return nodal_forces(stiffness, sine_amplitudes(w), np.zeros_like(stiffness), alternating)
+
+
+@compiled
+def add_edge_in_balance(w, felt, response, schur, tangential, normal):
+    """Add what the edge does that follows w: `felt` and its `response`, both of the last nodes.
+
+    The last normal force is the corner's, from the edge's row `schur`.
+    """
+    near = w[w.size - response.shape[1] :]
+    edge = response @ near
+    add_edge(edge, felt, tangential, normal)
+    normal[-1] = felt[0, 0] @ near + schur @ edge
 
 
 @compiled

@@ -11,9 +11,9 @@ from sys import modules
 from types import ModuleType
 from typing import Any
 
-from numba import njit
 from numba.extending import register_jitable
 
+from ..fem.compiling import compiled
 from ..model.friction import evolution
 from ..model.friction.law import Friction
 
@@ -22,7 +22,7 @@ from ..model.friction.law import Friction
 def _compiled(function: Callable) -> Callable[..., Any]:
     for module in {evolution, modules[function.__module__]}:
         _let_be_called(module)
-    return njit(cache=True, error_model="numpy")(function)
+    return compiled(function)
 
 
 @cache

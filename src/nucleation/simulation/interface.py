@@ -14,6 +14,7 @@ step. Node 0 slips at the imposed velocity V.
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable
 from functools import cached_property
 from typing import NamedTuple, Protocol
@@ -25,16 +26,16 @@ from scipy.linalg import lapack
 from ..fem.condensed import Condensed, Response
 from ..model.friction.law import Friction
 from ..types import Array
-from . import compiled_laws, newton
+from . import compiled_laws, passes
 from .drive import Imposed
 from .state import State
 from .stepping import Formula
 
 ROUNDING = 1e-14  # relative, of displacements
-LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 ENOUGH = 0.1  # error expected of an iteration with old factors, in units of the tolerance
 DESCENTS = 6  # of Newton's method for one node alone, from at most twice what it is to balance
 LARGEST_ASINH = 700.0
+UNCHANGED = 1e-3  # change of a slip rate that friction does not see, in units of the tolerance
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
 
@@ -110,29 +111,27 @@ class Factors:
         beta: float,
     ) -> Factors:  # fmt: skip
         """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
-        active = newton.coupled(elastic, damping, ACTIVE)
+        active = passes.coupled(elastic, damping, ACTIVE)
         if not active.size:
             nothing = np.empty((0, 0), dtype=np.float32)
             return cls(active, damping[active], nothing, np.empty(0, dtype=np.int32))
         stiffness, coupling = operator.tangent(active + 1, np.float32)
-        newton.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
-        lu, pivots, info = lapack.sgetrf(stiffness.T, overwrite_a=True)  # of the transpose
+        matrix = passes.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
+        lu, pivots, info = lapack.sgetrf(matrix.T, overwrite_a=True)  # of the transpose
         if info:
             raise NewtonFailure("the interface's tangent is singular")
         return cls(active, damping[active], lu, pivots)
 
     def change(self, damping: Array, elastic: Array) -> float:
         """Largest relative change of a node's slope since, by which an iteration would err."""
-        return newton.change_of_slope(self.active, self.damping, elastic, damping, ACTIVE)
+        return passes.change_of_slope(self.active, self.damping, elastic, damping, ACTIVE)
 
     def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
         """Newton's direction for a residual, to first order in the change since factorising."""
-        change = newton.uncoupled(residual, elastic, damping)
+        solved = -residual[self.active].astype(np.float32)
         if self.active.size:
-            change[self.active], _ = lapack.sgetrs(
-                self.lu, self.pivots, -residual[self.active], trans=1
-            )
-        return change
+            solved, _ = lapack.sgetrs(self.lu, self.pivots, solved, trans=1, overwrite_b=True)
+        return passes.direction(residual, elastic, damping, self.active, solved)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -143,6 +142,7 @@ class Interface:
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 8
     most_iterations_from_rest: int = 50
+    slow: float = 0.0  # m/s; slip rates below need no relative accuracy
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x beside what the body exerts
 
     @cached_property
@@ -172,23 +172,27 @@ class Interface:
         Tension
             A nodal normal force of the solution is tensile.
         """
-        v, w, beta, factors = guess, response.w, past.beta, None
-        rounding = ROUNDING * np.abs(past.w).max() / beta  # of v = (w - past.w) / beta
+        v, w, beta, factors, law = guess, response.w, past.beta, None, self.friction
+        rounding = ROUNDING * passes.largest_size(past.w) / beta  # of v = (w - past.w) / beta
         p, normal = response.tangential, response.normal + self.extra_normal
         most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
         elastic = beta * operator.diagonal
         first = normal.size - v.size  # node 0 is free only where no edge is driven
+        anew = normal.size  # nodes, from the left, whose friction has to be evaluated
+        strength = 1.0 if imposed.strength is None else imposed.strength
         for iteration in range(most + 1):
             rates = operator.body.on_all_nodes(v, imposed.velocity)
-            coefficient, slope, psi = self._friction(rates, past.log_state, beta)
-            if imposed.strength is not None:
-                coefficient, slope = imposed.strength * coefficient, imposed.strength * slope
-            linear_below = self.friction.linear_below(psi)
-            resolved = (np.abs(rates) + linear_below)[first:]
-            residual, damping, error = newton.balance(
-                p, normal, coefficient, slope, elastic, resolved, self.tolerance, rounding
+            found = self._friction(rates[:anew], past.log_state[:anew], beta)
+            if anew == normal.size:
+                psi, *friction = found
+            else:
+                for values, some in zip((psi, *friction), found, strict=True):
+                    values[:anew] = some
+            least = np.maximum(law.linear_below(psi), self.slow)
+            residual, damping, error, coefficient = passes.balance(
+                p, normal, *friction, rates, elastic, least, self.tolerance, rounding, strength
             )
-            if not np.isfinite(error):
+            if not math.isfinite(error):
                 raise NewtonFailure("slip rate is not finite")
             if error < 1.0:
                 if normal.min() <= 0.0:
@@ -200,42 +204,33 @@ class Interface:
             if factors is None or error * factors.change(damping, elastic) > ENOUGH:
                 factors = Factors.of(operator, coefficient[first:], damping, elastic, beta)
             change = factors.direction(residual, damping, elastic)
-            if self.friction.asinh_of_rate:
-                v = _updated_by_asinh(v, change, damping, elastic, linear_below[first:])
+            if law.asinh_of_rate:
+                v = _updated_by_asinh(v, change, damping, elastic, law.linear_below(psi)[first:])
             else:
-                v = self._updated(v, change)
-            w, change = newton.moved(v, imposed.velocity, beta, past.w, response.w)
+                v = passes.updated(v, change, law.regularisation_slip_rate)
+            if self._even:
+                now = operator.body.on_all_nodes(v, imposed.velocity)
+                anew = passes.reach(now, rates, UNCHANGED * self.tolerance, least)
+            w, change = passes.moved(v, imposed.velocity, beta, past.w, response.w)
             dp, dnormal = operator.apply(change)
             p = response.tangential + dp
             normal = response.normal + dnormal + self.extra_normal
         raise NewtonFailure(f"no convergence in {most} iterations")
 
-    def _friction(
-        self, v: Array, log_state_history: Array, beta: float
-    ) -> tuple[Array, Array, Array]:
-        """Friction coefficient, its total derivative by v, and psi, state at the new time."""
-        distance = self.friction.characteristic_slip_distance
-        v0 = self.friction.regularisation_slip_rate
-        speed, rate = newton.slip_speed(v, v0, distance)
-        psi, psi_by_rate = self._evolved(log_state_history, beta, rate)
-        coefficient, by_rate, by_log_state = self._formula(v, psi, self.friction.constants)
-        slope = newton.total_slope(by_rate, by_log_state, psi_by_rate, v, speed, distance)
-        return coefficient, slope, psi
+    @cached_property
+    def _even(self) -> bool:
+        """Whether the law is the same at all nodes."""
+        values = *self.friction.constants, self.friction.characteristic_slip_distance
+        return all(np.ndim(value) == 0 for value in values)
 
-    def _updated(self, v: Array, change: Array) -> Array:
-        """``v + change``, but a slip rate that shrinks does so in asinh(v / v0).
-
-        Friction is concave in v > 0: from above, Newton's method goes far beyond the root. Both
-        forms agree to first order in the change, so that convergence stays quadratic.
-        """
-        v0 = self.friction.regularisation_slip_rate
-        updated, shrinking = newton.updated(v, change, v0)
-        if shrinking.size:
-            before = v[shrinking]
-            ratio = change[shrinking] / self.friction.slip_speed(before)
-            shift = np.clip(ratio, -LARGEST_SHIFT, LARGEST_SHIFT)
-            updated[shrinking] = v0 * np.sinh(np.arcsinh(before / v0) + shift)
-        return updated
+    def _friction(self, v: Array, past_log_state: Array, beta: float) -> tuple[Array, ...]:
+        """psi, state at the end of the step, friction coefficient, and its total slope (s/m)."""
+        law = self.friction
+        distance = law.characteristic_slip_distance
+        speed, rate = passes.slip_speed(v, law.regularisation_slip_rate, distance)
+        psi, psi_by_rate = self._evolved(past_log_state, beta, rate)
+        coefficient, *slopes = self._formula(v, psi, law.constants)
+        return psi, coefficient, passes.total_slope(*slopes, psi_by_rate, v, speed, distance)
 
 
 def _updated_by_asinh(

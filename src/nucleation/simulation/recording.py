@@ -11,6 +11,7 @@ from ..datasets.variables import annotate
 from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
 from ..types import Array
+from . import passes
 from .event import FAST, WINDOW, DropWatch
 from .recorded import RECORDED
 from .state import State
@@ -59,7 +60,7 @@ class Recorder:
     def record(self, state: State, report: StepReport) -> None:
         """Take in the initial state or one accepted step."""
         interface = report.interface
-        fastest = float(np.abs(interface.slip_rate).max())
+        fastest = passes.largest_size(interface.slip_rate)
         self._time = state.time
         self._rows.append(
             (state.time, state.last_step, report.driving_force, fastest, interface.iterations)
@@ -71,16 +72,17 @@ class Recorder:
         self._maybe_snapshot(state, fastest)
 
     def _maybe_frame(self, state: State, report: StepReport) -> None:
-        scaled = np.arcsinh(report.interface.slip_rate / self._velocity)
+        rate = report.interface.slip_rate
         due = (
             not self._frames
             or state.time - self._frames[-1][0] >= self._longest_pause
             or len(self._rows) - self._last_frame_step >= FRAME_STEPS
-            or np.abs(scaled - self._last_scaled).max() >= FRAME_CHANGE
+            or passes.changed(rate, self._last_scaled, self._velocity) >= FRAME_CHANGE
         )
         if not due:
             return
-        self._last_scaled, self._last_frame_step = scaled, len(self._rows)
+        self._last_scaled = np.arcsinh(rate / self._velocity)
+        self._last_frame_step = len(self._rows)
         interface, lengths = report.interface, self.grid.nodal_lengths
         slip = self._drive.at(state.time).displacement + self._body.on_all_nodes(interface.w, 0.0)
         fields = (

@@ -23,7 +23,7 @@ from .event import Outcome
 from .interface import Interface, InterfaceSolution
 from .recording import Recorder
 from .state import State
-from .step import Dynamics, StepReport
+from .step import SLOW, Dynamics, StepReport
 from .stepping import BDF
 
 NEWTON = 1e-3
@@ -40,18 +40,17 @@ def composed(parameters: Parameters) -> Dynamics:
 def interface_of(parameters: Parameters, grid: Grid) -> Interface:
     """The frictional interface with what varies along it."""
     varied, loading = parameters.heterogeneity, parameters.loading
-    tolerance = Interface.tolerance  # quiet runs live on round-off
+    friction, extra, asked = parameters.friction, 0.0, {}  # quiet runs live on round-off
     if parameters.perturbation.acts:
         declared = min(NEWTON * parameters.stepping.tolerance, parameters.perturbation.strength)
-        tolerance = max(tolerance, declared)
-    if varied.varies == "none":
-        return Interface(parameters.friction, tolerance)
-    factor = varied.factor(grid.x, grid.length, grid.periodic)
-    friction = varied.friction(parameters.friction, loading.velocity, factor)
-    if varied.varies != "normal_stress":
-        return Interface(friction, tolerance)
-    extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
-    return Interface(friction, tolerance, extra_normal=extra)
+        tolerance = max(Interface.tolerance, declared)
+        asked = {"tolerance": tolerance, "slow": SLOW * loading.velocity}
+    if varied.varies != "none":
+        factor = varied.factor(grid.x, grid.length, grid.periodic)
+        friction = varied.friction(friction, loading.velocity, factor)
+        if varied.varies == "normal_stress":
+            extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
+    return Interface(friction, extra_normal=extra, **asked)
 
 
 def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:

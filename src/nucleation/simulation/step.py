@@ -8,6 +8,7 @@ scheme (:mod:`nucleation.simulation.stepping`).
 """
 
 import dataclasses
+import math
 from collections import OrderedDict
 from typing import NamedTuple
 
@@ -16,8 +17,9 @@ import numpy as np
 from ..fem.condensed import Body, Expectation, Operator
 from ..fem.grid import Field, Motion
 from ..types import Array
+from . import passes
 from .drive import Drive, Imposed
-from .interface import Friction, InterfaceSolution, Past, Solver
+from .interface import InterfaceSolution, Past, Solver
 from .state import State, pushed
 from .stepping import BDF, Step
 
@@ -48,6 +50,7 @@ class Dynamics:
         self.body, self.interface, self.drive, self.scheme = body, interface, drive, scheme
         self.grid = body.grid
         self._operators: OrderedDict[float, Operator] = OrderedDict()
+        self._slip_distance = float(np.min(interface.friction.characteristic_slip_distance))
 
     def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
         """One step with the leading coefficient of a rung of the step-size ladder.
@@ -58,7 +61,7 @@ class Dynamics:
         time = state.time + step.length
         operator, imposed = self.operator(step.s), self.drive.at(time)
         load = self._load_with_past(state, step, imposed)
-        guess = extrapolated(state, step, self.drive.velocity, self.interface.friction)
+        guess = extrapolated(state, step, self.drive.velocity, self._slip_distance)
         past = Past.of(state, step.interface, imposed, step.first)
         rates = guess.slip_rate[-self.body.free_nodes :]
         w = past.w + past.beta * (rates - imposed.velocity)
@@ -111,7 +114,7 @@ class Dynamics:
         self, state: State, time: float, solution: InterfaceSolution, motion: Motion, memory: Array
     ) -> State:
         """The state with new values before the past ones that the scheme still needs."""
-        most, slid = self.scheme.instants, float(np.abs(solution.w).max())
+        most, slid = self.scheme.instants, passes.largest_size(solution.w)
         motions = (motion, *state.motions[: self.scheme.levels - 1])
         return State(
             self.body.settled(motions, time - state.time, slid),
@@ -134,37 +137,26 @@ def _rate_of_momentum(step: Step, motion: Motion, motions: tuple[Motion, ...]) -
 class Guess(NamedTuple):
     """The interface at the end of a step as its past lets expect it, nodes 0..n_x."""
 
+    scaled: Array  # asinh(v / scale), as which slip rates count
     slip_rate: Array  # m/s
     log_state: Array
-    scale: float  # m/s; slip rates count as asinh(v / scale)
+    scale: float  # m/s
 
     def distance(self, solution: InterfaceSolution) -> float:
         """Largest distance to what it turned out to be, in asinh(v / scale) and log(phi)."""
-        rate, scale = solution.slip_rate, self.scale
-        return max(
-            np.abs(np.arcsinh(rate / scale) - np.arcsinh(self.slip_rate / scale)).max(),
-            np.abs(solution.log_state - self.log_state).max(),
-        )
+        found = solution.slip_rate, solution.log_state
+        return passes.distance(self.scaled, self.log_state, *found, self.scale)
 
 
-def extrapolated(state: State, step: Step, velocity: float, friction: Friction) -> Guess:
+def extrapolated(state: State, step: Step, velocity: float, distance: float) -> Guess:
     """Slip rates and states at the end of a step, by polynomials through the past ones.
 
     Slip rates count as asinh(v / scale), relative from a scale on. The scale's last term lets the
     steps grow over the elastic waves that ring in the body after an event: they shake the slip
     rates, but move the interface by next to nothing.
     """
-    fastest = np.abs(state.past_slip_rates[0]).max()
-    distance = float(np.min(friction.characteristic_slip_distance))
-    scale = max(
-        SLOW * velocity, SLOW_IN_EVENT * float(fastest), SLIGHT_SLIP * distance / step.length
-    )
-    scaled = step.extrapolation @ np.arcsinh(state.past_slip_rates / scale)
-    rate = scale * np.sinh(_within(scaled, LARGEST_RATE_EXPONENT))
-    rate = _within(rate, 10.0 * fastest)
-    return Guess(rate, step.extrapolation @ state.past_log_states, scale)
-
-
-def _within(values: Array, largest: float) -> Array:
-    """Values cut at a size; :func:`numpy.clip` takes four times as long on a few hundred."""
-    return np.minimum(np.maximum(values, -largest), largest)
+    fastest = passes.largest_size(state.past_slip_rates[0])
+    scale = max(SLOW * velocity, SLOW_IN_EVENT * fastest, SLIGHT_SLIP * distance / step.length)
+    largest = min(LARGEST_RATE_EXPONENT, math.asinh(10.0 * fastest / scale))
+    past = state.past_slip_rates, state.past_log_states
+    return Guess(*passes.expected(*past, step.extrapolation, scale, largest), scale)

@@ -1,0 +1,52 @@
+"""Functions compiled by numba, and kept for other processes: written by one at a time.
+
+Two processes that compile a function for different arguments at once may each count the other's
+code as their own (numba 0.68 numbers its files without a lock), and then run it on arrays that it
+is not made for. Jobs of a workflow begin at once.
+"""
+
+import contextlib
+import fcntl
+import os
+from collections.abc import Callable, Iterator, Set
+from typing import Any
+
+from numba import njit
+from numba.core.caching import FunctionCache
+
+LOCK = "lock"
+
+
+class SharedCache(FunctionCache):  # type: ignore[misc]
+    """What numba keeps of a function, read and written by many processes."""
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep the code for some types of arguments."""
+        with self._locked():
+            super().save_overload(sig, data)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The code for some types of arguments, None if it is not kept."""
+        with self._locked():
+            return super().load_overload(sig, target_context)
+
+    @contextlib.contextmanager
+    def _locked(self) -> Iterator[None]:
+        """Hold the directory's lock, where the disk has any."""
+        with contextlib.ExitStack() as held:
+            with contextlib.suppress(OSError):
+                self._impl.locator.ensure_cache_path()
+                file = held.enter_context(open(os.path.join(self.cache_path, LOCK), "a"))
+                fcntl.flock(file, fcntl.LOCK_EX)
+            yield
+
+
+def compiled(function: Callable[..., Any], fastmath: Set[str] = frozenset()) -> Callable[..., Any]:
+    """Compile a function when it is first called, with numpy's errors; see the module.
+
+    Without `fastmath` it does the arithmetic of numpy, to the last bit.
+    """
+    made = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
+    with contextlib.suppress(RuntimeError):  # no place to keep it
+        made._cache = SharedCache(function)
+    return made  # type: ignore[no-any-return]

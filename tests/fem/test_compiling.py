@@ -1,0 +1,48 @@
+"""What numba keeps is right, whichever processes write at once."""
+
+import subprocess
+import sys
+
+import pytest
+
+DOUBLING = """
+from nucleation.fem.compiling import compiled
+
+@compiled
+def doubled(x):
+    return 2 * x
+"""
+TWO_AT_ONCE = """
+import sys, time
+from numba.core.caching import IndexDataCacheFile
+sys.path.insert(0, sys.argv[1])
+import doubling
+
+def slow(self, overloads, save=IndexDataCacheFile._save_index):
+    time.sleep(1.0)  # the other one has read the index in this time
+    save(self, overloads)
+
+IndexDataCacheFile._save_index = slow
+assert doubling.doubled({}) == {}
+"""
+KEPT = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from doubling import doubled
+
+print(doubled(3), doubled(2.5), len(doubled.stats.cache_misses))
+"""
+
+
+@pytest.mark.slow
+def test_two_processes_compile_for_other_arguments_at_once(tmp_path, monkeypatch):
+    """A third one finds what both have compiled."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
+    (tmp_path / "doubling.py").write_text(DOUBLING)
+    programs = (TWO_AT_ONCE.format(x, 2 * x) for x in (3, 2.5))
+    running = [subprocess.Popen([sys.executable, "-c", p, str(tmp_path)]) for p in programs]
+    assert [process.wait() for process in running] == [0, 0]
+    third = subprocess.run(
+        [sys.executable, "-c", KEPT, str(tmp_path)], check=True, capture_output=True, text=True
+    )
+    assert third.stdout.split() == ["6", "5.0", "0"]
