@@ -129,7 +129,7 @@ class Circulant(ABC):
 
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
-        block = np.ix_(nodes - 1, nodes - 1)
+        block = np.ix_(nodes - 1, nodes - 1) if nodes.size < self.along_x.grid.n_x else ...
         stiffness, coupling = (matrix[block].astype(dtype) for matrix in self._dense)
         return stiffness, coupling
 
@@ -172,4 +172,4 @@ class PeriodicOperator(SeparableOperator, Circulant):
 
 def with_entry_zero(nodal: Array) -> Array:
     """Values at the period's nodes as an interface array: entry 0 repeats the last node."""
-    return np.append(nodal[-1], nodal)
+    return np.concatenate((nodal[-1:], nodal))
