@@ -178,17 +178,17 @@ class Interface:
         most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
         elastic = beta * operator.diagonal
         first = normal.size - v.size  # node 0 is free only where no edge is driven
-        anew = normal.size  # nodes, from the left, whose friction has to be evaluated
+        rates = operator.body.on_all_nodes(v, imposed.velocity)
+        anew = rates.size  # nodes, from the left, whose friction has to be evaluated
         strength = 1.0 if imposed.strength is None else imposed.strength
         for iteration in range(most + 1):
-            rates = operator.body.on_all_nodes(v, imposed.velocity)
             found = self._friction(rates[:anew], past.log_state[:anew], beta)
-            if anew == normal.size:
+            if anew == rates.size:
                 psi, *friction = found
             else:
                 for values, some in zip((psi, *friction), found, strict=True):
                     values[:anew] = some
-            least = np.maximum(law.linear_below(psi), self.slow)
+            least = law.linear_below(psi) + self.slow
             residual, damping, error, coefficient = passes.balance(
                 p, normal, *friction, rates, elastic, least, self.tolerance, rounding, strength
             )
@@ -208,9 +208,9 @@ class Interface:
                 v = _updated_by_asinh(v, change, damping, elastic, law.linear_below(psi)[first:])
             else:
                 v = passes.updated(v, change, law.regularisation_slip_rate)
+            before, rates = rates, operator.body.on_all_nodes(v, imposed.velocity)
             if self._even:
-                now = operator.body.on_all_nodes(v, imposed.velocity)
-                anew = passes.reach(now, rates, UNCHANGED * self.tolerance, least)
+                anew = passes.reach(rates, before, UNCHANGED * self.tolerance, least)
             w, change = passes.moved(v, imposed.velocity, beta, past.w, response.w)
             dp, dnormal = operator.apply(change)
             p = response.tangential + dp
