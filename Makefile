@@ -6,6 +6,10 @@ TARGETS ?=
 PARTS ?= solver
 FAULTS ?= 200
 SEED ?= 1
+RELEASE ?= release
+RESULTS ?= results
+STEM = $(shell $(BIN)/python -c 'import tomllib; \
+	p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(p["name"], p["version"], sep="-")')
 
 VENV ?= .venv
 BIN := $(VENV)/bin
@@ -20,7 +24,7 @@ CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
-	targets check prune bundle restore release torture weight
+	targets check prune bundle restore release released torture weight
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -98,8 +102,19 @@ bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results
 
 release: $(STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
 	$(LAUNCH) paper replication report $(OPTIONS) $(CONFIGURED)
-	@$(BIN)/python -m nucleation.pipeline.release "$(or $(RELEASE),release)" "$(CONFIG)"
+	@$(MAKE) --no-print-directory released
+
+# Results that are there; source and wheel are those of the commit.
+released:
+	mkdir "$(RELEASE)"
+	$(BIN)/python -m nucleation.pipeline.bundle write "$(RELEASE)/$(STEM)-results.tar" "$(CONFIG)"
+	cp $(addprefix $(RESULTS)/,replication.pdf replication.tex report.html) "$(RELEASE)"
+	git archive --prefix=$(STEM)/ --output="$(RELEASE)/$(STEM)-source.tar.gz" HEAD
+	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation -w "$(RELEASE)" \
+		"$(RELEASE)/$(STEM)-source.tar.gz"
+	cd "$(RELEASE)" && sha256sum -- * > ../SHA256SUMS.tmp && mv ../SHA256SUMS.tmp SHA256SUMS
 	@git diff --quiet HEAD || echo "Files differ from the commit, and are not in the release" >&2
+	@echo "Before uploading: see CONTRIBUTING.md, A release"
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
 	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)" "$(CONFIG)"

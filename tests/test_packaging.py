@@ -204,7 +204,7 @@ def test_library_alone_has_lengths_and_names_the_extra_for_the_rest(light, tmp_p
     *lengths, said = outside(light, tmp_path, "-c", THEORY).splitlines()
     assert lengths == ["2.513", "1.947", "Frozen({}) 0.005"] and said.startswith(advice)
     assert "2.513 m" in outside(light, tmp_path, *LENGTH)
-    for words in (["simulate", "run.nc"], ["drop"], ["show", "run.nc"], ["export", "a", "b"]):
+    for words in (["simulate", "run.nc"], ["drop"], ["show", "run.nc"]):
         said = outside(light, tmp_path, "-m", "nucleation", *words, code=2)
         assert said.startswith(f"Error: {advice}") and len(said.splitlines()) == 1
     report = outside(light, tmp_path, "-c", "import nucleation.report", code=1)

@@ -44,7 +44,6 @@ COMMANDS = {
     "specimen.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
-    "export": "Write the fields of a simulation's fault as CSV.",
     "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""

@@ -52,10 +52,6 @@ class BlockModes(SeparableBody):
         """
         return transforms.nodal_forces(stiffness, amplitudes, reduced, self._alternating)
 
-    def forces_of_nodes(self, w: Array, stiffness: Array) -> tuple[Array, Array]:
-        """The same of nodal w at 1..n_x."""
-        return transforms.forces_of_nodes(w, stiffness, self._alternating)
-
     def sine_values(self, amplitudes: Array) -> Array:
         """Nodal values at i = 1..n_x (last axis) of sine amplitudes."""
         return 0.5 * fft.dst(amplitudes, type=2)

@@ -9,7 +9,7 @@ import contextlib
 import fcntl
 import os
 from collections.abc import Callable, Iterator, Set
-from typing import Any
+from typing import Any, cast
 
 from numba import njit
 from numba.core.caching import FunctionCache
@@ -17,7 +17,7 @@ from numba.core.caching import FunctionCache
 LOCK = "lock"
 
 
-class SharedCache(FunctionCache):  # type: ignore[misc]
+class SharedCache(FunctionCache):
     """What numba keeps of a function, read and written by many processes."""
 
     def save_overload(self, sig: Any, data: Any) -> None:
@@ -46,7 +46,7 @@ def compiled(function: Callable[..., Any], fastmath: Set[str] = frozenset()) -> 
 
     Without `fastmath` it does the arithmetic of numpy, to the last bit.
     """
-    made = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
+    made: Any = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
     with contextlib.suppress(RuntimeError):  # no place to keep it
         made._cache = SharedCache(function)
-    return made  # type: ignore[no-any-return]
+    return cast(Callable[..., Any], made)

@@ -96,7 +96,7 @@ class CondensedOnNodes(ABC):
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)
         transforms.add_edge(found, self.edge.felt, tangential, normal)
-        normal[-1] = self.edge.corner_row @ found - residual[0]
+        normal[-1] = self.edge.schur[0] @ found - residual[0]
         return EdgedResponse(w, tangential, normal, load, found, start)
 
     def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[EdgedResponse]:
@@ -139,12 +139,16 @@ class CondensedOnNodes(ABC):
 
     def apply(self, w: Array) -> tuple[Array, Array]:
         """``D w``, shape (n_x,), and ``N w``, (n_x + 1,), for nodal w at nodes 1..n_x (m)."""
-        tangential, normal = self.along_x.forces_of_nodes(w, self.modal)
-        edge = self.edge
+        edge, amplitudes = self.edge, self.along_x.sine_amplitudes(w)
+        tangential, normal = self.along_x.forces(self.modal, amplitudes, self._no_load)
         transforms.add_edge_in_balance(
-            w, edge.felt, edge.response_near, edge.corner_row, tangential, normal
+            w, edge.felt, edge.response_near, edge.schur[0], tangential, normal
         )
         return tangential, normal
+
+    @cached_property
+    def _no_load(self) -> Array:
+        return np.zeros(self.modal.shape)
 
     @cached_property
     def _toeplitz(self) -> tuple[Array, Array]:

@@ -77,10 +77,6 @@ class EvenHalf(Block):
         tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
         return tangential, np.append(normal, 0.0)
 
-    def forces_of_nodes(self, w: Array, stiffness: Array) -> tuple[Array, Array]:
-        """The same of nodal w at 0..n_x."""
-        return self.forces(stiffness, self.sine_amplitudes(w), np.zeros(1))
-
     def top_load(self, normal_stress: float) -> Field:
         """None: an even stress on the top belongs to the other half."""
         return self.zero_field()
@@ -253,21 +249,9 @@ class FreeOperator:
     @cached_property
     def _dense(self) -> tuple[Array, Array]:
         """D and N between all nodes, a column for each node that moves."""
-        number = self.body.free_nodes
-        units = [self.body.halved(unit) for unit in np.eye(number)]
-        forces = []
-        for i, half in enumerate(self.halves):
-            w = np.array([unit[i] for unit in units])
-            edge = w @ half.edge.response.T
-            x, y = half.along_x.interface_forces(
-                half.modal[:, None] * half.along_x.sine_amplitudes(w)
-            )
-            corner = w @ half.edge.to_interface[0][0] + edge @ half.edge.schur[0]
-            x = x + edge @ half.edge.to_interface[0]
-            y = y + edge @ half.edge.to_interface[1]
-            forces.append((x, np.append(y, corner[:, None], axis=1)))
-        x, y = self._forces(*forces)
-        return np.ascontiguousarray(x.T), np.ascontiguousarray(y.T)
+        columns = [self.apply(unit) for unit in np.eye(self.body.free_nodes)]
+        stiffness, coupling = (np.array(forces).T for forces in zip(*columns, strict=True))
+        return stiffness, coupling
 
     @property
     def diagonal(self) -> Array:

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from ..types import Array
-from . import kernels
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,9 +22,7 @@ class Tridiagonal:
     upper: Array
 
     def __matmul__(self, vector: Array) -> Array:
-        """Product with a vector, or with an array along its first axis."""
-        if vector.ndim == 1:
-            return kernels.products(self.stacked[None], vector)[0]
+        """Product with an array along its first axis."""
         lower, diagonal, upper = (d.reshape(-1, *[1] * (vector.ndim - 1)) for d in self.stacked)
         product = diagonal * vector
         product[1:] += lower[1:] * vector[:-1]

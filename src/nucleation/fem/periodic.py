@@ -20,6 +20,7 @@ import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -129,15 +130,15 @@ class Circulant(ABC):
 
     def tangent(self, nodes: NDArray[np.intp], dtype: type = float) -> tuple[NDArray, NDArray]:
         """Dense blocks of D and N between some interface nodes (in 1..n_x), (n, n)."""
-        block = np.ix_(nodes - 1, nodes - 1) if nodes.size < self.along_x.grid.n_x else ...
-        stiffness, coupling = (matrix[block].astype(dtype) for matrix in self._dense)
-        return stiffness, coupling
+        every = nodes.size == self.along_x.grid.n_x
+        block: Any = ... if every else np.ix_(nodes - 1, nodes - 1)
+        stiffness, coupling = self._dense
+        return stiffness[block].astype(dtype), coupling[block].astype(dtype)
 
     @cached_property
-    def _dense(self) -> tuple[Array, Array]:
+    def _dense(self) -> list[Array]:
         """D and N between all nodes."""
-        stiffness, coupling = map(circulant, self._columns)
-        return stiffness, coupling
+        return [circulant(column) for column in self._columns]
 
 
 class PeriodicOperator(SeparableOperator, Circulant):

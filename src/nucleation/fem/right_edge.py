@@ -77,11 +77,6 @@ class EdgeValues(ABC):
         return np.ascontiguousarray(self.response[:, -self.felt.shape[2] :])
 
     @cached_property
-    def corner_row(self) -> Array:
-        """The row of :attr:`schur` that gives the corner's normal force."""
-        return np.ascontiguousarray(self.schur[0])
-
-    @cached_property
     def diagonal(self) -> Array:
         """The edge's share of the diagonal of D at the nodes 1..n_x (N/m per m)."""
         return np.einsum("ji,ji->i", self.to_interface[0], self.response)

@@ -134,13 +134,13 @@ class SeparableBody(ABC):
         terms = [*terms, *[(0.0, terms[0][1])] * (4 - len(terms))]  # the kernel takes four
         coefficients, fields = zip(*terms, strict=True)
         rho_s = s * self.material.density
-        return Field(
-            *kernels.add_inertia(
-                self.stacked.mass, rho_s * self.x_mass, rho_s * self.grid.dx / 6.0,
-                self.edge_weights[2], 2.0 / self.grid.n_x, coefficients, tuple(field.modes for field in fields),
-                tuple(field.edge for field in fields), load.modes, load.edge,
-            )
+        modes, edge = kernels.add_inertia(
+            self.stacked.mass, rho_s * self.x_mass, rho_s * self.grid.dx / 6.0,
+            self.edge_weights[2], 2.0 / self.grid.n_x, coefficients,
+            tuple(field.modes for field in fields), tuple(field.edge for field in fields),
+            load.modes, load.edge,
         )  # fmt: skip
+        return Field(modes, edge)
 
     def motion(
         self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]

@@ -44,12 +44,6 @@ def nodal_forces(stiffness, amplitudes, reduced, alternating):
 
 
 @compiled
-def forces_of_nodes(w, stiffness, alternating):
-    """Nodal forces of ``stiffness`` per mode for w at the nodes 1..n."""
-    return nodal_forces(stiffness, sine_amplitudes(w), np.zeros_like(stiffness), alternating)
-
-
-@compiled
 def add_edge_in_balance(w, felt, response, schur, tangential, normal):
     """Add what the edge does that follows w: `felt` and its `response`, both of the last nodes.
 

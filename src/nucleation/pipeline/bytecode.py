@@ -44,6 +44,7 @@ def cache_of_numba(root: Path) -> Path:
     found = hashlib.sha256()
     for source in sorted(root.rglob("*.py")):
         content = source.read_bytes()
-        if b"numba" in content or b"import compil" in content or "friction" in source.parts:  # laws are compiled too
+        uses = b"numba" in content or b"import compil" in content
+        if uses or "friction" in source.parts:  # laws are compiled too
             found.update(content)
     return root / "__pycache__" / f"numba-{found.hexdigest()[:16]}"

@@ -20,7 +20,6 @@ from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import lapack
 
 from ..fem.condensed import Condensed, Response
@@ -32,7 +31,6 @@ from .state import State
 from .stepping import Formula
 
 ROUNDING = 1e-14  # relative, of displacements
-ENOUGH = 0.1  # error expected of an iteration with old factors, in units of the tolerance
 DESCENTS = 6  # of Newton's method for one node alone, from at most twice what it is to balance
 LARGEST_ASINH = 700.0
 UNCHANGED = 1e-3  # change of a slip rate that friction does not see, in units of the tolerance
@@ -93,45 +91,24 @@ class Solver(Protocol):
         """The interface at the new time; arguments of :meth:`Interface.solve`."""
 
 
-@dataclasses.dataclass(frozen=True)
-class Factors:
-    """Newton's matrix among the nodes that elasticity couples, factorised; others are alone.
+def newton_direction(
+    operator: Condensed, coefficient: Array, residual: Array, damping: Array, elastic: Array,
+    beta: float,
+) -> Array:  # fmt: skip
+    """Newton's direction of the slip rates (m/s) by ``beta (D + f N) + R df/dv``.
 
-    In single precision, twice as fast: that costs Newton's method less than its second order.
+    Only nodes that elasticity couples are solved for together, in single precision, which is twice
+    as fast and costs less than the method's second order; others are alone.
     """
-
-    active: NDArray[np.intp]
-    damping: Array  # R df/dv at the active nodes when it was factorised
-    lu: NDArray[np.float32]
-    pivots: NDArray[np.int32]
-
-    @classmethod
-    def of(
-        cls, operator: Condensed, coefficient: Array, damping: Array, elastic: Array,
-        beta: float,
-    ) -> Factors:  # fmt: skip
-        """Factorise ``beta (D + f N) + R df/dv`` among the active nodes."""
-        active = passes.coupled(elastic, damping, ACTIVE)
-        if not active.size:
-            nothing = np.empty((0, 0), dtype=np.float32)
-            return cls(active, damping[active], nothing, np.empty(0, dtype=np.int32))
+    active = passes.coupled(elastic, damping, ACTIVE)
+    solved = -residual[active].astype(np.float32)
+    if active.size:
         stiffness, coupling = operator.tangent(active + 1, np.float32)
         matrix = passes.newton_matrix(stiffness, coupling, coefficient, damping, active, beta)
-        lu, pivots, info = lapack.sgetrf(matrix.T, overwrite_a=True)  # of the transpose
+        *_, solved, info = lapack.sgesv(matrix.T, solved, overwrite_a=True, overwrite_b=True)
         if info:
             raise NewtonFailure("the interface's tangent is singular")
-        return cls(active, damping[active], lu, pivots)
-
-    def change(self, damping: Array, elastic: Array) -> float:
-        """Largest relative change of a node's slope since, by which an iteration would err."""
-        return passes.change_of_slope(self.active, self.damping, elastic, damping, ACTIVE)
-
-    def direction(self, residual: Array, damping: Array, elastic: Array) -> Array:
-        """Newton's direction for a residual, to first order in the change since factorising."""
-        solved = -residual[self.active].astype(np.float32)
-        if self.active.size:
-            solved, _ = lapack.sgetrs(self.lu, self.pivots, solved, trans=1, overwrite_b=True)
-        return passes.direction(residual, elastic, damping, self.active, solved)
+    return passes.direction(residual, elastic, damping, active, solved)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -172,7 +149,7 @@ class Interface:
         Tension
             A nodal normal force of the solution is tensile.
         """
-        v, w, beta, factors, law = guess, response.w, past.beta, None, self.friction
+        v, w, beta, law = guess, response.w, past.beta, self.friction
         rounding = ROUNDING * passes.largest_size(past.w) / beta  # of v = (w - past.w) / beta
         p, normal = response.tangential, response.normal + self.extra_normal
         most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
@@ -200,10 +177,9 @@ class Interface:
                 # node 0 belongs to the driven edge; its friction follows from its rate V
                 tangential = operator.body.on_all_nodes(p, -coefficient[0] * normal[0])
                 return InterfaceSolution(rates, psi, tangential, normal, w, iteration)
-            # old factors serve where they promise that one more iteration is enough
-            if factors is None or error * factors.change(damping, elastic) > ENOUGH:
-                factors = Factors.of(operator, coefficient[first:], damping, elastic, beta)
-            change = factors.direction(residual, damping, elastic)
+            change = newton_direction(
+                operator, coefficient[first:], residual, damping, elastic, beta
+            )
             if law.asinh_of_rate:
                 v = _updated_by_asinh(v, change, damping, elastic, law.linear_below(psi)[first:])
             else:

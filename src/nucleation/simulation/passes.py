@@ -12,12 +12,6 @@ LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
 
 @compiled
-def asinh(x):
-    """The inverse of sinh, which is its argument where nothing slips."""
-    return x if abs(x) < 1e-8 else np.arcsinh(x)
-
-
-@compiled
 def slip_speed(v, v0, distance):
     """The regularised slip speed ``sqrt(v^2 + v0^2)`` (m/s), and that over the slip distance."""
     speed = np.sqrt(v * v + v0 * v0)
@@ -72,31 +66,13 @@ def coupled(elastic, damping, ratio):
 
 
 @compiled
-def change_of_slope(active, factorised, elastic, damping, ratio):
-    """Largest relative change of a coupled node's slope since its damping was `factorised`.
-
-    Infinite if other nodes are coupled now.
-    """
-    number, largest = 0, 0.0
-    for i in range(elastic.size):
-        if elastic[i] > ratio * abs(damping[i]):
-            if number == active.size or active[number] != i:
-                return np.inf
-            change = abs(damping[i] - factorised[number])
-            change /= elastic[i] + abs(factorised[number])
-            largest = max(largest, change)
-            number += 1
-    return largest if number == active.size else np.inf
-
-
-@compiled
 def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
-    """``beta (D + f N) + R df/dv`` among the active nodes, in single precision."""
+    """``beta (D + f N) + R df/dv`` among the active nodes, in single precision, transposed."""
     step, matrix = np.float32(beta), np.empty_like(stiffness)
     for a in range(active.size):
         f = np.float32(coefficient[active[a]])
         for b in range(active.size):
-            matrix[a, b] = (stiffness[a, b] + coupling[a, b] * f) * step
+            matrix[b, a] = (stiffness[a, b] + coupling[a, b] * f) * step
         matrix[a, a] = matrix[a, a] + damping[active[a]]
     return matrix
 
@@ -164,10 +140,10 @@ def expected(rates, log_states, weights, scale, largest):
     for i in range(n):
         z = psi = 0.0
         for k in range(past):
-            z += weights[k] * asinh(rates[k, i] / scale)
+            z += weights[k] * np.arcsinh(rates[k, i] / scale)
             psi += weights[k] * log_states[k, i]
         scaled[i], log_state[i] = min(max(z, -largest), largest), psi
-        rate[i] = scale * (scaled[i] if abs(scaled[i]) < 1e-8 else np.sinh(scaled[i]))
+        rate[i] = scale * np.sinh(scaled[i])
     return scaled, rate, log_state
 
 
@@ -176,7 +152,7 @@ def changed(rate, scaled, scale):
     """Largest distance of slip rates, as asinh(v / scale), from others."""
     largest = 0.0
     for i in range(scaled.size):
-        largest = max(largest, abs(asinh(rate[i] / scale) - scaled[i]))
+        largest = max(largest, abs(np.arcsinh(rate[i] / scale) - scaled[i]))
     return largest
 
 

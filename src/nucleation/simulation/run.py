@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..model.parameters import FIRST_STEP, Loading, Parameters
+from ..types import Array
 from .control import Control, Instant, SimulationFailure, accepted_step
 from .drive import drive_of
 from .event import Outcome
@@ -40,17 +41,17 @@ def composed(parameters: Parameters) -> Dynamics:
 def interface_of(parameters: Parameters, grid: Grid) -> Interface:
     """The frictional interface with what varies along it."""
     varied, loading = parameters.heterogeneity, parameters.loading
-    friction, extra, asked = parameters.friction, 0.0, {}  # quiet runs live on round-off
-    if parameters.perturbation.acts:
+    friction, tolerance, slow = parameters.friction, Interface.tolerance, 0.0
+    extra: Array | float = 0.0
+    if parameters.perturbation.acts:  # quiet runs live on round-off
         declared = min(NEWTON * parameters.stepping.tolerance, parameters.perturbation.strength)
-        tolerance = max(Interface.tolerance, declared)
-        asked = {"tolerance": tolerance, "slow": SLOW * loading.velocity}
+        tolerance, slow = max(tolerance, declared), SLOW * loading.velocity
     if varied.varies != "none":
         factor = varied.factor(grid.x, grid.length, grid.periodic)
         friction = varied.friction(friction, loading.velocity, factor)
         if varied.varies == "normal_stress":
             extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
-    return Interface(friction, extra_normal=extra, **asked)
+    return Interface(friction, tolerance, slow=slow, extra_normal=extra)
 
 
 def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:

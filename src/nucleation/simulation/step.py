@@ -159,4 +159,5 @@ def extrapolated(state: State, step: Step, velocity: float, distance: float) -> 
     scale = max(SLOW * velocity, SLOW_IN_EVENT * fastest, SLIGHT_SLIP * distance / step.length)
     largest = min(LARGEST_RATE_EXPONENT, math.asinh(10.0 * fastest / scale))
     past = state.past_slip_rates, state.past_log_states
-    return Guess(*passes.expected(*past, step.extrapolation, scale, largest), scale)
+    scaled, rate, log_state = passes.expected(*past, step.extrapolation, scale, largest)
+    return Guess(scaled, rate, log_state, scale)
