@@ -11,6 +11,8 @@ from answers.test_in_use import crack_coefficients
 from nucleation.analysis import literature
 from nucleation.answers.in_use import LENGTHS
 from nucleation.figures.beyond import figure_literature
+from nucleation.model.friction.law import Friction
+from nucleation.model.parameters import Parameters
 
 FRAME = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "literature.csv")
 
@@ -52,3 +54,37 @@ def test_the_figure_draws_every_simulated_length():
         kind[0] for kind in figure_literature.KINDS.values()
     ]
     assert len(right.lines) > 8
+
+
+SETTINGS = {
+    "thin_layer": {"second_body": "rigid"},
+    "state_evolution": {"second_body": "deformable", "evolution": "slip"},
+    "rubin_ampuero_localised": {"second_body": "deformable", "zeta_over_a": 4.0},
+    "rubin_ampuero_crack": {"second_body": "deformable", "zeta_over_a": 0.5},
+    "between both": {"second_body": "deformable", "zeta_over_a": 1.2},
+}
+
+
+def test_a_run_is_read_as_the_length_whose_setting_it_is():
+    """Beside its formula; lengths without a run have their reason, and what is none has no row."""
+    x = np.linspace(0.0, 1.0, 401)
+    rate = np.array([1e-6, 1.0])[:, None] * 0.5 ** ((x - 0.5) / 0.05) ** 2
+    simulation = xr.Dataset({"slip_rate": (("time", "x"), rate)}, {"x": x})
+    runs = []
+    for name, changes in SETTINGS.items():
+        ratio = changes.get("zeta_over_a", 2.0)
+        friction = Friction().with_expansion(1e-5, 0.41, 0.0068, ratio * 0.0068)
+        own = {key: value for key, value in changes.items() if key != "zeta_over_a"}
+        parameters = Parameters(friction=friction).replaced(own)
+        runs.append({"id": name, "parameters": parameters.to_dict()})
+    table = literature.literature_table(runs, [simulation] * len(runs)).to_dataframe()
+    read = table[table["id"] != ""]
+    assert list(read["id"].unique()) == list(read["name"].unique()) == [*SETTINGS][:-1]
+    assert len(read) == 4 * len(literature.SLIP_RATES)
+    difference = read["simulated_length"] / read["formula_length"] - 1.0
+    np.testing.assert_allclose(read["difference"], difference)
+    thin = read[read["name"] == "thin_layer"]  # twice the width at half of the maximum, 0.1 m
+    np.testing.assert_allclose(thin["simulated_length"], 0.2, rtol=1e-2)
+    others = table[table["id"] == ""]
+    assert {*others["name"]} == {length.key for length in LENGTHS} - {*SETTINGS}
+    assert others["definition"].ne("").all() and others["simulated_length"].isna().all()

@@ -35,6 +35,7 @@ LENGTH = [
     (length(a="0"), ["a = 0.0 is not allowed", "(0, 10)"]),
     (length(b=None), ["zeta or b", "one of them and not both"]),
     (length(zeta="0.005"), ["zeta or b", "not both"]),
+    (length(zeta_over_a="0.5"), ["zeta_over_a is not allowed together with zeta or b"]),
     (length(slip_distance="2 km"), ["slip_distance = 2000.0 m", "(0, 1000) m"]),
     (length(height="0"), ["height = 0.0 m", "(0, inf] m"]),
     (length(height="-inf"), ["height = -inf m", "(0, inf] m"]),

@@ -62,6 +62,8 @@ def test_text(nucleation, law):
     assert "0.31 m" in ended.out and "0.33 m" in ended.out and "13.5 to 14.5 s" in ended.out
     assert "normal_load, relative strength 0.0001, correlated over 1 D/V" in ended.out
     assert "docs/drop.md" in ended.out and "DO NOT" not in ended.out
+    rough = nucleation(*WORDS, "--perturbation", "strength").out
+    assert "strength, relative strength 0.0001, correlated over 0.02 m" in rough
     law.answer = ExpectedDrop(DROP, CLOSED, "the perturbation is strong")
     assert "DO NOT RELY ON IT: the perturbation is strong." in nucleation(*WORDS).out
 

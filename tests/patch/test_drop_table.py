@@ -1,8 +1,10 @@
 """Drops beside the law: what stands in the table, and that it is the law's."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from test_delay import LOAD, START, history
@@ -102,3 +104,13 @@ def test_figure_has_every_realisation_and_group(table):
     load = figure.axes[0]
     drawn = [tuple(line.get_ydata()) for line in load.lines]
     assert any(np.allclose(y, [0.32 / 0.45]) for y in drawn if len(y) == 1)
+
+
+def test_distributions_are_those_of_the_committed_drops():
+    """One for each kind and strength with enough realisations: their lengths, in order."""
+    frame = pd.read_csv(Path(__file__).parents[2] / "results" / "reference" / "drop.csv")
+    table = xr.Dataset({name: ("run", frame[name]) for name in frame})
+    steps = figure_drop.draw(table).axes[3].lines[::2]
+    many = [g for _, g in frame.groupby(list(figure_drop.ENSEMBLE)) if len(g) >= figure_drop.FEWEST]
+    expected = {tuple(np.sort(g["length"] / g["theory_length"])) for g in many}
+    assert {tuple(line.get_xdata()) for line in steps} == expected and len(expected) == 4

@@ -1,6 +1,7 @@
 """Steps of the coupled problem: the start, statics, repetition and Newton's method."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 import pytest
@@ -9,8 +10,9 @@ from nucleation.fem.block import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
+from nucleation.simulation import interface
 from nucleation.simulation.interface import NewtonFailure
-from nucleation.simulation.run import at_rest, composed
+from nucleation.simulation.run import at_rest, composed, run
 
 
 def small(law="aging", **mesh):
@@ -107,3 +109,24 @@ def test_first_step_from_rest_on_a_fine_mesh():
     dynamics = composed(parameters)
     _, report = dynamics.advance(at_rest(dynamics, parameters.loading)[0], -92)
     assert report.interface.iterations > 8
+
+
+def test_friction_is_evaluated_where_slip_rates_change(monkeypatch):
+    """On fewer nodes than there are, with the result of an evaluation on all."""
+    evaluated, found = [], []
+    friction = interface.Interface._friction
+
+    def counted(self, v, *others):
+        evaluated[-1] += v.size
+        return friction(self, v, *others)
+
+    monkeypatch.setattr(interface.Interface, "_friction", counted)
+    for unchanged in (interface.UNCHANGED, -1.0):
+        monkeypatch.setattr(interface, "UNCHANGED", unchanged)
+        evaluated.append(0)
+        *_, last = itertools.islice(run(small(n_x=64)), 200)
+        found.append(last.report.interface)
+    assert evaluated[0] < 0.8 * evaluated[1]
+    for name in ("slip_rate", "log_state", "tangential", "normal"):
+        some, every = (getattr(one, name) for one in found)
+        np.testing.assert_allclose(some, every, rtol=1e-7, err_msg=name)

@@ -1,6 +1,7 @@
 """The bridge: the finite elements and the time integration against the linear theory, Eq. (5)."""
 
 import dataclasses
+import functools
 import io
 from pathlib import Path
 
@@ -195,6 +196,7 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
 
 # -- two layers ----------------------------------------------------------------------------------
 
+KINDS = ("measured", "theory")
 LAYERS = {layers.name: layers for layers in pair_modes.HELD + pair_modes.HALF_SPACES}
 QUICK = ("stiff above, free", "stiff below, clamped", "stiff above, roller")
 
@@ -246,3 +248,15 @@ def test_a_mode_that_travels_back_is_told_apart_by_the_sense():
         beta = printed.bimaterial_contrast(psi, *nu)
         np.testing.assert_allclose(g2[i], beta * expected, rtol=1e-2)
     assert g2[0, 0] * g2[1, 0] < 0.0 < (modulus * g1).min()
+
+
+def test_the_step_has_a_line_for_each_mode_and_direction(monkeypatch):
+    """With its wavenumber over the critical one, and by how much both rates disagree."""
+    one = functools.partial(pair_modes.pair_modes, pairs=pair_modes.HALF_SPACES[:1], ratios=(0.8,))
+    monkeypatch.setattr(pair_modes, "pair_modes", one)
+    found = pair_modes.files(PARAMETERS.material, PARAMETERS.friction, PARAMETERS.loading)
+    lines, modes = pd.read_csv(io.StringIO(found[".csv"])), found[".nc"]
+    np.testing.assert_allclose(lines["wavenumber_over_critical"], [0.8, 0.8])
+    rates = [modes[f"{kind}_growth"] + 1j * modes[f"{kind}_frequency"] for kind in KINDS]
+    apart = np.abs((rates[0] - rates[1]) / rates[1]).values[0]
+    np.testing.assert_allclose(lines["disagreement"], apart, rtol=1e-3)

@@ -15,6 +15,7 @@ from configurations import papers
 
 from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.record import Record
+from nucleation.datasets.variables import DatasetError
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.perturbation import IN_TIME, Perturbation
 from nucleation.model.second_body import SecondBody
@@ -200,6 +201,22 @@ def test_comparison_of_two_records(pair):
     assert same["patch_length_rms"] == same["driving_force_largest"] == 0.0
     scaled = own.assign(driving_force=1.02 * own["driving_force"])
     assert compare.compare(own, scaled)["driving_force_rms"] == pytest.approx(0.02)
+
+
+def test_runs_by_both_solvers_are_rows_and_one_that_failed_is_named():
+    own = simulate(PARAMETERS.replaced({"end_time": 0.05}))
+    both = {"freefem": [own, own], "settings": ExtractionSettings()}
+    table = compare.compared(["a", "b"], [own, own], **both)
+    assert list(table["id"].values) == ["a", "b"]
+    failed = own.assign_attrs(completed=0, status="failed: made up")
+    with pytest.raises(DatasetError, match="the run b has no result: failed: made up"):
+        compare.compared(["a", "b"], [own, failed], **both)
+
+
+def test_without_the_other_program_it_is_said_how_to_get_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(freefem, "installed", lambda: False)
+    with pytest.raises(freefem.FreeFemError, match="FreeFem"):
+        freefem.run(Path(), tmp_path, PARAMETERS, CrosscheckSettings(), ExtractionSettings())
 
 
 def test_the_solvers_agree_on_the_drop():
