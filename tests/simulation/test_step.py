@@ -11,7 +11,6 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation import interface
-from nucleation.simulation import run as run_module
 from nucleation.simulation.interface import NewtonFailure
 from nucleation.simulation.run import at_rest, composed, run
 
@@ -131,21 +130,3 @@ def test_friction_is_evaluated_where_slip_rates_change(monkeypatch):
     for name in ("slip_rate", "log_state", "tangential", "normal"):
         some, every = (getattr(one, name) for one in found)
         np.testing.assert_allclose(some, every, rtol=1e-7, err_msg=name)
-
-
-@pytest.mark.parametrize("law", ["product", "dieterich_ruina"])
-def test_slow_nodes_break_loose_when_their_strength_is_exceeded(law, monkeypatch):
-    """A perturbed run is that in which all slip rates are accurate, within the step's tolerance."""
-    parameters = small(n_x=64).replaced(
-        {"friction_law": law, "perturbation": "normal_load", "strength": 1e-4}
-    )
-    found = []
-    for slow in (run_module.SLOW, 0.0):
-        monkeypatch.setattr(run_module, "SLOW", slow)
-        *_, last = itertools.islice(run(parameters), 200)
-        found.append(last)
-    some, every = (instant.report.interface for instant in found)
-    assert np.count_nonzero(every.slip_rate > 1e-4) > 8  # V is 1e-3 m/s
-    np.testing.assert_allclose(found[0].state.time, found[1].state.time, rtol=1e-3)
-    np.testing.assert_allclose(some.slip_rate, every.slip_rate, rtol=0.02, atol=1e-5)
-    np.testing.assert_allclose(some.tangential, every.tangential, rtol=1e-2)

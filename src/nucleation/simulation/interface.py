@@ -33,7 +33,6 @@ from .stepping import Formula
 ROUNDING = 1e-14  # relative, of displacements
 DESCENTS = 6  # of Newton's method for one node alone, from at most twice what it is to balance
 LARGEST_ASINH = 700.0
-LINEAR = 1e-3  # error of a slip rate within which friction counts as linear, of its own scale
 UNCHANGED = 1e-3  # change of a slip rate that friction does not see, in units of the tolerance
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
@@ -120,7 +119,6 @@ class Interface:
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
     most_iterations: int = 8
     most_iterations_from_rest: int = 50
-    slow: float = 0.0  # m/s; slip rates below need no relative accuracy, if friction allows it
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x beside what the body exerts
 
     @cached_property
@@ -166,8 +164,7 @@ class Interface:
             else:
                 for values, some in zip((psi, *friction), found, strict=True):
                     values[:anew] = some
-            below = law.linear_below(psi)
-            least = below + np.minimum(self.slow, LINEAR * below / self.tolerance)
+            least = law.linear_below(psi)
             residual, damping, error, coefficient = passes.balance(
                 p, normal, *friction, rates, elastic, least, self.tolerance, rounding, strength
             )
@@ -183,7 +180,7 @@ class Interface:
                 operator, coefficient[first:], residual, damping, elastic, beta
             )
             if law.asinh_of_rate:
-                v = _updated_by_asinh(v, change, damping, elastic, law.linear_below(psi)[first:])
+                v = _updated_by_asinh(v, change, damping, elastic, least[first:])
             else:
                 v = passes.updated(v, change, law.regularisation_slip_rate)
             before, rates = rates, operator.body.on_all_nodes(v, imposed.velocity)

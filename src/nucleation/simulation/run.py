@@ -24,7 +24,7 @@ from .event import Outcome
 from .interface import Interface, InterfaceSolution
 from .recording import Recorder
 from .state import State
-from .step import SLOW, Dynamics, StepReport
+from .step import Dynamics, StepReport
 from .stepping import BDF
 
 NEWTON = 1e-3
@@ -41,17 +41,17 @@ def composed(parameters: Parameters) -> Dynamics:
 def interface_of(parameters: Parameters, grid: Grid) -> Interface:
     """The frictional interface with what varies along it."""
     varied, loading = parameters.heterogeneity, parameters.loading
-    friction, tolerance, slow = parameters.friction, Interface.tolerance, 0.0
+    friction, tolerance = parameters.friction, Interface.tolerance
     extra: Array | float = 0.0
     if parameters.perturbation.acts:  # quiet runs live on round-off
         declared = min(NEWTON * parameters.stepping.tolerance, parameters.perturbation.strength)
-        tolerance, slow = max(tolerance, declared), SLOW * loading.velocity
+        tolerance = max(tolerance, declared)
     if varied.varies != "none":
         factor = varied.factor(grid.x, grid.length, grid.periodic)
         friction = varied.friction(friction, loading.velocity, factor)
         if varied.varies == "normal_stress":
             extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
-    return Interface(friction, tolerance, slow=slow, extra_normal=extra)
+    return Interface(friction, tolerance, extra_normal=extra)
 
 
 def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
