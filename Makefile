@@ -33,7 +33,7 @@ help: ## This list
 paper: $(STAMP) ## Make every figure, table and verdict, in results/
 	$(LAUNCH) $(TARGETS) $(OPTIONS) $(CONFIGURED)
 
-report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in forty to fifty minutes
+report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in half an hour to an hour
 	$(LAUNCH) report $(OPTIONS) $(CONFIGURED)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/

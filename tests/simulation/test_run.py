@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from nucleation.analysis.extraction import extract
+from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import EVOLUTIONS
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
@@ -139,3 +140,15 @@ def test_nothing_but_numbers_in_a_completed_run(monkeypatch):
     dataset = simulate(dataclasses.replace(COARSE, stepping=Stepping(end_time=1e-5)))
     assert dataset.attrs["status"] == Outcome.NOT_FINITE.value
     assert not dataset.attrs["completed"]
+
+
+def test_a_perturbed_patch_grows_under_a_law_that_is_steep_at_rest():
+    """Nodes whose strength is exceeded must not count as solved: the fault would open in 2.8 s."""
+    law = Friction(law="dieterich_ruina", log_state_coefficient=0.0136)  # zeta/a = 1
+    parameters = Parameters(friction=law, geometry=Geometry(height=0.03, length=3.427)).replaced(
+        {"n_x": 100, "n_y": 4, "grading": 20.0, "perturbation": "normal_load", "strength": 1e-4,
+         "end_time": 3.0}
+    )  # fmt: skip
+    record = simulate(parameters)
+    assert record.attrs["status"] == Outcome.END_TIME.value
+    assert (np.abs(record["slip_rate"][-1]) > 0.1 * parameters.loading.velocity).sum() >= 4
