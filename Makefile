@@ -7,7 +7,8 @@ PARTS ?= solver
 FAULTS ?= 200
 SEED ?= 1
 RELEASE ?= release
-RESULTS ?= results
+RESULTS ?= $(shell $(BIN)/python -c \
+	'from nucleation.configuration.load import load; print(load("$(CONFIG)").results)')
 STEM = $(shell $(BIN)/python -c 'import tomllib; \
 	p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(p["name"], p["version"], sep="-")')
 
@@ -112,7 +113,7 @@ released:
 	git archive --prefix=$(STEM)/ --output="$(RELEASE)/$(STEM)-source.tar.gz" HEAD
 	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation -w "$(RELEASE)" \
 		"$(RELEASE)/$(STEM)-source.tar.gz"
-	cd "$(RELEASE)" && sha256sum -- * > ../SHA256SUMS.tmp && mv ../SHA256SUMS.tmp SHA256SUMS
+	cd "$(RELEASE)" && sums=$$(sha256sum -- *) && echo "$$sums" > SHA256SUMS
 	@git diff --quiet HEAD || echo "Files differ from the commit, and are not in the release" >&2
 	@echo "Before uploading: see CONTRIBUTING.md, A release"
 

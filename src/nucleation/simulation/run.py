@@ -41,9 +41,9 @@ def composed(parameters: Parameters) -> Dynamics:
 def interface_of(parameters: Parameters, grid: Grid) -> Interface:
     """The frictional interface with what varies along it."""
     varied, loading = parameters.heterogeneity, parameters.loading
-    friction, tolerance = parameters.friction, Interface.tolerance
+    friction, tolerance = parameters.friction, Interface.tolerance  # quiet runs live on round-off
     extra: Array | float = 0.0
-    if parameters.perturbation.acts:  # quiet runs live on round-off
+    if parameters.perturbation.acts:
         declared = min(NEWTON * parameters.stepping.tolerance, parameters.perturbation.strength)
         tolerance = max(tolerance, declared)
     if varied.varies != "none":
