@@ -6,6 +6,7 @@ treatment of the interface differ. At the same nodes along x they have to agree 
 
 import dataclasses
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -215,7 +216,7 @@ def test_runs_by_both_solvers_are_rows_and_one_that_failed_is_named():
 
 def test_without_the_other_program_it_is_said_how_to_get_it(tmp_path, monkeypatch):
     monkeypatch.setattr(freefem, "installed", lambda: False)
-    with pytest.raises(freefem.FreeFemError, match="FreeFem"):
+    with pytest.raises(freefem.FreeFemError, match=re.escape(freefem.MISSING)):
         freefem.run(Path(), tmp_path, PARAMETERS, CrosscheckSettings(), ExtractionSettings())
 
 
