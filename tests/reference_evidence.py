@@ -86,6 +86,5 @@ def _evidence():
         theory=theory,
         dispersion=dispersion(),
         lengths=tuple(of_role(lengths, role) for role in ROLES),
-        measures={},
         patches={str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
     )

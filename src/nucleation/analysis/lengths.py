@@ -18,11 +18,13 @@ from ..theory.creep.lengths import NoPatch, Patches, stability_point
 from ..types import Array
 from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
+from .measures import MEASURES, measure
 from .record import Record
 
 OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
     "onset_time": np.mean, "onset_time_low": np.min, "onset_time_high": np.max,
     "length": np.mean, "length_low": np.min, "length_high": np.max,
+    **dict.fromkeys(MEASURES, np.mean),
 }  # fmt: skip
 """What the realisations of one fault have in common: of each number that differs."""
 
@@ -102,6 +104,8 @@ def gather(
 ) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, with what is extracted from simulations.
 
+    And :data:`.MEASURES`, if all runs are loaded at their edge and record the interface.
+
     Parameters
     ----------
     runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
@@ -115,7 +119,8 @@ def gather(
         if row["fault"] not in by_theory:
             by_theory[row["fault"]] = _creep_length(run)
         row["creep_length"] = by_theory[row["fault"]]
-    return table_of(rows, COLUMNS)
+    everywhere = all(row.keys() >= MEASURES.keys() for row in rows)
+    return table_of(rows, COLUMNS | MEASURES if everywhere else COLUMNS)
 
 
 def _creep_length(run: dict[str, Any]) -> float:
@@ -198,10 +203,13 @@ def second_body(parameters: Parameters) -> dict[str, Any]:
 def _row(
     run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
 ) -> dict[str, Any]:
-    measured = extract(simulation, settings)
+    measured, record = extract(simulation, settings), Record(simulation, settings)
     reached = measured["length"]
     if np.isnan(reached):
-        reached = Record(simulation, settings).lengths[-1]
+        reached = record.lengths[-1]
+    given = record.parameters
+    if given.loading.kind == "edge" and given.recording.covers("interface"):
+        measured |= measure(record)
     return {
         **description(run),
         **measured,
@@ -219,7 +227,8 @@ def row(table: xr.Dataset, identifier: str) -> xr.Dataset:
 
 def columns_csv() -> str:
     """Unit and meaning of every column of the table, as comma-separated text."""
-    described = [{"column": name, **column._asdict()} for name, column in COLUMNS.items()]
+    columns = COLUMNS | MEASURES
+    described = [{"column": name, **column._asdict()} for name, column in columns.items()]
     return pd.DataFrame(described).rename(columns={"long_name": "meaning"}).to_csv(index=False)
 
 

@@ -1,6 +1,5 @@
 """From the workflow's results to the tables of claims and the article: the steps of both."""
 
-import itertools
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -15,7 +14,7 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading
 from . import article, table
-from .evidence import Evidence, measure
+from .evidence import Evidence
 from .statements.two_bodies import PairEvidence
 
 Rows = list[dict[str, Any]]
@@ -25,8 +24,7 @@ def of_paper(
     statements: Mapping[str, Any], material: Material, friction: Friction, loading: Loading,
     interface: InterfaceState,
     settings: ExtractionSettings, theory: xr.Dataset, dispersion: xr.Dataset,
-    lengths: Iterable[xr.Dataset], simulations: Iterable[xr.Dataset], ids: Sequence[str],
-    longer: Sequence[xr.Dataset], longer_runs: Rows,
+    lengths: Iterable[xr.Dataset], longer: Sequence[xr.Dataset], longer_runs: Rows,
     patches: Iterable[xr.Dataset], patch_ids: Sequence[str],
 ) -> dict[str, str]:  # fmt: skip
     """The step ``claims``: a verdict on every statement of the paper.
@@ -37,20 +35,14 @@ def of_paper(
     material, friction, loading, interface, theory, dispersion : as of :class:`.Evidence`.
     settings : how lengths are read.
     lengths : tables of the studies judged.
-    simulations, ids : of the runs of these studies, with their names.
     longer, longer_runs : simulations in longer blocks, with those they are compared with.
     patches, patch_ids : stability of patches, with the names of their runs.
     """
-    tables, blocks = list(lengths), list(longer)
-    if blocks:
-        tables.append(table_of_lengths.gather(longer_runs, blocks, settings))
-    named = itertools.chain(
-        zip(ids, simulations, strict=True),
-        zip([run["id"] for run in longer_runs], blocks, strict=True),
-    )
+    tables = list(lengths)
+    if len(longer):
+        tables.append(table_of_lengths.gather(longer_runs, longer, settings))
     evidence = Evidence(
         material, friction, loading, interface, theory, dispersion, tuple(tables),
-        measures={id: measure(dataset, settings) for id, dataset in named},
         patches=dict(zip(patch_ids, patches, strict=True)),
     )  # fmt: skip
     rows = table.evaluate(statements, evidence)

@@ -43,9 +43,9 @@ GRADING = 4.0  # the deformation being near the interface
 SEED = 1e-6  # of log(phi)
 NEWTON_TOLERANCE = 1e-12  # relative, of slip rates: far below the seed
 STEP = 0.008  # in units of D/V
-DURATION = 3.0  # in units of D/V
+DURATION = 1.5  # in units of D/V
 SKIPPED = 30  # steps, until they are equal and the start's elastic waves are gone
-INTERVAL = 10  # steps between samples
+INTERVAL = 5  # steps between samples
 
 MODES_OF_SLIDING = {
     "height": SHARED["height"],

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...analysis.measures import BY_DEFINITION
 from ...configuration.roles import JUDGED, LONGER, PAPERS
 from ..claim import Computation, Result
 from ..evidence import Evidence, of_runs, on_both
@@ -62,9 +63,9 @@ def length_increases(evidence: Evidence, role: str) -> float:
     return min(b / a for a, b in itertools.pairwise(lengths))
 
 
-def relative_change(evidence: Evidence, varied: dict[str, Any], base: dict[str, Any]) -> Ours:
+def relative_change(varied: dict[str, Any], base: dict[str, Any]) -> Ours:
     """Relative change of L_c, its range that of the definitions, the same for both runs."""
-    one, other = (np.array(evidence.measured(row).lengths) for row in (varied, base))
+    one, other = (np.array([row[name] for name in BY_DEFINITION]) for row in (varied, base))
     changes = one / other - 1.0
     return Ours.between(varied["length"] / base["length"] - 1.0, changes.min(), changes.max())
 
@@ -75,7 +76,7 @@ def change_from_aging(height: float, law: str, age: float = 1.0) -> Computation:
     @on_both
     def change(evidence: Evidence, role: str) -> Ours:
         varied, base = evidence.row(role, law, height, age), evidence.row(role, "aging", height)
-        return relative_change(evidence, varied, base)
+        return relative_change(varied, base)
 
     return change
 
@@ -111,7 +112,7 @@ AFTER = 0.1  # s after its event, by which a run has seen the rupture
 
 @on_both
 def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
-    ratios = [run.growth_time / run.acceleration_time for run in evidence.each_measured(role)]
+    ratios = [run["growth_time"] / run["acceleration_time"] for run in evidence.each(role)]
     known = [ratio for ratio in ratios if not math.isnan(ratio)]
     return known or ratios  # a run may end with its drop, before 100 V
 
@@ -119,13 +120,14 @@ def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
 @on_both
 def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
     velocity = evidence.loading.velocity
-    rates = [evidence.measured(row).patch_rates for row in evidence.series(role)]
-    return [Ours.between(*(rate / velocity for rate in three)) for three in rates]
+    columns = ("patch_rate", "patch_rate_low", "patch_rate_high")
+    rows = evidence.series(role)
+    return [Ours.between(*(row[name] / velocity for name in columns)) for row in rows]
 
 
 def rupture_duration(evidence: Evidence) -> float:
     row = evidence.row(PAPERS, "aging", SHOWN)
-    return float(row["onset_time"] / evidence.measured(row).rupture_time)
+    return float(row["onset_time"] / row["rupture_time"])
 
 
 def damped_rate(evidence: Evidence) -> float:
@@ -136,20 +138,20 @@ def damped_rate(evidence: Evidence) -> float:
 
 
 def contact_kept(evidence: Evidence) -> Result:
-    stress, measures = evidence.loading.normal_stress, evidence.each_measured(PAPERS)
-    creep = max(run.largest_normal_stress / stress for run in measures)
+    stress, runs = evidence.loading.normal_stress, evidence.each(PAPERS)
+    creep = max(run["largest_normal_stress"] / stress for run in runs)
     note = (
         f"Up to the onset it is {creep:.3g}. The runs that go on into the rupture have the "
         "aging law; a quiet one with the slip law on a finer mesh loses contact in its rupture "
         "(findings: Tension)."
     )
-    return Result([run.largest_normal_stress_ever / stress for run in measures], note=note)
+    return Result([run["largest_normal_stress_ever"] / stress for run in runs], note=note)
 
 
 def length_plays_no_role(evidence: Evidence) -> Result:
     rows = evidence.rows(LONGER)
     changes = [
-        relative_change(evidence, row, base)
+        relative_change(row, base)
         for base in rows
         for row in rows
         if row["height"] == base["height"] and row["block_length"] > base["block_length"]
@@ -157,8 +159,8 @@ def length_plays_no_role(evidence: Evidence) -> Result:
     if not changes:
         raise Missing(f"The role {LONGER} has no run with a longer block")
     strength = evidence.interface.friction * evidence.loading.normal_stress
-    shown = [run for study in (JUDGED, PAPERS) for run in evidence.each_measured(study)]
-    beyond = max(run.middle_stress for run in shown) / strength
+    shown = [run for study in (JUDGED, PAPERS) for run in evidence.each(study)]
+    beyond = max(run["middle_stress"] for run in shown) / strength
     note = (
         "In no run of Figure 3 does the shear stress half-way along the block at the onset exceed "
         f"{beyond:.1g} of the strength."
@@ -168,7 +170,7 @@ def length_plays_no_role(evidence: Evidence) -> Result:
 
 def shortest_step(evidence: Evidence) -> Ours:
     rows = [row for row in evidence.rows(PAPERS) if _goes_on(row)] or evidence.rows(PAPERS)
-    steps = [evidence.measured(row).shortest_step / 1e-6 for row in rows]
+    steps = [row["shortest_step"] / 1e-6 for row in rows]
     return Ours.between(float(np.median(steps)), min(steps), max(steps))
 
 
@@ -183,10 +185,10 @@ OURS: dict[str, Computation] = {
     "slip-law-high": change_from_aging(0.05, "slip"),
     "old-interface": change_from_aging(INSET, "aging", OLD),
     "slip-rate-blows-up": on_both(
-        lambda e, role: e.measured(e.row(role, "aging", INSET)).largest_rate / e.loading.velocity
+        lambda e, role: e.row(role, "aging", INSET)["largest_rate"] / e.loading.velocity
     ),
     "abrupt-drop": on_both(
-        lambda e, role: [row["onset_time"] / e.measured(row).drop_time for row in e.rows(role)]
+        lambda e, role: [row["onset_time"] / row["drop_time"] for row in e.rows(role)]
     ),
     "slow-creep": of_runs("front_speed", lambda e: e.material.shear_wave_speed),
     "no-radiation": of_runs("onset_rate", damped_rate),

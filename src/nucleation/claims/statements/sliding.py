@@ -59,8 +59,7 @@ def steady_agreement(evidence: Evidence) -> float:
 def well_approximated(evidence: Evidence, part: str) -> Result:
     """Where the slip law with v is good: the least of all its runs, of either study."""
     judged, papers = (
-        [getattr(run, part) for run in evidence.each_measured(role, evolution="slip")]
-        for role in (JUDGED, PAPERS)
+        [run[part] for run in evidence.each(role, evolution="slip")] for role in (JUDGED, PAPERS)
     )
     return Result(judged, on_papers_mesh=papers)
 

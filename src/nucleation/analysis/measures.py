@@ -1,0 +1,147 @@
+"""What else is read from a simulation: how fast its event is, and how the patch before it creeps.
+
+The claims of the paper stand on these numbers. They are read where lengths are, of runs that are
+loaded at their edge and record the interface, and stand beside lengths in the table
+(:mod:`.lengths`).
+"""
+
+import itertools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..datasets.variables import Variable
+from ..model.friction.law import Friction
+from ..types import Array
+from .record import Record
+
+SHAKEN = 0.1  # part of dphi/dt by which it may be off and still be well approximated
+RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
+SETTLED = 0.5  # from this part of the onset time on the patch counts as developed
+
+BY_DEFINITION = {
+    f"length_{edge}_{instant}": Variable(
+        "m", f"patch length at the {instant} of the drop, its edge at the {edge} slip rate", "L"
+    )
+    for edge, instant in itertools.product(("usual", "high", "low"), ("start", "steepest", "end"))
+}
+"""The length by every definition of the patch's edge and of the instant."""
+
+ALWAYS = {
+    "rupture_time": Variable("s", "time during which some point slips faster than 1 mm/s"),
+    "largest_rate": Variable("m/s", "largest slip rate ever"),
+    "usual_step": Variable("s", "median of the time steps"),
+    "largest_normal_stress_ever": Variable(
+        "Pa", "largest sigma_yy on the interface over the record, negative in compression"
+    ),
+}
+"""What is read of every run, of :data:`MEASURES`."""
+
+MEASURES = {
+    **ALWAYS,
+    "acceleration_time": Variable("s", "time in which the fastest slip rate goes from 10 to 100 V"),
+    "growth_time": Variable("s", "time in which the patch would grow by its length at the onset"),
+    "front_speed": Variable("m/s", "mean speed of the patch's edge before the onset"),
+    "drop_time": Variable("s", "time from the steepest part of the force's drop to its end"),
+    "onset_rate": Variable("m/s", "largest slip rate at the onset"),
+    "patch_rate": Variable("m/s", "median slip rate in the developed patch, and over instants"),
+    "patch_rate_low": Variable("m/s", "smallest of the medians over the patch"),
+    "patch_rate_high": Variable("m/s", "largest of the medians over the patch"),
+    "regular_share": Variable("1", "part of the patch at the onset that slips faster than 10 v0"),
+    "middle_stress": Variable("Pa", "shear stress half-way along the block at the onset"),
+    "largest_normal_stress": Variable("Pa", "largest sigma_yy on the interface up to the onset"),
+    "shortest_step": Variable("s", "shortest time step after the onset"),
+    "state_rate_share": Variable(
+        "1", "part of interface and time up to the onset where dphi/dt is good with v for w"
+    ),
+    "state_rate_share_patch": Variable("1", "the same within the creep patch"),
+    **BY_DEFINITION,
+}
+"""What :func:`measure` reads; the mean of realisations is taken of each."""
+
+
+def measure(record: Record) -> dict[str, float]:
+    """:data:`MEASURES` of a simulation in SI units; without an event NaN but for :data:`ALWAYS`.
+
+    Raises
+    ------
+    DatasetError
+        If the interface was not recorded.
+    """
+    record.require("state", "shear_stress", "normal_stress")
+    fastest = record.simulation["maximal_slip_rate"].values
+    sizes = record.simulation["step_size"].values[1:]
+    found = dict.fromkeys(MEASURES, math.nan) | {
+        "rupture_time": float(sizes[fastest[1:] > RUPTURE].sum()),
+        "largest_rate": float(fastest.max()),
+        "usual_step": float(np.median(sizes)),
+        "largest_normal_stress_ever": float(record.simulation["normal_stress"].values.max()),
+    }
+    if record.onset is None:
+        return found
+    return found | _drop(record, record.onset.start, fastest, sizes) | _patch(record)
+
+
+def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str, float]:
+    """How fast the event is that starts with a step."""
+    velocity, steps = record.velocity, record.step_time
+    _, steep, end = record.drop_times
+    rates = fastest[start:]
+    hundred = int(np.argmax(rates > 100.0 * velocity))  # zero also if it is never so fast
+    slower = np.flatnonzero(rates[:hundred] < 10.0 * velocity)
+    acceleration = steps[start + hundred] - steps[start + slower[-1]] if slower.size else math.nan
+    return {
+        "acceleration_time": float(acceleration),
+        "drop_time": float(end - steep),
+        "onset_rate": float(fastest[start]),
+        "shortest_step": float(sizes[start:].min()),
+    }
+
+
+def _patch(record: Record) -> dict[str, float]:
+    """The creeping patch up to the onset, and its length by every definition.
+
+    The lengths alone, if no two frames are of the developed patch.
+    """
+    instants, times, x = record.drop_times, record.time, record.x
+    frames, friction = record.frames_at(instants), record.parameters.friction
+    at, length = int(frames[0]), record.lengths
+    edges = [float(lengths[i]) for lengths in record.all_lengths for i in frames]
+    found = dict(zip(BY_DEFINITION, edges, strict=True))
+    developed = np.flatnonzero(times[: at + 1] >= SETTLED * instants[0])
+    if developed.size < 2:
+        return found
+    rate, state, stress, normal = (
+        record.simulation[name].values[: at + 1]
+        for name in ("slip_rate", "state", "shear_stress", "normal_stress")
+    )
+    inside = x <= length[: at + 1, None]
+    medians = np.array([np.median(np.abs(rate[i][inside[i]])) for i in developed])
+    speed = (length[at] - length[developed[0]]) / (times[at] - times[developed[0]])
+    good = _state_rate_well_approximated(rate, state, friction)
+    weight = np.gradient(times[: at + 1])[:, None] * np.ones_like(rate)
+    regular = np.abs(rate[at]) > 10.0 * friction.regularisation_slip_rate
+    return found | {
+        "growth_time": float(length[at] / speed) if speed > 0.0 else math.inf,
+        "front_speed": float(speed),
+        "patch_rate": float(np.median(medians)),
+        "patch_rate_low": float(medians.min()),
+        "patch_rate_high": float(medians.max()),
+        "regular_share": float(regular[inside[at]].mean()),
+        "middle_stress": float(np.abs(stress[at, x.size // 2])),
+        "largest_normal_stress": float(normal.max()),
+        "state_rate_share": float((weight * good).sum() / weight.sum()),
+        "state_rate_share_patch": float((weight * good * inside).sum() / (weight * inside).sum()),
+    }
+
+
+def _state_rate_well_approximated(
+    rate: Array, state: Array, friction: Friction
+) -> NDArray[np.bool_]:
+    """Where ``dphi/dt`` with v in the place of ``w = sqrt(v^2 + v0^2)`` is nearly the same."""
+    speed = np.maximum(np.abs(rate), 1e-300)
+    omega = state * speed / friction.characteristic_slip_distance
+    full = friction.state_rate(rate, state)
+    approximate = friction.evolution_law.growth(omega)
+    return np.abs(approximate - full) <= SHAKEN * np.abs(full)
