@@ -39,9 +39,10 @@ make_rule(
     message="Simulations {wildcards.name}",
 )
 
-# Batches of the studies take turns: two at once on the paper's mesh, which no cache holds, take a
-# fifth longer.
-for _turn, _name in enumerate(sorted(BATCHED_ONE_BY_ONE, key=number_in_study, reverse=True)):
+# Studies take turns: two runs at once on the paper's mesh, which no cache holds, take a fifth longer.
+_batched = [name for name, runs in BATCHES.items() if runs[0].study not in TABLED]
+_batched.sort(key=lambda name: int(name.rpartition("-")[2]), reverse=True)
+for _turn, _name in enumerate(_batched):
 
     rule:
         name:

@@ -41,13 +41,6 @@ for _run in settings.runs:
     if _run.batch:
         BATCHES.setdefault(_run.batch, []).append(_run)
 
-BATCHED_ONE_BY_ONE = [name for name, runs in BATCHES.items() if runs[0].study not in TABLED]
-
-
-def number_in_study(batch):
-    """A batch's number in its study, from 0."""
-    return int(batch.rpartition("-")[2])
-
 
 def only(rule, name=""):
     """An input function that gives the result of a rule."""

@@ -14,7 +14,6 @@ from ..datasets.variables import Variable, some
 from ..datasets.variables import table as table_of
 from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
-from ..theory.creep.lengths import NoPatch, Patches, stability_point
 from ..types import Array
 from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
@@ -128,6 +127,8 @@ def _creep_length(run: dict[str, Any]) -> float:
 
     Without an edge, also NaN where what varies along the interface is more than its strength.
     """
+    from ..theory.creep.lengths import NoPatch, Patches, stability_point  # with SciPy, takes long
+
     parameters = Parameters.from_dict(run["parameters"])
     if parameters.loading.kind != "edge" and parameters.heterogeneity.varies not in ("none", "f"):
         return float("nan")
@@ -207,9 +208,7 @@ def _row(
     reached = measured["length"]
     if np.isnan(reached):
         reached = record.lengths[-1]
-    given = record.parameters
-    if given.loading.kind == "edge" and given.recording.covers("interface"):
-        measured |= measure(record)
+    measured |= measure(record)
     return {
         **description(run),
         **measured,

@@ -1,8 +1,6 @@
 """What else is read from a simulation: how fast its event is, and how the patch before it creeps.
 
-The claims of the paper stand on these numbers. They are read where lengths are, of runs that are
-loaded at their edge and record the interface, and stand beside lengths in the table
-(:mod:`.lengths`).
+The claims of the paper stand on these numbers, columns of the table of :mod:`.lengths`.
 """
 
 import itertools
@@ -32,9 +30,7 @@ ALWAYS = {
     "rupture_time": Variable("s", "time during which some point slips faster than 1 mm/s"),
     "largest_rate": Variable("m/s", "largest slip rate ever"),
     "usual_step": Variable("s", "median of the time steps"),
-    "largest_normal_stress_ever": Variable(
-        "Pa", "largest sigma_yy on the interface over the record, negative in compression"
-    ),
+    "largest_normal_stress_ever": Variable("Pa", "largest sigma_yy on the interface, ever"),
 }
 """What is read of every run, of :data:`MEASURES`."""
 
@@ -52,9 +48,7 @@ MEASURES = {
     "middle_stress": Variable("Pa", "shear stress half-way along the block at the onset"),
     "largest_normal_stress": Variable("Pa", "largest sigma_yy on the interface up to the onset"),
     "shortest_step": Variable("s", "shortest time step after the onset"),
-    "state_rate_share": Variable(
-        "1", "part of interface and time up to the onset where dphi/dt is good with v for w"
-    ),
+    "state_rate_share": Variable("1", "part of x and t to the onset where v does for w in dphi/dt"),
     "state_rate_share_patch": Variable("1", "the same within the creep patch"),
     **BY_DEFINITION,
 }
@@ -64,12 +58,11 @@ MEASURES = {
 def measure(record: Record) -> dict[str, float]:
     """:data:`MEASURES` of a simulation in SI units; without an event NaN but for :data:`ALWAYS`.
 
-    Raises
-    ------
-    DatasetError
-        If the interface was not recorded.
+    Nothing of a run that is not loaded at its edge, or whose interface is not recorded.
     """
-    record.require("state", "shear_stress", "normal_stress")
+    given = record.parameters
+    if given.loading.kind != "edge" or not given.recording.covers("interface"):
+        return {}
     fastest = record.simulation["maximal_slip_rate"].values
     sizes = record.simulation["step_size"].values[1:]
     found = dict.fromkeys(MEASURES, math.nan) | {
@@ -100,10 +93,7 @@ def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str,
 
 
 def _patch(record: Record) -> dict[str, float]:
-    """The creeping patch up to the onset, and its length by every definition.
-
-    The lengths alone, if no two frames are of the developed patch.
-    """
+    """The creeping patch; its lengths alone, if no two frames are of the developed patch."""
     instants, times, x = record.drop_times, record.time, record.x
     frames, friction = record.frames_at(instants), record.parameters.friction
     at, length = int(frames[0]), record.lengths

@@ -22,10 +22,9 @@ Rows = list[dict[str, Any]]
 
 def of_paper(
     statements: Mapping[str, Any], material: Material, friction: Friction, loading: Loading,
-    interface: InterfaceState,
-    settings: ExtractionSettings, theory: xr.Dataset, dispersion: xr.Dataset,
-    lengths: Iterable[xr.Dataset], longer: Sequence[xr.Dataset], longer_runs: Rows,
-    patches: Iterable[xr.Dataset], patch_ids: Sequence[str],
+    interface: InterfaceState, settings: ExtractionSettings, theory: xr.Dataset,
+    dispersion: xr.Dataset, lengths: Iterable[xr.Dataset], longer: Sequence[xr.Dataset],
+    longer_runs: Rows, patches: Iterable[xr.Dataset], patch_ids: Sequence[str],
 ) -> dict[str, str]:  # fmt: skip
     """The step ``claims``: a verdict on every statement of the paper.
 

@@ -5,7 +5,6 @@ from typing import Any
 import click
 
 from ..answers.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
-from ..model.quantities import ParameterError
 from ..theory.fault import QUANTITIES, Fault
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, said_of
@@ -41,8 +40,6 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
     """
     given = fault_values(**options, optional=unknown)
     own = given.pop(unknown, None)
-    if missing := [name for name in UNKNOWNS.choices if name not in {unknown, *given}]:
-        raise ParameterError(f"{missing[0]} is missing: one parameter is looked for, {unknown}")
     with doubts_told():
         fit = specimen_fit(unknown, length, criterion, **given)
         now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))

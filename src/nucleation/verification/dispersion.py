@@ -56,6 +56,7 @@ MODES_OF_SLIDING = {
     "theory_frequency": Variable(
         "1/s", "angular frequency of the seeded mode, Eq. (5)", "Im Lambda"
     ),
+    "disagreement": Variable("1", "difference of the complex rates over the theory's"),
     "curve_wavenumber": Variable("1/m", "wavenumber of the theory's curve", "k"),
     "curve_growth": Variable("1/s", "growth rate, Eq. (5)", "Re Lambda"),
     "curve_frequency": Variable("1/s", "angular frequency, Eq. (5)", "Im Lambda"),
@@ -213,7 +214,8 @@ def dispersion_dataset(
             f"{name}_growth": (along, values.real),
             f"{name}_frequency": (along, values.imag),
         }
-    return annotate(xr.Dataset(columns, {"height": heights}), MODES_OF_SLIDING)
+    found = xr.Dataset(columns, {"height": heights})
+    return annotate(found.assign(disagreement=disagreement(found)), MODES_OF_SLIDING)
 
 
 def disagreement(dataset: xr.Dataset) -> xr.DataArray:
@@ -227,14 +229,12 @@ def disagreement(dataset: xr.Dataset) -> xr.DataArray:
 
 def to_csv(dataset: xr.Dataset) -> str:
     """Measured and theoretical rates of every mode as comma-separated text."""
-    rates = [
-        f"{kind}_{part}" for kind in ("measured", "theory") for part in ("growth", "frequency")
-    ]
+    rates = [name for name in MODES_OF_SLIDING if name.startswith(("measured", "theory"))]
     ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
-    columns = dataset[["mode_wavenumber", *rates]].assign(wavenumber_over_critical=ratio)
-    table = columns.assign(disagreement=disagreement(dataset)).to_dataframe().reset_index()
-    order = ["height", "wavenumber_over_critical", "branch", "mode_wavenumber", *rates]
-    return table[[*order, "disagreement"]].to_csv(index=False, float_format="%.8g")
+    columns = ["mode_wavenumber", *rates, "disagreement"]
+    table = dataset[columns].assign(wavenumber_over_critical=ratio).to_dataframe().reset_index()
+    order = ["height", "wavenumber_over_critical", "branch", *columns]
+    return table[order].to_csv(index=False, float_format="%.8g")
 
 
 def files(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:

@@ -120,9 +120,7 @@ def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
 @on_both
 def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
     velocity = evidence.loading.velocity
-    columns = ("patch_rate", "patch_rate_low", "patch_rate_high")
-    rows = evidence.series(role)
-    return [Ours.between(*(row[name] / velocity for name in columns)) for row in rows]
+    return [_with_range(row, "patch_rate", velocity) for row in evidence.series(role)]
 
 
 def rupture_duration(evidence: Evidence) -> float:
