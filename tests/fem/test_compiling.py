@@ -46,3 +46,28 @@ def test_two_processes_compile_for_other_arguments_at_once(tmp_path, monkeypatch
         [sys.executable, "-c", KEPT, str(tmp_path)], check=True, capture_output=True, text=True
     )
     assert third.stdout.split() == ["6", "5.0", "0"]
+
+
+WITH_CONTENT = """
+import sys
+import doubling
+
+def function(x):
+    return doubling.doubled(x)
+
+made = doubling.compiled(function, content=sys.argv[1])
+made(3)
+print(len(made.stats.cache_hits))
+"""
+
+
+@pytest.mark.slow
+def test_what_is_kept_is_not_used_once_other_content_is_called(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
+    (tmp_path / "doubling.py").write_text(DOUBLING)
+    (program := tmp_path / "program.py").write_text(WITH_CONTENT)
+    hits = []
+    for content in ("one", "one", "other"):
+        command = [sys.executable, str(program), content]
+        hits.append(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    assert hits == ["0\n", "1\n", "0\n"]

@@ -1,4 +1,4 @@
-"""What runs compile of a friction law is what it says."""
+"""What runs compile of friction laws and state evolutions is what these say."""
 
 import numpy as np
 import pytest
@@ -9,21 +9,25 @@ from nucleation.simulation import compiled_laws
 
 RATES = np.array([-1e-5, 0.0, 1e-40, 1e-9, 1e-6, 1e-3, 1.0])
 STATES = np.linspace(-12.0, 9.0, RATES.size)
+STEP = 0.01  # s
 
 
+def at_end_of_step(law, rates):
+    """State, friction coefficient and its total slope, compiled."""
+    v0, distance = law.regularisation_slip_rate, law.characteristic_slip_distance
+    return compiled_laws.friction(law)(rates, STATES, STEP, v0, distance, law.constants)
+
+
+@pytest.mark.parametrize("evolution", sorted(EVOLUTIONS))
 @pytest.mark.parametrize("name", sorted(LAWS))
-def test_formula(name):
-    law = Friction(law=name)
-    compiled = compiled_laws.formula(law)(RATES, STATES, law.constants)
-    for one, other in zip(compiled, law.coefficient_and_slopes(RATES, STATES), strict=True):
-        np.testing.assert_allclose(one, other, rtol=1e-14)
-
-
-@pytest.mark.parametrize("name", sorted(EVOLUTIONS))
-def test_implicit_log_state(name):
-    law = Friction(evolution=name)
-    arguments = (STATES, 0.01, law.slip_speed(RATES) / law.characteristic_slip_distance)
-    compiled = compiled_laws.implicit_log_state(law)(*arguments)
-    plain = law.evolution_law.implicit_log_state(*arguments)
-    for one, other in zip(compiled, plain, strict=True):
-        np.testing.assert_allclose(one, other, rtol=1e-13)
+def test_friction_at_the_end_of_a_step(name, evolution):
+    law = Friction(law=name, evolution=evolution)
+    psi, coefficient, slope = at_end_of_step(law, RATES)
+    rate = law.slip_speed(RATES) / law.characteristic_slip_distance
+    expected, _ = law.evolution_law.implicit_log_state(STATES, STEP, rate)
+    np.testing.assert_allclose(psi, expected, rtol=1e-13)
+    np.testing.assert_allclose(coefficient, law.coefficient(RATES, np.exp(psi)), rtol=1e-13)
+    moving = np.abs(RATES) >= 1e-9
+    ahead, behind = (at_end_of_step(law, RATES * (1.0 + h))[1] for h in (1e-6, -1e-6))
+    by_difference = (ahead - behind)[moving] / (2e-6 * RATES[moving])
+    np.testing.assert_allclose(slope[moving], by_difference, rtol=1e-5)

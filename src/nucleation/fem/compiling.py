@@ -7,6 +7,7 @@ is not made for. Jobs of a workflow begin at once.
 
 import contextlib
 import fcntl
+import hashlib
 import os
 from collections.abc import Callable, Iterator, Set
 from typing import Any, cast
@@ -18,7 +19,17 @@ LOCK = "lock"
 
 
 class SharedCache(FunctionCache):
-    """What numba keeps of a function, read and written by many processes."""
+    """What numba keeps of a function, read and written by many processes.
+
+    And no longer than the `content` of what else it compiles with it is the same.
+    """
+
+    def __init__(self, function: Callable[..., Any], content: str) -> None:
+        super().__init__(function)
+        self._digest = hashlib.sha256(content.encode()).hexdigest()
+
+    def _index_key(self, *compiled: Any) -> tuple[Any, ...]:
+        return *super()._index_key(*compiled), self._digest
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep the code for some types of arguments."""
@@ -41,12 +52,15 @@ class SharedCache(FunctionCache):
             yield
 
 
-def compiled(function: Callable[..., Any], fastmath: Set[str] = frozenset()) -> Callable[..., Any]:
+def compiled(
+    function: Callable[..., Any], fastmath: Set[str] = frozenset(), content: str = ""
+) -> Callable[..., Any]:
     """Compile a function when it is first called, with numpy's errors; see the module.
 
-    Without `fastmath` it does the arithmetic of numpy, to the last bit.
+    Without `fastmath` it does the arithmetic of numpy, to the last bit. `content` is the text of
+    what it calls in other files, by which numba does not tell what is outdated.
     """
     made: Any = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
     with contextlib.suppress(RuntimeError):  # no place to keep it
-        made._cache = SharedCache(function)
+        made._cache = SharedCache(function, content)
     return cast(Callable[..., Any], made)

@@ -1,43 +1,46 @@
-"""The friction law and the state evolution of a run, compiled.
+"""Friction with its state at the end of a step, compiled for a run's law and state evolution.
 
-What they are is said once, in NumPy, for arrays of any shape (:mod:`nucleation.model.friction`).
+What both are is said once, in NumPy, for arrays of any shape (:mod:`nucleation.model.friction`).
 numba makes of the same functions one pass over the interface's nodes for each of their lines.
 """
 
 from collections.abc import Callable
 from functools import cache
-from inspect import getmembers, isfunction
+from inspect import getmembers, getsource, isfunction
 from sys import modules
-from types import ModuleType
 from typing import Any
 
+import numpy as np
 from numba.extending import register_jitable
 
 from ..fem.compiling import compiled
 from ..model.friction import evolution
 from ..model.friction.law import Friction
+from ..types import Array
+
+
+def friction(law: Friction) -> Callable[..., Any]:
+    """The function of slip rates (m/s) and past states that a law makes; see :func:`_friction`."""
+    return _friction(type(law).formula, law.evolution_law.implicit_log_state)
 
 
 @cache
-def _compiled(function: Callable) -> Callable[..., Any]:
-    for module in {evolution, modules[function.__module__]}:
-        _let_be_called(module)
-    return compiled(function)
+def _friction(formula: Callable[..., Any], implicit_log_state: Callable[..., Any]) -> Any:
+    """``psi = past + beta dpsi/dt`` at the end of a step, f, and its total slope df/dv (s/m)."""
+    own = modules[formula.__module__], modules[implicit_log_state.__module__], evolution
+    for module in own:
+        for _, function in getmembers(module, isfunction):
+            if function.__module__ == module.__name__:
+                register_jitable(function)
+    register_jitable(formula)
 
+    def friction(
+        v: Array, past: Array, beta: float, v0: float, distance: Any, constants: Any
+    ) -> Any:
+        speed = np.sqrt(v * v + v0 * v0)
+        psi, psi_by_rate = implicit_log_state(past, beta, speed / distance)
+        coefficient, by_rate, by_log_state = formula(v, psi, constants)
+        slope = by_rate + by_log_state * psi_by_rate * v / (speed * distance)
+        return psi, coefficient, slope
 
-@cache
-def _let_be_called(module: ModuleType) -> None:
-    """Let compiled functions call those of a module."""
-    for _, function in getmembers(module, isfunction):
-        if function.__module__ == module.__name__:
-            register_jitable(function)
-
-
-def formula(law: Friction) -> Callable[..., Any]:
-    """:meth:`Friction.formula` of a law, compiled."""
-    return _compiled(type(law).formula)
-
-
-def implicit_log_state(law: Friction) -> Callable[..., Any]:
-    """``implicit_log_state`` of a law's evolution, compiled."""
-    return _compiled(law.evolution_law.implicit_log_state)
+    return compiled(friction, content="".join(map(getsource, own)))

@@ -122,12 +122,8 @@ class Interface:
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x beside what the body exerts
 
     @cached_property
-    def _formula(self) -> Callable[..., tuple[Array, Array, Array]]:
-        return compiled_laws.formula(self.friction)
-
-    @cached_property
-    def _evolved(self) -> Callable[..., tuple[Array, Array]]:
-        return compiled_laws.implicit_log_state(self.friction)
+    def _compiled(self) -> Callable[..., tuple[Array, ...]]:
+        return compiled_laws.friction(self.friction)
 
     def solve(
         self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
@@ -201,11 +197,8 @@ class Interface:
     def _friction(self, v: Array, past_log_state: Array, beta: float) -> tuple[Array, ...]:
         """psi, state at the end of the step, friction coefficient, and its total slope (s/m)."""
         law = self.friction
-        distance = law.characteristic_slip_distance
-        speed, rate = passes.slip_speed(v, law.regularisation_slip_rate, distance)
-        psi, psi_by_rate = self._evolved(past_log_state, beta, rate)
-        coefficient, *slopes = self._formula(v, psi, law.constants)
-        return psi, coefficient, passes.total_slope(*slopes, psi_by_rate, v, speed, distance)
+        v0, distance = law.regularisation_slip_rate, law.characteristic_slip_distance
+        return self._compiled(v, past_log_state, beta, v0, distance, law.constants)
 
 
 def _updated_by_asinh(

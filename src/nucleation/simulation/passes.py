@@ -12,19 +12,6 @@ LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
 
 @compiled
-def slip_speed(v, v0, distance):
-    """The regularised slip speed ``sqrt(v^2 + v0^2)`` (m/s), and that over the slip distance."""
-    speed = np.sqrt(v * v + v0 * v0)
-    return speed, speed / distance
-
-
-@compiled
-def total_slope(by_rate, by_log_state, psi_by_rate, v, speed, distance):
-    """``df/dv`` (s/m) with the state at the end of the step, which follows the slip speed."""
-    return by_rate + by_log_state * psi_by_rate * v / (speed * distance)
-
-
-@compiled
 def balance(
     tangential, normal, coefficient, slope, v, elastic, least, tolerance, rounding, strength
 ):
