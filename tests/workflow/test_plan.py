@@ -25,7 +25,7 @@ def test_default_target_is_the_whole_paper(paper):
     config = load(paper.config)
     studies = ("paper", "converged", "long_blocks")
     batches = {run.batch for study in studies for run in config.runs_of(study)}
-    assert len(batches) == 9
+    assert len(batches) == 7
     once = ("theory", "gather_lengths", "write_table_s1", *DRAWN, *CLAIMING)
     assert paper.planned() == {
         "extract": 2,

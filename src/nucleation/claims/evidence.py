@@ -126,12 +126,19 @@ def of_runs(
     )
 
 
+class Row(dict[str, Any]):
+    """A row of a table of lengths, which may lack what was not recorded."""
+
+    def __missing__(self, column: str) -> Any:
+        raise Missing(f"The table of the runs' lengths has no {column}")
+
+
 def _faults(table: xr.Dataset) -> list[dict[str, Any]]:
     """The rows of a table of lengths, one for each fault, with those of its realisations."""
     own = table.to_dataframe().to_dict("records")
     rows = over_realisations(table).to_dataframe().to_dict("records")
     return [
-        row | {"members": [own[i] for i in members]}
+        Row(row | {"members": [Row(own[i]) for i in members]})
         for row, members in zip(rows, realisations(table), strict=True)
     ]
 

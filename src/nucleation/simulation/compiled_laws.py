@@ -34,13 +34,10 @@ def _friction(formula: Callable[..., Any], implicit_log_state: Callable[..., Any
                 register_jitable(function)
     register_jitable(formula)
 
-    def friction(
-        v: Array, past: Array, beta: float, v0: float, distance: Any, constants: Any
-    ) -> Any:
+    def at_end(v: Array, past: Array, beta: float, v0: float, distance: Any, constants: Any) -> Any:
         speed = np.sqrt(v * v + v0 * v0)
         psi, psi_by_rate = implicit_log_state(past, beta, speed / distance)
         coefficient, by_rate, by_log_state = formula(v, psi, constants)
-        slope = by_rate + by_log_state * psi_by_rate * v / (speed * distance)
-        return psi, coefficient, slope
+        return psi, coefficient, by_rate + by_log_state * psi_by_rate * v / (speed * distance)
 
-    return compiled(friction, content="".join(map(getsource, own)))
+    return compiled(at_end, content="".join(map(getsource, own)))

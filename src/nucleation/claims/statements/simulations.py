@@ -117,12 +117,6 @@ def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
     return known or ratios  # a run may end with its drop, before 100 V
 
 
-@on_both
-def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Ours]:
-    velocity = evidence.loading.velocity
-    return [_with_range(row, "patch_rate", velocity) for row in evidence.series(role)]
-
-
 def rupture_duration(evidence: Evidence) -> float:
     row = evidence.row(PAPERS, "aging", SHOWN)
     return float(row["onset_time"] / row["rupture_time"])
@@ -184,6 +178,11 @@ OURS: dict[str, Computation] = {
     "old-interface": change_from_aging(INSET, "aging", OLD),
     "slip-rate-blows-up": on_both(
         lambda e, role: e.row(role, "aging", INSET)["largest_rate"] / e.loading.velocity
+    ),
+    "characteristic-slip-rate": on_both(
+        lambda e, role: [
+            _with_range(row, "patch_rate", e.loading.velocity) for row in e.series(role)
+        ]
     ),
     "abrupt-drop": on_both(
         lambda e, role: [row["onset_time"] / row["drop_time"] for row in e.rows(role)]
