@@ -79,3 +79,19 @@ def test_run_without_event_has_no_numbers_but_those_of_its_steps():
     quiet = run.assign(driving_force=("step", np.linspace(-1.0, -2.0, run.sizes["step"])))
     found = measure(Record(quiet))
     assert {name for name, value in found.items() if np.isfinite(value)} == set(ALWAYS)
+
+
+@pytest.mark.parametrize("given", [{"record": "lengths"}, {"loading": "top"}])
+def test_nothing_is_read_of_runs_of_other_kinds(given):
+    """Their interface is not recorded, or the patch does not begin at x = 0."""
+    run = made_up()
+    assert measure(Record(run))
+    other = run.assign_attrs(parameters=PARAMETERS.replaced(given).to_json())
+    assert measure(Record(other)) == {}
+
+
+def test_patch_that_two_frames_do_not_show_has_lengths_alone():
+    run = made_up()
+    found = measure(Record(run.isel(time=[0, -2, -1])))
+    assert np.isfinite([found[name] for name in BY_DEFINITION]).all()
+    assert np.isnan(found["front_speed"]) and np.isnan(found["state_rate_share"])

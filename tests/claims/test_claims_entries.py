@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
 
-from nucleation.analysis.measures import BY_DEFINITION
+from nucleation.analysis.measures import BY_DEFINITION, MEASURES
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
 from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
@@ -200,6 +200,12 @@ def test_configuration_without_the_runs_can_not_be_checked():
         assert row["verdict"] == Verdict.UNCHECKED
         assert "no such run: role" in row["reason"]
     assert BY_ID["eta"].evaluate(nothing)["verdict"] == Verdict.REPLICATED
+
+
+def test_numbers_that_were_not_read_can_not_be_checked():
+    bare = [table.drop_vars(list(MEASURES)) for table in evidence().lengths]
+    row = BY_ID["no-radiation"].evaluate(evidence(lengths=tuple(bare)))
+    assert row["verdict"] == Verdict.UNCHECKED and "has no onset_rate" in row["reason"]
 
 
 def test_tables_hold_every_row(rows):
