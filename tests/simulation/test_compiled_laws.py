@@ -31,3 +31,10 @@ def test_friction_at_the_end_of_a_step(name, evolution):
     ahead, behind = (at_end_of_step(law, RATES * (1.0 + h))[1] for h in (1e-6, -1e-6))
     by_difference = (ahead - behind)[moving] / (2e-6 * RATES[moving])
     np.testing.assert_allclose(slope[moving], by_difference, rtol=1e-5)
+
+
+def test_compiled_functions_have_names_of_their_own():
+    """Two of one name, kept by two processes, were one symbol in a third, which failed."""
+    laws = [Friction(law=name, evolution=e) for name in LAWS for e in EVOLUTIONS]
+    names = {compiled_laws.friction(law).py_func.__qualname__ for law in laws}
+    assert len(names) == len(laws)

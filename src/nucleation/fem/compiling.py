@@ -19,10 +19,7 @@ LOCK = "lock"
 
 
 class SharedCache(FunctionCache):
-    """What numba keeps of a function, read and written by many processes.
-
-    And no longer than the `content` of what else it compiles with it is the same.
-    """
+    """What numba keeps of a function and some content, read and written by many processes."""
 
     def __init__(self, function: Callable[..., Any], content: str) -> None:
         super().__init__(function)

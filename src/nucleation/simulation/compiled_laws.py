@@ -40,4 +40,6 @@ def _friction(formula: Callable[..., Any], implicit_log_state: Callable[..., Any
         coefficient, by_rate, by_log_state = formula(v, psi, constants)
         return psi, coefficient, by_rate + by_log_state * psi_by_rate * v / (speed * distance)
 
+    # numba finds compiled code by name, and what two processes have compiled may meet in a third
+    at_end.__qualname__ = "_".join(module.__name__.rpartition(".")[2] for module in own)
     return compiled(at_end, content="".join(map(getsource, own)))
