@@ -1,21 +1,19 @@
 """Functions compiled by numba, and kept for other processes: written by one at a time.
 
 Two processes that compile a function for different arguments at once may each count the other's
-code as their own (numba 0.68 numbers its files without a lock), and then run it on arrays that it
-is not made for. Jobs of a workflow begin at once.
+code as their own (numba 0.68 numbers its files without a lock), and run it on other arrays.
 """
 
 import contextlib
 import fcntl
 import hashlib
 import os
+import time
 from collections.abc import Callable, Iterator, Set
 from typing import Any, cast
 
 from numba import njit
 from numba.core.caching import FunctionCache
-
-LOCK = "lock"
 
 
 class SharedCache(FunctionCache):
@@ -44,18 +42,21 @@ class SharedCache(FunctionCache):
         with contextlib.ExitStack() as held:
             with contextlib.suppress(OSError):
                 self._impl.locator.ensure_cache_path()
-                file = held.enter_context(open(os.path.join(self.cache_path, LOCK), "a"))
-                fcntl.flock(file, fcntl.LOCK_EX)
+                file = held.enter_context(open(os.path.join(self.cache_path, "lock"), "a"))
+                for _ in range(1000):  # ten seconds: a process that is stopped may hold it for ever
+                    with contextlib.suppress(BlockingIOError):
+                        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                        break
+                    time.sleep(0.01)
             yield
 
 
 def compiled(
     function: Callable[..., Any], fastmath: Set[str] = frozenset(), content: str = ""
 ) -> Callable[..., Any]:
-    """Compile a function when it is first called, with numpy's errors; see the module.
+    """Compile a function, with numpy's errors and, without `fastmath`, numpy's last bits.
 
-    Without `fastmath` it does the arithmetic of numpy, to the last bit. `content` is the text of
-    what it calls in other files, by which numba does not tell what is outdated.
+    `content` is the text of what it calls in other files, which numba does not look at.
     """
     made: Any = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
     with contextlib.suppress(RuntimeError):  # no place to keep it
