@@ -1,5 +1,6 @@
 """What numba keeps is right, whichever processes write at once."""
 
+import fcntl
 import subprocess
 import sys
 
@@ -71,3 +72,19 @@ def test_what_is_kept_is_not_used_once_other_content_is_called(tmp_path, monkeyp
         command = [sys.executable, str(program), content]
         hits.append(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
     assert hits == ["0\n", "1\n", "0\n"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", [fcntl.LOCK_SH, fcntl.LOCK_EX], ids=["reads", "writes"])
+def test_process_that_is_stopped_while_it_holds_the_lock_does_not_stop_others(
+    kind, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "kept"))
+    (tmp_path / "doubling.py").write_text(DOUBLING)
+    command = [sys.executable, "-c", KEPT, str(tmp_path)]
+    subprocess.run(command, check=True)
+    (lock,) = (tmp_path / "kept").rglob("lock")
+    with lock.open("a") as held:
+        fcntl.flock(held, kind)
+        found = subprocess.run(command, check=True, capture_output=True, text=True, timeout=100)
+    assert found.stdout.split() == ["6", "5.0", "0"]

@@ -28,24 +28,24 @@ class SharedCache(FunctionCache):
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep the code for some types of arguments."""
-        with self._locked():
+        with self._locked(fcntl.LOCK_EX):
             super().save_overload(sig, data)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The code for some types of arguments, None if it is not kept."""
-        with self._locked():
+        with self._locked(fcntl.LOCK_SH):
             return super().load_overload(sig, target_context)
 
     @contextlib.contextmanager
-    def _locked(self) -> Iterator[None]:
-        """Hold the directory's lock, where the disk has any."""
+    def _locked(self, kind: int) -> Iterator[None]:
+        """Hold the directory's lock, where the disk has any: many may read, or one may write."""
         with contextlib.ExitStack() as held:
             with contextlib.suppress(OSError):
                 self._impl.locator.ensure_cache_path()
                 file = held.enter_context(open(os.path.join(self.cache_path, "lock"), "a"))
                 for _ in range(1000):  # ten seconds: a process that is stopped may hold it for ever
                     with contextlib.suppress(BlockingIOError):
-                        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                        fcntl.flock(file, kind | fcntl.LOCK_NB)
                         break
                     time.sleep(0.01)
             yield
