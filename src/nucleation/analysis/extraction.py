@@ -7,7 +7,6 @@ complete.
 
 import warnings
 
-import numpy as np
 import xarray as xr
 
 from ..datasets.variables import Variable
@@ -48,8 +47,7 @@ def extract(
                 stacklevel=2,
             )
         return dict.fromkeys(MEASURED, float("nan"))
-    instants = record.drop_times
-    edges = np.array([lengths[record.frames_at(instants)] for lengths in record.all_lengths])
+    instants, edges = record.drop_times, record.lengths_at_drop
     return {
         "onset_time": float(instants[0]),
         "onset_time_low": float(instants.min()),

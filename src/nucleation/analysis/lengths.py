@@ -205,9 +205,7 @@ def _row(
     run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
 ) -> dict[str, Any]:
     measured, record = extract(simulation, settings), Record(simulation, settings)
-    reached = measured["length"]
-    if np.isnan(reached):
-        reached = record.lengths[-1]
+    reached = record.lengths[-1] if record.onset is None else measured["length"]
     measured |= measure(record)
     return {
         **description(run),

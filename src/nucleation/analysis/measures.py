@@ -94,11 +94,9 @@ def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str,
 
 def _patch(record: Record) -> dict[str, float]:
     """The creeping patch; its lengths alone, if no two frames are of the developed patch."""
-    instants, times, x = record.drop_times, record.time, record.x
-    frames, friction = record.frames_at(instants), record.parameters.friction
-    at, length = int(frames[0]), record.lengths
-    edges = [float(lengths[i]) for lengths in record.all_lengths for i in frames]
-    found = dict(zip(BY_DEFINITION, edges, strict=True))
+    instants, times, friction = record.drop_times, record.time, record.parameters.friction
+    at, x, length = int(record.frames_at(instants)[0]), record.x, record.lengths
+    found = dict(zip(BY_DEFINITION, record.lengths_at_drop.ravel().tolist(), strict=True))
     developed = np.flatnonzero(times[: at + 1] >= SETTLED * instants[0])
     if developed.size < 2:
         return found

@@ -125,6 +125,11 @@ class Record:
         high, low = self.settings.edge_threshold_high, self.settings.edge_threshold_low
         return self.lengths, self._lengths(high), self._lengths(low)
 
+    @cached_property
+    def lengths_at_drop(self) -> Array:
+        """Those (m) by edge, and by start, steepest part and end of the drop, (3, 3)."""
+        return np.array(self.all_lengths)[:, self.frames_at(self.drop_times)]
+
     def _lengths(self, share: float) -> Array:
         rates, threshold = self.simulation["slip_rate"].values, share * self.velocity
         lengths = patch_lengths(self.parameters.loading.kind, self.x, rates, threshold)
