@@ -1,6 +1,6 @@
 # The workflow of the replication: configuration, rules, and the targets that users ask for.
 #
-#   snakemake --workflow-profile workflow/profiles/default figure_3
+#   snakemake figure_3
 #
 # Data flow: theory and simulate -> extract -> draw. Results lie below the configuration's
 # `results`, relative to the working directory.

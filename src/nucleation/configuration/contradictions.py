@@ -22,7 +22,7 @@ from .settings import Limits, estimated_megabytes
 LONGEST_ID = 200
 """Characters of an identifier: with its suffixes it is a file's name, of 255 bytes at most."""
 
-CODE = ("src", "workflow", "config", "docs", "tests")
+CODE = ("src", "workflow", "profiles", "config", "docs", "tests")
 """Directories of the checkout in which results have no place."""
 
 
