@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nucleation.configuration import load, schema
+from nucleation.configuration import refusals, schema
 from nucleation.configuration.study_names import study_parameters
 
 SCHEMA = schema.build()
@@ -40,5 +40,5 @@ def test_schema_allows_what_the_library_allows(key, data):
     value = data.draw(values(entry))
     allowed = entry.allows((value,) if entry.many else value)
     allowed &= value not in (math.inf, -math.inf)  # YAML has it, and no parameter takes it there
-    valid = load._Validator({"$defs": SCHEMA["$defs"], **node}).is_valid(value)
+    valid = refusals._Validator({"$defs": SCHEMA["$defs"], **node}).is_valid(value)
     assert valid == allowed

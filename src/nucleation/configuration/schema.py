@@ -2,6 +2,8 @@
 
 import dataclasses
 import json
+from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 import yaml
@@ -54,14 +56,20 @@ def entry_at(path: tuple[Any, ...]) -> Quantity | None:
     if names and names[-1] in RANGE:
         return RANGE[names[-1]]
     if names[:1] == ["studies"]:
-        known = study_parameters()
-        known |= {other: known[name] for other, name in other_names().items()}
-        known |= declarations(StudySettings)
+        known = _study_entries()
         names = names[2:]
     else:
         known = group_entries(names[0]) if names and names[0] in GROUPS else {}
     found = next((known[name] for name in names if name in known), None)
     return found and (dataclasses.replace(found, kind="float") if found.many else found)
+
+
+@cache  # asked for each text of a configuration
+def _study_entries() -> Mapping[str, Quantity]:
+    """Declarations of all that a study may give, by all of its names."""
+    known = study_parameters()
+    others = {other: known[name] for other, name in other_names().items()}
+    return {**known, **others, **declarations(StudySettings)}
 
 
 def build() -> Node:
