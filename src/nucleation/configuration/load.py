@@ -14,7 +14,7 @@ from ..model.units import parse
 from . import schema
 from .configuration import Configuration
 from .contradictions import results_directory, results_problems, setting_problems
-from .refusals import range_problems, schema_problems, stop_on
+from .refusals import range_problems, stop_on, value_problems
 from .roles import problems_of_studies
 from .strict_yaml import read_yaml
 from .studies import study_settings
@@ -42,7 +42,7 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
         With one line for each problem found.
     """
     values = _with_numbers(values)
-    stop_on(schema_problems(values))
+    stop_on(value_problems(values))
     stop_on([*range_problems(values), *results_problems(results_directory(values))])
     try:
         groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}

@@ -1,19 +1,30 @@
 """What is wrong with the values of a configuration, in words: a line for each problem."""
 
+import dataclasses
 import difflib
-import numbers
-import sys
-from collections.abc import Iterable, Iterator
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
 from typing import Any
 
-import jsonschema
-from jsonschema.exceptions import ValidationError
-
 from ..model.friction.registry import EVOLUTIONS
-from ..model.quantities import ParameterError, Quantity, refusal
+from ..model.quantities import ParameterError, Quantity, declarations, refusal
 from ..model.units import parse
-from . import schema
-from .study_names import LARGEST_GRID, grid_size, range_problem
+from .schema import GROUPS, RESULTS, STUDY_NAME, group_entries, has_range
+from .studies import StudySettings
+from .study_names import (
+    LARGEST_GRID,
+    RANGE,
+    grid_size,
+    other_names,
+    range_problem,
+    study_parameters,
+)
+
+Place = tuple[Any, ...]
+Check = Callable[[Place, Any], Iterator[str]]
+"""What is wrong with a value at a place of the configuration."""
 
 
 def stop_on(problems: Iterable[str]) -> None:
@@ -25,68 +36,136 @@ def stop_on(problems: Iterable[str]) -> None:
         raise ParameterError(f"the configuration has {count}:{listing}")
 
 
-def _is_finite(_: Any, value: Any) -> bool:
-    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+def value_problems(values: Any) -> Iterator[str]:
+    """Unknown keys, missing keys and values that are not allowed, in a whole configuration."""
+    checks = {"results": _single(RESULTS)}
+    for group in GROUPS:
+        entries = group_entries(group)
+        keys = {k: _several(e) if e.many else _single(e) for k, e in entries.items()}
+        checks[group] = _mapping(keys)
+    checks["studies"] = _studies
+    yield from _mapping(checks, needed=["studies"])((), values)
+
+
+def _studies(place: Place, given: Any) -> Iterator[str]:
+    """What is wrong with the section ``studies``."""
+    if not isinstance(given, dict):
+        yield _no_mapping(place, given)
+        return
+    if not given:
+        yield _empty(place, given)
+    for name, study in given.items():
+        if isinstance(name, str) and re.fullmatch(STUDY_NAME, name):
+            yield from _study()((*place, name), study)
+        else:
+            yield (
+                f"{key_text(place)}: {name!r} is not allowed as a name: it must be made of at most "
+                "60 letters, digits and _, beginning with a letter"
+            )
+
+
+@cache
+def _study() -> Check:
+    """The check of one study."""
+    declared, others = study_parameters(), other_names()
+    single = {name: _single(entry) for name, entry in declared.items()}
+    varied = {name: _several(entry) for name, entry in declared.items()}
+    for checks in (single, varied):
+        checks |= {other: checks[name] for other, name in others.items()}
+    defaults = _mapping(single)
+    entry = _mapping({**varied, "defaults": defaults}, filled=True)
+    settings = {name: _single(entry) for name, entry in declarations(StudySettings).items()}
+    return _mapping({**settings, "defaults": defaults, "runs": _list(entry)}, needed=["runs"])
+
+
+def _mapping(checks: Mapping[str, Check], needed: Iterable[str] = (), filled: bool = False) -> Check:
+    """The check of a mapping whose keys have these checks."""
+
+    def check(place: Place, given: Any) -> Iterator[str]:
+        if not isinstance(given, dict):
+            yield _no_mapping(place, given)
+            return
+        missing = [key for key in needed if key not in given]
+        if missing:
+            yield f"{key_text(place)} lacks the key {', '.join(missing)}"
+        if filled and not given:
+            yield _empty(place, given)
+        yield from _unknown_keys(place, given, list(checks))
+        for key, value in given.items():
+            if key in checks:
+                yield from checks[key]((*place, key), value)
+
+    return check
+
+
+def _list(item: Check) -> Check:
+    """The check of a list whose items have this check."""
+
+    def check(place: Place, given: Any) -> Iterator[str]:
+        if not isinstance(given, list):
+            yield f"{key_text(place)} = {_short(given)} must be a list"
+            return
+        if not given:
+            yield _empty(place, given)
+        for number, value in enumerate(given):
+            yield from item((*place, number), value)
+
+    return check
+
+
+def _single(entry: Quantity) -> Check:
+    """The check of one value."""
+
+    def check(place: Place, value: Any) -> Iterator[str]:
+        if not _allowed(value, entry):
+            meant = place[0] == "studies" and "law" in place and value in list(EVOLUTIONS)
+            hint = "; the evolution of the state is called evolution" if meant else ""
+            yield f"{_refusal(key_text(place), value, entry)}{hint}"
+
+    return check
+
+
+def _several(entry: Quantity) -> Check:
+    """The check of a value, a list of different values or a range."""
+    single = _single(dataclasses.replace(entry, kind="float") if entry.many else entry)
+    several = _list(single)
+    ends = {"start": single, "stop": single}
+    keys = ends | {name: _single(declared) for name, declared in RANGE.items()}
+    spaced = _mapping(keys, needed=["start", "stop", "num"])
+
+    def check(place: Place, value: Any) -> Iterator[str]:
+        if isinstance(value, list):
+            yield from several(place, value)
+            if any(value[i] in value[:i] for i in range(len(value))):
+                yield f"{key_text(place)} = {_short(value)} has a value twice"
+        elif isinstance(value, dict) and has_range(entry):
+            yield from spaced(place, value)
+        else:
+            yield from single(place, value)
+
+    return check
+
+
+def _allowed(value: Any, entry: Quantity) -> bool:
+    """Whether a configuration may have a value, of which none is infinite."""
+    if entry.worded:
+        return (value is None or isinstance(value, str)) and entry.allows(value)
+    return entry.allows(value) and (value is None or _is_finite(value))
+
+
+def _is_finite(number: Any) -> bool:
+    try:
+        return math.isfinite(number)
+    except OverflowError:  # of an integer beyond the largest float
         return False
-    return abs(value) <= sys.float_info.max  # type: ignore[operator]  # also of integers beyond the largest float; not NaN
 
 
-_Validator = jsonschema.validators.extend(
-    jsonschema.Draft202012Validator,
-    type_checker=jsonschema.Draft202012Validator.TYPE_CHECKER.redefine_many(
-        {
-            "integer": lambda _, v: isinstance(v, numbers.Integral) and not isinstance(v, bool),
-            "number": _is_finite,
-        }
-    ),
-)
+def _no_mapping(place: Place, value: Any) -> str:
+    return f"{key_text(place)} = {_short(value)} must be a mapping (lines of key: value)"
 
 
-def schema_problems(values: Any) -> Iterator[str]:
-    """What is wrong with the configuration against the schema."""
-    for error in _Validator(schema.build()).iter_errors(values):
-        for cause in _causes(error):
-            yield from _messages(cause)
-
-
-def _causes(error: ValidationError) -> list[ValidationError]:
-    """The errors behind one of several forms: those of the form that the value has."""
-    if error.validator != "anyOf":
-        return [error]
-    forms = {list: "array", dict: "object"}
-    wanted = forms.get(type(error.instance))  # type: ignore[call-overload]
-    kinds = [branch.get("type") for branch in error.validator_value]
-    chosen = kinds.index(wanted) if wanted in kinds else 0
-    return [cause for cause in error.context if cause.relative_schema_path[0] == chosen]
-
-
-def _messages(error: ValidationError) -> Iterator[str]:
-    """One schema error in words."""
-    path = tuple(error.absolute_path)
-    key = key_text(path)
-    entry = schema.entry_at(path)
-    leaf = "unit" in error.schema
-    if error.validator == "additionalProperties":
-        yield from _unknown_keys(path, error.instance, list(error.schema["properties"]))
-    elif error.validator == "required":
-        missing = [k for k in error.validator_value if k not in error.instance]
-        yield f"{key} lacks the key {', '.join(missing)}"
-    elif error.validator in ("minItems", "minProperties"):
-        yield f"{key} = {error.instance!r} is empty: it needs at least one entry"
-    elif error.validator == "uniqueItems":
-        yield f"{key} = {_short(error.instance)} has a value twice"
-    elif "propertyNames" in error.absolute_schema_path:
-        yield (
-            f"{key}: {error.instance!r} is not allowed as a name: it must be made of at most 60 "
-            "letters, digits and _, beginning with a letter"
-        )
-    elif leaf and entry is not None:
-        meant = path[:1] == ("studies",) and "law" in path and error.instance in EVOLUTIONS
-        hint = "; the evolution of the state is called evolution" if meant else ""
-        yield f"{_refusal(key, error.instance, entry)}{hint}"
-    else:
-        form = {"object": "a mapping (lines of key: value)", "array": "a list"}
-        yield f"{key} = {_short(error.instance)} must be {form[error.validator_value]}"
+def _empty(place: Place, value: Any) -> str:
+    return f"{key_text(place)} = {value!r} is empty: it needs at least one entry"
 
 
 def _refusal(key: str, value: Any, entry: Quantity) -> str:
@@ -125,7 +204,7 @@ def _short(value: Any) -> str:
 
 def range_problems(values: dict[str, Any]) -> Iterator[str]:
     """Ranges that can't be expanded, wherever they stand, and grids that are far too large."""
-    places = [((g, k), v) for g in schema.GROUPS for k, v in values.get(g, {}).items()]
+    places = [((g, k), v) for g in GROUPS for k, v in values.get(g, {}).items()]
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
             path = ("studies", name, "runs", number)

@@ -36,6 +36,9 @@ GROUPS: dict[str, type] = {
 FROM_LOADING = ("velocity", "normal_stress")
 """Fields of ``main_text_interface`` that come from the section ``loading``."""
 
+STUDY_NAME = "[A-Za-z][A-Za-z0-9_]{0,59}"
+"""Pattern of the names of studies."""
+
 RESULTS = Quantity("directory of all results", kind="str")
 
 
@@ -85,7 +88,7 @@ def build() -> Node:
         "description": "named sets of simulations; their roles say what they are for",
         "type": "object",
         "minProperties": 1,
-        "propertyNames": {"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_]*$", "maxLength": 60},
+        "propertyNames": {"type": "string", "pattern": f"^{STUDY_NAME}$"},
         "additionalProperties": {"$ref": "#/$defs/study"},
     }
     return {
@@ -145,11 +148,16 @@ def _leaf(entry: Quantity) -> Node:
     return node | {"type": types, low: entry.low, high: entry.high}
 
 
+def has_range(entry: Quantity) -> bool:
+    """Whether a range may stand for several values of a parameter."""
+    return not entry.choices and entry.kind != "int"
+
+
 def _values(leaf: Node, entry: Quantity) -> Node:
     """The schema of a value, a list of values or (of numbers) a range."""
     values = {"type": "array", "minItems": 1, "uniqueItems": True, "items": leaf}
     forms = [leaf, values]
-    if not entry.choices and entry.kind != "int":
+    if has_range(entry):
         keys = {"start": leaf, "stop": leaf}
         keys |= {key: {"$ref": f"#/$defs/{key}"} for key in RANGE}
         forms.append(_mapping("evenly spaced values", keys, ["start", "stop", "num"]))
