@@ -20,7 +20,7 @@ PAPERS := config/config.yaml
 CONFIG ?= $(PAPERS)
 # The launcher looks at a configuration before Snakemake, which runs what some of them hold.
 LAUNCH = $(BIN)/python -m nucleation.pipeline.launch
-OPTIONS = --cores $(CORES) --workflow-profile workflow/profiles/default
+OPTIONS = --cores $(CORES)
 CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 .DEFAULT_GOAL := help

@@ -72,7 +72,7 @@ PLANS = workflow.is_main_process  # a job on a cluster reads this file as well
 
 try:
     provenance.moment()
-    settings = configure(config)
+    settings = configure(config, lazy=True)  # a study is expanded once a target needs it
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
@@ -84,8 +84,6 @@ except (ParameterError, StoreError, DatasetError) as error:
 
 if PLANS:
     os.environ["NUCLEATION_CONFIGFILES"] = shlex.join(options().configfile)
-    for warning in advise(settings.runs):
-        logger.warning(f"Warning: {warning}")
 
 RESULTS = settings.results
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]

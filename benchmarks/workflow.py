@@ -70,7 +70,7 @@ def snakemake(*arguments: str) -> list[str]:
     return [
         "-m", "snakemake", *arguments, "--quiet", "all", "--cores", "1",
         "--snakefile", str(CHECKOUT / "Snakefile"), "--configfile", "config.yaml",
-        "--workflow-profile", str(CHECKOUT / "workflow" / "profiles" / "default"),
+        "--workflow-profile", str(CHECKOUT / "profiles" / "default"),
     ]  # fmt: skip
 
 

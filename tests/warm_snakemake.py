@@ -21,7 +21,7 @@ from warm_jobs import serve_jobs
 
 PACKAGES = (
     "snakemake.cli", "snakemake.parser", "snakemake.report", "snakemake.dag", "snakemake.script",
-    "pandas", "pint", "scipy.special", "scipy.optimize", "xarray", "yaml", "jsonschema", "click",
+    "pandas", "pint", "scipy.special", "scipy.optimize", "xarray", "yaml", "click",
     "numba", "scipy.linalg", "scipy.fft", "netCDF4", "tqdm", "matplotlib.figure", "jinja2",
     "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf",
 )  # fmt: skip

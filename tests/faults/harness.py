@@ -238,7 +238,7 @@ def require_nothing_made(done: Done) -> None:
 def _asked(arguments: Sequence[str], checkout: Path) -> list[str]:
     """What snakemake is asked for: the lengths, if nothing else is."""
     asked = [*(arguments or ("lengths",)), "--snakefile", str(checkout / "Snakefile")]
-    asked += ["--workflow-profile", str(checkout / "workflow/profiles/default")]
+    asked += ["--workflow-profile", str(checkout / "profiles/default")]
     return [*asked, "--configfile", "config.yaml"]
 
 

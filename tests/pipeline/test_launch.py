@@ -1,11 +1,13 @@
 """A configuration is looked at before Snakemake sees it."""
 
 import sys
+from pathlib import Path
 
 import pytest
 
 from nucleation.pipeline import launch
 
+ROOT = Path(__file__).parents[2]
 GOOD = "studies: {s: {runs: [{height: 0.01}]}}\n"
 
 
@@ -60,3 +62,19 @@ def test_good_file_is_handed_on(tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "argv", ["launch", *arguments])
     launch.main()
     assert started == [[sys.executable, "-m", "snakemake", *arguments]]
+
+
+@pytest.mark.slow  # for Snakemake's import
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ([], {"cores": 2, "keep_going": True, "executor": None}),
+        (["--workflow-profile", "slurm"], {"jobs": 50, "executor": "slurm"}),
+    ],
+)
+def test_snakemake_finds_the_profiles_of_a_clone(options, expected, monkeypatch):
+    from snakemake.cli import parse_args
+
+    monkeypatch.chdir(ROOT)
+    _, found = parse_args(["figure_1", *options])
+    assert {name: getattr(found, name) for name in expected} == expected

@@ -33,7 +33,7 @@ class Workflow:
         """What Snakemake is told: targets before options."""
         return [
             *arguments, "--snakefile", str(self.checkout / "Snakefile"),
-            "--workflow-profile", str(self.checkout / "workflow/profiles" / self.profile),
+            "--workflow-profile", str(self.checkout / "profiles" / self.profile),
             "--directory", str(self.directory), "--configfile", str(self.config),
         ]  # fmt: skip
 

@@ -53,7 +53,7 @@ def test_small_study(oldest, tmp_path):
     config = tmp_path / "config.yaml"
     config.write_text(yaml.safe_dump({"studies": {"mine": study, "many": batches}}))
     command = [oldest, "-m", "snakemake", "lengths", "--snakefile", ROOT / "Snakefile",
-               "--workflow-profile", ROOT / "workflow/profiles/default",
+               "--workflow-profile", ROOT / "profiles/default",
                "--configfile", config]  # fmt: skip
     given = {"cwd": tmp_path, "env": {**os.environ, "PYTHONPATH": str(ROOT / "src")}}
     planned = run(*command, "--dry-run", **given)

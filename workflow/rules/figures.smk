@@ -425,10 +425,10 @@ rule draw_study:
     localrule: True
     params:
         call="nucleation.figures.beyond.figure_studies:draw_study",
-        varied=lambda wildcards: varied(settings.runs_of(wildcards.study)),
-        entries=lambda wildcards: declarations(varied(settings.runs_of(wildcards.study))),
+        varied=lambda wildcards: varied(runs_of(wildcards.study)),
+        entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
         theory=lambda wildcards: theory_curves(
-            settings.runs_of(wildcards.study),
+            runs_of(wildcards.study),
             settings.studies[wildcards.study],
             settings.base,
             settings.main_text_interface,

@@ -53,7 +53,7 @@ def warned_of(wildcards):
     """What was warned of before the runs of studies of the user's own."""
     studies = [] if OF_THE_PAPER else OWN_STUDIES
     return {
-        study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
+        study: [warning.partition(": ")[2] for warning in advise(runs_of(study))]
         for study in studies
     }
 

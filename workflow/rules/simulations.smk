@@ -84,7 +84,7 @@ rule simulation:
 rule extract:
     """Critical lengths of a study"""
     input:
-        after=ancient(lambda wildcards: batches(settings.runs_of(wildcards.study))),
+        after=ancient(lambda wildcards: batches(runs_of(wildcards.study))),
         recipe=recipe("extract"),
     output:
         multiext(f"{RESULTS}/lengths/{{study}}", ".csv", ".nc"),
@@ -96,8 +96,8 @@ rule extract:
     localrule: True
     params:
         call="nucleation.analysis.lengths:gather",
-        reads=lambda wildcards: {"simulations": simulations(settings.runs_of(wildcards.study))},
-        runs=lambda wildcards: as_dicts(settings.runs_of(wildcards.study)),
+        reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
+        runs=lambda wildcards: as_dicts(runs_of(wildcards.study)),
         settings=asdict(settings.extraction),
     message:
         "Critical lengths of the study {wildcards.study}"
@@ -108,7 +108,7 @@ rule extract:
 rule join_batches:
     """Critical lengths of a study whose batches are measured by the jobs that make them"""
     input:
-        tables=ancient(lambda wildcards: batches(settings.runs_of(wildcards.study))),
+        tables=ancient(lambda wildcards: batches(runs_of(wildcards.study))),
         recipe=recipe("join_batches"),
     output:
         multiext(f"{RESULTS}/lengths/{{study}}", ".csv", ".nc"),
@@ -119,7 +119,7 @@ rule join_batches:
     localrule: True
     params:
         call="nucleation.patch.batches:of_study",
-        ids=lambda wildcards: [run.id for run in settings.runs_of(wildcards.study)],
+        ids=lambda wildcards: [run.id for run in runs_of(wildcards.study)],
     message:
         "Critical lengths of the study {wildcards.study}"
     shell:

@@ -1,6 +1,5 @@
 # Which runs have which role, and the files that are made of each.
 in_role = settings.studies_for
-runs_for = settings.runs_for
 SIMULATION = "nucleation.simulation.run"
 
 PAIR_STUDIES = in_role(*PAIR_ROLES)
@@ -47,6 +46,16 @@ def or_refused(function, *arguments):
         raise WorkflowError(str(error)) from None
 
 
+@functools.cache
+def runs_of(study):
+    """The runs of a study; what is unusual about them is warned of once."""
+    runs = or_refused(settings.runs_of, study)
+    if PLANS:
+        for warning in advise(runs):
+            logger.warning(f"Warning: {warning}")
+    return runs
+
+
 def run_of(name):
     """The run of a simulation."""
     return or_refused(settings.run, name)
@@ -65,7 +74,12 @@ def study_of(name):
 
 def runs_in(*studies):
     """The runs of those of some studies that the configuration has."""
-    return [run for study in studies for run in settings.runs_of(study)]
+    return [run for study in studies for run in runs_of(study)]
+
+
+def runs_for(*roles):
+    """The runs of the studies with some roles."""
+    return runs_in(*in_role(*roles))
 
 
 def as_dicts(runs):

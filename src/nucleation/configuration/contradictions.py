@@ -6,14 +6,11 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ..analysis.definitions import ExtractionSettings
-from ..model.linearised import InterfaceState
 from ..model.parameters import FIRST_STEP, Parameters
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.quantities import ParameterError
 from ..model.recording import STUCK_BELOW
 from ..theory.critical import NoInstability, theory_length
-from ..theory.settings import Curves
-from ..verification.crosscheck.plan import CrosscheckSettings
 from ..verification.crosscheck.plan import runs as crosscheck_runs
 from .roles import LITERATURE
 from .runs import Run
@@ -22,19 +19,14 @@ from .settings import Limits, estimated_megabytes
 LONGEST_ID = 200
 """Characters of an identifier: with its suffixes it is a file's name, of 255 bytes at most."""
 
-CODE = ("src", "workflow", "config", "docs", "tests")
+CODE = ("src", "workflow", "profiles", "config", "docs", "tests")
 """Directories of the checkout in which results have no place."""
 
 
-def setting_problems(
-    base: Parameters,
-    interface: InterfaceState,
-    curves: Curves,
-    extraction: ExtractionSettings,
-    crosscheck: CrosscheckSettings,
-    limits: Limits,
-) -> Iterator[str]:
-    """Contradictions among the settings that no study changes."""
+def setting_problems(settings: Any) -> Iterator[str]:
+    """Contradictions among the settings of a configuration that no study changes."""
+    base, interface = settings.base, settings.main_text_interface
+    extraction, curves = settings.extraction, settings.curves
     low, edge, high = (
         extraction.edge_threshold_low, extraction.edge_threshold, extraction.edge_threshold_high,
     )  # fmt: skip
@@ -53,12 +45,12 @@ def setting_problems(
         )
         return
     try:
-        parameters = crosscheck_runs(base, crosscheck, interface)
+        parameters = crosscheck_runs(base, settings.crosscheck, interface)
     except (ParameterError, NoInstability) as error:
         yield f"crosscheck: {error}"
         return
     for run in parameters.values():
-        yield from memory_problems("crosscheck", run, limits)
+        yield from memory_problems("crosscheck", run, settings.limits)
 
 
 def run_problems(

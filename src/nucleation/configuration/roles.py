@@ -106,38 +106,56 @@ def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
     return next((run for run in runs if usual.items() <= run.labels.items()), None)
 
 
-def role_problems(
-    studies: Mapping[str, Any], runs: Sequence[Run], figures: FigureSettings, base: Parameters
-) -> Iterator[str]:
-    """What studies lack for their roles, a line for each, with key, value and what it must be."""
+def problems_of_studies(studies: Mapping[str, Any]) -> Iterator[str]:
+    """What studies declare that does not go with their roles, a line for each, without their runs.
+
+    Parameters
+    ----------
+    studies : dict
+        The settings of each study, by its name.
+    """
     having: dict[str, str] = {}
     for name, settings in studies.items():
-        first = having.setdefault(settings.role, name)
-        if first != name and not ROLES[settings.role].several:
+        role = settings.role
+        first = having.setdefault(role, name)
+        if first != name and not ROLES[role].several:
             yield (
-                f"studies.{name}.role = {settings.role} is not allowed: studies.{first} has it, "
+                f"studies.{name}.role = {role} is not allowed: studies.{first} has it, "
                 "and it must be one study's alone"
             )
-        own = [run for run in runs if run.study == name]
-        yield from _problems(name, settings, own)
-        for key in ROLES[settings.role].heights:
-            height = getattr(figures, key)
-            if shown(own, height, base) is None:
-                law, age = base.friction.evolution, base.loading.initial_state
-                yield (
-                    f"studies.{name}.role = {settings.role} needs a run with height = {height:g} m"
-                    f", evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
-                )
+        for need in ROLES[role].study:
+            value = getattr(settings, need.name)
+            if not need.allowed(value):
+                yield _refusal(f"studies.{name}.{need.name}", value, role, need)
 
 
-def _problems(name: str, settings: Any, runs: Sequence[Run]) -> Iterator[str]:
-    """What a study and its runs have that does not go with its role."""
+def problems_of_runs(
+    name: str, settings: Any, runs: Sequence[Run], figures: FigureSettings, base: Parameters
+) -> Iterator[str]:
+    """What the runs of a study lack for its role, a line for each, with key and value.
+
+    Parameters
+    ----------
+    name, settings : the study's.
+    runs : all runs of the study.
+    figures : which heights (m) figures show.
+    base : values of what no study sets.
+    """
     role = settings.role
-    given = [(f"studies.{name}.{n.name}", n, getattr(settings, n.name)) for n in ROLES[role].study]
     for need in ROLES[role].runs:
         bad = next((run for run in runs if not need.allowed(run.value(need.name))), None)
         if bad is not None:
-            given.append((f"studies.{name}: {bad.id}: {need.name}", need, bad.value(need.name)))
-    for key, need, value in given:
-        if not need.allowed(value):
-            yield f"{key} = {value} is not allowed with role = {role}: it must be {need.words}"
+            key = f"studies.{name}: {bad.id}: {need.name}"
+            yield _refusal(key, bad.value(need.name), role, need)
+    for key in ROLES[role].heights:
+        height = getattr(figures, key)
+        if shown(runs, height, base) is None:
+            law, age = base.friction.evolution, base.loading.initial_state
+            yield (
+                f"studies.{name}.role = {role} needs a run with height = {height:g} m"
+                f", evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
+            )
+
+
+def _refusal(key: str, value: Any, role: str, need: Need) -> str:
+    return f"{key} = {value} is not allowed with role = {role}: it must be {need.words}"

@@ -2,6 +2,8 @@
 
 import dataclasses
 import json
+from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 import yaml
@@ -34,6 +36,9 @@ GROUPS: dict[str, type] = {
 FROM_LOADING = ("velocity", "normal_stress")
 """Fields of ``main_text_interface`` that come from the section ``loading``."""
 
+STUDY_NAME = "[A-Za-z][A-Za-z0-9_]{0,59}"
+"""Pattern of the names of studies."""
+
 RESULTS = Quantity("directory of all results", kind="str")
 
 
@@ -54,14 +59,20 @@ def entry_at(path: tuple[Any, ...]) -> Quantity | None:
     if names and names[-1] in RANGE:
         return RANGE[names[-1]]
     if names[:1] == ["studies"]:
-        known = study_parameters()
-        known |= {other: known[name] for other, name in other_names().items()}
-        known |= declarations(StudySettings)
+        known = _study_entries()
         names = names[2:]
     else:
         known = group_entries(names[0]) if names and names[0] in GROUPS else {}
     found = next((known[name] for name in names if name in known), None)
     return found and (dataclasses.replace(found, kind="float") if found.many else found)
+
+
+@cache  # asked for each text of a configuration
+def _study_entries() -> Mapping[str, Quantity]:
+    """Declarations of all that a study may give, by all of its names."""
+    known = study_parameters()
+    others = {other: known[name] for other, name in other_names().items()}
+    return {**known, **others, **declarations(StudySettings)}
 
 
 def build() -> Node:
@@ -77,7 +88,7 @@ def build() -> Node:
         "description": "named sets of simulations; their roles say what they are for",
         "type": "object",
         "minProperties": 1,
-        "propertyNames": {"type": "string", "pattern": "^[A-Za-z][A-Za-z0-9_]*$", "maxLength": 60},
+        "propertyNames": {"type": "string", "pattern": f"^{STUDY_NAME}$"},
         "additionalProperties": {"$ref": "#/$defs/study"},
     }
     return {
@@ -137,11 +148,16 @@ def _leaf(entry: Quantity) -> Node:
     return node | {"type": types, low: entry.low, high: entry.high}
 
 
+def has_range(entry: Quantity) -> bool:
+    """Whether a range may stand for several values of a parameter."""
+    return not entry.choices and entry.kind != "int"
+
+
 def _values(leaf: Node, entry: Quantity) -> Node:
     """The schema of a value, a list of values or (of numbers) a range."""
     values = {"type": "array", "minItems": 1, "uniqueItems": True, "items": leaf}
     forms = [leaf, values]
-    if not entry.choices and entry.kind != "int":
+    if has_range(entry):
         keys = {"start": leaf, "stop": leaf}
         keys |= {key: {"$ref": f"#/$defs/{key}"} for key in RANGE}
         forms.append(_mapping("evenly spaced values", keys, ["start", "stop", "num"]))

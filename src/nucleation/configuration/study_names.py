@@ -5,6 +5,9 @@ a configuration calls it: identifiers and tables do not depend on that.
 """
 
 import math
+from collections.abc import Mapping
+from functools import cache
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -57,16 +60,19 @@ def range_problem(value: Any) -> str | None:
     return None
 
 
-def study_parameters() -> dict[str, Quantity]:
+@cache  # asked for each run of thousands
+def study_parameters() -> Mapping[str, Quantity]:
     """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
     known = names()
-    return {known.short(full): entry for full, entry in known.items()}
+    return MappingProxyType({known.short(full): entry for full, entry in known.items()})
 
 
-def other_names() -> dict[str, str]:
+@cache
+def other_names() -> Mapping[str, str]:
     """The names that stand for another one: full names, and short ones beside an alias."""
     known = names()
-    return {other: known.short(full) for full in known for other in known.others(full)}
+    others = {other: known.short(full) for full in known for other in known.others(full)}
+    return MappingProxyType(others)
 
 
 def by_study_name(values: dict[str, Any]) -> dict[str, Any]:

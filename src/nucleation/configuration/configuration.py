@@ -1,0 +1,171 @@
+"""The checked configuration, whose studies are expanded into runs when they are asked for."""
+
+import dataclasses
+import difflib
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, NamedTuple, TypeVar
+
+from ..analysis.definitions import ExtractionSettings
+from ..model.linearised import InterfaceState
+from ..model.parameters import Parameters
+from ..model.quantities import ParameterError
+from ..theory.settings import Curves
+from ..verification.crosscheck.plan import CrosscheckSettings
+from .contradictions import run_problems
+from .refusals import stop_on
+from .roles import problems_of_runs, shown
+from .runs import Run
+from .settings import FigureSettings, Limits
+from .studies import StudySettings, study_runs
+
+Named = TypeVar("Named")
+
+
+class Expanded(NamedTuple):
+    """The runs that a study stands for."""
+
+    runs: dict[str, Run]  # by their ids
+    batches: dict[str, list[Run]]  # by their names
+    problems: list[str]
+
+
+@dataclasses.dataclass(frozen=True)
+class Configuration:
+    """Everything the workflow does.
+
+    A study is expanded into its runs when one of them is first asked for, and the runs are kept.
+    What gives runs raises a ParameterError with all problems of the study if it has any.
+    """
+
+    results: str
+    base: Parameters
+    main_text_interface: InterfaceState
+    curves: Curves
+    extraction: ExtractionSettings
+    figures: FigureSettings
+    limits: Limits
+    crosscheck: CrosscheckSettings
+    studies: dict[str, StudySettings]
+    sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)
+    """The section of each study in the configuration."""
+    stepping: Collection[str] = ()
+    """The keys that the section ``stepping`` gives."""
+    _kept: dict[str, Expanded] = dataclasses.field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """The runs of all studies, in the configuration's order."""
+        return tuple(run for study in self.studies for run in self.runs_of(study))
+
+    def runs_of(self, study: str) -> list[Run]:
+        """The runs of one study, none if there is no such study."""
+        return list(self._checked(study).runs.values()) if study in self.studies else []
+
+    def studies_for(self, *roles: str) -> list[str]:
+        """The names of the studies with some roles, in the configuration's order."""
+        return [name for name, study in self.studies.items() if study.role in roles]
+
+    def runs_for(self, *roles: str) -> list[Run]:
+        """The runs of the studies with some roles."""
+        return [run for study in self.studies_for(*roles) for run in self.runs_of(study)]
+
+    def run(self, identifier: str) -> Run:
+        """The run with an identifier such as ``paper-aging-H0.005-phi1``.
+
+        Raises
+        ------
+        ParameterError
+            If there is none, naming those with similar identifiers.
+        """
+        study = self._study_in(identifier, "run")
+        return _found("run", identifier, self._checked(study).runs, study)
+
+    def batch(self, name: str) -> list[Run]:
+        """The runs of the batch with a name such as ``paper-0``: those that one job makes.
+
+        Raises
+        ------
+        ParameterError
+            If there is none, naming those with similar names.
+        """
+        study = self._study_in(name, "batch")
+        return list(_found("batch", name, self._checked(study).batches, study))
+
+    def shown(self, height: float) -> Run:
+        """The run with the role ``paper`` of a height (m) that figures show.
+
+        Raises
+        ------
+        ParameterError
+            If there is none.
+        """
+        run = shown(self.runs_for("paper"), height, self.base)
+        if run is None:
+            raise ParameterError(f"no study with role: paper has a run with height {height:g} m")
+        return run
+
+    def problems_of(self, study: str) -> list[str]:
+        """What is wrong with the runs of a study, a line for each problem."""
+        return self._expanded(study).problems
+
+    def _checked(self, study: str) -> Expanded:
+        expanded = self._expanded(study)
+        stop_on(expanded.problems)
+        return expanded
+
+    def _expanded(self, study: str) -> Expanded:
+        if study not in self._kept:
+            self._kept[study] = self._expand(study)
+        return self._kept[study]
+
+    def _expand(self, study: str) -> Expanded:
+        section, interface = self.sections[study], self.main_text_interface
+        found = list(study_runs(study, section, self.base, interface, self.stepping))
+        runs = [run for _, run in found if isinstance(run, Run)]
+        problems = [*self._run_problems(found)]
+        if not problems:
+            settings = self.studies[study]
+            problems += problems_of_runs(study, settings, runs, self.figures, self.base)
+        batches: dict[str, list[Run]] = {}
+        for run in runs:
+            if run.batch:
+                batches.setdefault(run.batch, []).append(run)
+        return Expanded({run.id: run for run in runs}, batches, problems)
+
+    def _run_problems(self, found: list[tuple[str, Run | str]]) -> Iterator[str]:
+        """Runs that can't be made, stand twice or contradict themselves."""
+        seen: dict[Any, str] = {}
+        for key, run in found:
+            if isinstance(run, str):
+                yield f"{key}: {run}"
+                continue
+            for mark in (run.id, run.parameters):
+                if mark in seen:
+                    yield f"{key} gives the simulation {run.id} again, after {seen[mark]}"
+                seen[mark] = key
+            yield from run_problems(key, run, self.limits, self.extraction)
+
+    def _study_in(self, name: str, what: str) -> str:
+        """The study that the name of a run or of a batch begins with."""
+        study = name.partition("-")[0]
+        if study not in self.studies:
+            close = difflib.get_close_matches(study, self.studies, n=1)
+            hint = f"did you mean {close[0]}?" if close else f"studies: {', '.join(self.studies)}"
+            raise ParameterError(f"there is no {what} {name}, as there is no study {study}; {hint}")
+        return study
+
+
+def _found(what: str, name: str, known: Mapping[str, Named], study: str) -> Named:
+    """The run or the batch of a study with a name."""
+    if name not in known:
+        close = difflib.get_close_matches(name, known, n=3)
+        if not known:
+            hint = f"the study {study} has none"
+        elif close:
+            hint = f"did you mean {' or '.join(close)}?"
+        else:
+            hint = f"those of the study {study} are called like {next(iter(known))}"
+        raise ParameterError(f"there is no {what} {name}; {hint}")
+    return known[name]
