@@ -110,6 +110,8 @@ def no_more_timers():
 
 onsuccess:
     no_more_timers()
+    if REFUSED:
+        raise WorkflowError(f"studies that can't be run were left out, see above: {REFUSED}")
 
 
 onerror:
@@ -150,5 +152,5 @@ rule studies:
     """Tables and figures of all studies"""
     default_target: DEFAULT == "studies"
     input:
-        lambda wildcards: of_studies(settings.studies),
+        lambda wildcards: of_studies(filter(is_usable, settings.studies)),
         rules.gather_lengths.output if SHARED else [],

@@ -129,7 +129,9 @@ rule join_batches:
 rule gather_lengths:
     """Onset and critical length of every run of the studies that share the table"""
     input:
-        tables=ancient(needed(lambda: lengths_of(*SHARED), "study with table: lengths")),
+        tables=ancient(
+            needed(lambda: lengths_of(*filter(is_usable, SHARED)), "study with table: lengths")
+        ),
         recipe=recipe("gather_lengths"),
     output:
         multiext(f"{RESULTS}/lengths", ".csv", ".nc", ".columns.csv"),

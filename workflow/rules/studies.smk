@@ -56,6 +56,22 @@ def runs_of(study):
     return runs
 
 
+REFUSED = []
+"""Studies that can't be run and were left out."""
+
+
+@functools.cache
+def is_usable(study):
+    """Whether a study can be run. If not, a run with --keep-going leaves it out, and fails at its end."""
+    problems = settings.problems_of(study)
+    if problems and not (recipe.runs and workflow.execution_settings.keep_going):
+        runs_of(study)  # which tells what is wrong
+    for problem in problems:
+        print(f"The study {study} is left out: {problem}", file=sys.stderr)
+    REFUSED.extend([study] * bool(problems))
+    return not problems
+
+
 def run_of(name):
     """The run of a simulation."""
     return or_refused(settings.run, name)
@@ -63,7 +79,10 @@ def run_of(name):
 
 @functools.cache
 def runs_of_batch(batch):
-    """The runs that one job makes."""
+    """The runs that one job makes; a run without a batch is one of its own."""
+    study = settings.studies.get(study_of(batch))
+    if study is not None and study.runs_per_job == 1:
+        return [run_of(batch)]
     return or_refused(settings.batch, batch)
 
 

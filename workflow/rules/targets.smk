@@ -1,11 +1,12 @@
 # What users ask for by name. Every file can be asked for as well: results/figures/figure_3.pdf.
 def shared(files):
     """An input function that gives files of the studies that share lengths.csv."""
-    return needed(lambda: files(SHARED), "study with table: lengths")
+    return needed(lambda: files([*filter(is_usable, SHARED)]), "study with table: lengths")
 
 
 def of_studies(names):
     """The tables and figures of some studies."""
+    names = list(names)
     figures = [f"{RESULTS}/figures/study_{name}.{kind}" for name in names for kind in ("png", "pdf")]
     return [*figures, *[path.replace(".nc", ".csv") for path in lengths_of(*names)]]
 

@@ -87,7 +87,7 @@ class Plan:
         return f"{self.store.directory}/{RECIPES}/{hashlib.sha256(where.encode()).hexdigest()[:8]}"
 
     @cached_property
-    def _runs(self) -> bool:
+    def runs(self) -> bool:
         """Whether jobs will run, and not only be listed or touched; they are told what is forced."""
         plan = self._workflow
         runs = plan.executor_plugin is not None and not (plan.dryrun or plan.touch)
@@ -191,11 +191,10 @@ class Plan:
 
     def _write(self, rule: str, recipe: Recipe, file: Path) -> None:
         """Write a recipe so that Snakemake sees whether the result is there."""
-        runs = self._runs
-        if runs:
+        if self.runs:
             self._update_views(recipe, file)
         shown = is_shown(recipe, self.store)
-        if not shown and not runs:
+        if not shown and not self.runs:
             self._kept[rule] += all(self._is_kept(one.key) for one in recipe.needed)
             for path in map(Path, recipe.files):
                 if leads_nowhere(path):  # Snakemake would stop there
