@@ -14,6 +14,7 @@ import tempfile
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import is_dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -273,9 +274,14 @@ def arguments(function: Any, values: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(kind, str):
             kind = function.__globals__.get(kind)
         if isinstance(kind, type) and is_dataclass(kind) and isinstance(value, Mapping):
-            value = getattr(kind, "from_dict", lambda given, kind=kind: kind(**given))(value)
+            value = getattr(kind, "from_dict", partial(_of_plain, kind))(value)
         found[name] = value
     return found
+
+
+def _of_plain(kind: Any, values: Mapping[str, Any]) -> Any:
+    """A dataclass from what JSON has kept of it, which knows lists and no tuples."""
+    return kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in values.items()})
 
 
 def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
