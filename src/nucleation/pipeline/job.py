@@ -18,6 +18,10 @@ from .views import show
 FORCED = "NUCLEATION_FORCED"
 """Of the environment: the rules and files that Snakemake was forced to make, or ``*`` for all."""
 
+ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Of the environment: a result is made on one core, as sums on several have another order. Snakemake
+sets the first to the threads of the rule."""
+
 
 def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     """Make the result of a recipe and show it; say in the log what happens.
@@ -25,6 +29,7 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     An error that the user can do something about is one line, in the log and on the terminal.
     """
     began, terminal = time.monotonic(), sys.stderr
+    os.environ |= dict.fromkeys(ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     sys.stderr = Path(log).open("a", buffering=1, encoding="utf-8")
     recipe, keys = read(recipe_file)
