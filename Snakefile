@@ -62,12 +62,6 @@ from nucleation.pipeline.store import StoreError, others
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
 
-# A configuration given with --configfile stands alone; config.yaml is the default.
-if "studies" not in config:
-
-    configfile: str(Path(BASE, "config", "config.yaml"))
-
-
 # Jobs have other arguments.
 os.environ.setdefault("NUCLEATION_CONFIGFILES", shlex.join(options().configfile))
 
