@@ -1,27 +1,39 @@
 # make paper: every figure and table of the paper.   make test: the tests.   make help: the rest.
-# The newest Python that works here, of those the project runs on; PYTHON=... chooses another.
-PYTHON ?= $(eval PYTHON := $$(shell workflow/pythons.sh | head -n 1))$(PYTHON)
+# What users may give. Empty: CONFIG is the default configuration, TARGETS all of it, PYTHON the newest
+# Python that works here of those the project runs on, RESULTS the directory that CONFIG names.
 CORES ?= 2
+CONFIG ?=
 TARGETS ?=
+PYTHON ?=
+FILE ?=
+RELEASE ?= release
+RESULTS ?=
+PRUNE ?=
 PARTS ?= solver
 FAULTS ?= 200
 SEED ?= 1
-RELEASE ?= release
-RESULTS ?= $(shell $(BIN)/python -c \
-	'from nucleation.configuration.load import load; print(load("$(CONFIG)").results)')
+PYTHON_IS := $(origin PYTHON)
+
+# Recipes read these from the environment, "$$CONFIG". Neither make nor a shell runs what a name holds.
+GIVEN := CORES CONFIG TARGETS PYTHON FILE RELEASE RESULTS PRUNE PARTS FAULTS SEED
+$(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
+export $(GIVEN)
+
+VENV ?= .venv
+ifneq ($(words $(VENV)),1)
+$(error VENV = "$(VENV)" is not allowed: make knows no file names with blanks)
+endif
+ENVIRONMENT := '$(subst ','\'',$(VENV))'
+BIN := $(ENVIRONMENT)/bin
+STAMP := $(VENV)/environment.stamp
 STEM = $(shell $(BIN)/python -c 'import tomllib; \
 	p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(p["name"], p["version"], sep="-")')
 
-VENV ?= .venv
-BIN := $(VENV)/bin
-STAMP := $(VENV)/environment.stamp
 PYTEST = $(BIN)/python -m pytest --dist loadfile --no-loadscope-reorder
-PAPERS := config/config.yaml
-CONFIG ?= $(PAPERS)
 # The launcher looks at a configuration before Snakemake, which runs what some of them hold.
 LAUNCH = $(BIN)/python -m nucleation.pipeline.launch
-OPTIONS = --cores $(CORES)
-CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
+CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
+OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
 .PHONY: help paper report quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
@@ -29,26 +41,26 @@ CONFIGURED = $(if $(filter-out $(PAPERS),$(CONFIG)),--configfile "$(CONFIG)")
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
-	@echo "Variables: PYTHON (the newest of 3.11 to 3.13) CORES=$(CORES) TARGETS='figure_3 lengths' (all if empty) CONFIG=my.yaml"
+	@echo "Variables: PYTHON (the newest of 3.11 to 3.13) CORES=$$CORES TARGETS='figure_3 lengths' (all if empty) CONFIG=my.yaml"
 
 paper: $(STAMP) ## Make every figure, table and verdict, in results/
-	$(LAUNCH) $(TARGETS) $(OPTIONS) $(CONFIGURED)
+	$(LAUNCH) $$TARGETS $(OPTIONS)
 
 report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in half an hour to an hour
-	$(LAUNCH) report $(OPTIONS) $(CONFIGURED)
+	$(LAUNCH) report $(OPTIONS)
 
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
-	$(LAUNCH) $(TARGETS) $(OPTIONS) --configfile config/quick.yaml
+	$(LAUNCH) $$TARGETS --cores "$$CORES" --configfile config/quick.yaml
 
 # Two workers more than there are cores: tests of a cluster and of faults mostly wait.
 test: $(STAMP) ## Run the tests
-	@$(PYTEST) -n $(shell expr $(CORES) + 2)
+	@$(PYTEST) -n "$$(expr "$$CORES" + 2)"
 
 test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system, in a minute
-	@$(PYTEST) -n $(CORES) -m "not slow and not system"
+	@$(PYTEST) -n "$$CORES" -m "not slow and not system"
 
 torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
-	FAULTS=$(FAULTS) FAULT_SEED=$(SEED) $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
+	FAULT_SEED="$$SEED" $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
 
 weight: ## Count lines and words against their budgets
 	@python3 .ci/weight.py
@@ -70,7 +82,7 @@ calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, 
 	PYTHONPATH=src $(BIN)/python -m nucleation.report.calculator results/calculator.html
 
 bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by itself
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $(PARTS)
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(BIN)/python -m benchmarks config/config.yaml $$PARTS
 
 REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv verification.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
@@ -82,7 +94,7 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_verification figure_dispersion figure_drop \
 		animation figure_pairs figure_2_simulated pairs figure_map figure_patch_theory floors \
-		figure_literature $(OPTIONS)
+		figure_literature --cores "$$CORES"
 	mkdir -p results/reference
 	cd results && install -m 644 $(REFERENCE) reference/
 	sed 's|](figures/|](|' results/replication.md > results/reference/article.md
@@ -90,35 +102,39 @@ reference: $(STAMP) ## Make the committed reference set again, from the results 
 	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
 
 targets: $(STAMP) ## List what TARGETS may name
-	@$(LAUNCH) targets --quiet all $(OPTIONS) $(CONFIGURED)
+	@$(LAUNCH) targets --quiet all $(OPTIONS)
 
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
-	$(LAUNCH) check $(OPTIONS) $(CONFIGURED)
+	$(LAUNCH) check $(OPTIONS)
 
 prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
-	PRUNE="$(PRUNE)" $(LAUNCH) prune $(OPTIONS) $(CONFIGURED)
+	$(LAUNCH) prune $(OPTIONS)
 
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
-	@$(BIN)/python -m nucleation.pipeline.bundle write "$(or $(FILE),results.tar)" "$(CONFIG)"
+	@$(BIN)/python -m nucleation.pipeline.bundle write "$${FILE:-results.tar}" "$$CONFIG"
 
 release: $(STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
-	$(LAUNCH) paper replication report $(OPTIONS) $(CONFIGURED)
+	$(LAUNCH) paper replication report $(OPTIONS)
 	@$(MAKE) --no-print-directory released
+
+RESULTS_OF = import sys; from nucleation.configuration.load import load; \
+	print(load(*filter(None, sys.argv[1:]), lazy=True).results)
 
 # Results that are there; source and wheel are those of the commit.
 released:
-	mkdir "$(RELEASE)"
-	$(BIN)/python -m nucleation.pipeline.bundle write "$(RELEASE)/$(STEM)-results.tar" "$(CONFIG)"
-	cp $(addprefix $(RESULTS)/,replication.pdf replication.tex report.html) "$(RELEASE)"
-	git archive --prefix=$(STEM)/ --output="$(RELEASE)/$(STEM)-source.tar.gz" HEAD
-	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation -w "$(RELEASE)" \
-		"$(RELEASE)/$(STEM)-source.tar.gz"
-	cd "$(RELEASE)" && sums=$$(sha256sum -- *) && echo "$$sums" > SHA256SUMS
+	mkdir -- "$$RELEASE"
+	$(BIN)/python -m nucleation.pipeline.bundle write "$$RELEASE/$(STEM)-results.tar" "$$CONFIG"
+	results=$${RESULTS:-$$($(BIN)/python -c '$(RESULTS_OF)' "$$CONFIG")} && \
+		cp -- "$$results/replication.pdf" "$$results/replication.tex" "$$results/report.html" "$$RELEASE"
+	git archive --prefix=$(STEM)/ --output="$$RELEASE/$(STEM)-source.tar.gz" HEAD
+	$(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation -w "$$RELEASE" \
+		"$$RELEASE/$(STEM)-source.tar.gz"
+	cd -- "$$RELEASE" && sums=$$(sha256sum -- *) && echo "$$sums" > SHA256SUMS
 	@git diff --quiet HEAD || echo "Files differ from the commit, and are not in the release" >&2
 	@echo "Before uploading: see CONTRIBUTING.md, A release"
 
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
-	@$(BIN)/python -m nucleation.pipeline.bundle restore "$(FILE)" "$(CONFIG)"
+	@$(BIN)/python -m nucleation.pipeline.bundle restore "$$FILE" "$$CONFIG"
 
 schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
 	PYTHONPATH=src $(BIN)/python -m nucleation.configuration.load > config/schema.yaml
@@ -130,34 +146,36 @@ lock: ## Pin the newest versions of what pyproject.toml names in environment.txt
 		--all-extras pyproject.toml -o environment.txt
 
 clean-venv: ## Remove the installed environment
-	rm -rf $(VENV)
+	rm -rf -- $(ENVIRONMENT)
 
 # Everything installed is pinned and hashed. The package itself is not installed but pointed to, so
 # that the code of the checkout is what runs. An environment that works keeps its Python.
 VERSION = import sys; print("%d.%d" % sys.version_info[:2])
 $(STAMP): environment.txt
 	@$(BIN)/python -c '' 2>/dev/null || { \
-		case "$$('$(PYTHON)' -c '$(VERSION)' 2>/dev/null)" in \
-		3.11|3.12|3.13) '$(PYTHON)' -m venv --clear $(VENV) ;; \
+		python=$${PYTHON:-$$(workflow/pythons.sh | head -n 1)}; \
+		case "$$("$$python" -c '$(VERSION)' 2>/dev/null)" in \
+		3.11|3.12|3.13) "$$python" -m venv --clear $(ENVIRONMENT) ;; \
 		*) echo "Python 3.11, 3.12 or 3.13 is needed, with its module venv;" \
-			"$(or $(PYTHON:%=% is not),none was found): make PYTHON=/path/to/python3.13" >&2; \
+			"$${python:-none was found}$${python:+ is not}: make PYTHON=/path/to/python3.13" >&2; \
 			exit 1 ;; \
 		esac; }
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
 		-r environment.txt
 	$(BIN)/python -c 'import pathlib, sysconfig; \
-		pathlib.Path(sysconfig.get_path("purelib"), "nucleation.pth").write_text("$(CURDIR)/src\n")'
-	printf '#!/bin/sh\nexec "%s/$(BIN)/python" -m nucleation "$$@"\n' "$(CURDIR)" > $(BIN)/nucleation
+		path = pathlib.Path(sysconfig.get_path("purelib"), "nucleation.pth"); \
+		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
+	printf '#!/bin/sh\nexec "%s/python" -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
-	@touch $@
+	@touch $(ENVIRONMENT)/environment.stamp
 
 # A Python that is asked for where the environment has another one: said, rather than not used.
-ifeq ($(origin PYTHON),command line)
+ifeq ($(PYTHON_IS),command line)
 $(STAMP): | asked-python
 asked-python:
 	@have=$$($(BIN)/python -c '$(VERSION)' 2>/dev/null); \
-	asked=$$('$(PYTHON)' -c '$(VERSION)' 2>/dev/null); \
+	asked=$$("$$PYTHON" -c '$(VERSION)' 2>/dev/null); \
 	[ -z "$$have" ] || [ "$$have" = "$$asked" ] || { \
-		echo "$(VENV) has Python $$have, and $(PYTHON) is $${asked:-not a Python that works}:" \
+		echo $(ENVIRONMENT) "has Python $$have, and $$PYTHON is $${asked:-not a Python that works}:" \
 			"make clean-venv, or VENV=.venv-$${asked:-other}" >&2; exit 1; }
 endif

@@ -39,7 +39,7 @@ os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nuc
 
 from nucleation.configuration.advice import advise
 from nucleation.configuration.contradictions import directory_problem
-from nucleation.configuration.load import configure
+from nucleation.configuration.load import completed, configure
 from nucleation.configuration.roles import (
     JUDGED, LONGER, PAIRS as PAIR_ROLES, PAPERS, REFINEMENTS, ROLES,
 )  # fmt: skip
@@ -61,12 +61,6 @@ from nucleation.pipeline.planning import Plan
 from nucleation.pipeline.store import StoreError, others
 
 gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
-
-# A configuration given with --configfile stands alone; config.yaml is the default.
-if "studies" not in config:
-
-    configfile: str(Path(BASE, "config", "config.yaml"))
-
 
 PLANS = workflow.is_main_process  # a job on a cluster reads this file as well
 

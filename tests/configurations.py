@@ -1,4 +1,4 @@
-"""The paper's configuration with one thing changed, and what is said about it."""
+"""The default configuration with one thing changed, and what is said about it."""
 
 import copy
 import functools
@@ -15,13 +15,14 @@ from nucleation.model.quantities import ParameterError
 CONFIG = Path(__file__).parents[1] / "config"
 # without the sharing of nodes that YAML's aliases bring: a change is to be one change
 PAPER = json.loads(json.dumps(read_yaml(CONFIG / "config.yaml")))
+PAPER["studies"] |= json.loads(json.dumps(read_yaml(CONFIG / "beyond.yaml")))["studies"]
 del PAPER["studies"]["map"]  # a thousand runs more to go through, which are like the others
 
 
 @functools.cache
 def papers() -> Configuration:
-    """The paper's configuration as it is, of which nothing may be changed."""
-    return load(CONFIG / "config.yaml")
+    """The default configuration as it is, of which nothing may be changed."""
+    return load()
 
 
 def changed(place: str, value: object) -> dict:

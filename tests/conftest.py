@@ -14,7 +14,10 @@ import pytest
 pytest_plugins = ("coarse_run",)
 
 # make test hands its own settings (VENV=...) to every make below it
-for name in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL", "VENV", "PYTHON", "CORES", "TARGETS"):
+for name in (
+    "MAKEFLAGS", "MFLAGS", "MAKELEVEL", "VENV", "PYTHON", "CORES", "TARGETS", "CONFIG", "FILE",
+    "RELEASE", "RESULTS", "PRUNE",
+):
     os.environ.pop(name, None)
 
 # Workers are processes: threads of the linear algebra would take the cores from one another.

@@ -13,12 +13,17 @@ ROOT = Path(__file__).parents[1]
 COMPILED = ("numba", "nucleation.simulation.step", "nucleation.simulation.run")
 SOLVER = (*COMPILED, "nucleation.fem")
 HEAVY = ("xarray", "netCDF4", "matplotlib", "pint")  # a second in all, on a good day
+SCIENCE = ("scipy", "pandas", "jsonschema")
 
 CONFIGURATION = """
 from nucleation.configuration import advice, load, schema
-settings = load.load("{root}/config/config.yaml")
+settings = load.load()
 schema.text()
 advice.advise(settings.runs)
+"""
+LAZY = """
+from nucleation.configuration import load
+load.load(lazy=True).runs_for("paper", "converged", "long_blocks")
 """
 COMMAND = """
 from nucleation.commands import run
@@ -40,7 +45,8 @@ except SystemExit as end:
 DRY_RUN = "simulate run.nc --height=0.1 --friction-law=dieterich_ruina --dry-run"
 NEEDED_LATER = {
     "theory": (LENGTHS, (*SOLVER, *HEAVY, "scipy", "pandas")),
-    "configuration": (CONFIGURATION.format(root=ROOT), (*SOLVER, *HEAVY)),
+    "configuration": (CONFIGURATION, (*SOLVER, *HEAVY)),
+    "planning": (LAZY, (*SOLVER, *HEAVY, *SCIENCE)),
     "help": (COMMAND.format(words="--help"), (*SOLVER, *HEAVY)),
     "help of simulate": (COMMAND.format(words="simulate --help"), (*SOLVER, *HEAVY)),
     "help of length": (COMMAND.format(words="length --help"), SOLVER),  # it knows named dimensions

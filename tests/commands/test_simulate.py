@@ -112,9 +112,13 @@ def test_parameters_from_a_file(nucleation, tmp_path, name, text):
 
 @pytest.mark.slow
 def test_a_run_of_the_configuration(nucleation, tmp_path):
-    words = ["simulate", tmp_path / "run.nc", "--config", CONFIG, "--dry-run"]
-    found = planned(nucleation(*words, "--run", "converged-slip-H0.05-phi1-seed2"))
+    words = ["simulate", tmp_path / "run.nc", "--dry-run"]
+    run = ["--run", "converged-slip-H0.05-phi1-seed2"]
+    found = planned(nucleation(*words, *run))
     assert (found["evolution"], found["n_x"], found["grading"]) == ("slip", "400", "20")
+    assert found == planned(nucleation(*words, *run, "--config", CONFIG))
+    beyond = planned(nucleation(*words, "--run", "convergence_quiet-aging-H0.005-phi1-n_x1600"))
+    assert beyond["n_x"] == "1600"
     assert found["time_after_event"] == "0"
 
 

@@ -46,7 +46,7 @@ BAD = {
     "study's name": (changed("studies.a/b", {"runs": [{"height": 1}]}), ["'a/b'", "as a name"]),
     "name of a number": ({**PAPER, 3: 1}, ["[3] = 1 is not allowed: unknown key"]),
     # missing, empty, repeated, contradictory
-    "no studies": ({"results": "results"}, ["the configuration lacks the key studies"]),
+    "studies of nothing": ({"studies": None}, ["studies = None must be a mapping"]),
     "empty studies": (changed("studies", {}), ["studies = {} is empty"]),
     "no runs": (changed("studies.x", {}), ["studies.x lacks the key runs"]),
     "empty list": (with_run(height=[]), [f"{LAST}.height = [] is empty"]),
@@ -199,7 +199,7 @@ YAML = {
     "integer without end": (b"a: " + b"9" * 5000, "is not valid YAML"),
     "binary": (b"\x00\x01\xff\xfe", "is not valid YAML"),
     "latin 1": (b"a: caf\xe9\n", "is not valid YAML"),
-    "endless nesting": (b"[" * 5000, "is not valid YAML"),
+    "endless nesting": (b"[" * 100_000, "is not valid YAML"),
 }
 
 

@@ -1,5 +1,7 @@
 """A configuration is looked at before Snakemake sees it."""
 
+import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -78,3 +80,32 @@ def test_snakemake_finds_the_profiles_of_a_clone(options, expected, monkeypatch)
     monkeypatch.chdir(ROOT)
     _, found = parse_args(["figure_1", *options])
     assert {name: getattr(found, name) for name in expected} == expected
+
+
+@pytest.mark.system
+def test_a_file_without_studies_is_the_paper_for_make_and_for_snakemake_alone(tmp_path):
+    """What is left out has the paper's value, whoever reads the file."""
+    (tmp_path / "mine.yaml").write_text("results: mine\n")
+    assert launch.problem(["--configfile", str(tmp_path / "mine.yaml")]) is None
+    command = [
+        sys.executable, "-m", "snakemake", "paper", "--snakefile", ROOT / "Snakefile",
+        "--dry-run", "--quiet", "rules", "--directory", tmp_path,
+    ]  # fmt: skip
+    planned = []
+    for options in ([], ["--configfile", "mine.yaml"]):
+        done = subprocess.run(
+            [*command, *options], cwd=tmp_path, text=True, capture_output=True, check=True
+        )
+        planned.append(dict(re.findall(r"^(\w+) +(\d+)$", done.stdout, re.MULTILINE)))
+    assert planned[0] == planned[1]
+    assert planned[0]["draw_figure_3"] == "1"
+
+
+def test_files_are_looked_at_as_snakemake_merges_them(tmp_path, monkeypatch):
+    """Each may lack what another one has."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.yaml").write_text("results: a\n")
+    (tmp_path / "b.yaml").write_text("studies: {s: {runs: [{height: 0.01, n_x: 1}]}}\n")
+    (tmp_path / "c.yaml").write_text("studies: {s: {runs: [{height: 0.01, n_x: 99}]}}\n")
+    assert "n_x = 1 is not allowed" in launch.problem(["--configfile", "a.yaml", "b.yaml"])
+    assert launch.problem(["--configfile", "b.yaml", "a.yaml", "c.yaml"]) is None

@@ -28,7 +28,8 @@ case "$*" in *pipeline.bundle*) touch "$4" ;; *) exec '{python}' "$@" ;; esac
 @pytest.mark.slow
 @pytest.mark.system
 def test_release_is_whole_and_its_checksums_hold(tmp_path):
-    python, results, out = tmp_path / "python", tmp_path / "results", tmp_path / "out"
+    python, results = tmp_path / "python", tmp_path / "my results"
+    out = tmp_path / "out `touch PWN` it's"
     python.write_text(BUNDLES.format(python=sys.executable))
     python.chmod(0o755)
     results.mkdir()
@@ -48,6 +49,7 @@ def test_release_is_whole_and_its_checksums_hold(tmp_path):
     assert {line.partition(":")[0] for line in told.splitlines()} == names
     with tarfile.open(out / f"{stem}-source.tar.gz") as tar:
         assert f"{stem}/pyproject.toml" in tar.getnames()
+    assert not (ROOT / "PWN").exists()
     assert subprocess.run(command, cwd=ROOT, capture_output=True).returncode != 0
 
 

@@ -92,7 +92,7 @@ rule write_report:
         friction=asdict(settings.base.friction),
         warnings=warned_of,
         leads=not OF_THE_PAPER,
-        config=lambda wildcards: config,
+        config=lambda wildcards: completed(config),
     message:
         "Report"
     shell:

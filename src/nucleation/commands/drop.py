@@ -48,7 +48,7 @@ def _counts(name: str) -> bool:
 @source_options
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    as_json: bool, file: Path | None, run_id: str | None, config: str, **options: Any
+    as_json: bool, file: Path | None, run_id: str | None, config: str | None, **options: Any
 ) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 

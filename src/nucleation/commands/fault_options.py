@@ -170,7 +170,7 @@ fault_options = together(
 
 
 def fault_values(
-    per_decade: bool, file: Path | None, run_id: str | None, config: str, optional: str = "",
+    per_decade: bool, file: Path | None, run_id: str | None, config: str | None, optional: str = "",
     ranges: bool = False, **options: Any,
 ) -> dict[str, Any]:  # fmt: skip
     """The parameters of :class:`~nucleation.theory.fault.Fault` that options and files give.

@@ -82,8 +82,8 @@ source_options = together(
     ),
     click.option("--run", "run_id", metavar="ID", help="a run of the configuration, by its id"),
     click.option(
-        "--config", type=click.Path(dir_okay=False), default="config/config.yaml",
-        show_default=True, help="the configuration that --run is in",
+        "--config", type=click.Path(dir_okay=False),
+        help="the configuration that --run is in; default: that of the checkout",
     ),
 )  # fmt: skip
 """Where other parameters are from."""
@@ -134,7 +134,7 @@ def given_of(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def sourced(
-    file: Path | None, run_id: str | None, config: str, options: Mapping[str, Any],
+    file: Path | None, run_id: str | None, config: str | None, options: Mapping[str, Any],
     ranges: bool = False,
 ) -> tuple[Parameters | None, dict[str, Any]]:  # fmt: skip
     """The parameters of a run or a dataset, if one is named, and those that are given."""
@@ -154,11 +154,12 @@ def sourced(
     return base, found
 
 
-def _of_run(config: str, run_id: str) -> Parameters:
-    runs = {run.id: run for run in load(config).runs}
-    if run_id not in runs:
-        raise ParameterError(f"--run = {run_id!r} is not in {config}{_similar(run_id, runs)}")
-    return runs[run_id].parameters
+def _of_run(config: str | None, run_id: str) -> Parameters:
+    settings = load(config, lazy=True) if config else load(lazy=True)
+    try:
+        return settings.run(run_id).parameters
+    except ParameterError as error:
+        raise ParameterError(f"--run = {run_id!r}: {error}") from None
 
 
 def _of_dataset(path: Path) -> Parameters:

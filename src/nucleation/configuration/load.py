@@ -5,6 +5,8 @@ All problems of a configuration are reported together, each with key, value, uni
 
 import dataclasses
 import os
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from ..model.linearised import loaded
@@ -21,9 +23,52 @@ from .studies import study_settings
 from .study_names import in_type
 
 
-def load(path: str | os.PathLike[str]) -> Configuration:
-    """The configuration in a YAML file; raises ParameterError with all its problems."""
-    return configure(read_yaml(path))
+CHECKOUT = Path(__file__).parents[3]
+DEFAULTS = (CHECKOUT / "config" / "config.yaml", CHECKOUT / "config" / "beyond.yaml")
+"""The default configuration: the paper's, and the studies beyond it."""
+
+
+def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
+    """The configuration in YAML files, or the default one.
+
+    Parameters
+    ----------
+    *paths : path
+        Values of a file replace those of the files before it. Without a file it is the default
+        configuration of the checkout.
+    lazy : bool
+        See :func:`configure`.
+
+    Raises
+    ------
+    ParameterError
+        With one line for each problem found.
+    """
+    return configure(_merged(map(read_yaml, paths)) if paths else {}, lazy=lazy)
+
+
+def _merged(layers: Iterable[Any]) -> Any:
+    """Configurations as one, as Snakemake merges its files: later values replace earlier ones."""
+    first, *others = layers
+    for other in others:
+        if not isinstance(first, dict) or not isinstance(other, dict):
+            first = other
+            continue
+        both = first.keys() & other.keys()
+        first = {**first, **other, **{key: _merged((first[key], other[key])) for key in both}}
+    return first
+
+
+def completed(values: Any) -> Any:
+    """A configuration that has studies: those of the default one if it gives none itself."""
+    if not isinstance(values, dict) or "studies" in values:
+        return values
+    if not all(path.is_file() for path in DEFAULTS):
+        raise ParameterError(
+            "the configuration lacks the key studies: only a checkout of the project has the "
+            "paper's, in config/config.yaml"
+        )
+    return _merged((*map(read_yaml, DEFAULTS), values))
 
 
 def configure(values: Any, *, lazy: bool = False) -> Configuration:
@@ -32,7 +77,8 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     Parameters
     ----------
     values : dict
-        The configuration.
+        The configuration. A key that it leaves out has the value of the default configuration,
+        ``studies`` too.
     lazy : bool
         Whether the runs of a study are checked only once they are asked for.
 
@@ -41,7 +87,7 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     ParameterError
         With one line for each problem found.
     """
-    values = _with_numbers(values)
+    values = _with_numbers(completed(values))
     stop_on(value_problems(values))
     stop_on([*range_problems(values), *results_problems(results_directory(values))])
     try:

@@ -37,7 +37,10 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
 
 
 class _StrictLoader(yaml.SafeLoader):
-    """YAML's safe loader, which refuses keys given twice, numbers of another base, and bombs."""
+    """YAML's safe loader, which refuses keys given twice, numbers of another base, and bombs.
+
+    libyaml's loader is faster, but a file with a hundred thousand brackets crashes it.
+    """
 
     def get_single_node(self) -> yaml.Node | None:
         """The file as nodes, of which aliases may share some, but not to stand for millions."""

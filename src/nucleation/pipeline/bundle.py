@@ -21,16 +21,18 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ..configuration.load import load
+from ..configuration.load import DEFAULTS, load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
 from .check import records
 from .store import BAD, NOTE, PATTERN, STEM, Store, StoreError, content, read_note
 
-CHECKSUMS, CONFIGURATION = "manifest-sha256.txt", "config.yaml"
+CHECKSUMS = "manifest-sha256.txt"
+CONFIGURATION = ("config.yaml", "beyond.yaml")
+"""What the files of a configuration are called, of which only the default one has two."""
 KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
 """Endings of results; none that Python, a shell or git would run."""
-DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, CONFIGURATION)))
+DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, *CONFIGURATION)))
 IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
 COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
 PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
@@ -41,15 +43,25 @@ class BundleError(Exception):
     """An archive that can't be written, or that is damaged or foreign."""
 
 
-def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
+def write(archive: Path, configuration: Path | None, directory: Path = Path()) -> int:
     """Write an archive of what the results of a configuration show; the number of files in it.
+
+    Parameters
+    ----------
+    archive : Path
+        The file to be written.
+    configuration : Path or None
+        The configuration's file; None for the default configuration.
+    directory : Path
+        Where the workflow runs.
 
     Raises
     ------
     BundleError, StoreError
         If the archive exists already, there are no results, or one of them is damaged.
     """
-    results = directory / load(configuration).results
+    configured = [configuration] if configuration else DEFAULTS
+    results = directory / load(*configured, lazy=True).results
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
@@ -66,7 +78,7 @@ def write(archive: Path, configuration: Path, directory: Path = Path()) -> int:
     copies = {  # and no file of the user's own
         name: path for name, path in shown.items() if path.is_file() and content(path) in digests
     }
-    packed = {CONFIGURATION: configuration, **copies, **entries}
+    packed = {**dict(zip(CONFIGURATION, configured, strict=False)), **copies, **entries}
     checksums = "".join(f"{content(path)}  {name}\n" for name, path in packed.items()).encode()
     members = {name: _member(name, path.stat().st_size) for name, path in packed.items()}
     _refuse_foreign(members.values())
@@ -160,12 +172,17 @@ def _refuse_foreign(members: Iterable[tarfile.TarInfo]) -> None:
         raise BundleError(f"nothing is written, as this is foreign:{''.join(problems[:5])}{more}")
 
 
-def main(what: str, archive: str, configuration: str = "config/config.yaml") -> None:
-    """``write`` results of a configuration to an archive, or ``restore`` those of one."""
+def main(what: str, archive: str, configuration: str = "") -> None:
+    """``write`` results of a configuration to an archive, or ``restore`` those of one.
+
+    Without the name of its file it is the default configuration.
+    """
+    own = Path(configuration) if configuration else None
     if what == "write":
-        print(f"{write(Path(archive), Path(configuration))} files are in {archive}")
+        print(f"{write(Path(archive), own)} files are in {archive}")
     else:
-        count = restore(Path(archive), load(configuration).results)
+        settings = load(own, lazy=True) if own else load(lazy=True)
+        count = restore(Path(archive), settings.results)
         print(f"{count} results are new here. Make what you want to see: it takes them")
 
 

@@ -25,16 +25,13 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 
 def problem(arguments: Sequence[str]) -> str | None:
-    """What is wrong with the cores or the configuration files, in words; None if all can be used.
-
-    Of several, whose values are merged, only the first must be complete; all must be plain.
-    """
+    """What is wrong with the cores or the configuration files, in words; None if all can be used."""
     given = options(arguments)
     if re.fullmatch(r"0+|-\d+", given.cores or ""):
         return "--cores must be 1 or more"
     try:
-        for path in given.configfile:
-            load(path)
+        if given.configfile:
+            load(*given.configfile)
     except ParameterError as error:
         return str(error)
     return None

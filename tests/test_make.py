@@ -1,0 +1,86 @@
+"""What is given to make reaches the programs as it is, whatever characters it has."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+pytestmark = pytest.mark.system
+
+PROGRAM = """#!{python}
+import json, os, sys
+with open("called", "a") as file:
+    print(json.dumps(sys.argv[1:]), file=file)
+"""
+
+NAMES = [
+    "$$(touch PWN).yaml", "$(touch PWN).yaml", "$(shell touch PWN).yaml", "`touch PWN`.yaml",
+    "a;touch PWN;.yaml", "a&touch PWN.yaml", "a|touch PWN", "-", 'q"x.yaml', "q'x.yaml",
+    "a b.yaml", "a\\b.yaml", "#a.yaml", "é.yaml",
+]  # fmt: skip
+
+
+@pytest.fixture
+def make(tmp_path):
+    """Run make in a place whose environment notes how its Python is called; give the calls."""
+    (tmp_path / "environment.txt").touch()
+    programs = tmp_path / "venv" / "bin"
+    programs.mkdir(parents=True)
+    for name in ("python", "snakemake"):
+        (programs / name).write_text(PROGRAM.format(python="/usr/bin/env python3"))
+        (programs / name).chmod(0o755)
+    (tmp_path / "venv" / "environment.stamp").touch()
+
+    def run(*arguments, **variables):
+        (tmp_path / "called").unlink(missing_ok=True)
+        given = [f"{name}={value}" for name, value in {"VENV": "venv", **variables}.items()]
+        done = subprocess.run(
+            ["make", "-f", ROOT / "Makefile", *arguments, *given],
+            cwd=tmp_path, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stdout
+        assert not (tmp_path / "PWN").exists()
+        return [json.loads(line) for line in (tmp_path / "called").read_text().splitlines()]
+
+    return run
+
+
+LAUNCH = ["-m", "nucleation.pipeline.launch"]
+BUNDLE = ["-m", "nucleation.pipeline.bundle"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_name_of_a_file_is_run(make, name):
+    cores = ["--cores", "2"]
+    assert make("paper", CONFIG=name) == [[*LAUNCH, *cores, "--configfile", name]]
+    assert make("report", CONFIG=name) == [[*LAUNCH, "report", *cores, "--configfile", name]]
+    assert make("bundle", CONFIG=name, FILE=name) == [[*BUNDLE, "write", name, name]]
+    assert make("restore", FILE=name) == [[*BUNDLE, "restore", name, ""]]
+    assert make("paper", CORES=name) == [[*LAUNCH, "--cores", name]]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_name_from_the_environment_is_run(make, name, monkeypatch):
+    monkeypatch.setenv("CONFIG", name)
+    assert make("paper") == [[*LAUNCH, "--cores", "2", "--configfile", name]]
+
+
+def test_targets_are_words(make):
+    assert make("paper", TARGETS="figure_3 lengths")[0][2:4] == ["figure_3", "lengths"]
+    found = make("paper", TARGETS="$(touch PWN) `touch PWN`")[0][2:]
+    assert found == ["$(touch", "PWN)", "`touch", "PWN`", "--cores", "2"]
+
+
+def test_an_environment_with_a_quote_in_its_name(make, tmp_path):
+    (tmp_path / "venv").rename(tmp_path / "v'e$n`v")
+    assert make("paper", VENV="v'e$$n`v") == [[*LAUNCH, "--cores", "2"]]
+
+
+def test_an_environment_with_a_blank_in_its_name_is_refused(tmp_path):
+    command = ["make", "-f", ROOT / "Makefile", "paper", "VENV=my venv"]
+    done = subprocess.run(command, cwd=tmp_path, text=True, capture_output=True)
+    assert done.returncode != 0
+    assert 'VENV = "my venv" is not allowed' in done.stderr
