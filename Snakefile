@@ -85,10 +85,8 @@ DEFAULT = "paper" if settings.studies_for("paper") else "studies"
 EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
 """Code of the paper's law with either evolution, for what computes with both."""
 
-JOB = (
-    f"exec {shlex.quote(sys.executable)} -m nucleation.pipeline.job "
-    "{input.recipe:q} {rule} {threads} {log:q}"
-)
+PYTHON = shlex.quote(sys.executable)
+JOB = f"exec {PYTHON} -m nucleation.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
 """The command of every rule that makes a result."""
 
 

@@ -196,3 +196,28 @@ rule report:
     """Everything on one page, results/report.html"""
     input:
         rules.write_report.output,
+
+
+# Questions about results, which nothing is made for.
+rule check:
+    """List results that are stale, incomplete, damaged or foreign"""
+    localrule: True
+    params:
+        results=lambda wildcards: recipe.results,
+        expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies)),
+    message:
+        "Check of the results"
+    shell:
+        f"exec {PYTHON} -m nucleation.pipeline.check check {{params.results:q}} {{params.expected:q}}"
+
+
+rule prune:
+    """List results that nothing refers to; the environment's PRUNE=yes removes them"""
+    localrule: True
+    params:
+        results=lambda wildcards: recipe.results,
+        expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies)),
+    message:
+        "Results that nothing refers to"
+    shell:
+        f"exec {PYTHON} -m nucleation.pipeline.check prune {{params.results:q}} {{params.expected:q}}"

@@ -10,13 +10,14 @@ show another result than they should are taken away, so that none is left if a j
 """
 
 import atexit
+import contextlib
 import hashlib
 import os
 import re
 import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
@@ -24,7 +25,7 @@ from typing import Any
 
 from .job import FORCED
 from .recipes import Recipe, listed, read
-from .store import NOTE, PATTERN, Store, StoreError, others
+from .store import NOTE, PATTERN, Store, StoreError, key_in, others, plain
 from .views import is_shown, leads_nowhere, show, withdraw, write
 
 RECIPES = "recipes"  # directory in a store, with one for each directory of results
@@ -121,6 +122,20 @@ class Plan:
             if found:
                 return self._of_rule(rule, found.groupdict())
         return None
+
+    def write_expected(self, more: list[str]) -> str:
+        """Write what every file that the workflow makes should show; the path of what is written.
+
+        These are the files of rules without wildcards, some more, and all that they are made from.
+        What the configuration lacks the studies for is left out.
+        """
+        found: dict[str, str] = {}
+        for path in (*self._makers[0], *more):
+            with contextlib.suppress(Exception):
+                found |= expected_of(self.behind([path]))
+        file = f"{self.place}/expected"
+        write(Path(file), plain(found))
+        return file
 
     def behind(self, paths: list[str]) -> Iterator[Recipe]:
         """The recipes of some files, and of all that these are made from."""
@@ -255,19 +270,40 @@ def key_of(file: Path) -> str | None:
     return found[1].decode() if found else None
 
 
-def referred(store: Store) -> set[str]:
-    """Keys in a store that the recipes of any directory of results refer to, or that it shows."""
-    found: set[str] = set()
+def kept_recipes(store: Store) -> Iterator[tuple[Recipe, list[str]]]:
+    """The recipes of all directories of results that share a store, with their planned keys.
+
+    Raises
+    ------
+    StoreError
+        If one can't be read: nothing can be said of what is used.
+    """
     for file in sorted(store.directory.glob(f"{RECIPES}/*/**/*.json")):
         try:
-            recipe, keys = read(file)
+            yield read(file)
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise StoreError(f"{file} can't be read, so nothing can be said of unused results: "
-                             f"{error!r}") from None  # fmt: skip
+            raise StoreError(f"{file} can't be read: {error!r}. Delete it, and plan again") from None
+
+
+def referred(store: Store) -> set[str]:
+    """Keys in a store that recipes of any directory of results refer to, or that their files show."""
+    found: set[str] = set()
+    for recipe, keys in kept_recipes(store):
         found.update(keys)
         for one in (recipe, *recipe.parts):
-            found.update(key for paths in one.source_keys.values() for key in paths)
+            found.update(key for path in one.source_keys.values() for key in path)
+            links = (os.path.realpath(file) for file in one.files if os.path.islink(file))
+            found.update(filter(None, map(key_in, links)))
     return found
+
+
+def expected_of(recipes: Iterable[Recipe]) -> dict[str, str]:
+    """What the files of some recipes should show: files of the store, or the text of a list."""
+    return {
+        file: recipe.stored(file) if recipe.call else recipe.manifest()
+        for recipe in recipes
+        for file in recipe.files
+    }
 
 
 def _forced(asked: Any) -> Iterator[str]:

@@ -70,6 +70,10 @@ class Recipe(_Ingredients):
         suffix = file.removeprefix(f"{self.results}/{self.name}")
         return f"{self.results}/store/{self.key}/{STEM}{suffix}"
 
+    def manifest(self) -> str:
+        """The text that the file of a batch has: the keys of its parts, by their names."""
+        return plain({part.name: part.key for part in self.parts}) + "\n"
+
     def text(self, planned: str = "") -> str:
         """All of it as JSON, the key first; `planned` tells files of one recipe apart."""
         return plain({"key": self.key, "planned": planned, **self._plain()}, sort_keys=False)

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 from .recipes import Recipe
-from .store import Store, content, key_in, plain
+from .store import Store, content, key_in
 
 
 def lay(file: Path, target: Path) -> None:
@@ -54,7 +54,7 @@ def show(recipe: Recipe) -> None:
         if recipe.call:
             lay(Path(file), Path(recipe.stored(file)))
         else:
-            write(Path(file), _manifest(recipe))
+            write(Path(file), recipe.manifest())
 
 
 def is_shown(recipe: Recipe, store: Store) -> bool:
@@ -62,12 +62,8 @@ def is_shown(recipe: Recipe, store: Store) -> bool:
     if not all(store.note(one.key) for one in recipe.needed):
         return False
     if not recipe.call:
-        return all(_text(Path(file)) == _manifest(recipe) for file in recipe.files)
+        return all(_text(Path(file)) == recipe.manifest() for file in recipe.files)
     return all(shows(Path(file), Path(recipe.stored(file))) for file in recipe.files)
-
-
-def _manifest(recipe: Recipe) -> str:
-    return plain({part.name: part.key for part in recipe.parts}) + "\n"
 
 
 def _text(file: Path) -> str | None:
