@@ -18,9 +18,7 @@ rule evaluate_claims:
         theory=ancient(f"{RESULTS}/theory.nc"),
         dispersion=ancient(f"{RESULTS}/dispersion.nc"),
         lengths=ancient(lambda wildcards: lengths_of(*CLAIMED)),
-        after=ancient(
-            lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))]
-        ),
+        after=ancient(lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))]),
         recipe=recipe("evaluate_claims"),
     output:
         multiext(f"{RESULTS}/tables/claims", ".csv", ".md", ".json"),

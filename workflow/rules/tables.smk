@@ -2,9 +2,7 @@
 rule gather_drop:
     """Drops, and the law of the drop"""
     input:
-        drops=ancient(
-            needed(lambda: lengths_of(*in_role("drop")), "study with role: drop")
-        ),
+        drops=ancient(needed(lambda: lengths_of(*in_role("drop")), "study with role: drop")),
         quiet=ancient(lambda wildcards: lengths_of(*FLOORS)),
         recipe=recipe("gather_drop"),
     output:
@@ -50,9 +48,7 @@ rule gather_floors:
 rule gather_map:
     """The map of lengths over height and weakening"""
     input:
-        lengths=ancient(
-            needed(lambda: table_of("map"), "study with role: map")
-        ),
+        lengths=ancient(needed(lambda: table_of("map"), "study with role: map")),
         recipe=recipe("gather_map"),
     output:
         multiext(f"{RESULTS}/map", ".csv", ".nc"),

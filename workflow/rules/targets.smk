@@ -7,7 +7,9 @@ def shared(files):
 def of_studies(names):
     """The tables and figures of some studies."""
     names = list(names)
-    figures = [f"{RESULTS}/figures/study_{name}.{kind}" for name in names for kind in ("png", "pdf")]
+    figures = [
+        f"{RESULTS}/figures/study_{name}.{kind}" for name in names for kind in ("png", "pdf")
+    ]
     return [*figures, *[path.replace(".nc", ".csv") for path in lengths_of(*names)]]
 
 

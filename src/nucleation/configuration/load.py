@@ -22,7 +22,6 @@ from .strict_yaml import read_yaml
 from .studies import study_settings
 from .study_names import in_type
 
-
 CHECKOUT = Path(__file__).parents[3]
 DEFAULTS = (CHECKOUT / "config" / "config.yaml", CHECKOUT / "config" / "beyond.yaml")
 """The default configuration: the paper's, and the studies beyond it."""

@@ -78,7 +78,9 @@ def _study() -> Check:
     return _mapping({**settings, "defaults": defaults, "runs": _list(entry)}, needed=["runs"])
 
 
-def _mapping(checks: Mapping[str, Check], needed: Iterable[str] = (), filled: bool = False) -> Check:
+def _mapping(
+    checks: Mapping[str, Check], needed: Iterable[str] = (), filled: bool = False
+) -> Check:
     """The check of a mapping whose keys have these checks."""
 
     def check(place: Place, given: Any) -> Iterator[str]:

@@ -19,8 +19,9 @@ FORCED = "NUCLEATION_FORCED"
 """Of the environment: the rules and files that Snakemake was forced to make, or ``*`` for all."""
 
 ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Of the environment: a result is made on one core, as sums on several have another order. Snakemake
-sets the first to the threads of the rule."""
+"""Of the environment: a result is made on one core, as sums on several have another order.
+
+Snakemake sets the first to the threads of the rule."""
 
 
 def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
@@ -31,7 +32,7 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     began, terminal = time.monotonic(), sys.stderr
     os.environ |= dict.fromkeys(ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
-    sys.stderr = Path(log).open("a", buffering=1, encoding="utf-8")
+    sys.stderr = Path(log).open("a", buffering=1, encoding="utf-8")  # noqa: SIM115  to the end
     recipe, keys = read(recipe_file)
     try:
         if is_forced(rule, recipe) or not is_there(recipe):

@@ -25,7 +25,7 @@ from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError, is_table, to_csv
 from ..model.quantities import ParameterError
 from . import code
-from .recipes import Recipe
+from .recipes import PartFailed, Recipe
 from .side_by_side import side_by_side
 from .store import STEM, Store, StoreError, give_all, key_in, others, path_in, read_note
 from .views import show
@@ -35,10 +35,6 @@ EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 
 OF_MACHINE = ("wall_seconds", "peak_megabytes", "created", "versions", "command")
 """What differs between two results of one recipe."""
-
-
-class RunFailed(Exception):
-    """A simulation that came to no result; the other simulations of a batch go on."""
 
 
 def make(recipe: Recipe, keys: Sequence[str], rule: str, threads: int, forced: bool) -> None:
@@ -111,7 +107,7 @@ class Maker:
 
         Raises
         ------
-        RunFailed
+        PartFailed
             If it is a simulation that has failed.
         """
         if not self.forced and self.store.note(recipe.key) is not None:
@@ -119,7 +115,7 @@ class Maker:
         from .running import SIMULATE, run_of  # which loads the solver
 
         if recipe.call == SIMULATE:
-            return run_of(self, recipe)
+            return run_of(recipe, self.put, self.origin(recipe))
         made = self.called(recipe)
         self.put(recipe, made)
         return made
@@ -177,7 +173,9 @@ class Maker:
                 _write_one(content, place / f"{STEM}{suffix}", origin)
 
         if self.store.note(recipe.key) is not None:
-            print(f"{recipe.name}, made again: {self._compared(recipe.key, write)}", file=sys.stderr)
+            print(
+                f"{recipe.name}, made again: {self._compared(recipe.key, write)}", file=sys.stderr
+            )
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
         self.store.put(recipe.key, write, about | {"rule": self._rule, "name": recipe.name})
@@ -247,7 +245,7 @@ class Batch:
         part = self._parts[number]
         try:
             result = self._maker.result(part)
-        except RunFailed as error:
+        except PartFailed as error:
             print(error, file=sys.stderr)
             return str(error), None
         show(part)

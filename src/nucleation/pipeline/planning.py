@@ -174,7 +174,7 @@ class Plan:
             call=params.pop("call", ""),
             loads=list(params.pop("loads", [])),
             sources={role: self._source(paths) for role, paths in sources.items()},
-            parts=[self.recipe(path) for path in params.pop("makes", [])],
+            parts=[*filter(None, map(self.recipe, params.pop("makes", [])))],
             values=params,
         )
         self._inputs[found.name] = [
@@ -282,7 +282,9 @@ def kept_recipes(store: Store) -> Iterator[tuple[Recipe, list[str]]]:
         try:
             yield read(file)
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise StoreError(f"{file} can't be read: {error!r}. Delete it, and plan again") from None
+            raise StoreError(
+                f"{file} can't be read: {error!r}. Delete it, and plan again"
+            ) from None
 
 
 def referred(store: Store) -> set[str]:

@@ -18,6 +18,10 @@ Sources = dict[str, str | list[str]]
 """What is read, by the names of a function's arguments: files in the store, or of others."""
 
 
+class PartFailed(Exception):
+    """A part of a batch that came to no result; the others go on."""
+
+
 class _Ingredients(NamedTuple):
     name: str  # of the result in the directory of results, without a suffix: figures/figure_3
     files: list[str]  # the outputs of its rule, where people find it

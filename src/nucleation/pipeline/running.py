@@ -1,7 +1,7 @@
 """Simulations of jobs and commands: from a checkpoint on, to a record in a file."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,21 +14,28 @@ from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
 from ..simulation.run import simulate
 from . import code
-from .making import Maker, RunFailed
-from .recipes import Recipe
+from .recipes import PartFailed, Recipe
 
 SIMULATE = "nucleation.simulation.run:simulate"
 UNFINISHED = "unfinished"  # directory with checkpoints, and records of runs that failed
 
 
-def run_of(maker: Maker, recipe: Recipe) -> xr.Dataset:
-    """The record of a simulation, made from its checkpoint on if there is one.
+def run_of(
+    recipe: Recipe, put: Callable[[Recipe, xr.Dataset], None], origin: Mapping[str, str]
+) -> xr.Dataset:
+    """The record of a simulation, made from its checkpoint on if there is one, and put away.
 
     A signal ends the process, after a checkpoint.
 
+    Parameters
+    ----------
+    recipe : of the simulation.
+    put : puts the record of a finished run into the store.
+    origin : attributes of the record of one that has failed.
+
     Raises
     ------
-    RunFailed
+    PartFailed
         If the run has failed; its record is among the unfinished.
     """
     name = recipe.name.rpartition("/")[2]
@@ -38,9 +45,9 @@ def run_of(maker: Maker, recipe: Recipe) -> xr.Dataset:
 
     def write(dataset: xr.Dataset, path: Path) -> None:
         if path == place:
-            maker.put(recipe, dataset)
+            put(recipe, dataset)
         else:
-            netcdf.write(dataset, path, **maker.origin(recipe))
+            netcdf.write(dataset, path, **origin)
 
     progress = Progress(parameters, sys.stderr)
     try:
@@ -49,7 +56,7 @@ def run_of(maker: Maker, recipe: Recipe) -> xr.Dataset:
     except Stopped as stopped:
         sys.exit(f"{name}: {stopped}")
     if path != place:
-        raise RunFailed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
+        raise PartFailed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
     return dataset
 
 
@@ -85,5 +92,3 @@ def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Che
 def simulation_code(parameters: Parameters) -> str:
     """Digest of the code that a simulation runs, as in the workflow."""
     return code.digest(SIMULATE.partition(":")[0], *code.ALWAYS, *plugins(parameters))
-
-

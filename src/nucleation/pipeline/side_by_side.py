@@ -9,7 +9,7 @@ import traceback
 from collections.abc import Callable, Iterator
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
-from typing import Any
+from typing import Any, cast
 
 from ..simulation.checkpoints import SIGNALS
 
@@ -36,7 +36,7 @@ def side_by_side(work: Callable[[int], Any], number: int, cores: int) -> list[An
         for connection in list(workers):
             _give(connection, next(waiting), workers)
         while workers:
-            for connection in wait(list(workers)):
+            for connection in cast(list[Connection], wait(list(workers))):
                 try:
                     done, value, reason = connection.recv()
                 except (EOFError, OSError):
