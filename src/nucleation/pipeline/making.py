@@ -173,9 +173,8 @@ class Maker:
                 _write_one(content, place / f"{STEM}{suffix}", origin)
 
         if self.store.note(recipe.key) is not None:
-            print(
-                f"{recipe.name}, made again: {self._compared(recipe.key, write)}", file=sys.stderr
-            )
+            compared = self._compared(recipe.key, write)
+            print(f"{recipe.name}, made again: {compared}", file=sys.stderr)
             return
         about = {name: origin[name] for name in ("created", "code_digest", "versions")}
         self.store.put(recipe.key, write, about | {"rule": self._rule, "name": recipe.name})
@@ -317,5 +316,6 @@ def _size(ours: Any, theirs: Any) -> str:
     """The largest difference of two arrays over their largest value, in words."""
     if ours.shape != theirs.shape or ours.dtype.kind not in "fi":
         return ""
-    scale = np.nanmax(np.abs(theirs), initial=0.0) or 1.0
-    return f" by up to {np.nanmax(np.abs(ours - theirs), initial=0.0) / scale:.1e} of its largest value"
+    largest = np.nanmax(np.abs(theirs), initial=0.0) or 1.0
+    difference = np.nanmax(np.abs(ours - theirs), initial=0.0) / largest
+    return f" by up to {difference:.1e} of its largest value"

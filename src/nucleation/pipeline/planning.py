@@ -1,8 +1,8 @@
 """What the workflow plans: the recipe of each result, and whether the result is there already.
 
 Every file that people open is the output of a rule. One more input of each rule is its recipe
-(:mod:`.recipes`), a file below the store. :class:`Plan` writes it while Snakemake plans: as old as a
-file can be where the rule's outputs are the result of that recipe, else anew and with new content.
+(:mod:`.recipes`), a file below the store. :class:`Plan` writes it while Snakemake plans: as old as
+a file can be where the rule's outputs are the result of that recipe, else with new content.
 So Snakemake's own triggers do what is right, whatever happened to its notes or to times of files.
 
 A run, unlike a dry run, begins with what the stores have: it is shown, and needs no job. Files that
@@ -89,7 +89,7 @@ class Plan:
 
     @cached_property
     def runs(self) -> bool:
-        """Whether jobs will run, and not only be listed or touched; they are told what is forced."""
+        """Whether jobs will run, not only be listed; they are told what is forced."""
         plan = self._workflow
         runs = plan.executor_plugin is not None and not (plan.dryrun or plan.touch)
         if runs:
@@ -288,7 +288,7 @@ def kept_recipes(store: Store) -> Iterator[tuple[Recipe, list[str]]]:
 
 
 def referred(store: Store) -> set[str]:
-    """Keys in a store that recipes of any directory of results refer to, or that their files show."""
+    """Keys in a store that recipes of any directory of results refer to, or their files show."""
     found: set[str] = set()
     for recipe, keys in kept_recipes(store):
         found.update(keys)

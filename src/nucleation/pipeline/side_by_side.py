@@ -17,10 +17,10 @@ Workers = dict[Connection, BaseProcess]
 
 
 def side_by_side(work: Callable[[int], Any], number: int, cores: int) -> list[Any]:
-    """What `work` returns for 0, 1, ... up to a number, made by as many processes as there are cores.
+    """The values of `work` for 0, 1, ... up to a number, from one process for each core.
 
-    One that ends the process (SystemExit) lets the others finish what they have begun, and then ends
-    this one for its reason. Signals that ask a job to stop are passed on to the processes.
+    If one of them ends its process (SystemExit), the others finish what they have begun, and this
+    process ends for the same reason. Signals that ask a job to stop are passed on to the processes.
     """
     if min(number, cores) < 2:
         return [work(i) for i in range(number)]
