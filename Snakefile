@@ -7,7 +7,7 @@
 #
 # A rule names the function that makes its result (`call`), its parameters and its inputs. From these
 # follows the recipe of the result (nucleation.pipeline.planning), which is one more input: it is
-# newer than the output if and only if that is another result. So all other inputs are `ancient`.
+# newer than the output if and only if that is another result.
 import functools
 import gc
 import os

@@ -29,9 +29,9 @@ def test_default_target_is_the_whole_paper(paper):
     once = ("theory", "gather_lengths", "write_table_s1", *DRAWN, *CLAIMING)
     assert paper.planned() == {
         "extract": 2,
-        "patches_converged": 1,
+        "follow_patches": 1,
+        "simulate": len(batches),
         **dict.fromkeys(once, 1),
-        **{f"simulate_{name.replace('-', '_')}": 1 for name in batches},
     }
 
 
@@ -45,9 +45,9 @@ def test_default_target_is_the_whole_paper(paper):
         ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "gather_lengths": 1,
                       "draw_figure_3": 1}),
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
-        ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "patch": 1,
+        ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
                     "evaluate_claims": 1}),
-        ("figure_study_drop", {"batch": 2, "join_batches": 1, "draw_study": 1}),
+        ("results/quick/figures/study_drop.png", {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
         ("crosscheck", {"crosscheck_own": 4, "crosscheck_freefem": 4, "compare_crosscheck": 1,
                         "draw_figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],

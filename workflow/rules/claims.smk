@@ -15,10 +15,10 @@ def statements():
 rule evaluate_claims:
     """A verdict on every statement of the paper"""
     input:
-        theory=ancient(f"{RESULTS}/theory.nc"),
-        dispersion=ancient(f"{RESULTS}/dispersion.nc"),
-        lengths=ancient(lambda wildcards: lengths_of(*CLAIMED)),
-        after=ancient(lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))]),
+        theory=f"{RESULTS}/theory.nc",
+        dispersion=f"{RESULTS}/dispersion.nc",
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        after=lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))],
         recipe=recipe("evaluate_claims"),
     output:
         multiext(f"{RESULTS}/tables/claims", ".csv", ".md", ".json"),
@@ -50,8 +50,8 @@ rule evaluate_claims:
 rule evaluate_pairs:
     """Verdicts on what the paper's theory says of two bodies"""
     input:
-        pairs=ancient(f"{RESULTS}/pairs.nc"),
-        modes=ancient(f"{RESULTS}/pair_modes.nc"),
+        pairs=f"{RESULTS}/pairs.nc",
+        modes=f"{RESULTS}/pair_modes.nc",
         recipe=recipe("evaluate_pairs"),
     output:
         multiext(f"{RESULTS}/tables/claims_pairs", ".csv", ".md"),
@@ -70,8 +70,8 @@ rule write_article:
     """The article on the replication, its numbers from the results"""
     input:
         template=str(Path(BASE, "docs", "article.md.in")),
-        claims=ancient(f"{RESULTS}/tables/claims.json"),
-        lengths=ancient(lambda wildcards: lengths_of(*CLAIMED)),
+        claims=f"{RESULTS}/tables/claims.json",
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
         recipe=recipe("write_article"),
     output:
         f"{RESULTS}/article.md",
@@ -91,9 +91,9 @@ rule print_article:
     input:
         template=str(Path(BASE, "docs", "article.md.in")),
         citation=str(Path(BASE, "CITATION.cff")),
-        claims=ancient(f"{RESULTS}/tables/claims.json"),
-        lengths=ancient(lambda wildcards: lengths_of(*CLAIMED)),
-        figures=ancient([f"{RESULTS}/figures/{name}.png" for name in PRINTED]),
+        claims=f"{RESULTS}/tables/claims.json",
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        figures=[f"{RESULTS}/figures/{name}.png" for name in PRINTED],
         recipe=recipe("print_article"),
     output:
         multiext(f"{RESULTS}/replication", ".pdf", ".tex", ".md"),

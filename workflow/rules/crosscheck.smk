@@ -67,8 +67,8 @@ rule crosscheck_freefem:
 rule compare_crosscheck:
     """Differences of the two solvers"""
     input:
-        own=ancient(crosschecked("own")),
-        freefem=ancient(crosschecked("freefem")),
+        own=crosschecked("own"),
+        freefem=crosschecked("freefem"),
         recipe=recipe("compare_crosscheck"),
     output:
         multiext(f"{RESULTS}/crosscheck", ".csv", ".nc"),
@@ -87,9 +87,9 @@ rule compare_crosscheck:
 rule draw_figure_crosscheck:
     """Patch length and driving force by both solvers"""
     input:
-        own=ancient(crosschecked("own")),
-        freefem=ancient(crosschecked("freefem")),
-        table=ancient(f"{RESULTS}/crosscheck.nc"),
+        own=crosschecked("own"),
+        freefem=crosschecked("freefem"),
+        table=f"{RESULTS}/crosscheck.nc",
         recipe=recipe("draw_figure_crosscheck"),
     output:
         multiext(f"{RESULTS}/figures/figure_crosscheck", ".png", ".pdf"),

@@ -25,7 +25,7 @@ rule draw_figure_1:
 rule draw_figure_2:
     """Figure 2: bimaterial interfaces"""
     input:
-        theory=ancient(f"{RESULTS}/theory.nc"),
+        theory=f"{RESULTS}/theory.nc",
         recipe=recipe("draw_figure_2"),
     output:
         report(
@@ -48,9 +48,9 @@ rule draw_figure_2:
 rule draw_figure_3:
     """Figure 3: critical length against height"""
     input:
-        theory=ancient(f"{RESULTS}/theory.nc"),
-        lengths=ancient(f"{RESULTS}/lengths.nc"),
-        after=ancient(lambda wildcards: batches([inset_run()])),
+        theory=f"{RESULTS}/theory.nc",
+        lengths=f"{RESULTS}/lengths.nc",
+        after=lambda wildcards: batches([inset_run()]),
         recipe=recipe("draw_figure_3"),
     output:
         report(
@@ -75,7 +75,7 @@ rule draw_figure_3:
 rule draw_figure_s1:
     """Figure S1: steady-state friction"""
     input:
-        theory=ancient(f"{RESULTS}/theory.nc"),
+        theory=f"{RESULTS}/theory.nc",
         recipe=recipe("draw_figure_s1"),
     output:
         report(
@@ -98,8 +98,8 @@ rule draw_figure_s1:
 rule draw_figure_s2:
     """Figure S2: stress in space and time"""
     input:
-        lengths=ancient(lambda wildcards: table_of("paper")),
-        after=ancient(lambda wildcards: batches([space_time_run()])),
+        lengths=lambda wildcards: table_of("paper"),
+        after=lambda wildcards: batches([space_time_run()]),
         recipe=recipe("draw_figure_s2"),
     output:
         report(
@@ -124,8 +124,8 @@ rule draw_figure_s2:
 rule draw_figure_patch_stability:
     """Stability of the creeping patch"""
     input:
-        table=ancient(f"{RESULTS}/patch_stability.nc"),
-        after=ancient(lambda wildcards: patch_batches(*PATCH_TABLES["patch_stability"])),
+        table=f"{RESULTS}/patch_stability.nc",
+        after=lambda wildcards: patch_batches(*PATCH_TABLES["patch_stability"]),
         recipe=recipe("draw_figure_patch_stability"),
     output:
         report(
@@ -149,10 +149,10 @@ rule draw_figure_patch_stability:
 rule draw_figure_3_extended:
     """Lengths of the drop and of the patch's stability"""
     input:
-        theory=ancient(f"{RESULTS}/theory.nc"),
-        lengths=ancient(f"{RESULTS}/lengths.nc"),
-        table=ancient(f"{RESULTS}/patch_stability.nc"),
-        noisy=ancient(lambda wildcards: table_of("noisy")),
+        theory=f"{RESULTS}/theory.nc",
+        lengths=f"{RESULTS}/lengths.nc",
+        table=f"{RESULTS}/patch_stability.nc",
+        noisy=lambda wildcards: table_of("noisy"),
         recipe=recipe("draw_figure_3_extended"),
     output:
         report(
@@ -175,7 +175,7 @@ rule draw_figure_3_extended:
 rule draw_figure_drop:
     """Where the force drops under a declared perturbation"""
     input:
-        table=ancient(f"{RESULTS}/drop.nc"),
+        table=f"{RESULTS}/drop.nc",
         recipe=recipe("draw_figure_drop"),
     output:
         report(
@@ -198,7 +198,7 @@ rule draw_figure_drop:
 rule draw_figure_map:
     """Where the theory is right: a map over height and weakening"""
     input:
-        grid=ancient(f"{RESULTS}/map.nc"),
+        grid=f"{RESULTS}/map.nc",
         recipe=recipe("draw_figure_map"),
     output:
         report(
@@ -221,7 +221,7 @@ rule draw_figure_map:
 rule draw_figure_patch_theory:
     """Stability of the creeping patch by theory"""
     input:
-        table=ancient(f"{RESULTS}/patch_theory.nc"),
+        table=f"{RESULTS}/patch_theory.nc",
         recipe=recipe("draw_figure_patch_theory"),
     output:
         report(
@@ -244,7 +244,7 @@ rule draw_figure_patch_theory:
 rule draw_figure_dispersion:
     """Growth of single modes: simulation and theory"""
     input:
-        dispersion=ancient(f"{RESULTS}/dispersion.nc"),
+        dispersion=f"{RESULTS}/dispersion.nc",
         recipe=recipe("draw_figure_dispersion"),
     output:
         report(
@@ -267,7 +267,7 @@ rule draw_figure_dispersion:
 rule draw_figure_verification:
     """Orders of convergence on manufactured solutions"""
     input:
-        convergence=ancient(f"{RESULTS}/verification.nc"),
+        convergence=f"{RESULTS}/verification.nc",
         recipe=recipe("draw_figure_verification"),
     output:
         report(
@@ -290,7 +290,7 @@ rule draw_figure_verification:
 rule draw_figure_convergence:
     """Critical length against mesh and steps"""
     input:
-        table=ancient(f"{RESULTS}/convergence.nc"),
+        table=f"{RESULTS}/convergence.nc",
         recipe=recipe("draw_figure_convergence"),
     output:
         report(
@@ -313,7 +313,7 @@ rule draw_figure_convergence:
 rule draw_figure_sensitivity:
     """Sensitivity to parameters and definitions"""
     input:
-        table=ancient(f"{RESULTS}/sensitivity.nc"),
+        table=f"{RESULTS}/sensitivity.nc",
         recipe=recipe("draw_figure_sensitivity"),
     output:
         report(
@@ -336,7 +336,7 @@ rule draw_figure_sensitivity:
 rule draw_figure_pairs:
     """Two deformable bodies"""
     input:
-        table=ancient(f"{RESULTS}/pairs.nc"),
+        table=f"{RESULTS}/pairs.nc",
         recipe=recipe("draw_figure_pairs"),
     output:
         report(
@@ -359,7 +359,7 @@ rule draw_figure_pairs:
 rule draw_figure_2_simulated:
     """Figure 2 with simulations, in both senses of the contrast"""
     input:
-        table=ancient(f"{RESULTS}/pairs.nc"),
+        table=f"{RESULTS}/pairs.nc",
         recipe=recipe("draw_figure_2_simulated"),
     output:
         report(
@@ -382,7 +382,7 @@ rule draw_figure_2_simulated:
 rule draw_figure_literature:
     """Lengths of the literature, simulated in their own settings"""
     input:
-        table=ancient(f"{RESULTS}/literature.nc"),
+        table=f"{RESULTS}/literature.nc",
         recipe=recipe("draw_figure_literature"),
     output:
         report(
@@ -411,7 +411,7 @@ def declarations(names):
 rule draw_study:
     """A study: simulations and theory, by what it varies"""
     input:
-        table=ancient(f"{RESULTS}/lengths/{{study}}.nc"),
+        table=f"{RESULTS}/lengths/{{study}}.nc",
         recipe=recipe("draw_study"),
     output:
         report(
@@ -442,8 +442,8 @@ rule draw_study:
 rule film:
     """A run once more, for the stress in its block"""
     input:
-        lengths=ancient(f"{RESULTS}/lengths.nc"),
-        after=ancient(lambda wildcards: batches([inset_run()])),
+        lengths=f"{RESULTS}/lengths.nc",
+        after=lambda wildcards: batches([inset_run()]),
         recipe=recipe("film"),
     output:
         f"{RESULTS}/film.nc",
@@ -462,8 +462,8 @@ rule film:
 rule draw_animation:
     """Creep, nucleation and rupture"""
     input:
-        film=ancient(f"{RESULTS}/film.nc"),
-        lengths=ancient(f"{RESULTS}/lengths.nc"),
+        film=f"{RESULTS}/film.nc",
+        lengths=f"{RESULTS}/lengths.nc",
         recipe=recipe("draw_animation"),
     output:
         report(

@@ -3,7 +3,7 @@
 rule follow_patches:
     """Stability of the creeping patches of a study"""
     input:
-        after=ancient(lambda wildcards: batches(patched_runs(wildcards.study))),
+        after=lambda wildcards: batches(patched_runs(wildcards.study)),
         recipe=recipe("follow_patches"),
     output:
         f"{RESULTS}/patches/{{study}}.json",
@@ -22,7 +22,7 @@ rule follow_patches:
 rule patch:
     """Stability of one creeping patch, shown under its run's name"""
     input:
-        after=ancient(lambda wildcards: patch_batches(study_of(wildcards.name))),
+        after=lambda wildcards: patch_batches(study_of(wildcards.name)),
         recipe=recipe("patch"),
     output:
         f"{RESULTS}/patches/{{name}}.nc",
@@ -43,19 +43,15 @@ rule patch:
 rule gather_patches:
     """Patch lengths at which growth begins"""
     input:
-        after=ancient(
-            lambda wildcards: needed(
-                lambda: patch_batches(*PATCH_TABLES[wildcards.table]),
-                "study with role: paper, converged or patch_convergence",
-            )(wildcards)
-        ),
+        after=lambda wildcards: needed(
+            lambda: patch_batches(*PATCH_TABLES[wildcards.table]),
+            "study with role: paper, converged or patch_convergence",
+        )(wildcards),
         recipe=recipe("gather_patches"),
     output:
-        multiext(f"{RESULTS}/{{table}}", ".csv", ".nc"),
+        multiext(f"{RESULTS}/{{table,{one_of(PATCH_TABLES)}}}", ".csv", ".nc"),
     log:
         f"{RESULTS}/logs/{{table}}.log",
-    wildcard_constraints:
-        table=one_of(PATCH_TABLES),
     localrule: True
     params:
         call="nucleation.patch.tables:gather_stability",

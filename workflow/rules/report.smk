@@ -61,15 +61,13 @@ def warned_of(wildcards):
 rule write_report:
     """Everything on one page"""
     input:
-        figures=ancient(pictures),
+        figures=pictures,
         captions=[
             str(BASE / f"workflow/report/{name if name in FIGURES else 'figure_studies'}.rst")
             for name in ENTRIES
         ],
-        datasets=ancient(
-            [f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())]
-        ),
-        claims=ancient([f"{RESULTS}/tables/claims.json"] if OF_THE_PAPER else []),
+        datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
+        claims=[f"{RESULTS}/tables/claims.json"] if OF_THE_PAPER else [],
         page_files=sorted(
             str(path)
             for kind in ("html", "css", "js")

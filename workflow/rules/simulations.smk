@@ -63,7 +63,7 @@ rule simulate_and_measure:
 rule simulation:
     """One simulation, shown under its name; its batch makes it"""
     input:
-        after=ancient(lambda wildcards: batches([run_of(wildcards.name)])),
+        after=lambda wildcards: batches([run_of(wildcards.name)]),
         recipe=recipe("simulation"),
     output:
         f"{RESULTS}/simulations/{{name}}.nc",
@@ -84,14 +84,12 @@ rule simulation:
 rule extract:
     """Critical lengths of a study"""
     input:
-        after=ancient(lambda wildcards: batches(runs_of(wildcards.study))),
+        after=lambda wildcards: batches(runs_of(wildcards.study)),
         recipe=recipe("extract"),
     output:
-        multiext(f"{RESULTS}/lengths/{{study}}", ".csv", ".nc"),
+        multiext(f"{RESULTS}/lengths/{{study,{one_of(EXTRACTED)}}}", ".csv", ".nc"),
     log:
         f"{RESULTS}/logs/lengths/{{study}}.log",
-    wildcard_constraints:
-        study=one_of(study for study in settings.studies if study not in TABLED),
     priority: 1
     localrule: True
     params:
@@ -108,14 +106,12 @@ rule extract:
 rule join_batches:
     """Critical lengths of a study whose batches are measured by the jobs that make them"""
     input:
-        tables=ancient(lambda wildcards: batches(runs_of(wildcards.study))),
+        tables=lambda wildcards: batches(runs_of(wildcards.study)),
         recipe=recipe("join_batches"),
     output:
-        multiext(f"{RESULTS}/lengths/{{study}}", ".csv", ".nc"),
+        multiext(f"{RESULTS}/lengths/{{study,{one_of(TABLED)}}}", ".csv", ".nc"),
     log:
         f"{RESULTS}/logs/lengths/{{study}}.log",
-    wildcard_constraints:
-        study=one_of(TABLED),
     localrule: True
     params:
         call="nucleation.patch.batches:of_study",
@@ -129,9 +125,7 @@ rule join_batches:
 rule gather_lengths:
     """Onset and critical length of every run of the studies that share the table"""
     input:
-        tables=ancient(
-            needed(lambda: lengths_of(*filter(is_usable, SHARED)), "study with table: lengths")
-        ),
+        tables=needed(lambda: lengths_of(*filter(is_usable, SHARED)), "study with table: lengths"),
         recipe=recipe("gather_lengths"),
     output:
         multiext(f"{RESULTS}/lengths", ".csv", ".nc", ".columns.csv"),

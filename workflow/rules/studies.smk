@@ -19,6 +19,8 @@ TABLED = [
     if study.runs_per_job > 1 and not ROLES[study.role].one_by_one
 ]
 """Studies whose batches are measured by the jobs that make them."""
+EXTRACTED = [name for name in settings.studies if name not in TABLED]
+"""The others, of whose simulations lengths are read one by one."""
 
 
 def one_of(names):

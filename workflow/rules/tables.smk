@@ -2,8 +2,8 @@
 rule gather_drop:
     """Drops, and the law of the drop"""
     input:
-        drops=ancient(needed(lambda: lengths_of(*in_role("drop")), "study with role: drop")),
-        quiet=ancient(lambda wildcards: lengths_of(*FLOORS)),
+        drops=needed(lambda: lengths_of(*in_role("drop")), "study with role: drop"),
+        quiet=lambda wildcards: lengths_of(*FLOORS),
         recipe=recipe("gather_drop"),
     output:
         multiext(f"{RESULTS}/drop", ".csv", ".nc"),
@@ -23,11 +23,9 @@ rule gather_drop:
 rule gather_floors:
     """Noise of meshes and steps"""
     input:
-        quiet=ancient(
-            needed(
-                lambda: lengths_of(*FLOORS) if in_role("convergence_quiet") else [],
-                "study with role: convergence_quiet",
-            )
+        quiet=needed(
+            lambda: lengths_of(*FLOORS) if in_role("convergence_quiet") else [],
+            "study with role: convergence_quiet",
         ),
         recipe=recipe("gather_floors"),
     output:
@@ -48,7 +46,7 @@ rule gather_floors:
 rule gather_map:
     """The map of lengths over height and weakening"""
     input:
-        lengths=ancient(needed(lambda: table_of("map"), "study with role: map")),
+        lengths=needed(lambda: table_of("map"), "study with role: map"),
         recipe=recipe("gather_map"),
     output:
         multiext(f"{RESULTS}/map", ".csv", ".nc"),
@@ -66,11 +64,9 @@ rule gather_map:
 rule gather_patch_theory:
     """Lengths of creeping patches by theory, beside those of simulations"""
     input:
-        tables=ancient(
-            needed(
-                lambda: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
-                "study with role: converged, pairs, map or patch_theory",
-            )
+        tables=needed(
+            lambda: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
+            "study with role: converged, pairs, map or patch_theory",
         ),
         recipe=recipe("gather_patch_theory"),
     output:
@@ -91,11 +87,9 @@ rule gather_patch_theory:
 rule gather_pairs:
     """Lengths of the patches between two deformable bodies"""
     input:
-        after=ancient(
-            needed(
-                lambda: [*batches(runs_in(*PAIR_STUDIES)), *patch_batches(*PAIR_STUDIES)],
-                "study of two deformable bodies, by its role",
-            )
+        after=needed(
+            lambda: [*batches(runs_in(*PAIR_STUDIES)), *patch_batches(*PAIR_STUDIES)],
+            "study of two deformable bodies, by its role",
         ),
         recipe=recipe("gather_pairs"),
     output:
@@ -120,9 +114,7 @@ rule gather_pairs:
 rule convergence:
     """Critical lengths against mesh and steps"""
     input:
-        tables=ancient(
-            needed(lambda: lengths_of(*CONVERGENCE_STUDIES), "study with role: convergence")
-        ),
+        tables=needed(lambda: lengths_of(*CONVERGENCE_STUDIES), "study with role: convergence"),
         recipe=recipe("convergence"),
     output:
         multiext(f"{RESULTS}/convergence", ".csv", ".nc"),
@@ -139,9 +131,7 @@ rule convergence:
 rule sensitivity:
     """Sensitivity of critical lengths"""
     input:
-        after=ancient(
-            needed(lambda: batches(runs_for("sensitivity")), "study with role: sensitivity")
-        ),
+        after=needed(lambda: batches(runs_for("sensitivity")), "study with role: sensitivity"),
         recipe=recipe("sensitivity"),
     output:
         multiext(f"{RESULTS}/sensitivity", ".csv", ".nc"),
@@ -161,9 +151,7 @@ rule sensitivity:
 rule gather_literature:
     """The literature's lengths, simulated"""
     input:
-        after=ancient(
-            needed(lambda: batches(runs_for("literature")), "study with role: literature")
-        ),
+        after=needed(lambda: batches(runs_for("literature")), "study with role: literature"),
         recipe=recipe("gather_literature"),
     output:
         multiext(f"{RESULTS}/literature", ".csv", ".nc"),

@@ -247,9 +247,8 @@ class Plan:
 
 def _given(value: Any, wildcards: Any) -> Any:
     """The value of a parameter or an input, which may be a function or a pattern of wildcards."""
-    function = getattr(value, "callable", value)  # ancient() wraps it
-    if callable(function):
-        return function(wildcards)
+    if callable(value):
+        return value(wildcards)
     if hasattr(value, "apply_wildcards") and "{" in value:
         return str(value.apply_wildcards(vars(wildcards)))
     return value

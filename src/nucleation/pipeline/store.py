@@ -201,6 +201,7 @@ class Store:
         with self._unfinished() as place:
             for name in (NOTE, *read_note(entry)["files"]):
                 shutil.copyfile(entry / name, place / name)
+                shutil.copystat(entry / name, place / name)  # made when it was made there
             read_note(place, entry.name, whole=True)
             self._publish(place, entry.name)
 

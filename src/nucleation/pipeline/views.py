@@ -55,6 +55,8 @@ def show(recipe: Recipe) -> None:
             lay(Path(file), Path(recipe.stored(file)))
         else:
             write(Path(file), recipe.manifest())
+            newest = max(os.stat(part.stored(part.files[0])).st_mtime for part in recipe.parts)
+            os.utime(file, (newest, newest))  # what was made of the parts is newer than the list
 
 
 def is_shown(recipe: Recipe, store: Store) -> bool:
