@@ -26,7 +26,7 @@ from typing import Any
 from .job import FORCED
 from .recipes import Recipe, listed, read
 from .store import NOTE, PATTERN, Store, StoreError, key_in, others, plain
-from .views import is_shown, leads_nowhere, show, withdraw, write
+from .views import can_link, is_linked, is_shown, leads_nowhere, show, withdraw, write
 
 RECIPES = "recipes"  # directory in a store, with one for each directory of results
 HEAD = re.compile(rf'{{"key": "({PATTERN})"'.encode())  # of a recipe's file
@@ -101,11 +101,17 @@ class Plan:
         return others(strict=False)
 
     @cached_property
+    def _links(self) -> bool:
+        """Whether there can be links: where not, copies are left, of whatever time they are."""
+        return can_link(self.store.directory)
+
+    @cached_property
     def _makers(self) -> tuple[dict[str, str], list[tuple[Any, str]]]:
         """Rules by their files, and those with wildcards by the patterns of these."""
         fixed, patterns = {}, []
         for rule in self._names:
-            for file in getattr(self._rules, rule).output:
+            # of the rule itself: its proxy has no constraints of wildcards
+            for file in getattr(self._rules, rule).rule.output:
                 if "{" in str(file):
                     patterns.append((file, rule))
                 else:
@@ -166,7 +172,8 @@ class Plan:
         }
         params = {name: _given(value, names) for name, value in asked.params.items()}
         before = inputs.pop("after", [])  # batches, of which `reads` says what is read
-        sources = inputs | params.pop("reads", {})
+        read = {role: self._placed(paths) for role, paths in params.pop("reads", {}).items()}
+        sources = inputs | read
         found = Recipe(
             name=self._name(files[0]),
             files=files,
@@ -174,13 +181,18 @@ class Plan:
             call=params.pop("call", ""),
             loads=list(params.pop("loads", [])),
             sources={role: self._source(paths) for role, paths in sources.items()},
-            parts=[*filter(None, map(self.recipe, params.pop("makes", [])))],
+            parts=[*filter(None, map(self.recipe, self._placed(params.pop("makes", []))))],
             values=params,
         )
         self._inputs[found.name] = [
             path for paths in (*inputs.values(), before) for path in listed(paths)
         ]
         return found
+
+    def _placed(self, paths: Any) -> Any:
+        """Files of a parameter with the prefix that a module may have; Snakemake sees to inputs."""
+        prefix = self.results.removesuffix(self._configured)
+        return prefix + paths if isinstance(paths, str) else [prefix + path for path in paths]
 
     def _name(self, file: str) -> str:
         """The name of a result: that of its first file, without the suffix."""
@@ -209,7 +221,7 @@ class Plan:
         if self.runs:
             self._update_views(recipe, file)
         shown = is_shown(recipe, self.store)
-        if not shown and not self.runs:
+        if not self.runs and not (shown and is_linked(recipe)):
             self._kept[rule] += all(self._is_kept(one.key) for one in recipe.needed)
             for path in map(Path, recipe.files):
                 if leads_nowhere(path):  # Snakemake would stop there
@@ -225,7 +237,7 @@ class Plan:
             if self.store.note(one.key) is None and self.store.take(one.key, self._others):
                 self._taken += 1
         for one in (recipe, *recipe.parts):
-            if is_shown(one, self.store):
+            if is_shown(one, self.store) and (is_linked(one) or not self._links):
                 continue
             if all(self.store.note(part.key) for part in one.needed):
                 show(one)

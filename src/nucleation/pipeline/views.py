@@ -68,6 +68,23 @@ def is_shown(recipe: Recipe, store: Store) -> bool:
     return all(shows(Path(file), Path(recipe.stored(file))) for file in recipe.files)
 
 
+def is_linked(recipe: Recipe) -> bool:
+    """Whether the files of a result are links, of which Snakemake sees the result's time."""
+    return not recipe.call or all(map(os.path.islink, recipe.files))
+
+
+def can_link(directory: Path) -> bool:
+    """Whether a directory can have links."""
+    link = directory / f".link.{os.getpid()}.tmp"
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        link.symlink_to(".")
+        link.unlink()
+    except OSError:
+        return False
+    return True
+
+
 def _text(file: Path) -> str | None:
     try:
         return file.read_text("utf-8") if file.is_file() else None
