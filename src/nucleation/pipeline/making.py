@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from ..analysis.rows import rows_of, without_event
 from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError, is_table, to_csv
 from ..model.quantities import ParameterError
@@ -32,6 +33,9 @@ from .views import show
 
 EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 """Errors that are told in one line: what to do about them is outside of the code."""
+
+LENGTHS = "lengths/"
+"""Directory of the tables of studies, whose runs without an event are warned of."""
 
 OF_MACHINE = ("wall_seconds", "peak_megabytes", "created", "versions", "command")
 """What differs between two results of one recipe."""
@@ -118,6 +122,10 @@ class Maker:
             return run_of(recipe, self.put, self.origin(recipe))
         made = self.called(recipe)
         self.put(recipe, made)
+        if isinstance(made, xr.Dataset) and "onset_time" in made and recipe.name.startswith(LENGTHS):
+            for line in without_event(rows_of(made)):
+                study = recipe.name.removeprefix(LENGTHS)
+                print(f"Warning: study {study}: {line}", file=sys.__stderr__)
         return made
 
     def called(self, recipe: Recipe, **more: Any) -> Any:
