@@ -163,7 +163,7 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
 
 def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     listed = workflow("--list-rules").stdout
-    texts = dict(re.findall(r"^(\w+)\n    (\S.*)$", listed, re.M))
+    texts = dict(re.findall(r"^(\w+) \((.+)\)$", listed, re.M))
     modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
     assert len(modules) > 9
     assert modules == {name for name in texts if name.startswith("figure_")}

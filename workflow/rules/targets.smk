@@ -187,6 +187,12 @@ rule patch_convergence:
         f"{RESULTS}/patch_convergence.csv",
 
 
+rule figure_crosscheck:
+    """The figure of both solvers"""
+    input:
+        rules.draw_figure_crosscheck.output,
+
+
 rule crosscheck:
     """The same runs by an independent solver, and the figure of both"""
     input:
