@@ -47,7 +47,8 @@ def test_default_target_is_the_whole_paper(paper):
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
         ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
                     "evaluate_claims": 1}),
-        ("results/quick/figures/study_drop.png", {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
+        ("results/quick/figures/study_drop.png",
+         {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
         ("crosscheck", {"crosscheck_own": 4, "crosscheck_freefem": 4, "compare_crosscheck": 1,
                         "draw_figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],

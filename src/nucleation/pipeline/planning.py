@@ -242,16 +242,15 @@ class Plan:
             if is_shown(one, self.store) and (is_linked(one) or not self._links):
                 continue
             changed = True
+            earlier = self.store.entry(key_of(file) or "none")
+            for path in one.files:
+                withdraw(Path(path), earlier / Path(recipe.stored(path)).name)
             if all(self.store.note(part.key) for part in one.needed):
                 show(one)
                 self._shown += one is recipe
                 for path in one.files:
                     # what Snakemake noted is of another result
                     self._workflow.persistence.cleanup_metadata(self._files[path])
-            else:
-                earlier = self.store.entry(key_of(file) or "none")
-                for path in one.files:
-                    withdraw(Path(path), earlier / Path(recipe.stored(path)).name)
         if changed:
             self._workflow.iocache.clear()  # Snakemake may have looked at the files before
 
