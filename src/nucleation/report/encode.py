@@ -64,8 +64,7 @@ def script_json(value: Any) -> Markup:
 def caption_html(template: str, params: dict[str, Any]) -> str:
     """A caption as HTML, from reStructuredText with Jinja2's placeholders.
 
-    Its parameters are those of a rule, ``snakemake.params.NAME`` or ``snakemake.wildcards.NAME``, as
-    in Snakemake's own report.
+    They are ``snakemake.params.NAME`` and ``snakemake.wildcards.NAME``, as in Snakemake's report.
 
     Raises
     ------
@@ -74,7 +73,9 @@ def caption_html(template: str, params: dict[str, Any]) -> str:
     docutils.utils.SystemMessage
         For a mistake in the text.
     """
-    text = Environment(undefined=StrictUndefined).from_string(template).render(
-        snakemake={"params": params, "wildcards": params}
+    text = (
+        Environment(undefined=StrictUndefined)
+        .from_string(template)
+        .render(snakemake={"params": params, "wildcards": params})
     )
     return publish_parts(text, writer="html5", settings_overrides=CAPTIONS)["body"]
