@@ -111,9 +111,9 @@ def test_damage_leftovers_and_strangers_are_found(linked):
 
 
 def files(directory):
-    """Contents of all files but of recipes, which planning writes."""
+    """Contents of all files but of recipes, which planning writes, and of logs."""
     found = [path for path in directory.rglob("*") if path.is_file()]
-    return {path: path.read_bytes() for path in found if "recipes" not in path.parts}
+    return {path: path.read_bytes() for path in found if not {"recipes", "logs"} & {*path.parts}}
 
 
 def of_table_s1(workflow, coefficient, results, target="table_s1"):

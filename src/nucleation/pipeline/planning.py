@@ -29,6 +29,7 @@ from .store import NOTE, PATTERN, Store, StoreError, key_in, others, plain
 from .views import can_link, is_linked, is_shown, leads_nowhere, show, withdraw, write
 
 RECIPES = "recipes"  # directory in a store, with one for each directory of results
+WORKING = "directory"  # file beside recipes: where they were planned, as seen from the store
 HEAD = re.compile(rf'{{"key": "({PATTERN})"'.encode())  # of a recipe's file
 
 
@@ -82,10 +83,14 @@ class Plan:
 
     @cached_property
     def place(self) -> str:
-        """The directory of the recipes in the store, which other results may share."""
+        """The directory of the recipes in the store, which others may use at the same time."""
+        places = [self._from_store(place) for place in (self.results, ".")]
+        mark = hashlib.sha256("\n".join(places).encode()).hexdigest()[:8]
+        return f"{self.store.directory}/{RECIPES}/{mark}"
+
+    def _from_store(self, place: str) -> str:
         real = os.path.realpath
-        where = os.path.relpath(real(self.results), real(self.store.directory))
-        return f"{self.store.directory}/{RECIPES}/{hashlib.sha256(where.encode()).hexdigest()[:8]}"
+        return os.path.relpath(real(place), real(self.store.directory))
 
     @cached_property
     def runs(self) -> bool:
@@ -211,6 +216,8 @@ class Plan:
         file = f"{self.place}/{self._name(str(first))}.json"
         if self._workflow.is_main_process:  # and not a job, which takes its recipe as it is
             try:
+                if not os.path.exists(f"{self.place}/{WORKING}"):
+                    write(Path(self.place, WORKING), self._from_store("."))
                 self._write(rule, self._of_rule(rule, wildcards), Path(file))
             except Exception as error:  # Snakemake would take an old file in the result's place
                 raise SystemExit(f"{rule} can't be planned: {error}") from None
@@ -288,18 +295,28 @@ def key_of(file: Path) -> str | None:
 def kept_recipes(store: Store) -> Iterator[tuple[Recipe, list[str]]]:
     """The recipes of all directories of results that share a store, with their planned keys.
 
+    Those of a working directory that is gone are left out.
+
     Raises
     ------
     StoreError
         If one can't be read: nothing can be said of what is used.
     """
-    for file in sorted(store.directory.glob(f"{RECIPES}/*/**/*.json")):
-        try:
-            yield read(file)
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise StoreError(
-                f"{file} can't be read: {error!r}. Delete it, and plan again"
-            ) from None
+    for place in sorted(store.directory.glob(f"{RECIPES}/*")):
+        for file in sorted(place.glob("**/*.json")) if _is_in_use(place, store) else []:
+            try:
+                yield read(file)
+            except (OSError, ValueError, KeyError, TypeError) as error:
+                message = f"{file} can't be read ({error!r}): delete it, plan again"
+                raise StoreError(message) from None
+
+
+def _is_in_use(place: Path, store: Store) -> bool:
+    """Whether the working directory of some recipes is still there."""
+    try:
+        return (store.directory.resolve() / (place / WORKING).read_text("utf-8")).is_dir()
+    except OSError:
+        return True
 
 
 def referred(store: Store) -> set[str]:

@@ -163,7 +163,8 @@ def first_growing(
 
     Growth begins between two of the lengths tried, with a pair of modes that oscillates
     (:mod:`nucleation.theory.creep.lengths`). L_s is where a parabola through the pair's growth
-    vanishes. Where the pair oscillates in a narrow window only, that is not where growth begins, and L_s is bisected.
+    vanishes. Where the pair oscillates in a narrow window only, that is not where growth begins,
+    and L_s is bisected.
 
     Raises
     ------
