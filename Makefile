@@ -136,8 +136,8 @@ released:
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
 	@$(BIN)/python -m nucleation.pipeline.bundle restore "$$FILE" "$$CONFIG"
 
-schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
-	PYTHONPATH=src $(BIN)/python -m nucleation.configuration.load > config/schema.yaml
+schema: $(STAMP) ## Make config/schema.json, with which a text editor checks configurations (docs/studies.md)
+	$(BIN)/python -m nucleation.configuration.schema > config/schema.json
 
 # For all Pythons and machines at once, with one version of a package on all of them if there is one.
 lock: ## Pin the newest versions of what pyproject.toml names in environment.txt (needs uv)

@@ -15,8 +15,18 @@ pytest_plugins = ("coarse_run",)
 
 # make test hands its own settings (VENV=...) to every make below it
 for name in (
-    "MAKEFLAGS", "MFLAGS", "MAKELEVEL", "VENV", "PYTHON", "CORES", "TARGETS", "CONFIG", "FILE",
-    "RELEASE", "RESULTS", "PRUNE",
+    "MAKEFLAGS",
+    "MFLAGS",
+    "MAKELEVEL",
+    "VENV",
+    "PYTHON",
+    "CORES",
+    "TARGETS",
+    "CONFIG",
+    "FILE",
+    "RELEASE",
+    "RESULTS",
+    "PRUNE",
 ):
     os.environ.pop(name, None)
 

@@ -77,8 +77,14 @@ SIMULATE = [
     (["new.nc", "--n-x", "20000"], ["n_x = 20000", "MB", "memory"]),
     (["new.nc", "--memory", "1 GPa"], ["memory", "MB is needed"]),
     (["new.nc", "--aging-coefficient", "0"], ["a + zeta = 0 is not positive"]),
-    (["new.nc", "--run", "x", "--config", CONFIG], ["--run = 'x'", "no study x; studies: paper, conv"]),
-    (["new.nc", "--run", "paper-aging-H0.005", "--config", CONFIG], ["did you mean paper-aging-H0"]),
+    (
+        ["new.nc", "--run", "x", "--config", CONFIG],
+        ["--run = 'x'", "no study x; studies: paper, conv"],
+    ),
+    (
+        ["new.nc", "--run", "paper-aging-H0.005", "--config", CONFIG],
+        ["did you mean paper-aging-H0"],
+    ),
     (["new.nc", "--direct-effect", "0.01", "--aging-coefficient", "0.1"], ["not allowed together"]),
     (["new.nc", "--direct-effect", "2"], ["direct_effect = 2.0", "(0, 1)"]),
     (["new.nc", "--initial-shear-stress", "1kPa"], ["1000 Pa", "initial_stress"]),

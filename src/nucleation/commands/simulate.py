@@ -47,8 +47,9 @@ MEMORY = declarations(Limits)["memory"]
 @click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
 @click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
 def command(
-    output: Path, file: Path | None, run_id: str | None, config: str | None, force: bool, dry_run: bool,
-    as_json: bool, length_over_critical: float | None, memory: float | None, **options: Any,
+    output: Path, file: Path | None, run_id: str | None, config: str | None, force: bool,
+    dry_run: bool, as_json: bool, length_over_critical: float | None, memory: float | None,
+    **options: Any,
 ) -> int:  # fmt: skip
     """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
 

@@ -22,7 +22,6 @@ from .strict_yaml import read_yaml
 from .studies import study_settings
 from .study_names import in_type
 
-
 CHECKOUT = Path(__file__).parents[3]
 DEFAULTS = (CHECKOUT / "config" / "config.yaml", CHECKOUT / "config" / "beyond.yaml")
 """The default configuration: the paper's, and the studies beyond it."""
@@ -137,7 +136,3 @@ def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:
         return parse("", value, entry) if entry else value
     except ParameterError:
         return value
-
-
-if __name__ == "__main__":  # python -m nucleation.configuration.load > config/schema.yaml
-    print(schema.text(), end="")

@@ -44,7 +44,7 @@ def value_problems(values: Any) -> Iterator[str]:
         keys = {k: _several(e) if e.many else _single(e) for k, e in entries.items()}
         checks[group] = _mapping(keys)
     checks["studies"] = _studies
-    yield from _mapping(checks, needed=["studies"])((), values)
+    yield from _mapping(checks)((), values)
 
 
 def _studies(place: Place, given: Any) -> Iterator[str]:
@@ -78,7 +78,9 @@ def _study() -> Check:
     return _mapping({**settings, "defaults": defaults, "runs": _list(entry)}, needed=["runs"])
 
 
-def _mapping(checks: Mapping[str, Check], needed: Iterable[str] = (), filled: bool = False) -> Check:
+def _mapping(
+    checks: Mapping[str, Check], needed: Iterable[str] = (), filled: bool = False
+) -> Check:
     """The check of a mapping whose keys have these checks."""
 
     def check(place: Place, given: Any) -> Iterator[str]:
