@@ -1,28 +1,27 @@
-"""Jobs of Snakemake without their start: each script is run by a fork of a process that waits.
+"""Jobs of Snakemake without their start: each command is run by a fork of a process that waits.
 
 A job takes a second of processor time before it begins, nearly all of it imports. As with
-:mod:`warm_snakemake`, what is forked holds packages of others alone: a script loads the project's
-own code anew, from wherever Snakemake's environment says.
+:mod:`warm_snakemake`, what is forked holds packages of others alone: a job loads the project's own
+code anew, from wherever Snakemake's environment says.
 """
 
-import contextlib
 import json
 import os
 import runpy
 import selectors
+import shlex
 import signal
 import socket
+import subprocess
 import sys
 import traceback
 from collections.abc import Mapping
-from subprocess import CalledProcessError
 from typing import Any, NoReturn
 
 
 def serve_jobs() -> None:
-    """Have the Snakemake of this process run its scripts so; to be called before it begins."""
-    from snakemake.benchmark import benchmarked
-    from snakemake.script import PythonScript
+    """Have the Snakemake of this process run its jobs so; to be called before it begins."""
+    import snakemake.shell
 
     address = f"\0jobs-of-{os.getpid()}"
     listener = socket.socket(socket.AF_UNIX)
@@ -34,22 +33,48 @@ def serve_jobs() -> None:
         _serve(listener, alive)
     os.close(alive)
     listener.close()
+    snakemake.shell.sp = Subprocess(address)
 
-    def execute_script(self: Any, fname: str, edit: bool = False) -> None:
-        with socket.socket(socket.AF_UNIX) as job, job.makefile("rw") as talk:
-            job.connect(address)
-            asked = {"script": fname, "directory": os.getcwd(), "environment": {**os.environ}}
-            print(json.dumps(asked), file=talk, flush=True)
-            measured = contextlib.nullcontext()
-            pid = int(talk.readline())
-            if self.bench_record is not None:
-                measured = benchmarked(pid, self.bench_record)
-            with measured:
-                code = int(talk.readline() or -signal.SIGKILL)
-        if code:
-            raise CalledProcessError(code, f"python {fname}")
 
-    PythonScript.execute_script = execute_script
+class Subprocess:
+    """The module of that name, but for commands that run a module of this project."""
+
+    def __init__(self, address: str) -> None:
+        self._address = address
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(subprocess, name)
+
+    def Popen(self, command: Any, **options: Any) -> Any:  # noqa: N802  as it is called there
+        words = shlex.split(command) if isinstance(command, str) else []
+        if "-m" in words and words[words.index("-m") + 1].startswith("nucleation.pipeline"):
+            return Job(self._address, words[words.index("-m") + 1 :], options.get("env"))
+        return subprocess.Popen(command, **options)
+
+
+class Job:
+    """A command that a fork runs, with the methods of a process."""
+
+    def __init__(self, address: str, words: list[str], environment: Mapping | None) -> None:
+        self._socket = socket.socket(socket.AF_UNIX)
+        self._socket.connect(address)
+        self._talk = self._socket.makefile("rw")
+        asked = {
+            "words": words, "directory": os.getcwd(), "environment": {**(environment or os.environ)}
+        }  # fmt: skip
+        print(json.dumps(asked), file=self._talk, flush=True)
+        self.pid = int(self._talk.readline())
+
+    def wait(self) -> int:
+        code = int(self._talk.readline() or -signal.SIGKILL)
+        self._socket.close()
+        return code
+
+    def kill(self) -> None:
+        os.kill(self.pid, signal.SIGKILL)
+
+    def terminate(self) -> None:
+        os.kill(self.pid, signal.SIGTERM)
 
 
 def _serve(listener: socket.socket, alive: int) -> NoReturn:
@@ -72,18 +97,18 @@ def _serve(listener: socket.socket, alive: int) -> NoReturn:
 
 
 def _run(asked: Mapping[str, Any]) -> int:
-    """Run a script as a program; the exit code that it would have."""
+    """Run a module as a program; the exit code that it would have."""
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     os.chdir(asked["directory"])
     os.environ.clear()
     os.environ.update(asked["environment"])
-    script = asked["script"]
-    sys.argv = [script]
+    module = asked["words"][0]
+    sys.argv = asked["words"]
     own = os.environ.get("PYTHONPATH", "")
-    sys.path[:1] = [os.path.dirname(script), *filter(None, own.split(os.pathsep))]
+    sys.path[:1] = [os.getcwd(), *filter(None, own.split(os.pathsep))]
     code: Any = 0
     try:
-        runpy.run_path(script, run_name="__main__")
+        runpy.run_module(module, run_name="__main__", alter_sys=True)
     except SystemExit as end:
         code = end.code
     except BaseException:

@@ -25,6 +25,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 import yaml
+from nucleation.pipeline.steps import Task
 from processes import ENVIRONMENT, ROOT, Done, Lost, Running, require
 from warm_snakemake import warm
 
@@ -32,7 +33,6 @@ from nucleation.configuration.load import load
 from nucleation.datasets import netcdf, variables
 from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
 from nucleation.pipeline.running import UNFINISHED, task_of_run
-from nucleation.pipeline.steps import Task
 from nucleation.pipeline.store import Store, StoreError, key_in, path_in, read_note
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))

@@ -1,16 +1,21 @@
 """What the law makes of the theory's patch for a user's fault, and when it is not to be trusted."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from configurations import CONFIG
 
 from nucleation.configuration.load import load
 from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import interface_state
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
 from nucleation.patch.expected_drop import NoDrop, expected_drop
+from nucleation.theory.critical import theory_lengths
+from nucleation.theory.transfer import bodies_of
 
 THEORY = 0.4509  # m
 FAULT = Parameters(
@@ -74,6 +79,22 @@ def test_examples_that_the_law_does_not_know(name):
 def test_what_is_not_trusted(fault, theory, said):
     found = expected_drop(fault, theory)
     assert not found.trusted and said in found.doubt
+
+
+@pytest.mark.parametrize("zeta", [0.05, 0.14, 0.4])
+def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
+    """No drop before growth begins, and no trust in a mode that is followed hardly beyond.
+
+    Shorter patches have other modes that oscillate and decay a thousand times faster.
+    """
+    law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
+    fault = FAULT.replaced({"geometry.height": 0.01})
+    fault = dataclasses.replace(fault, friction=law)
+    critical = float(theory_lengths([(*bodies_of(fault), interface_state(fault))])[0])
+    found = expected_drop(fault, critical)
+    start = found.closed_form.stability_length
+    assert 0.4 * critical < start < found.drop.low < found.drop.length < 1.3 * start
+    assert "whose mode could be followed" in found.doubt
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Where growth of the patch begins: few frames instead of all, and the fit at the crossing."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -81,6 +82,37 @@ def test_rough_crossing_ignores_single_instants_and_gaps():
     assert np.isnan(rough_crossing(np.arange(7.0), -np.ones(7)))
     assert np.isnan(rough_crossing(np.arange(7.0), np.ones(7)))
     assert np.isnan(rough_crossing(np.arange(7.0), np.full(7, np.nan)))
+
+
+def test_a_narrow_window_of_oscillation_is_found(monkeypatch):
+    """Between two of the instants scanned the pair begins to grow, and stops to oscillate."""
+    growth_begins, length = 0.31, np.linspace(0.1, 0.6, 4001)
+
+    class Creep:
+        grid = SimpleNamespace(dx=1e-3, n_x=600)
+
+        def __init__(self, record):
+            self.length = length
+
+        def growth(self, frames):
+            near = length[frames] - growth_begins
+            return np.where(np.abs(near) < 0.004, 300.0 * near + 9j, np.nan + 0j)
+
+        def fastest(self, frames):
+            near = length[frames] - growth_begins
+            return np.where(near > 0.0, 300.0 * near, -0.01) + 0j
+
+        def patch(self, frame):
+            mode = np.ones(0)
+            return SimpleNamespace(nodes=np.arange(0), mode=lambda rate: (mode, mode)), 0j
+
+        def dataset(self, fit, mode):
+            return xr.Dataset(fit)
+
+    monkeypatch.setattr(growth, "_Creep", Creep)
+    monkeypatch.setattr(growth, "Record", lambda simulation, settings: None)
+    found = follow_patch(xr.Dataset(attrs={"parameters": ""}), ExtractionSettings())
+    assert float(found["stability_length"]) == pytest.approx(growth_begins, rel=1e-6)
 
 
 def test_line_through_the_crossing():

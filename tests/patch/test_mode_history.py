@@ -6,7 +6,7 @@ import pytest
 from configurations import CONFIG, papers
 
 from nucleation.patch.delay import growth
-from nucleation.patch.mode_history import mode_history
+from nucleation.patch.mode_history import followed, mode_history
 
 RUNS = {run.id: run for run in papers().runs}
 TABLE = pd.read_csv(CONFIG.parent / "results" / "reference" / "drop.csv")
@@ -43,3 +43,14 @@ def test_all_kinds_heights_and_laws():
     off = 100.0 * (found / simulated - 1.0)
     assert np.sqrt(np.mean(off**2)) < 0.8 and np.abs(off).max() < 2.1
     assert found == pytest.approx(tabulated, rel=1e-6)
+
+
+def test_a_mode_is_followed_until_its_rate_jumps():
+    """To another mode, or where it leaves its oscillation behind."""
+    length = np.linspace(0.8, 1.2, 9)
+    pair = 40.0 * (length - 1.0) + 1j * np.sqrt(np.maximum(100.0 - 4e3 * (length - 1.0) ** 2, 0.0))
+    alone = np.where(pair.imag > 0.0, pair, np.nan)
+    assert followed(length, alone, 1.01).tolist() == [1, 2, 3, 4, 5, 6]
+    with_another = np.where(pair.imag > 0.0, pair, -4e4 + 300j)
+    assert followed(length, with_another, 1.01).tolist() == [1, 2, 3, 4, 5, 6]
+    assert followed(length, np.full(9, np.nan + 0j), 1.01).size == 0

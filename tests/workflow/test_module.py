@@ -42,7 +42,7 @@ STUDY = {"defaults": {"n_x": 40, "n_y": 4}, "runs": [{"height": [0.05, 0.1]}]}
 def host(workflow, tmp_path):
     """A workflow of somebody's own, with what it makes made once."""
     (tmp_path / "Snakefile").write_text(MODULE.join(OWN.split("\n\n", 1)))
-    (tmp_path / "workflow").symlink_to(ROOT / "workflow")
+    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
     (tmp_path / "in.txt").write_text("a\n")
     configure(tmp_path, 1)
     made = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
@@ -77,7 +77,7 @@ def test_parameters_and_inputs_of_the_host_count(host):
 def test_rules_of_the_module_are_the_hosts(workflow, tmp_path):
     every = "\nrule every:\n    default_target: True\n    input: rules.fault_lengths.input\n"
     (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{MODULE}{every}')
-    (tmp_path / "workflow").symlink_to(ROOT / "workflow")
+    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
     configure(tmp_path, 1)
     other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
     expected = {"fault_simulate": 2, "fault_extract": 1, "fault_gather_lengths": 1}

@@ -29,9 +29,9 @@ def test_default_target_is_the_whole_paper(paper):
     once = ("theory", "gather_lengths", "write_table_s1", *DRAWN, *CLAIMING)
     assert paper.planned() == {
         "extract": 2,
-        "patches_converged": 1,
+        "follow_patches": 1,
+        "simulate": len(batches),
         **dict.fromkeys(once, 1),
-        **{f"simulate_{name.replace('-', '_')}": 1 for name in batches},
     }
 
 
@@ -45,9 +45,9 @@ def test_default_target_is_the_whole_paper(paper):
         ("figure_3", {"theory": 1, "simulate": 6, "extract": 2, "gather_lengths": 1,
                       "draw_figure_3": 1}),
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
-        ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "patch": 1,
+        ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
                     "evaluate_claims": 1}),
-        ("figure_study_drop", {"batch": 2, "join_batches": 1, "draw_study": 1}),
+        ("results/quick/figures/study_drop.png", {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
         ("crosscheck", {"crosscheck_own": 4, "crosscheck_freefem": 4, "compare_crosscheck": 1,
                         "draw_figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],
@@ -102,12 +102,13 @@ def test_bad_command_line_stops_before_any_job(workflow, arguments, fragment):
     assert not (workflow.directory / "results").exists()
 
 
-def test_warnings_come_once_before_the_jobs(workflow):
-    done = workflow("table_s1")
+def test_warnings_of_a_study_come_once(workflow):
+    assert "Warning" not in workflow("table_s1", "--dry-run").stdout, "it needs no study"
+    done = workflow("lengths", "--dry-run")
     assert done.returncode == 0, done.stdout
     (warning,) = re.findall("Warning: studies.paper: mesh too coarse along x .*", done.stdout)
     assert "2.6 to a process zone of 0.104 m; recommended is n_x = 92 or more" in warning
-    assert done.stdout.index(warning) < done.stdout.index("Building DAG of jobs")
+    assert done.stdout.index(warning) < done.stdout.index("Job stats")
 
 
 @pytest.mark.parametrize(
@@ -157,16 +158,19 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
     }
     planned = workflow.configured({"studies": studies}).planned()
     once = {"extract": 2, "gather_lengths": 1, "draw_study": 2}
-    assert planned == {"simulate": 2, **once}, "a run that two studies have in common is made once"
+    assert planned == {"simulate": 3, **once}
 
 
-def test_every_target_has_a_text_and_every_figure_is_a_target(workflow):
-    listed = set(re.findall(r"^(\w+)  +\S", workflow("targets", "--quiet", "all").stdout, re.M))
+def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
+    listed = workflow("--list-rules").stdout
+    texts = dict(re.findall(r"^(\w+)\n    (\S.*)$", listed, re.M))
     modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
     assert len(modules) > 9
-    figures = {name for name in listed if re.match("figure_(?!study_)", name)}
-    assert modules == figures and {"paper", "lengths", "report"} <= listed
-    assert not {"simulate", "extract", "draw_figure_3"} & listed
+    assert modules == {name for name in texts if name.startswith("figure_")}
+    assert {"paper", "lengths", "report", "simulate", "draw_figure_3"} <= texts.keys()
+    rules = "".join(path.read_text() for path in ROOT.glob("workflow/rules/*.smk"))
+    rules += (ROOT / "Snakefile").read_text()
+    assert set(re.findall(r"^rule (\w+):$", rules, re.M)) == texts.keys()
 
 
 def test_article_on_paper_has_the_figures_beyond(workflow):

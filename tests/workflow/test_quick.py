@@ -35,7 +35,7 @@ def test_every_file_is_there(results):
         assert (results / "figures" / f"{name}.png").read_bytes().startswith(b"\x89PNG")
     assert "5/18" in (results / "tables" / "table_s1.md").read_text()
     assert len((results / "tables" / "table_s1.csv").read_text().splitlines()) == 8
-    assert {path.name for path in results.rglob(".*")} <= {".links"}
+    assert {path.name for path in results.rglob(".*")} <= set()
 
 
 def test_simulations_carry_their_origin_and_units(quick, results):
@@ -76,7 +76,7 @@ def test_table_of_lengths(quick, results):
     ("section", "values", "expected"),
     [
         ("extraction", {"edge_threshold": 0.2}, {"extract", "gather_lengths", "draw_figure_3",
-                                                 "draw_figure_s2", "patch", *CLAIMING}),
+                                                 "draw_figure_s2", "follow_patches", *CLAIMING}),
         ("curves", {"zeta_over_a": [1.0]}, {"theory", "draw_figure_2", "draw_figure_3",
                                            "draw_figure_s1", *CLAIMING}),
         ("limits", {"memory": 1999.0}, set()),
@@ -104,10 +104,9 @@ WORDS = {
     "src/nucleation/simulation/run.py": "\n# a remark\n",
     "src/nucleation/simulation/stepping.py": '\n"""More words."""\n',
     "src/nucleation/analysis/progress.py": SPARE,
-    "workflow/scripts/simulate.py": "\n# a remark\n",
     "workflow/rules/simulations.smk": "\n# a remark\n",
 }
-OF_SOLVER = {"simulate", "patch", "dispersion"}
+OF_SOLVER = {"simulate", "follow_patches", "dispersion"}
 OF_LENGTHS = {"extract", "gather_lengths", "draw_figure_3", "draw_figure_s2", *CLAIMING}
 EDITS = {
     "words": (WORDS, set()),
@@ -123,5 +122,6 @@ def test_change_of_code_reruns_what_depends_on_it(checkout, additions, expected)
         file = checkout.checkout / path
         file.write_text(file.read_text() + addition)
     planned = checkout.planned()
-    assert set(planned) == expected
+    # of another checkout the template is another file: the job then finds the article in the store
+    assert set(planned) - {"write_article"} == expected - {"write_article"}
     assert planned.get("simulate", 0) in (0, SIMULATIONS)

@@ -68,11 +68,10 @@ def test_new_law_makes_nothing_stale(plain):
 
 def test_code_edited_after_planning_is_refused(plain, tmp_path):
     """The edit is made by the first job itself, between planning and the simulations."""
-    edit(plain, "workflow/scripts/step.py", "run(snakemake)",
-         "import pathlib\n"
-         "_f = pathlib.Path(__file__).parents[2] / 'src/nucleation/simulation/control.py'\n"
-         "_f.write_text(_f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5'))\n\n"
-         "run(snakemake)")  # fmt: skip
+    edit(plain, "src/nucleation/pipeline/job.py", "    recipe, keys = read(recipe_file)\n",
+         "    recipe, keys = read(recipe_file)\n"
+         "    _f = Path(__file__).parents[1] / 'simulation/control.py'\n"
+         "    _f.write_text(_f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5'))\n")  # fmt: skip
     values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},
               "runs": [{"height": 0.1, "tolerance": 0.1}]}}}  # fmt: skip
     mine = plain.configured(values, "edited.yaml")

@@ -2,6 +2,8 @@
 
 import dataclasses
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -29,7 +31,7 @@ def elsewhere(ran, directory):
 
 
 def logs(ran):
-    paths = sorted((ran.directory / "results" / "logs" / "simulations").glob("*.log"))
+    paths = sorted((ran.directory / "results" / "logs" / "batches").glob("*.log"))
     return "".join(path.read_text() for path in paths)
 
 
@@ -43,8 +45,13 @@ def test_results_are_taken_and_wrong_ones_are_made_and_given_again(filled, tmp_p
     monkeypatch.setenv("NUCLEATION_STORES", str(shared))
     taken = elsewhere(first, tmp_path / "taken")
     taken.directory.mkdir()
-    assert taken("simulations").returncode == 0
-    assert logs(taken).count(f"taken from {shared}") == 2
+    seen = taken("simulations", "--dry-run")
+    assert "a run needs none for what is in a store: simulate 2" in seen.stdout
+    assert not (taken.directory / "results" / "simulations").exists()
+    done = taken("simulations")
+    assert done.returncode == 0, done.stdout
+    assert "Shown without a job: 2 results, 2 of them taken from other stores" in done.stdout
+    assert not logs(taken), "no job was needed"
     assert simulations(taken) == simulations(first)
 
     swapped, damaged = sorted(shared.iterdir())
@@ -57,18 +64,27 @@ def test_results_are_taken_and_wrong_ones_are_made_and_given_again(filled, tmp_p
     path.write_bytes(content)
     third = elsewhere(first, tmp_path / "third")
     third.directory.mkdir()
-    assert third("simulations").returncode == 0
-    assert logs(third).count(f"Not taken from {shared}") == 2
-    assert "holds the result of another key" in logs(third)
-    assert "is not what was written" in logs(third)
+    done = third("simulations")
+    assert done.returncode == 0, done.stdout
+    assert f"Not taken from {shared}" in done.stdout
+    assert "holds the result of another key" in done.stdout
+    assert "is not what was written" in done.stdout
     assert simulations(third).keys() == simulations(first).keys()
     assert all(read_note(shared / key, whole=True) for key in Store(shared).listed())
 
 
 def test_job_goes_on_without_a_store_that_its_node_lacks(workflow, monkeypatch):
-    """What jobs of a running Snakemake see: the environment of the process that began it."""
-    monkeypatch.setenv("NUCLEATION_STORES", "/no/such/store")
-    monkeypatch.setenv("NUCLEATION_WARNED", "yes")
+    """A job on a node, as Snakemake would start it there."""
     done = workflow("table_s1")
     assert done.returncode == 0, done.stdout
-    assert "Not used: the store '/no/such/store' is no directory" in done.stdout
+    shutil.rmtree((workflow.directory / "results/quick/tables/table_s1.md").resolve().parent)
+    (recipe,) = (workflow.directory / "results/quick/store/recipes").glob("*/tables/table_s1.json")
+    monkeypatch.setenv("NUCLEATION_STORES", "/no/such/store")
+    monkeypatch.setenv("PYTHONPATH", str(workflow.checkout / "src"))
+    command = [sys.executable, "-m", "nucleation.pipeline.job", recipe, "write_table_s1", "1", "log"]
+    job = subprocess.run(command, cwd=workflow.directory, capture_output=True, text=True)
+    assert job.returncode == 0, job.stderr
+    assert "Not used: the store '/no/such/store' is no directory" in (
+        workflow.directory / "log"
+    ).read_text()
+    assert (workflow.directory / "results/quick/tables/table_s1.md").exists()

@@ -1,72 +1,109 @@
-STATED = read_yaml(Path(SOURCE, "nucleation", "claims", "claims.yaml"))
-PAIRED = "two bodies, simulated"
-
-
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
-# article that tells of them. Both stand on the paper's runs and the converged ones; claims about
-# runs that the configuration does not have can't be checked, and say so.
-make_rule(
-    "evaluate_claims",
-    call="nucleation.claims.evaluation:of_paper",
-    shows="tables/claims",
-    suffix="json",
-    inputs={
-        "theory": only("theory"),
-        "dispersion": only("dispersion"),
-        "lengths": lambda wildcards: lengths_of(*CLAIMED),
-        "longer": lambda wildcards: simulations_of(BLOCKS),
-        "patches": lambda wildcards: patches(*in_role(JUDGED)),
-    },
-    loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
-    statements={k: v for k, v in STATED.items() if k != PAIRED},
-    interface=asdict(settings.main_text_interface),
-    settings=asdict(settings.extraction),
-    longer_runs=[{**run, "role": LONGER} for run in as_dicts(BLOCKS)],
-    patch_ids=[run.id for run in patched_runs(*in_role(JUDGED))],
-    message="Claims of the paper, our numbers and the verdicts",
-    **CONFIGURED("material", "friction", "loading"),
-)
+# article that tells of them. Claims about runs that the configuration does not have can't be checked,
+# and say so.
+PAIRED = "two bodies, simulated"
+PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
+PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map"]
+
+
+@functools.cache
+def statements():
+    """The claims, by subject."""
+    return read_yaml(Path(SOURCE, "nucleation", "claims", "claims.yaml"))
+
+
+rule evaluate_claims:
+    """A verdict on every statement of the paper"""
+    input:
+        theory=f"{RESULTS}/theory.nc",
+        dispersion=f"{RESULTS}/dispersion.nc",
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        after=lambda wildcards: [*batches(longer()), *patch_batches(*in_role(JUDGED))],
+        recipe=recipe("evaluate_claims"),
+    output:
+        multiext(f"{RESULTS}/tables/claims", ".csv", ".md", ".json"),
+    log:
+        f"{RESULTS}/logs/tables/claims.log",
+    params:
+        call="nucleation.claims.evaluation:of_paper",
+        loads=sorted({*plugins(settings.base), *EVOLUTIONS}),
+        reads=lambda wildcards: {
+            "longer": simulations(longer()),
+            "patches": patches(*in_role(JUDGED)),
+        },
+        statements=lambda wildcards: {k: v for k, v in statements().items() if k != PAIRED},
+        interface=asdict(settings.main_text_interface),
+        settings=asdict(settings.extraction),
+        longer_runs=lambda wildcards: [{**run, "role": LONGER} for run in as_dicts(longer())],
+        patch_ids=lambda wildcards: [run.id for run in patched_runs(*in_role(JUDGED))],
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        loading=asdict(settings.base.loading),
+    message:
+        "Claims of the paper, our numbers and the verdicts"
+    shell:
+        JOB
+
 
 # What the paper's theory says of two bodies, by simulations: verdicts of their own, for which
 # those of `claims`, and so `make paper`, do not wait.
-make_rule(
-    "evaluate_pairs",
-    call="nucleation.claims.evaluation:of_pairs",
-    shows="tables/claims_pairs",
-    suffix="md",
-    inputs={"pairs": only("gather_pairs"), "modes": only("pair_modes")},
-    statements={PAIRED: STATED[PAIRED]},
-    message="Claims on two bodies, by simulations",
-)
+rule evaluate_pairs:
+    """Verdicts on what the paper's theory says of two bodies"""
+    input:
+        pairs=f"{RESULTS}/pairs.nc",
+        modes=f"{RESULTS}/pair_modes.nc",
+        recipe=recipe("evaluate_pairs"),
+    output:
+        multiext(f"{RESULTS}/tables/claims_pairs", ".csv", ".md"),
+    log:
+        f"{RESULTS}/logs/tables/claims_pairs.log",
+    params:
+        call="nucleation.claims.evaluation:of_pairs",
+        statements=lambda wildcards: {PAIRED: statements()[PAIRED]},
+    message:
+        "Claims on two bodies, by simulations"
+    shell:
+        JOB
 
-# The same with the figures that come after it, on paper.
-make_rule(
-    "print_article",
-    call="nucleation.claims.printing:write",
-    shows="replication",
-    suffix="pdf",
-    local=True,
-    inputs={
-        "template": str(Path(BASE, "docs", "article.md.in")),
-        "citation": str(Path(BASE, "CITATION.cff")),
-        "claims": only("evaluate_claims"),
-        "lengths": lambda wildcards: lengths_of(*CLAIMED),
-        "figures": lambda wildcards: [steps(f"draw_{name}") for name in PRINTED],
-    },
-    names=lambda wildcards: PRINTED,
-    message="Article on the replication as PDF and LaTeX",
-)
 
-make_rule(
-    "write_article",
-    call="nucleation.claims.evaluation:write_article",
-    shows="article",
-    suffix="md",
-    local=True,
-    inputs={
-        "template": str(Path(BASE, "docs", "article.md.in")),
-        "claims": only("evaluate_claims"),
-        "lengths": lambda wildcards: lengths_of(*CLAIMED),
-    },
-    message="Article on the replication, its numbers from the results",
-)
+rule write_article:
+    """The article on the replication, its numbers from the results"""
+    input:
+        template=str(Path(BASE, "docs", "article.md.in")),
+        claims=f"{RESULTS}/tables/claims.json",
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        recipe=recipe("write_article"),
+    output:
+        f"{RESULTS}/article.md",
+    log:
+        f"{RESULTS}/logs/article.log",
+    localrule: True
+    params:
+        call="nucleation.claims.evaluation:write_article",
+    message:
+        "Article on the replication, its numbers from the results"
+    shell:
+        JOB
+
+
+rule print_article:
+    """The same with the figures that come after it, on paper"""
+    input:
+        template=str(Path(BASE, "docs", "article.md.in")),
+        citation=str(Path(BASE, "CITATION.cff")),
+        claims=f"{RESULTS}/tables/claims.json",
+        lengths=lambda wildcards: lengths_of(*CLAIMED),
+        figures=[f"{RESULTS}/figures/{name}.png" for name in PRINTED],
+        recipe=recipe("print_article"),
+    output:
+        multiext(f"{RESULTS}/replication", ".pdf", ".tex", ".md"),
+    log:
+        f"{RESULTS}/logs/replication.log",
+    localrule: True
+    params:
+        call="nucleation.claims.printing:write",
+        names=PRINTED,
+    message:
+        "Article on the replication as PDF and LaTeX"
+    shell:
+        JOB

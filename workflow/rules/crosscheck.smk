@@ -1,65 +1,105 @@
 # The independent solver: the same runs by FreeFem++ and by the project's own solver. Not a part of
 # `paper`: it needs a program that make doesn't install, and takes twenty minutes.
-from nucleation.verification.crosscheck import freefem, plan
-
-CROSSCHECKS = plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
 FREEFEM_SCRIPTS = sorted(map(str, Path(BASE, "workflow", "crosscheck").glob("*.edp")))
+
+
+@functools.cache
+def crosschecks():
+    """The runs that are made with both solvers, by name."""
+    from nucleation.verification.crosscheck import plan
+
+    return plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
+
+
+def crosschecked(solver):
+    """An input function that gives the records of all runs by one of the solvers."""
+    return lambda wildcards: [f"{RESULTS}/crosscheck/{solver}/{name}.nc" for name in crosschecks()]
 
 
 def freefem_scripts(wildcards):
     """The scripts, if there is a program to run them: without one, nothing at all is started."""
+    from nucleation.verification.crosscheck import freefem
+
     if not freefem.installed():
         raise WorkflowError(freefem.MISSING)
     return FREEFEM_SCRIPTS
 
 
-def crosschecks(solver):
-    """An input function that gives the records of all runs by one of the solvers."""
-    return lambda wildcards: steps.several(f"crosscheck_{solver}", CROSSCHECKS)
+rule crosscheck_own:
+    """A run of the crosscheck by the project's own solver"""
+    input:
+        recipe=recipe("crosscheck_own"),
+    output:
+        f"{RESULTS}/crosscheck/own/{{name}}.nc",
+    log:
+        f"{RESULTS}/logs/crosscheck/own/{{name}}.log",
+    params:
+        call=f"{SIMULATION}:simulate",
+        loads=lambda wildcards: plugins(crosschecks()[wildcards.name]),
+        parameters=lambda wildcards: crosschecks()[wildcards.name].to_dict(),
+    message:
+        "Crosscheck {wildcards.name} with the project's solver"
+    shell:
+        JOB
 
 
-make_rule(
-    "crosscheck_own",
-    call="nucleation.simulation.run:simulate",
-    shows="crosscheck/own/{name}",
-    loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
-    parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-    message="Crosscheck {wildcards.name} with the project's solver",
-)
+rule crosscheck_freefem:
+    """A run of the crosscheck by FreeFem++"""
+    input:
+        scripts=freefem_scripts,
+        recipe=recipe("crosscheck_freefem"),
+    output:
+        f"{RESULTS}/crosscheck/freefem/{{name}}.nc",
+    log:
+        f"{RESULTS}/logs/crosscheck/freefem/{{name}}.log",
+    params:
+        call="nucleation.verification.crosscheck.freefem:of_run",
+        loads=lambda wildcards: plugins(crosschecks()[wildcards.name]),
+        parameters=lambda wildcards: crosschecks()[wildcards.name].to_dict(),
+        crosscheck=asdict(settings.crosscheck),
+        settings=asdict(settings.extraction),
+    message:
+        "Crosscheck {wildcards.name} with FreeFem++"
+    shell:
+        JOB
 
-make_rule(
-    "crosscheck_freefem",
-    call="nucleation.verification.crosscheck.freefem:of_run",
-    shows="crosscheck/freefem/{name}",
-    inputs={"scripts": freefem_scripts},
-    loads=lambda wildcards: plugins(CROSSCHECKS[wildcards.name]),
-    parameters=lambda wildcards: CROSSCHECKS[wildcards.name].to_dict(),
-    crosscheck=asdict(settings.crosscheck),
-    settings=asdict(settings.extraction),
-    message="Crosscheck {wildcards.name} with FreeFem++",
-)
 
-make_rule(
-    "compare_crosscheck",
-    call="nucleation.verification.crosscheck.compare:compared",
-    shows="crosscheck",
-    inputs={"own": crosschecks("own"), "freefem": crosschecks("freefem")},
-    ids=list(CROSSCHECKS),
-    settings=asdict(settings.extraction),
-    message="Crosscheck: differences of the two solvers",
-)
+rule compare_crosscheck:
+    """Differences of the two solvers"""
+    input:
+        own=crosschecked("own"),
+        freefem=crosschecked("freefem"),
+        recipe=recipe("compare_crosscheck"),
+    output:
+        multiext(f"{RESULTS}/crosscheck", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/crosscheck.log",
+    params:
+        call="nucleation.verification.crosscheck.compare:compared",
+        ids=lambda wildcards: list(crosschecks()),
+        settings=asdict(settings.extraction),
+    message:
+        "Crosscheck: differences of the two solvers"
+    shell:
+        JOB
 
-make_rule(
-    "draw_figure_crosscheck",
-    call="nucleation.figures.checks.figure_crosscheck:draw",
-    shows="figures/figure_crosscheck",
-    suffix="png",
-    local=True,
-    inputs={
-        "own": crosschecks("own"),
-        "freefem": crosschecks("freefem"),
-        "table": only("compare_crosscheck"),
-    },
-    settings=asdict(settings.extraction),
-    message="Crosscheck: patch length and driving force by both solvers",
-)
+
+rule draw_figure_crosscheck:
+    """Patch length and driving force by both solvers"""
+    input:
+        own=crosschecked("own"),
+        freefem=crosschecked("freefem"),
+        table=f"{RESULTS}/crosscheck.nc",
+        recipe=recipe("draw_figure_crosscheck"),
+    output:
+        multiext(f"{RESULTS}/figures/figure_crosscheck", ".png", ".pdf"),
+    log:
+        f"{RESULTS}/logs/figures/figure_crosscheck.log",
+    localrule: True
+    params:
+        call="nucleation.figures.checks.figure_crosscheck:draw",
+        settings=asdict(settings.extraction),
+    message:
+        "Crosscheck: patch length and driving force by both solvers"
+    shell:
+        JOB

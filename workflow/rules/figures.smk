@@ -1,61 +1,405 @@
 # One rule draws each figure. What is drawn comes from datasets alone: a rule's inputs bear the names
 # of the parameters of the function that draws.
-def drawing(name):
-    """The module that draws a figure."""
-    (path,) = Path(SOURCE, "nucleation", "figures").rglob(f"{name}.py")
-    return ".".join(path.relative_to(SOURCE).with_suffix("").parts)
+rule draw_figure_1:
+    """Figure 1: the two set-ups"""
+    input:
+        recipe=recipe("draw_figure_1"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_1.png",
+            caption="../report/figure_1.rst",
+            category="The paper's figures",
+        ),
+        f"{RESULTS}/figures/figure_1.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_1.log",
+    localrule: True
+    params:
+        call="nucleation.figures.paper.figure_1:draw",
+    message:
+        "Figure 1: the two set-ups"
+    shell:
+        JOB
 
 
-DRAWN = {
-    "figure_1": {},
-    "figure_2": {"theory": only("theory")},
-    "figure_3": {
-        "theory": only("theory"),
-        "lengths": only("gather_lengths"),
-        "simulation": lambda wildcards: steps("simulate", inset_id(wildcards)),
-    },
-    "figure_s1": {"theory": only("theory")},
-    "figure_s2": {
-        "lengths": lambda wildcards: table_of("paper"),
-        "simulation": lambda wildcards: steps("simulate", space_time_id(wildcards)),
-    },
-    "figure_patch_stability": {
-        "table": only("gather_patches", "patch_stability"),
-        "patches": lambda wildcards: patches(*PATCH_TABLES["patch_stability"]),
-    },
-    "figure_3_extended": {
-        "theory": only("theory"),
-        "lengths": only("gather_lengths"),
-        "table": only("gather_patches", "patch_stability"),
-        "noisy": lambda wildcards: table_of("noisy"),
-    },
-    "figure_drop": {"table": only("gather_drop")},
-    "figure_map": {"grid": only("gather_map")},
-    "figure_patch_theory": {"table": only("gather_patch_theory")},
-    "figure_dispersion": {"dispersion": only("dispersion")},
-    "figure_verification": {"convergence": only("verification")},
-    "figure_convergence": {"table": only("convergence")},
-    "figure_sensitivity": {"table": only("sensitivity")},
-    "figure_pairs": {"table": only("gather_pairs")},
-    "figure_2_simulated": {"table": only("gather_pairs")},
-    "figure_literature": {"table": only("gather_literature")},
-}
-"""The figures that are drawn from datasets alone, with these."""
+rule draw_figure_2:
+    """Figure 2: bimaterial interfaces"""
+    input:
+        theory=f"{RESULTS}/theory.nc",
+        recipe=recipe("draw_figure_2"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_2.png",
+            caption="../report/figure_2.rst",
+            category="The paper's figures",
+        ),
+        f"{RESULTS}/figures/figure_2.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_2.log",
+    localrule: True
+    params:
+        call="nucleation.figures.paper.figure_2:draw",
+    message:
+        "Figure 2: bimaterial interfaces"
+    shell:
+        JOB
 
-SHOWN_RUNS = {"figure_3": inset_id, "figure_s2": space_time_id, "animation": inset_id}
-"""The simulation of which a figure shows more than its lengths."""
 
-for _name, _inputs in DRAWN.items():
-    make_rule(
-        f"draw_{_name}",
-        call=f"{drawing(_name)}:{'draw_run' if _name in SHOWN_RUNS else 'draw'}",
-        shows=f"figures/{_name}",
-        suffix="png",
-        local=True,
-        inputs=_inputs,
-        message=FIGURES[_name].title,
-        **({"id": SHOWN_RUNS[_name]} if _name in SHOWN_RUNS else {}),
-    )
+rule draw_figure_3:
+    """Figure 3: critical length against height"""
+    input:
+        theory=f"{RESULTS}/theory.nc",
+        lengths=f"{RESULTS}/lengths.nc",
+        after=lambda wildcards: batches([inset_run()]),
+        recipe=recipe("draw_figure_3"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_3.png",
+            caption="../report/figure_3.rst",
+            category="The paper's figures",
+        ),
+        f"{RESULTS}/figures/figure_3.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_3.log",
+    localrule: True
+    params:
+        call="nucleation.figures.paper.figure_3:draw_run",
+        reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
+        id=lambda wildcards: inset_run().id,
+    message:
+        "Figure 3: critical length against height"
+    shell:
+        JOB
+
+
+rule draw_figure_s1:
+    """Figure S1: steady-state friction"""
+    input:
+        theory=f"{RESULTS}/theory.nc",
+        recipe=recipe("draw_figure_s1"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_s1.png",
+            caption="../report/figure_s1.rst",
+            category="The paper's figures",
+        ),
+        f"{RESULTS}/figures/figure_s1.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_s1.log",
+    localrule: True
+    params:
+        call="nucleation.figures.paper.figure_s1:draw",
+    message:
+        "Figure S1: steady-state friction"
+    shell:
+        JOB
+
+
+rule draw_figure_s2:
+    """Figure S2: stress in space and time"""
+    input:
+        lengths=lambda wildcards: table_of("paper"),
+        after=lambda wildcards: batches([space_time_run()]),
+        recipe=recipe("draw_figure_s2"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_s2.png",
+            caption="../report/figure_s2.rst",
+            category="The paper's figures",
+        ),
+        f"{RESULTS}/figures/figure_s2.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_s2.log",
+    localrule: True
+    params:
+        call="nucleation.figures.paper.figure_s2:draw_run",
+        reads=lambda wildcards: {"simulation": simulations([space_time_run()])[0]},
+        id=lambda wildcards: space_time_run().id,
+    message:
+        "Figure S2: stress in space and time"
+    shell:
+        JOB
+
+
+rule draw_figure_patch_stability:
+    """Stability of the creeping patch"""
+    input:
+        table=f"{RESULTS}/patch_stability.nc",
+        after=lambda wildcards: patch_batches(*PATCH_TABLES["patch_stability"]),
+        recipe=recipe("draw_figure_patch_stability"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_patch_stability.png",
+            caption="../report/figure_patch_stability.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_patch_stability.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_patch_stability.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_patch_stability:draw",
+        reads=lambda wildcards: {"patches": patches(*PATCH_TABLES["patch_stability"])},
+    message:
+        "Stability of the creeping patch"
+    shell:
+        JOB
+
+
+rule draw_figure_3_extended:
+    """Lengths of the drop and of the patch's stability"""
+    input:
+        theory=f"{RESULTS}/theory.nc",
+        lengths=f"{RESULTS}/lengths.nc",
+        table=f"{RESULTS}/patch_stability.nc",
+        noisy=lambda wildcards: table_of("noisy"),
+        recipe=recipe("draw_figure_3_extended"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_3_extended.png",
+            caption="../report/figure_3_extended.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_3_extended.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_3_extended.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_3_extended:draw",
+    message:
+        "Lengths of the drop and of the patch's stability"
+    shell:
+        JOB
+
+
+rule draw_figure_drop:
+    """Where the force drops under a declared perturbation"""
+    input:
+        table=f"{RESULTS}/drop.nc",
+        recipe=recipe("draw_figure_drop"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_drop.png",
+            caption="../report/figure_drop.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_drop.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_drop.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_drop:draw",
+    message:
+        "Where the force drops under a declared perturbation"
+    shell:
+        JOB
+
+
+rule draw_figure_map:
+    """Where the theory is right: a map over height and weakening"""
+    input:
+        grid=f"{RESULTS}/map.nc",
+        recipe=recipe("draw_figure_map"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_map.png",
+            caption="../report/figure_map.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_map.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_map.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_map:draw",
+    message:
+        "Where the theory is right: a map over height and weakening"
+    shell:
+        JOB
+
+
+rule draw_figure_patch_theory:
+    """Stability of the creeping patch by theory"""
+    input:
+        table=f"{RESULTS}/patch_theory.nc",
+        recipe=recipe("draw_figure_patch_theory"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_patch_theory.png",
+            caption="../report/figure_patch_theory.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_patch_theory.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_patch_theory.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_patch_theory:draw",
+    message:
+        "Stability of the creeping patch by theory"
+    shell:
+        JOB
+
+
+rule draw_figure_dispersion:
+    """Growth of single modes: simulation and theory"""
+    input:
+        dispersion=f"{RESULTS}/dispersion.nc",
+        recipe=recipe("draw_figure_dispersion"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_dispersion.png",
+            caption="../report/figure_dispersion.rst",
+            category="Why to believe it",
+        ),
+        f"{RESULTS}/figures/figure_dispersion.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_dispersion.log",
+    localrule: True
+    params:
+        call="nucleation.figures.checks.figure_dispersion:draw",
+    message:
+        "Growth of single modes: simulation and theory"
+    shell:
+        JOB
+
+
+rule draw_figure_verification:
+    """Orders of convergence on manufactured solutions"""
+    input:
+        convergence=f"{RESULTS}/verification.nc",
+        recipe=recipe("draw_figure_verification"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_verification.png",
+            caption="../report/figure_verification.rst",
+            category="Why to believe it",
+        ),
+        f"{RESULTS}/figures/figure_verification.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_verification.log",
+    localrule: True
+    params:
+        call="nucleation.figures.checks.figure_verification:draw",
+    message:
+        "Orders of convergence on manufactured solutions"
+    shell:
+        JOB
+
+
+rule draw_figure_convergence:
+    """Critical length against mesh and steps"""
+    input:
+        table=f"{RESULTS}/convergence.nc",
+        recipe=recipe("draw_figure_convergence"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_convergence.png",
+            caption="../report/figure_convergence.rst",
+            category="Why to believe it",
+        ),
+        f"{RESULTS}/figures/figure_convergence.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_convergence.log",
+    localrule: True
+    params:
+        call="nucleation.figures.checks.figure_convergence:draw",
+    message:
+        "Critical length against mesh and steps"
+    shell:
+        JOB
+
+
+rule draw_figure_sensitivity:
+    """Sensitivity to parameters and definitions"""
+    input:
+        table=f"{RESULTS}/sensitivity.nc",
+        recipe=recipe("draw_figure_sensitivity"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_sensitivity.png",
+            caption="../report/figure_sensitivity.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_sensitivity.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_sensitivity.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_sensitivity:draw",
+    message:
+        "Sensitivity to parameters and definitions"
+    shell:
+        JOB
+
+
+rule draw_figure_pairs:
+    """Two deformable bodies"""
+    input:
+        table=f"{RESULTS}/pairs.nc",
+        recipe=recipe("draw_figure_pairs"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_pairs.png",
+            caption="../report/figure_pairs.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_pairs.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_pairs.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_pairs:draw",
+    message:
+        "Two deformable bodies"
+    shell:
+        JOB
+
+
+rule draw_figure_2_simulated:
+    """Figure 2 with simulations, in both senses of the contrast"""
+    input:
+        table=f"{RESULTS}/pairs.nc",
+        recipe=recipe("draw_figure_2_simulated"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_2_simulated.png",
+            caption="../report/figure_2_simulated.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_2_simulated.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_2_simulated.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_2_simulated:draw",
+    message:
+        "Figure 2 with simulations, in both senses of the contrast"
+    shell:
+        JOB
+
+
+rule draw_figure_literature:
+    """Lengths of the literature, simulated in their own settings"""
+    input:
+        table=f"{RESULTS}/literature.nc",
+        recipe=recipe("draw_figure_literature"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_literature.png",
+            caption="../report/figure_literature.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_literature.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_literature.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_literature:draw",
+    message:
+        "Lengths of the literature, simulated in their own settings"
+    shell:
+        JOB
 
 
 def declarations(names):
@@ -64,44 +408,76 @@ def declarations(names):
     return {name: entry | {"choices": list(entry["choices"])} for name, entry in found.items()}
 
 
-# Any study against the theory, by what it varies.
-make_rule(
-    "draw_study",
-    call="nucleation.figures.beyond.figure_studies:draw_study",
-    shows="figures/study_{name}",
-    suffix="png",
-    local=True,
-    inputs={"table": lambda wildcards: lengths_of(wildcards.name)[0]},
-    varied=lambda wildcards: varied(settings.runs_of(wildcards.name)),
-    entries=lambda wildcards: declarations(varied(settings.runs_of(wildcards.name))),
-    theory=lambda wildcards: theory_curves(
-        settings.runs_of(wildcards.name),
-        settings.studies[wildcards.name],
-        settings.base,
-        settings.main_text_interface,
-    ),
-    message="Figure of the study {wildcards.name}: simulations and theory",
-)
+rule draw_study:
+    """A study: simulations and theory, by what it varies"""
+    input:
+        table=f"{RESULTS}/lengths/{{study}}.nc",
+        recipe=recipe("draw_study"),
+    output:
+        report(
+            f"{RESULTS}/figures/study_{{study}}.png",
+            caption="../report/figure_studies.rst",
+            category=catalogue.OWN,
+        ),
+        f"{RESULTS}/figures/study_{{study}}.pdf",
+    log:
+        f"{RESULTS}/logs/figures/study_{{study}}.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_studies:draw_study",
+        varied=lambda wildcards: varied(runs_of(wildcards.study)),
+        entries=lambda wildcards: declarations(varied(runs_of(wildcards.study))),
+        theory=lambda wildcards: theory_curves(
+            runs_of(wildcards.study),
+            settings.studies[wildcards.study],
+            settings.base,
+            settings.main_text_interface,
+        ),
+    message:
+        "Figure of the study {wildcards.study}: simulations and theory"
+    shell:
+        JOB
 
-make_rule(
-    "film",
-    call="nucleation.analysis.film:of_run",
-    shows="film",
-    inputs={
-        "lengths": only("gather_lengths"),
-        "simulation": lambda wildcards: steps("simulate", inset_id(wildcards)),
-    },
-    id=inset_id,
-    message="Film: a run once more, for the stress in its block",
-)
 
-make_rule(
-    "draw_animation",
-    call="nucleation.figures.beyond.animation:of_run",
-    shows="figures/animation",
-    suffix="gif",
-    local=True,
-    inputs={"film": only("film"), "lengths": only("gather_lengths")},
-    id=inset_id,
-    message="Animation of creep, nucleation and rupture",
-)
+rule film:
+    """A run once more, for the stress in its block"""
+    input:
+        lengths=f"{RESULTS}/lengths.nc",
+        after=lambda wildcards: batches([inset_run()]),
+        recipe=recipe("film"),
+    output:
+        f"{RESULTS}/film.nc",
+    log:
+        f"{RESULTS}/logs/film.log",
+    params:
+        call="nucleation.analysis.film:of_run",
+        reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
+        id=lambda wildcards: inset_run().id,
+    message:
+        "A run once more, for the stress in its block"
+    shell:
+        JOB
+
+
+rule draw_animation:
+    """Creep, nucleation and rupture"""
+    input:
+        film=f"{RESULTS}/film.nc",
+        lengths=f"{RESULTS}/lengths.nc",
+        recipe=recipe("draw_animation"),
+    output:
+        report(
+            f"{RESULTS}/figures/animation.gif",
+            caption="../report/animation.rst",
+            category="Beyond the paper",
+        ),
+    log:
+        f"{RESULTS}/logs/figures/animation.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.animation:of_run",
+        id=lambda wildcards: inset_run().id,
+    message:
+        "Creep, nucleation and rupture"
+    shell:
+        JOB

@@ -1,50 +1,63 @@
-# Beyond the paper: the linear stability of each simulation's own creeping patch.
-make_rule(
-    "patch",
-    call="nucleation.patch.growth:follow_patch",
-    shows="patches/{name}",
-    priority=1,
-    inputs={"simulation": lambda wildcards: steps("simulate", wildcards.name)},
-    loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
-    settings=asdict(settings.extraction),
-    message="Stability of the creeping patch of {wildcards.name}",
-)
-
-# Each takes a fifth of a second, a job more than one: those of a study are made in one.
-for _study in PATCHED_TOGETHER:
-
-    rule:
-        name:
-            f"patches_{_study}"
-        input:
-            simulations=lambda wildcards, study=_study: simulations_of(patched_runs(study)),
-        output:
-            [task.link for task in together("patch", patched_runs(_study), f"patches-{_study}")],
-        log:
-            f"{RESULTS}/logs/patches/{_study}.log",
-        priority: 1
-        group:
-            "patches"
-        params:
-            each=together("patch", patched_runs(_study), f"patches-{_study}"),
-        message:
-            f"Stability of the creeping patches of the study {_study}"
-        script:
-            "../scripts/step.py"
+# Beyond the paper: the linear stability of each simulation's own creeping patch. Each takes a fifth of
+# a second, a job more than one: those of a study are made in one.
+rule follow_patches:
+    """Stability of the creeping patches of a study"""
+    input:
+        after=lambda wildcards: batches(patched_runs(wildcards.study)),
+        recipe=recipe("follow_patches"),
+    output:
+        f"{RESULTS}/patches/{{study}}.json",
+    log:
+        f"{RESULTS}/logs/patches/{{study}}.log",
+    priority: 1
+    threads: 2
+    params:
+        makes=lambda wildcards: patches(wildcards.study),
+    message:
+        "Stability of the creeping patches of the study {wildcards.study}"
+    shell:
+        JOB
 
 
-make_rule(
-    "gather_patches",
-    call="nucleation.patch.tables:gather_stability",
-    shows="{name}",
-    constraint="|".join(PATCH_TABLES),
-    local=True,
-    inputs={
-        "patches": needed(
-            lambda wildcards: patches(*PATCH_TABLES[wildcards.name]),
+rule patch:
+    """Stability of one creeping patch, shown under its run's name"""
+    input:
+        after=lambda wildcards: patch_batches(study_of(wildcards.name)),
+        recipe=recipe("patch"),
+    output:
+        f"{RESULTS}/patches/{{name}}.nc",
+    log:
+        f"{RESULTS}/logs/patches/{{name}}.log",
+    localrule: True
+    params:
+        call="nucleation.patch.growth:follow_patch",
+        loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
+        reads=lambda wildcards: {"simulation": simulations([run_of(wildcards.name)])[0]},
+        settings=asdict(settings.extraction),
+    message:
+        "Stability of the creeping patch of {wildcards.name}"
+    shell:
+        JOB
+
+
+rule gather_patches:
+    """Patch lengths at which growth begins"""
+    input:
+        after=lambda wildcards: needed(
+            lambda: patch_batches(*PATCH_TABLES[wildcards.table]),
             "study with role: paper, converged or patch_convergence",
-        ),
-    },
-    runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.name])),
-    message="Patch lengths at which growth begins: {wildcards.name}",
-)
+        )(wildcards),
+        recipe=recipe("gather_patches"),
+    output:
+        multiext(f"{RESULTS}/{{table,{one_of(PATCH_TABLES)}}}", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/{{table}}.log",
+    localrule: True
+    params:
+        call="nucleation.patch.tables:gather_stability",
+        reads=lambda wildcards: {"patches": patches(*PATCH_TABLES[wildcards.table])},
+        runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.table])),
+    message:
+        "Patch lengths at which growth begins: {wildcards.table}"
+    shell:
+        JOB

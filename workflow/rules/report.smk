@@ -13,9 +13,10 @@ the paper's figures nor the verdicts, which are about the paper's runs."""
 
 def explored():
     """The fault that the calculator begins with: the paper's, or the first run's."""
-    own = [run for run in runs_in(*OWN_STUDIES) if run.interface.zeta > 0.0]
+    own = [] if OF_THE_PAPER else runs_in(*OWN_STUDIES)
+    own = [run for run in own if run.interface.zeta > 0.0]
     material, interface, height = settings.base.material, settings.main_text_interface, 0.1
-    if own and not OF_THE_PAPER:
+    if own:
         material, interface = own[0].parameters.material, own[0].interface
         height = own[0].parameters.geometry.height
     return {
@@ -32,54 +33,65 @@ def explored():
     }
 
 
+SHOWN_RUNS = {"figure_3": inset_run, "figure_s2": space_time_run, "animation": inset_run}
+"""The simulation of which a figure shows more than its lengths."""
+
+
 def caption_values(wildcards):
-    shown = {name: {"id": chosen(wildcards)} for name, chosen in SHOWN_RUNS.items()
-             if name in REPORTED}  # fmt: skip
+    """What captions say of a run or a study, by the figure."""
+    shown = {name: {"id": run().id} for name, run in SHOWN_RUNS.items() if name in REPORTED}
     return shown | {f"study_{study}": {"study": study} for study in OWN_STUDIES}
 
 
-make_rule(
-    "write_report",
-    call="nucleation.report.page:write",
-    shows="report",
-    suffix="html",
-    local=True,
-    inputs={
-        "figures": lambda wildcards: [
-            *[steps(f"draw_{name}") for name in REPORTED],
-            *steps.several("draw_study", OWN_STUDIES),
-        ],
-        "captions": [
+def pictures(wildcards):
+    """What the report shows."""
+    suffixes = {name: "gif" if name == "animation" else "png" for name in ENTRIES}
+    return [f"{RESULTS}/figures/{name}.{suffix}" for name, suffix in suffixes.items()]
+
+
+def warned_of(wildcards):
+    """What was warned of before the runs of studies of the user's own."""
+    studies = [] if OF_THE_PAPER else OWN_STUDIES
+    return {
+        study: [warning.partition(": ")[2] for warning in advise(runs_of(study))]
+        for study in studies
+    }
+
+
+rule write_report:
+    """Everything on one page"""
+    input:
+        figures=pictures,
+        captions=[
             str(BASE / f"workflow/report/{name if name in FIGURES else 'figure_studies'}.rst")
             for name in ENTRIES
         ],
-        "datasets": lambda wildcards: [
-            steps("gather_patches", name) if name in PATCH_TABLES else steps(SHOWN_BY[name])
-            for name in catalogue.datasets_of(ENTRIES.values())
-        ],
-        "claims": lambda wildcards: [steps("evaluate_claims")] if OF_THE_PAPER else [],
-        "page_files": sorted(
+        datasets=[f"{RESULTS}/{name}.nc" for name in catalogue.datasets_of(ENTRIES.values())],
+        claims=[f"{RESULTS}/tables/claims.json"] if OF_THE_PAPER else [],
+        page_files=sorted(
             str(path)
             for kind in ("html", "css", "js")
             for path in Path(SOURCE, "nucleation", "report").glob(f"*.{kind}")
         ),
-    },
-    loads=plugins(settings.base),
-    names=list(ENTRIES),
-    dataset_names=catalogue.datasets_of(ENTRIES.values()),
-    studies=OWN_STUDIES,
-    caption_values=caption_values,
-    fault=explored(),
-    friction=asdict(settings.base.friction),
-    warnings=(
-        {}
-        if OF_THE_PAPER
-        else {
-            study: [warning.partition(": ")[2] for warning in advise(settings.runs_of(study))]
-            for study in OWN_STUDIES
-        }
-    ),
-    leads=not OF_THE_PAPER,
-    config=config,
-    message="Report",
-)
+        recipe=recipe("write_report"),
+    output:
+        f"{RESULTS}/report.html",
+    log:
+        f"{RESULTS}/logs/report.log",
+    localrule: True
+    params:
+        call="nucleation.report.page:write",
+        loads=plugins(settings.base),
+        names=list(ENTRIES),
+        dataset_names=catalogue.datasets_of(ENTRIES.values()),
+        studies=OWN_STUDIES,
+        caption_values=caption_values,
+        fault=lambda wildcards: explored(),
+        friction=asdict(settings.base.friction),
+        warnings=warned_of,
+        leads=not OF_THE_PAPER,
+        config=lambda wildcards: completed(config),
+    message:
+        "Report"
+    shell:
+        JOB

@@ -1,100 +1,140 @@
-# Simulations and the tables of their lengths. A study with more than one run per job has batches:
-# where other results are made of its simulations one by one, a rule makes those of a batch; else
-# the job measures its runs itself, and Snakemake need not know of thousands of files.
-SIMULATED = "nucleation.simulation.run"
+# Simulations, and the tables of their lengths.
+#
+# One job makes a batch: the simulations of a study with `runs_per_job`, or a single one. It makes
+# them side by side on its cores and shows each, results/simulations/ID.nc, once it is finished.
+# Where nothing else is made of them one by one, the job measures its simulations itself.
+def memory(runs, threads, attempt):
+    """Memory (MB) of a cluster job that makes simulations: Snakemake in it needs 300 MB."""
+    largest = max(estimated_megabytes(run.parameters) for run in runs)
+    return attempt * ceil(300 + min(threads, len(runs)) * (largest + 150))
 
 
-def memory(run, attempt):
-    """Memory (MB) of a cluster job with one simulation: two Snakemakes in it need 150 MB each."""
-    return attempt * ceil(300 + estimated_megabytes(run.parameters))
+rule simulate:
+    """The simulations of a batch, side by side on its cores"""
+    input:
+        recipe=recipe("simulate"),
+    output:
+        f"{RESULTS}/batches/{{batch}}.json",
+    log:
+        f"{RESULTS}/logs/batches/{{batch}}.log",
+    priority: 2  # they take longest
+    threads: lambda wildcards: min(2, len(runs_of_batch(wildcards.batch)))
+    resources:
+        mem_mb=lambda wildcards, threads, attempt: memory(
+            runs_of_batch(wildcards.batch), threads, attempt
+        ),
+        runtime=ceil(settings.limits.runtime),
+    params:
+        makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
+    message:
+        "Simulations of the batch {wildcards.batch}"
+    shell:
+        JOB
 
 
-def batch_memory(name, attempt):
-    return max(memory(run, attempt) for run in BATCHES[name])
+rule simulate_and_measure:
+    """The same, and the table of what is measured of them"""
+    input:
+        recipe=recipe("simulate_and_measure"),
+    output:
+        multiext(f"{RESULTS}/batches/{{batch}}", ".nc", ".csv"),
+    log:
+        f"{RESULTS}/logs/batches/{{batch}}.log",
+    priority: 1
+    threads: lambda wildcards: min(2, len(runs_of_batch(wildcards.batch)))
+    resources:
+        mem_mb=lambda wildcards, threads, attempt: memory(
+            runs_of_batch(wildcards.batch), threads, attempt
+        ),
+        runtime=ceil(settings.limits.runtime),
+    params:
+        call="nucleation.patch.batches:table",
+        loads=lambda wildcards: [SIMULATION, *laws_of(runs_of_batch(wildcards.batch))],
+        makes=lambda wildcards: simulations(runs_of_batch(wildcards.batch)),
+        runs=lambda wildcards: as_dicts(runs_of_batch(wildcards.batch)),
+        settings=asdict(settings.extraction),
+        measure=lambda wildcards: settings.studies[study_of(wildcards.batch)].measure,
+    message:
+        "Simulations of the batch {wildcards.batch}, measured"
+    shell:
+        JOB
 
 
-make_rule(
-    "simulate",
-    call=f"{SIMULATED}:simulate",
-    shows="simulations/{name}",
-    script_name="simulate",
-    priority=1,  # with all that the verdicts wait for: what is only drawn fills the cores at the end
-    megabytes=lambda wildcards, attempt: memory(RUNS[wildcards.name], attempt),
-    loads=lambda wildcards: plugins(RUNS[wildcards.name].parameters),
-    parameters=lambda wildcards: RUNS[wildcards.name].parameters.to_dict(),
-    message="Simulation {wildcards.name}",
-)
-
-make_rule(
-    "batch",
-    call="nucleation.patch.batches:table",
-    shows="batches/{name}",
-    script_name="simulate",
-    priority=1,
-    megabytes=lambda wildcards, attempt: batch_memory(wildcards.name, attempt),
-    loads=lambda wildcards: [SIMULATED, *laws_of(BATCHES[wildcards.name])],
-    runs=lambda wildcards: as_dicts(BATCHES[wildcards.name]),
-    settings=asdict(settings.extraction),
-    measure=lambda wildcards: settings.studies[BATCHES[wildcards.name][0].study].measure,
-    message="Simulations {wildcards.name}",
-)
-
-# Studies take turns: two runs at once on the paper's mesh, which no cache holds, take a fifth longer.
-_batched = [name for name, runs in BATCHES.items() if runs[0].study not in TABLED]
-_batched.sort(key=lambda name: int(name.rpartition("-")[2]), reverse=True)
-for _turn, _name in enumerate(_batched):
-
-    rule:
-        name:
-            f"simulate_{_name.replace('-', '_')}"
-        output:
-            [task.link for task in together("simulate", BATCHES[_name], f"batches/{_name}")],
-        log:
-            f"{RESULTS}/logs/batches/{_name}.log",
-        priority: 2 + _turn  # they take longest
-        group:
-            "batches"
-        resources:
-            mem_mb=lambda wildcards, attempt, name=_name: batch_memory(name, attempt),
-            runtime=ceil(settings.limits.runtime),
-        params:
-            each=together("simulate", BATCHES[_name], f"batches/{_name}"),
-        message:
-            f"Simulations {_name}"
-        script:
-            "../scripts/simulate.py"
+rule simulation:
+    """One simulation, shown under its name; its batch makes it"""
+    input:
+        after=lambda wildcards: batches([run_of(wildcards.name)]),
+        recipe=recipe("simulation"),
+    output:
+        f"{RESULTS}/simulations/{{name}}.nc",
+    log:
+        f"{RESULTS}/logs/simulations/{{name}}.log",
+    localrule: True
+    params:
+        call=f"{SIMULATION}:simulate",
+        loads=lambda wildcards: plugins(run_of(wildcards.name).parameters),
+        parameters=lambda wildcards: run_of(wildcards.name).parameters.to_dict(),
+    message:
+        "Simulation {wildcards.name}"
+    shell:
+        JOB
 
 
 # A table with onset time and critical length for each study, and one of the studies that share it.
-make_rule(
-    "extract",
-    call="nucleation.analysis.lengths:gather",
-    shows="lengths/{name}",
-    constraint=one_of(study for study in settings.studies if study not in TABLED),
-    priority=1,
-    local=True,
-    inputs={"simulations": lambda wildcards: simulations(wildcards.name)},
-    runs=lambda wildcards: as_dicts(settings.runs_of(wildcards.name)),
-    settings=asdict(settings.extraction),
-    message="Critical lengths of the study {wildcards.name}",
-)
+rule extract:
+    """Critical lengths of a study"""
+    input:
+        after=lambda wildcards: batches(runs_of(wildcards.study)),
+        recipe=recipe("extract"),
+    output:
+        multiext(f"{RESULTS}/lengths/{{study,{one_of(EXTRACTED)}}}", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/lengths/{{study}}.log",
+    priority: 1
+    localrule: True
+    params:
+        call="nucleation.analysis.lengths:gather",
+        reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
+        runs=lambda wildcards: as_dicts(runs_of(wildcards.study)),
+        settings=asdict(settings.extraction),
+    message:
+        "Critical lengths of the study {wildcards.study}"
+    shell:
+        JOB
 
-make_rule(
-    "join_batches",
-    call="nucleation.patch.batches:of_study",
-    shows="lengths/{name}",
-    constraint=one_of(TABLED),
-    local=True,
-    inputs={"tables": lambda wildcards: made_by_jobs(wildcards.name)},
-    ids=lambda wildcards: [run.id for run in settings.runs_of(wildcards.name)],
-    message="Critical lengths of the study {wildcards.name}",
-)
 
-make_rule(
-    "gather_lengths",
-    call="nucleation.analysis.lengths:of_studies",
-    shows="lengths",
-    local=True,
-    inputs={"tables": needed(lambda wildcards: lengths_of(*SHARED), "study with table: lengths")},
-    message="Critical lengths of the studies " + ", ".join(SHARED),
-)
+rule join_batches:
+    """Critical lengths of a study whose batches are measured by the jobs that make them"""
+    input:
+        tables=lambda wildcards: batches(runs_of(wildcards.study)),
+        recipe=recipe("join_batches"),
+    output:
+        multiext(f"{RESULTS}/lengths/{{study,{one_of(TABLED)}}}", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/lengths/{{study}}.log",
+    localrule: True
+    params:
+        call="nucleation.patch.batches:of_study",
+        ids=lambda wildcards: [run.id for run in runs_of(wildcards.study)],
+    message:
+        "Critical lengths of the study {wildcards.study}"
+    shell:
+        JOB
+
+
+rule gather_lengths:
+    """Onset and critical length of every run of the studies that share the table"""
+    input:
+        tables=needed(lambda: lengths_of(*filter(is_usable, SHARED)), "study with table: lengths"),
+        recipe=recipe("gather_lengths"),
+    output:
+        multiext(f"{RESULTS}/lengths", ".csv", ".nc", ".columns.csv"),
+    log:
+        f"{RESULTS}/logs/lengths.log",
+    localrule: True
+    params:
+        call="nucleation.analysis.lengths:of_studies",
+    message:
+        "Critical lengths of the studies that share lengths.csv"
+    shell:
+        JOB

@@ -1,21 +1,6 @@
-# Which runs play which role, and the results that are made of each.
+# Which runs have which role, and the files that are made of each.
 in_role = settings.studies_for
-runs_for = settings.runs_for
-
-
-def runs_in(*studies):
-    """The runs of those of some studies that the configuration has."""
-    return [run for run in settings.runs if run.study in studies]
-
-
-def as_dicts(runs):
-    return [run.to_dict() for run in runs]
-
-
-def laws_of(runs):
-    """Code that some runs load by name."""
-    return sorted({law for run in runs for law in plugins(run.parameters)})
-
+SIMULATION = "nucleation.simulation.run"
 
 PAIR_STUDIES = in_role(*PAIR_ROLES)
 CONVERGENCE_STUDIES = in_role(*REFINEMENTS)
@@ -28,63 +13,119 @@ PATCH_TABLES = {
     "patch_convergence": in_role("converged", "patch_convergence"),
 }
 """Tables of patches by the studies in them."""
-
 TABLED = [
     name
     for name, study in settings.studies.items()
     if study.runs_per_job > 1 and not ROLES[study.role].one_by_one
 ]
-"""Studies in batches that are measured by the job that makes them."""
-
-BATCHES = {}
-for _run in settings.runs:
-    if _run.batch:
-        BATCHES.setdefault(_run.batch, []).append(_run)
+"""Studies whose batches are measured by the jobs that make them."""
+EXTRACTED = [name for name in settings.studies if name not in TABLED]
+"""The others, of whose simulations lengths are read one by one."""
 
 
-def only(rule, name=""):
-    """An input function that gives the result of a rule."""
-    return lambda wildcards: steps(rule, name)
+def one_of(names):
+    """The constraint of a wildcard to some names, of which there may be none."""
+    return "|".join(names) or "(?!)"
 
 
-def together(rule, runs, job):
-    """What one job has to do to make the results of a rule for several runs."""
-    return steps.together(rule, [run.id for run in runs], job)
+def needed(files, what):
+    """An input function that gives some files, or says what the configuration lacks for them."""
+
+    def given(wildcards):
+        found = files()
+        if not found:
+            raise WorkflowError(f"the configuration has no {what}, which this target needs")
+        return found
+
+    return given
 
 
-def of_runs(rule, runs):
-    """The results of a rule for each of some runs."""
-    return steps.several(rule, [run.id for run in runs])
+def or_refused(function, *arguments):
+    """What a function of the configuration returns; its error as one of the workflow."""
+    try:
+        return function(*arguments)
+    except ParameterError as error:
+        raise WorkflowError(str(error)) from None
 
 
-def simulations_of(runs):
-    return of_runs("simulate", runs)
+@functools.cache
+def runs_of(study):
+    """The runs of a study; what is unusual about them is warned of once."""
+    runs = or_refused(settings.runs_of, study)
+    if PLANS:
+        for warning in advise(runs):
+            logger.warning(f"Warning: {warning}")
+    return runs
 
 
-def simulations(*studies):
-    return simulations_of(runs_in(*studies))
+REFUSED = []
+"""Studies that can't be run and were left out."""
 
 
-def made_by_jobs(*studies):
-    """What jobs make of the runs of studies: simulations, or the tables of batches of them."""
-    runs = runs_in(*studies)
-    batches = dict.fromkeys(run.batch for run in runs if run.study in TABLED)
-    single = [run for run in runs if run.study not in TABLED]
-    return [*simulations_of(single), *steps.several("batch", batches)]
+@functools.cache
+def is_usable(study):
+    """Whether a study can be run. If not, a run with --keep-going leaves it out, and fails at its end."""
+    problems = settings.problems_of(study)
+    if problems and not (recipe.runs and workflow.execution_settings.keep_going):
+        runs_of(study)  # which tells what is wrong
+    for problem in problems:
+        print(f"The study {study} is left out: {problem}", file=sys.stderr)
+    REFUSED.extend([study] * bool(problems))
+    return not problems
 
 
-def batched_simulations(made):
-    """Names and keys of the simulations of the batches among some results."""
-    names = [one.shown.removeprefix("batches/") for one in made.values()
-             if one.shown.startswith("batches/")]  # fmt: skip
-    simulated = [steps.made("simulate", run.id) for name in names for run in BATCHES[name]]
-    return [(one.shown, one.key) for one in simulated]
+def run_of(name):
+    """The run of a simulation."""
+    return or_refused(settings.run, name)
+
+
+@functools.cache
+def runs_of_batch(batch):
+    """The runs that one job makes; a run without a batch is one of its own."""
+    study = settings.studies.get(study_of(batch))
+    if study is not None and study.runs_per_job == 1:
+        return [run_of(batch)]
+    return or_refused(settings.batch, batch)
+
+
+def study_of(name):
+    """The study of a run or a batch, by its name."""
+    return name.partition("-")[0]
+
+
+def runs_in(*studies):
+    """The runs of those of some studies that the configuration has."""
+    return [run for study in studies for run in runs_of(study)]
+
+
+def runs_for(*roles):
+    """The runs of the studies with some roles."""
+    return runs_in(*in_role(*roles))
+
+
+def as_dicts(runs):
+    return [run.to_dict() for run in runs]
+
+
+def laws_of(runs):
+    """Code that some runs load by name."""
+    return sorted({law for run in runs for law in plugins(run.parameters)})
+
+
+def simulations(runs):
+    """The files of some simulations."""
+    return [f"{RESULTS}/simulations/{run.id}.nc" for run in runs]
+
+
+def batches(runs):
+    """The files that are made by the jobs of some runs."""
+    suffixes = {run.batch or run.id: "nc" if run.study in TABLED else "json" for run in runs}
+    return [f"{RESULTS}/batches/{batch}.{suffix}" for batch, suffix in suffixes.items()]
 
 
 def lengths_of(*studies):
     """The tables of lengths of those of some studies that the configuration has."""
-    present = [study for study in studies if study in settings.studies]
-    return [steps("join_batches" if s in TABLED else "extract", s) for s in present]
+    return [f"{RESULTS}/lengths/{study}.nc" for study in studies if study in settings.studies]
 
 
 def table_of(role):
@@ -98,20 +139,19 @@ def patched_runs(*studies):
 
 
 def patches(*studies):
-    return of_runs("patch", patched_runs(*studies))
+    """The files with the stability of patches, of some studies."""
+    return [f"{RESULTS}/patches/{run.id}.nc" for run in patched_runs(*studies)]
+
+
+def patch_batches(*studies):
+    """The files that are made by the jobs that follow the patches of some studies."""
+    return [f"{RESULTS}/patches/{study}.json" for study in studies]
 
 
 def patch_tables():
     """The tables with lengths at which patches turn unstable."""
-    stability = [steps("gather_patches", "patch_stability")] if in_role(JUDGED) else []
-    return stability + ([steps("gather_pairs")] if PAIR_STUDIES else [])
-
-
-PATCHED_TOGETHER = [
-    study
-    for study in dict.fromkeys([*sum(PATCH_TABLES.values(), []), *PAIR_STUDIES])
-    if len(patched_runs(study)) > 1
-]
+    names = ["patch_stability"] * bool(in_role(JUDGED)) + ["pairs"] * bool(PAIR_STUDIES)
+    return [f"{RESULTS}/{name}.nc" for name in names]
 
 
 def one_of_each_fault(runs):
@@ -119,20 +159,14 @@ def one_of_each_fault(runs):
     return list({fault(run.parameters): run for run in reversed(runs)}.values())[::-1]
 
 
-def shown_run(height):
-    """The simulation that a figure shows, by height (m)."""
-    try:
-        return settings.shown(height).id
-    except ParameterError as error:
-        raise WorkflowError(f"a figure can't be drawn: {error}") from None
+def inset_run():
+    """The run that the inset of Figure 3 and the animation show."""
+    return or_refused(settings.shown, settings.figures.inset_height)
 
 
-def inset_id(wildcards):
-    return shown_run(settings.figures.inset_height)
-
-
-def space_time_id(wildcards):
-    return shown_run(settings.figures.space_time_height)
+def space_time_run():
+    """The run that Figure S2 shows."""
+    return or_refused(settings.shown, settings.figures.space_time_height)
 
 
 def element(run):
@@ -141,11 +175,9 @@ def element(run):
     return identity(run.parameters, "geometry.length", "mesh.n_x"), round(size, 9)
 
 
+@functools.cache
 def longer():
     """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
     blocks, judged = ([(element(run), run) for run in runs_for(role)] for role in (LONGER, JUDGED))
     return [run for like, block in blocks for other, base in judged if other == like
             for run in (block, base)]  # fmt: skip
-
-
-BLOCKS = longer()

@@ -1,112 +1,167 @@
 # Tables beyond the paper: each is made of others, of simulations, or of what was read from these.
-make_rule(
-    "gather_drop",
-    call="nucleation.patch.drop_table:gather",
-    shows="drop",
-    local=True,
-    inputs={
-        "drops": needed(lambda wildcards: lengths_of(*in_role("drop")), "study with role: drop"),
-        "quiet": lambda wildcards: lengths_of(*FLOORS),
-    },
-    loads=laws_of(runs_for("drop")),
-    runs=as_dicts(one_of_each_fault(runs_for("drop"))),
-    message="Drops, and the law of the drop",
-)
+rule gather_drop:
+    """Drops, and the law of the drop"""
+    input:
+        drops=needed(lambda: lengths_of(*in_role("drop")), "study with role: drop"),
+        quiet=lambda wildcards: lengths_of(*FLOORS),
+        recipe=recipe("gather_drop"),
+    output:
+        multiext(f"{RESULTS}/drop", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/drop.log",
+    localrule: True
+    params:
+        call="nucleation.patch.drop_table:gather",
+        loads=lambda wildcards: laws_of(runs_for("drop")),
+        runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("drop"))),
+    message:
+        "Drops, and the law of the drop"
+    shell:
+        JOB
 
-make_rule(
-    "gather_floors",
-    call="nucleation.patch.drop_table:floors",
-    shows="floors",
-    local=True,
-    inputs={
-        "quiet": needed(
-            lambda wildcards: lengths_of(*FLOORS) if runs_for("convergence_quiet") else [],
+
+rule gather_floors:
+    """Noise of meshes and steps"""
+    input:
+        quiet=needed(
+            lambda: lengths_of(*FLOORS) if in_role("convergence_quiet") else [],
             "study with role: convergence_quiet",
         ),
-    },
-    loads=laws_of(runs_for("convergence_quiet")),
-    runs=as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
-    message="Noise of meshes and steps",
-)
+        recipe=recipe("gather_floors"),
+    output:
+        multiext(f"{RESULTS}/floors", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/floors.log",
+    localrule: True
+    params:
+        call="nucleation.patch.drop_table:floors",
+        loads=lambda wildcards: laws_of(runs_for("convergence_quiet")),
+        runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
+    message:
+        "Noise of meshes and steps"
+    shell:
+        JOB
 
-make_rule(
-    "gather_map",
-    call="nucleation.patch.map_table:files",
-    shows="map",
-    local=True,
-    inputs={"lengths": needed(lambda wildcards: table_of("map"), "study with role: map")},
-    message="The map of lengths over height and weakening",
-)
 
-# Where patches turn unstable by theory, beside where the simulations' own do.
-make_rule(
-    "gather_patch_theory",
-    call="nucleation.patch.theory_table:files",
-    shows="patch_theory",
-    inputs={
-        "tables": needed(
-            lambda wildcards: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
+rule gather_map:
+    """The map of lengths over height and weakening"""
+    input:
+        lengths=needed(lambda: table_of("map"), "study with role: map"),
+        recipe=recipe("gather_map"),
+    output:
+        multiext(f"{RESULTS}/map", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/map.log",
+    localrule: True
+    params:
+        call="nucleation.patch.map_table:files",
+    message:
+        "The map of lengths over height and weakening"
+    shell:
+        JOB
+
+
+rule gather_patch_theory:
+    """Lengths of creeping patches by theory, beside those of simulations"""
+    input:
+        tables=needed(
+            lambda: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
             "study with role: converged, pairs, map or patch_theory",
         ),
-    },
-    loads=laws_of(runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)),
-    runs=as_dicts(runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)),
-    message="Lengths of creeping patches by theory",
-)
+        recipe=recipe("gather_patch_theory"),
+    output:
+        multiext(f"{RESULTS}/patch_theory", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/patch_theory.log",
+    params:
+        call="nucleation.patch.theory_table:files",
+        loads=lambda wildcards: laws_of(compared_with_theory()),
+        runs=lambda wildcards: as_dicts(compared_with_theory()),
+    message:
+        "Lengths of creeping patches by theory, beside those of simulations"
+    shell:
+        JOB
+
 
 # All studies whose base is deformable in every run.
-make_rule(
-    "gather_pairs",
-    call="nucleation.patch.pairs:gather",
-    shows="pairs",
-    local=True,
-    inputs={
-        "simulations": needed(
-            lambda wildcards: simulations(*PAIR_STUDIES),
+rule gather_pairs:
+    """Lengths of the patches between two deformable bodies"""
+    input:
+        after=needed(
+            lambda: [*batches(runs_in(*PAIR_STUDIES)), *patch_batches(*PAIR_STUDIES)],
             "study of two deformable bodies, by its role",
         ),
-        "patches": lambda wildcards: patches(*PAIR_STUDIES),
-    },
-    runs=as_dicts(runs_in(*PAIR_STUDIES)),
-    settings=asdict(settings.extraction),
-    message="Lengths of the patches between two deformable bodies",
-)
+        recipe=recipe("gather_pairs"),
+    output:
+        multiext(f"{RESULTS}/pairs", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/pairs.log",
+    localrule: True
+    params:
+        call="nucleation.patch.pairs:gather",
+        reads=lambda wildcards: {
+            "simulations": simulations(runs_in(*PAIR_STUDIES)),
+            "patches": patches(*PAIR_STUDIES),
+        },
+        runs=lambda wildcards: as_dicts(runs_in(*PAIR_STUDIES)),
+        settings=asdict(settings.extraction),
+    message:
+        "Lengths of the patches between two deformable bodies"
+    shell:
+        JOB
 
-make_rule(
-    "convergence",
-    call="nucleation.analysis.convergence:refinement_table",
-    shows="convergence",
-    inputs={
-        "tables": needed(
-            lambda wildcards: lengths_of(*CONVERGENCE_STUDIES), "study with role: convergence"
-        ),
-    },
-    message="Critical lengths against mesh and steps",
-)
 
-make_rule(
-    "sensitivity",
-    call="nucleation.analysis.sensitivity:sensitivity_table",
-    shows="sensitivity",
-    inputs={
-        "simulations": needed(
-            lambda wildcards: simulations(*in_role("sensitivity")), "study with role: sensitivity"
-        ),
-    },
-    runs=as_dicts(runs_for("sensitivity")),
-    settings=asdict(settings.extraction),
-    message="Sensitivity of critical lengths",
-)
+rule convergence:
+    """Critical lengths against mesh and steps"""
+    input:
+        tables=needed(lambda: lengths_of(*CONVERGENCE_STUDIES), "study with role: convergence"),
+        recipe=recipe("convergence"),
+    output:
+        multiext(f"{RESULTS}/convergence", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/convergence.log",
+    params:
+        call="nucleation.analysis.convergence:refinement_table",
+    message:
+        "Critical lengths against mesh and steps"
+    shell:
+        JOB
 
-make_rule(
-    "gather_literature",
-    call="nucleation.analysis.literature:literature_table",
-    shows="literature",
-    inputs={
-        "simulations": needed(
-            lambda wildcards: simulations(*in_role("literature")), "study with role: literature"
-        ),
-    },
-    runs=as_dicts(runs_for("literature")),
-    message="The literature's lengths, simulated",
-)
+
+rule sensitivity:
+    """Sensitivity of critical lengths"""
+    input:
+        after=needed(lambda: batches(runs_for("sensitivity")), "study with role: sensitivity"),
+        recipe=recipe("sensitivity"),
+    output:
+        multiext(f"{RESULTS}/sensitivity", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/sensitivity.log",
+    params:
+        call="nucleation.analysis.sensitivity:sensitivity_table",
+        reads=lambda wildcards: {"simulations": simulations(runs_for("sensitivity"))},
+        runs=lambda wildcards: as_dicts(runs_for("sensitivity")),
+        settings=asdict(settings.extraction),
+    message:
+        "Sensitivity of critical lengths"
+    shell:
+        JOB
+
+
+rule gather_literature:
+    """The literature's lengths, simulated"""
+    input:
+        after=needed(lambda: batches(runs_for("literature")), "study with role: literature"),
+        recipe=recipe("gather_literature"),
+    output:
+        multiext(f"{RESULTS}/literature", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/literature.log",
+    params:
+        call="nucleation.analysis.literature:literature_table",
+        reads=lambda wildcards: {"simulations": simulations(runs_for("literature"))},
+        runs=lambda wildcards: as_dicts(runs_for("literature")),
+    message:
+        "The literature's lengths, simulated"
+    shell:
+        JOB

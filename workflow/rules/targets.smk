@@ -1,116 +1,225 @@
-# What users ask for. A target needs results and all that these are made of; its own job, which takes
-# no time and always runs, lays links to them under plain names (docs/reuse.md).
-PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
-PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map"]
-
-
-def made(*rules):
-    """A function that gives the results of some rules."""
-    return lambda: [steps(rule) for rule in rules]
+# What users ask for by name. Every file can be asked for as well: results/figures/figure_3.pdf.
+def shared(files):
+    """An input function that gives files of the studies that share lengths.csv."""
+    return needed(lambda: files([*filter(is_usable, SHARED)]), "study with table: lengths")
 
 
 def of_studies(names):
-    return [path for name in names for path in [steps("draw_study", name), *lengths_of(name)]]
+    """The tables and figures of some studies."""
+    names = list(names)
+    figures = [
+        f"{RESULTS}/figures/study_{name}.{kind}" for name in names for kind in ("png", "pdf")
+    ]
+    return [*figures, *[path.replace(".nc", ".csv") for path in lengths_of(*names)]]
 
 
-def shared(results):
-    """A function that gives results of the studies that share lengths.csv."""
-    return lambda: needed(lambda _: results(SHARED), "study with table: lengths")(None)
+rule simulations:
+    """The simulations of the studies that share lengths.csv"""
+    input:
+        shared(lambda names: batches(runs_in(*names))),
 
 
-COMPARED = ["draw_figure_crosscheck", "compare_crosscheck"]
-ARTICLE = ["write_article", "evaluate_claims", *(f"draw_{name}" for name in PAPERS_FIGURES)]
-TARGETS = {
-    "paper": (
-        "Every figure, table and verdict of the paper.",
-        made(*ARTICLE, "write_table_s1", "gather_lengths"),
-    ),
-    "studies": (
-        "Tables and figures of all studies.",
-        lambda: of_studies(settings.studies) + made("gather_lengths")() * bool(SHARED),
-    ),
-    "simulations": (
-        "The simulations of the studies that share lengths.csv.",
-        shared(lambda studies: made_by_jobs(*studies)),
-    ),
-    "lengths": ("Onset and critical length of each of them.", made("gather_lengths")),
-    "claims": ("A verdict on every statement of the paper.", made("evaluate_claims")),
-    "article": ("The replication as a short article.", made(*ARTICLE)),
-    "replication": (
-        "The article with figures of L_s, drop and map: PDF, LaTeX and Markdown.",
-        made(*ARTICLE, "print_article"),
-    ),
-    "table_s1": ("Table S1: parameters of the friction law.", made("write_table_s1")),
-    **{name: (f"{FIGURES[name].title}.", made(f"draw_{name}")) for name in [*DRAWN, "animation"]},
-    "figure_studies": ("A figure of each study that shares lengths.csv.", shared(of_studies)),
-    **{
-        f"figure_study_{study}": (f"Figure of the study {study}.", lambda s=study: of_studies([s]))
-        for study in settings.studies
-    },
-    "pairs": (
-        "Two deformable bodies: lengths over the theory of the own far sides, and verdicts.",
-        made("gather_pairs", "evaluate_pairs", "pair_modes"),
-    ),
-    "floors": (
-        "How noisy each mesh is with its steps, as a declared strength.",
-        made("gather_floors"),
-    ),
-    "patch_convergence": (
-        "Where patches turn unstable on refined meshes.",
-        lambda: [steps("gather_patches", "patch_convergence")],
-    ),
-    "figure_crosscheck": ("The figure of both solvers.", made(*COMPARED)),
-    "crosscheck": ("The same runs by an independent solver.", made(*COMPARED)),
-    "report": ("Everything on one page, results/report.html.", made("write_report")),
-}
-"""What each target is for, and the results it leads to; `steps.behind` adds what these stand on."""
-
-if in_role("patch_convergence"):
-    _title, _drawn = TARGETS["figure_patch_stability"]
-    TARGETS["figure_patch_stability"] = (
-        _title,
-        lambda: _drawn() + TARGETS["patch_convergence"][1](),
-    )
+rule lengths:
+    """Onset and critical length of each of them"""
+    input:
+        rules.gather_lengths.output,
 
 
-@functools.cache
-def wanted(target):
-    """All results that a target leads to, by path."""
-    return steps.behind(TARGETS[target][1]())
+rule claims:
+    """A verdict on every statement of the paper"""
+    input:
+        rules.evaluate_claims.output,
 
 
-def shown(target):
-    """Names and keys of what a target shows, the results it is for first."""
-    named = {made.shown: made.key for made in wanted(target).values()}
-    others = {name: key for key in named.values() for name in sorted(steps.names[key])}
-    return [*(named | others).items()]
+rule article:
+    """The replication as a short article, with the paper's figures"""
+    input:
+        rules.write_article.output,
+        rules.evaluate_claims.output,
+        [f"{RESULTS}/figures/{name}.png" for name in PAPERS_FIGURES],
 
 
-def everything(wildcards):
-    """Names and keys of all results that any target can lead to."""
-    found = {}
-    for target in TARGETS:
-        try:
-            found |= dict(shown(target))
-            found |= dict(batched_simulations(wanted(target)))
-        except WorkflowError:
-            pass  # the configuration lacks what this target needs
-    return found
+rule replication:
+    """The article with figures of L_s, drop and map: PDF, LaTeX and Markdown"""
+    input:
+        rules.article.input,
+        rules.print_article.output,
 
 
-# Questions about results, which nothing is made for; `targets` says what there is to ask for.
-for _name in ("check", "prune", "targets"):
+rule table_s1:
+    """Table S1: parameters of the friction law"""
+    input:
+        rules.write_table_s1.output,
 
-    rule:
-        name:
-            _name
-        localrule: True
-        params:
-            asked=_name,
-            results=RESULTS,
-            expected=everything if _name != "targets" else {},
-            targets=lambda wildcards: {name: text for name, (text, _) in TARGETS.items()},
-        message:
-            f"{_name} of {RESULTS}"
-        script:
-            "../scripts/check.py"
+
+rule figure_1:
+    """Figure 1: the two set-ups"""
+    input:
+        rules.draw_figure_1.output,
+
+
+rule figure_2:
+    """Figure 2: bimaterial interfaces"""
+    input:
+        rules.draw_figure_2.output,
+
+
+rule figure_3:
+    """Figure 3: critical length against height"""
+    input:
+        rules.draw_figure_3.output,
+
+
+rule figure_s1:
+    """Figure S1: steady-state friction"""
+    input:
+        rules.draw_figure_s1.output,
+
+
+rule figure_s2:
+    """Figure S2: stress in space and time"""
+    input:
+        rules.draw_figure_s2.output,
+
+
+rule figure_patch_stability:
+    """Stability of the creeping patch"""
+    input:
+        rules.draw_figure_patch_stability.output,
+        [f"{RESULTS}/patch_convergence.csv"] if in_role("patch_convergence") else [],
+
+
+rule figure_3_extended:
+    """Lengths of the drop and of the patch's stability"""
+    input:
+        rules.draw_figure_3_extended.output,
+
+
+rule figure_drop:
+    """Where the force drops under a declared perturbation"""
+    input:
+        rules.draw_figure_drop.output,
+
+
+rule figure_map:
+    """Where the theory is right: a map over height and weakening"""
+    input:
+        rules.draw_figure_map.output,
+
+
+rule figure_patch_theory:
+    """Stability of the creeping patch by theory"""
+    input:
+        rules.draw_figure_patch_theory.output,
+
+
+rule figure_dispersion:
+    """Growth of single modes: simulation and theory"""
+    input:
+        rules.draw_figure_dispersion.output,
+
+
+rule figure_verification:
+    """Orders of convergence on manufactured solutions"""
+    input:
+        rules.draw_figure_verification.output,
+
+
+rule figure_convergence:
+    """Critical length against mesh and steps"""
+    input:
+        rules.draw_figure_convergence.output,
+
+
+rule figure_sensitivity:
+    """Sensitivity to parameters and definitions"""
+    input:
+        rules.draw_figure_sensitivity.output,
+
+
+rule figure_pairs:
+    """Two deformable bodies"""
+    input:
+        rules.draw_figure_pairs.output,
+
+
+rule figure_2_simulated:
+    """Figure 2 with simulations, in both senses of the contrast"""
+    input:
+        rules.draw_figure_2_simulated.output,
+
+
+rule figure_literature:
+    """Lengths of the literature, simulated in their own settings"""
+    input:
+        rules.draw_figure_literature.output,
+
+
+rule animation:
+    """Creep, nucleation and rupture"""
+    input:
+        rules.draw_animation.output,
+
+
+rule figure_studies:
+    """A figure of each study that shares lengths.csv"""
+    input:
+        shared(of_studies),
+
+
+rule pairs:
+    """Two deformable bodies: lengths over the theory of the own far sides, and verdicts"""
+    input:
+        rules.gather_pairs.output,
+        rules.evaluate_pairs.output,
+        rules.pair_modes.output,
+
+
+rule floors:
+    """How noisy each mesh is with its steps, as a declared strength"""
+    input:
+        rules.gather_floors.output,
+
+
+rule patch_convergence:
+    """Where patches turn unstable on refined meshes"""
+    input:
+        f"{RESULTS}/patch_convergence.csv",
+
+
+rule crosscheck:
+    """The same runs by an independent solver, and the figure of both"""
+    input:
+        rules.draw_figure_crosscheck.output,
+        rules.compare_crosscheck.output,
+
+
+rule report:
+    """Everything on one page, results/report.html"""
+    input:
+        rules.write_report.output,
+
+
+# Questions about results, which nothing is made for.
+rule check:
+    """List results that are stale, incomplete, damaged or foreign"""
+    localrule: True
+    params:
+        results=lambda wildcards: recipe.results,
+        expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies)),
+    message:
+        "Check of the results"
+    shell:
+        f"exec {PYTHON} -m nucleation.pipeline.check check {{params.results:q}} {{params.expected:q}}"
+
+
+rule prune:
+    """List results that nothing refers to; the environment's PRUNE=yes removes them"""
+    localrule: True
+    params:
+        results=lambda wildcards: recipe.results,
+        expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies)),
+    message:
+        "Results that nothing refers to"
+    shell:
+        f"exec {PYTHON} -m nucleation.pipeline.check prune {{params.results:q}} {{params.expected:q}}"

@@ -1,52 +1,101 @@
 # The linear theory, and what holds the solver against mathematics (docs/verification.md).
-make_rule(
-    "theory",
-    call="nucleation.theory.curves:theory_dataset",
-    shows="theory",
-    priority=1,
-    loads=plugins(settings.base),
-    interface=asdict(settings.main_text_interface),
-    message="Theory: critical lengths and friction curves",
-    **CONFIGURED("material", "friction", "curves"),
-)
+rule theory:
+    """Theory: critical lengths and friction curves"""
+    input:
+        recipe=recipe("theory"),
+    output:
+        f"{RESULTS}/theory.nc",
+    log:
+        f"{RESULTS}/logs/theory.log",
+    priority: 1
+    params:
+        call="nucleation.theory.curves:theory_dataset",
+        loads=plugins(settings.base),
+        interface=asdict(settings.main_text_interface),
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        curves=asdict(settings.curves),
+    message:
+        "Theory: critical lengths and friction curves"
+    shell:
+        JOB
+
 
 # Single modes of homogeneous sliding, integrated in time, beside the spectrum.
-make_rule(
-    "dispersion",
-    call="nucleation.verification.dispersion:files",
-    shows="dispersion",
-    priority=3,  # the verdicts wait for it, and nothing that it needs
-    loads=plugins(settings.base),
-    message="Dispersion: growth of single modes, time integration and theory",
-    **CONFIGURED("material", "friction", "loading"),
-)
+rule dispersion:
+    """Growth of single modes: time integration and theory"""
+    input:
+        recipe=recipe("dispersion"),
+    output:
+        multiext(f"{RESULTS}/dispersion", ".nc", ".csv"),
+    log:
+        f"{RESULTS}/logs/dispersion.log",
+    priority: 3  # the verdicts wait for it, and nothing that it needs
+    params:
+        call="nucleation.verification.dispersion:files",
+        loads=plugins(settings.base),
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        loading=asdict(settings.base.loading),
+    message:
+        "Dispersion: growth of single modes, time integration and theory"
+    shell:
+        JOB
+
 
 # The same between two sliding layers, for Eqs. (7) and (8).
-make_rule(
-    "pair_modes",
-    call="nucleation.verification.pair_modes:files",
-    shows="pair_modes",
-    loads=plugins(settings.base),
-    message="Growth of single modes between two layers, time integration and theory",
-    **CONFIGURED("material", "friction", "loading"),
-)
+rule pair_modes:
+    """Growth of single modes between two layers: time integration and theory"""
+    input:
+        recipe=recipe("pair_modes"),
+    output:
+        multiext(f"{RESULTS}/pair_modes", ".nc", ".csv"),
+    log:
+        f"{RESULTS}/logs/pair_modes.log",
+    params:
+        call="nucleation.verification.pair_modes:files",
+        loads=plugins(settings.base),
+        material=asdict(settings.base.material),
+        friction=asdict(settings.base.friction),
+        loading=asdict(settings.base.loading),
+    message:
+        "Growth of single modes between two layers, time integration and theory"
+    shell:
+        JOB
+
 
 # Orders of convergence on manufactured solutions, which depend on no configuration.
-make_rule(
-    "verification",
-    call="nucleation.verification.orders:files",
-    shows="verification",
-    loads=EVOLUTIONS,
-    message="Convergence: errors of manufactured solutions against element size and time step",
-)
+rule verification:
+    """Errors of manufactured solutions against element size and time step"""
+    input:
+        recipe=recipe("verification"),
+    output:
+        multiext(f"{RESULTS}/verification", ".nc", ".csv"),
+    log:
+        f"{RESULTS}/logs/verification.log",
+    params:
+        call="nucleation.verification.orders:files",
+        loads=EVOLUTIONS,
+    message:
+        "Convergence: errors of manufactured solutions against element size and time step"
+    shell:
+        JOB
 
-make_rule(
-    "write_table_s1",
-    call="nucleation.figures.paper.table_s1:files",
-    shows="tables/table_s1",
-    suffix="md",
-    local=True,
-    loads=plugins(settings.base),
-    message="Table S1: parameters of the friction law",
-    **CONFIGURED("friction"),
-)
+
+rule write_table_s1:
+    """Table S1: parameters of the friction law"""
+    input:
+        recipe=recipe("write_table_s1"),
+    output:
+        multiext(f"{RESULTS}/tables/table_s1", ".md", ".csv"),
+    log:
+        f"{RESULTS}/logs/tables/table_s1.log",
+    localrule: True
+    params:
+        call="nucleation.figures.paper.table_s1:files",
+        loads=plugins(settings.base),
+        friction=asdict(settings.base.friction),
+    message:
+        "Table S1: parameters of the friction law"
+    shell:
+        JOB

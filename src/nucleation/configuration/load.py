@@ -58,7 +58,7 @@ def _merged(layers: Iterable[Any]) -> Any:
     return first
 
 
-def _completed(values: Any) -> Any:
+def completed(values: Any) -> Any:
     """A configuration that has studies: those of the default one if it gives none itself."""
     if not isinstance(values, dict) or "studies" in values:
         return values
@@ -86,7 +86,7 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     ParameterError
         With one line for each problem found.
     """
-    values = _with_numbers(_completed(values))
+    values = _with_numbers(completed(values))
     stop_on(value_problems(values))
     stop_on([*range_problems(values), *results_problems(results_directory(values))])
     try:

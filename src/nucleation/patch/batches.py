@@ -37,15 +37,18 @@ def measured(
 
 
 def table(
-    runs: Sequence[dict[str, Any]], records: Iterable[xr.Dataset | None],
-    settings: ExtractionSettings, measure: str,
-) -> xr.Dataset:  # fmt: skip
-    """The rows of a batch's runs, without those that have no record."""
-    rows = [
-        measured(run, record, settings, measure)
-        for run, record in zip(runs, records, strict=True)
-        if record is not None
-    ]
+    runs: Sequence[dict[str, Any]], records: Any, settings: ExtractionSettings, measure: str
+) -> xr.Dataset:
+    """The rows of a batch's runs, without those that have no record.
+
+    Parameters
+    ----------
+    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
+    records : their records; ``map`` calls a function on the number and the record of each.
+    settings : how lengths are read.
+    measure : ``lengths`` or ``stability``, as of :func:`measured`.
+    """
+    rows = records.map(lambda i, record: measured(runs[i], record, settings, measure))
     return lengths.join(rows) if rows else xr.Dataset()  # which is not kept
 
 

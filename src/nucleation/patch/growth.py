@@ -1,9 +1,10 @@
 """The length at which the creep patch of a simulation turns linearly unstable, free of its noise.
 
-Growth of the frozen patch (:mod:`nucleation.patch.frozen`) begins where its oscillating mode
-stops decaying. Each instant of a run needs the spectrum of a dense matrix, and a run has some
-hundred of them: a few, spaced evenly in patch length, find the crossing, and a line through the
-instants around it gives its length.
+Growth of the frozen patch (:mod:`nucleation.patch.frozen`) begins where the first of its modes
+stops decaying, which oscillates there (:mod:`nucleation.theory.creep.lengths`). Each instant of a
+run needs the spectrum of a dense matrix, and a run has some hundred of them: a few, spaced evenly
+in patch length, find the crossing by the fastest growing mode, and a line through the oscillating
+mode at the instants around it gives its length.
 """
 
 from collections.abc import Iterable
@@ -58,7 +59,7 @@ def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dat
     record = _Creep(Record(simulation, settings))
     frames = np.flatnonzero(record.length >= FEWEST_NODES * record.grid.dx)
     scanned = evenly(frames, record.length, SCANNED)
-    crossing = rough_crossing(record.length[scanned], record.growth(scanned).real)
+    crossing = rough_crossing(record.length[scanned], record.fastest(scanned).real)
     fit = dict.fromkeys(FITTED, float("nan"))
     mode = np.zeros(record.grid.n_x + 1, dtype=complex)
     for _ in range(REFITS):
@@ -82,13 +83,20 @@ class _Creep(Frames):
         super().__init__(record)
         self._known: dict[int, tuple[complex, complex]] = {}  # fastest and oscillating
 
+    def fastest(self, frames: Iterable[int]) -> ComplexArray:
+        """Eigenvalues (1/s) of the fastest growing mode at some frames, or NaN."""
+        return np.array([self._rates(i)[0] for i in frames], dtype=complex)
+
     def growth(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
-        for i in set(frames) - set(self._known):
-            patch, pair = self.patch(i)
+        return np.array([self._rates(i)[1] for i in frames], dtype=complex)
+
+    def _rates(self, frame: int) -> tuple[complex, complex]:
+        if frame not in self._known:
+            patch, pair = self.patch(frame)
             fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
-            self._known[i] = (fastest, pair)
-        return np.array([self._known[i][1] for i in frames], dtype=complex)
+            self._known[frame] = (fastest, pair)
+        return self._known[frame]
 
     def dataset(self, fit: dict[str, float], mode: ComplexArray) -> xr.Dataset:
         """What :func:`follow_patch` returns."""

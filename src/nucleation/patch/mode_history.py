@@ -21,6 +21,7 @@ changes growth by some 0.2 1/s, where Re Lambda comes to 3 1/s.
 import dataclasses
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
 from ..theory.creep.front import Advance, advance, first_growing, oscillating
@@ -31,6 +32,9 @@ from ..types import Array, ComplexArray
 
 FIRST, LAST, INSTANTS = 0.8, 1.7, 24  # lengths over L_s that are followed, and how many
 SLOWED = 0.45  # frequency over that at L_s below which a patch leaves its oscillation behind
+FEWEST = 6  # instants of which trends can be made,
+NARROWED = 3  # and how often a narrower range of lengths is tried for them
+JUMP = 2.0  # change of the rate, over that to the next instant, which is one to another mode
 PLACES = 400  # along x, for what depends on it
 
 
@@ -62,13 +66,22 @@ def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
         raise NoPatch("homogeneous sliding is stable")
     start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
     stable = first_growing(patches, theory_length, *start)
-    found = advance(patches, stable * np.linspace(FIRST, LAST, INSTANTS), *start)
-    rates = oscillating(found)
-    at_start = np.interp(stable, found.length, rates.imag)
-    above = found.length > stable
-    left = above & ~((rates.imag > SLOWED * at_start) & (rates.real > 0.0))
-    end = int(np.argmax(left)) if left.any() else found.length.size
-    known = np.flatnonzero(np.isfinite(rates[:end]))
+    lengths = stable * np.linspace(FIRST, LAST, INSTANTS)
+    for _ in range(NARROWED + 1):
+        found = advance(patches, lengths, *start)
+        rates = oscillating(found)
+        known = followed(found.length, rates, stable)
+        if known.size >= FEWEST:
+            break
+        middle = int(np.searchsorted(lengths, stable))
+        first, last = (known[0], known[-1]) if known.size else (middle, middle - 1)
+        low, high = lengths[max(first - 1, 0)], lengths[min(last + 1, INSTANTS - 1)]
+        lengths = np.linspace(low, high, INSTANTS)
+    else:
+        raise NoPatch(
+            f"growth begins at a patch length of {stable:.4g} m, and the mode does not oscillate "
+            "long enough around it for its growth to be followed"
+        )
     x = np.linspace(0.0, found.length[-1], PLACES)
     rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
     columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
@@ -78,6 +91,42 @@ def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
         parameters, x, found.time[known], found.length[known], rates[known] / memory,
         load / memory, drive / memory, strength / memory, state,
     )  # fmt: skip
+
+
+def followed(length: Array, rates: ComplexArray, stable: float) -> NDArray[np.intp]:
+    """Indices of the lengths at which a rate is that of the mode whose growth begins at L_s.
+
+    The mode is followed from L_s to either side, until it leaves its oscillation behind or the
+    rate jumps: there another mode is the fastest growing one that oscillates.
+
+    Parameters
+    ----------
+    length : patch lengths (m), rising, (n,).
+    rates : Lambda of the fastest growing oscillating mode at each, NaN without one, (n,).
+    stable : L_s (m).
+    """
+    at_stable = np.interp(stable, length, rates.imag)
+    above = length > stable
+    left = above & ~((rates.imag > SLOWED * at_stable) & (rates.real > 0.0))
+    end = int(np.argmax(left)) if left.any() else length.size
+    middle = int(np.searchsorted(length[:end], stable))
+    first = last = min(middle, end - 1)
+    while first > 0 and _continues(rates[first - 1 : first + 2]):
+        first -= 1
+    while last < end - 1 and _continues(rates[max(last - 1, 0) : last + 2][::-1]):
+        last += 1
+    known = np.arange(first, last + 1)
+    return known[np.isfinite(rates[known])]
+
+
+def _continues(rates: ComplexArray) -> bool:
+    """Whether the first of three neighbouring rates is about where the others point to."""
+    if not np.isfinite(rates).all():
+        return False
+    if rates.size < 3:
+        return True
+    step = rates[1] - rates[2]
+    return bool(abs(rates[0] - rates[1] - step) < JUMP * abs(step))
 
 
 def _weights(

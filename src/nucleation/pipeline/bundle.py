@@ -24,7 +24,7 @@ from typing import Any
 from ..configuration.load import DEFAULTS, load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .check import records
+from .planning import kept_recipes
 from .store import BAD, NOTE, PATTERN, STEM, Store, StoreError, content, read_note
 
 CHECKSUMS = "manifest-sha256.txt"
@@ -65,16 +65,18 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
-    targets, digests = records(store), set[str]()
+    recipes = [one for recipe, _ in kept_recipes(store) for one in (recipe, *recipe.parts)]
+    recipes = [one for one in recipes if one.call and store.note(one.key) is not None]
+    digests: set[str] = set()
     entries: dict[str, Path] = {}
-    for key in sorted({key for target in targets for key in target["keys"]}):
+    for key in sorted({one.key for one in recipes}):
         files = read_note(store.entry(key), whole=True)["files"]
         digests |= {file["sha256"] for file in files.values()}
         entries |= {f"store/{key}/{name}": store.entry(key) / name for name in (*files, NOTE)}
     if not entries:
         raise BundleError(f"there are no results in {results}: make them first")
-    names = sorted({name for target in targets for name in target["files"]})
-    shown = {name: results / name for name in names if not name.endswith(".nc")}
+    names = {os.path.relpath(file, one.results) for one in recipes for file in one.files}
+    shown = {name: results / name for name in sorted(names) if not name.endswith(".nc")}
     copies = {  # and no file of the user's own
         name: path for name, path in shown.items() if path.is_file() and content(path) in digests
     }

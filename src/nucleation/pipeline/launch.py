@@ -25,7 +25,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 
 def problem(arguments: Sequence[str]) -> str | None:
-    """What is wrong with the cores or the configuration files; None if all can be used."""
+    """What is wrong with the cores or the configuration files, in words; None if nothing."""
     given = options(arguments)
     if re.fullmatch(r"0+|-\d+", given.cores or ""):
         return "--cores must be 1 or more"

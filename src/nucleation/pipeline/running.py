@@ -1,7 +1,7 @@
-"""Simulations of jobs: from a store, or made, from a checkpoint on."""
+"""Simulations of jobs and commands: from a checkpoint on, to a record in a file."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,56 +12,52 @@ from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
-from .job import Job, end, running
-from .steps import LINKS, Task
-from .store import path_in
+from ..simulation.run import simulate
+from . import code
+from .recipes import PartFailed, Recipe
 
 SIMULATE = "nucleation.simulation.run:simulate"
 UNFINISHED = "unfinished"  # directory with checkpoints, and records of runs that failed
 
 
-def task_of_run(run: dict[str, Any], results: Path) -> Task:
-    """The task to simulate a run, from :meth:`nucleation.configuration.runs.Run.to_dict`."""
-    loads = plugins(Parameters.from_dict(run["parameters"]))
-    task = Task("", SIMULATE, loads, {"parameters": run["parameters"]}, {})
-    return task._replace(link=f"{results}/{LINKS}/simulations/{run['id']}.{task.key}.nc")
+def run_of(
+    recipe: Recipe, put: Callable[[Recipe, xr.Dataset], None], origin: Mapping[str, str]
+) -> xr.Dataset:
+    """The record of a simulation, made from its checkpoint on if there is one, and put away.
 
+    A signal ends the process, after a checkpoint.
 
-def _record(job: Job, task: Task, failures: list[str]) -> xr.Dataset | None:
-    """The record of a run, found or made, and now in the store; None of one that failed.
+    Parameters
+    ----------
+    recipe : of the simulation.
+    put : puts the record of a finished run into the store.
+    origin : attributes of the record of one that has failed.
 
-    A run that fails is noted, and has left its record among the unfinished. A signal that stops it,
-    or came in the run before, ends the job; what has begun has left a checkpoint.
+    Raises
+    ------
+    PartFailed
+        If the run has failed; its record is among the unfinished.
     """
-    name = Path(task.link).stem
-    if job.listener is not None and job.listener.asked is not None:
-        end(f"{name}: not begun, since the job was stopped by {job.listener.asked}")
-    if job.found(task.key):
-        dataset: xr.Dataset = job.open(str(path_in(job.store.entry(task.key), ".nc")))
-        return dataset
-    from ..simulation.run import simulate
-
-    parameters = Parameters.from_dict(task.values["parameters"])
-    place = job.results / UNFINISHED / f"{name}.nc"
-    job.listener = checkpoint = checkpoint_of(parameters, place, task.code)
-    checkpoint.listen()
+    name = recipe.name.rpartition("/")[2]
+    parameters = Parameters.from_dict(recipe.values["parameters"])
+    place = Path(recipe.results, UNFINISHED, f"{name}.nc")
+    checkpoint = checkpoint_of(parameters, place, recipe.code)
 
     def write(dataset: xr.Dataset, path: Path) -> None:
         if path == place:
-            job.put(task, dataset)
+            put(recipe, dataset)
         else:
-            netcdf.write(dataset, path, **job.origin(task))
+            netcdf.write(dataset, path, **origin)
 
     progress = Progress(parameters, sys.stderr)
     try:
-        dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
+        with checkpoint.listening():
+            dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
     except Stopped as stopped:
-        end(f"{name}: {stopped}")
-    if path == place:
-        return dataset
-    failures.append(f"{name}: {dataset.attrs['status']}; its record is in {path}")
-    print(failures[-1], file=sys.stderr)
-    return None
+        sys.exit(f"{name}: {stopped}")
+    if path != place:
+        raise PartFailed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
+    return dataset
 
 
 def run_to_file(
@@ -95,31 +91,4 @@ def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Che
 
 def simulation_code(parameters: Parameters) -> str:
     """Digest of the code that a simulation runs, as in the workflow."""
-    return Task("", SIMULATE, plugins(parameters), {}, {}).code
-
-
-def run(snakemake: Any) -> None:
-    """Make the simulations of a job, or the table of a batch of them; link what is made.
-
-    One that fails does not keep the others.
-    """
-    with running(snakemake) as job:
-        failures: list[str] = []
-        for task in job.tasks:
-            if task.call == SIMULATE:
-                _record(job, task, failures)
-            elif not job.found(task.key):
-                runs = [task_of_run(one, job.results) for one in task.values["runs"]]
-                table = job.called(task, records=(_record(job, one, failures) for one in runs))
-                _stop_on(failures, len(runs))  # before a table without them is kept
-                job.put(task, table)
-            job.leave_link(task)
-        _stop_on(failures, len(job.tasks))
-
-
-def _stop_on(failures: list[str], number: int) -> None:
-    if failures and number == 1:
-        end(failures[0])
-    if failures:
-        count = f"{len(failures)} of {number} runs failed"
-        end("\n  ".join([f"{count}, the others are kept:", *failures]))
+    return code.digest(SIMULATE.partition(":")[0], *code.ALWAYS, *plugins(parameters))

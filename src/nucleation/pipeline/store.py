@@ -38,9 +38,9 @@ def key(code: str, parameters: Mapping[str, Any], sources: Mapping[str, Sequence
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 
-def plain(values: Any) -> str:
+def plain(values: Any, sort_keys: bool = True) -> str:
     """Values as JSON, the same text for the same values; tuples and lists are the same."""
-    return json.dumps(values, sort_keys=True, default=_plain_one)
+    return json.dumps(values, sort_keys=sort_keys, default=_plain_one)
 
 
 def _plain_one(value: Any) -> Any:
@@ -201,6 +201,7 @@ class Store:
         with self._unfinished() as place:
             for name in (NOTE, *read_note(entry)["files"]):
                 shutil.copyfile(entry / name, place / name)
+                shutil.copystat(entry / name, place / name)  # made when it was made there
             read_note(place, entry.name, whole=True)
             self._publish(place, entry.name)
 

@@ -5,6 +5,7 @@ a fingerprint of the parameters and the code that made them. It is plain numbers
 executes nothing.
 """
 
+import contextlib
 import hashlib
 import math
 import os
@@ -108,6 +109,15 @@ class Checkpoint:
         """From now on a signal of :data:`SIGNALS` stops the run after its present step."""
         for number in SIGNALS:
             signal.signal(number, self._ask)
+
+    @contextlib.contextmanager
+    def listening(self):
+        before = {number: signal.signal(number, self._ask) for number in SIGNALS}
+        try:
+            yield self
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
 
     def _ask(self, number: int, _: FrameType | None) -> None:
         self.asked = signal.Signals(number).name

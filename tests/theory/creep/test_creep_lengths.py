@@ -61,9 +61,9 @@ def test_numbers_of_modes():
 
         def finer(systems, length=length):
             patches = Patches(systems)
-            rate = patches.rate(float(length), 2 * patches.number)
+            growth = patches.growth(float(length), 2 * patches.number)
             slope = stability_point(patches, float(length) / 0.55).growth
-            return np.full(systems.a.size, rate.real / slope)
+            return np.full(systems.a.size, growth / slope)
 
         assert abs(fault.evaluate(finer)) < max(float(error), 5e-4)
 

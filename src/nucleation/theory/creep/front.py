@@ -14,6 +14,7 @@ dL/dt and the slip rate along the patch,
 The three are repeated until they agree. Nothing is fitted and there is no time step.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
 from ...types import Array
-from .lengths import OSCILLATING, NoPatch, Patches
+from .lengths import NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import MORE_MODES, Creep, EdgeSlip, Half, edge_slip, modes, response
 
@@ -32,6 +33,9 @@ STEP = 0.01  # of log L, in derivatives by L
 FLOOR = 1e-3  # slip rate over V with which the front sets in
 SHORTEST, TRIED = 0.3, 14  # patches that are tried for L_s: from which part of L_c on, how many,
 NEAR = np.array([-0.05, 0.0, 0.05])  # and those through which Re Lambda is laid, log(L/L_s)
+CLOSE = 2e-3  # relative, within which the parabola's L_s has to have decay and growth,
+NARROW = 1e-4  # and the bracket of one that is bisected
+OSCILLATING = 0.01  # angular frequency, over V/D, below which a mode counts as not oscillating
 
 
 class Advance(NamedTuple):
@@ -147,31 +151,62 @@ def oscillating(found: Advance) -> NDArray[np.complex128]:
     return np.array([patch.oscillating(OSCILLATING) for patch in found.patches])
 
 
+def fastest(found: Advance) -> Array:
+    """Re Lambda over V/D of each patch's fastest growing mode, oscillating or not."""
+    return np.array([patch.eigenvalues[0].real for patch in found.patches])
+
+
 def first_growing(
     patches: Patches, critical: float, initial_state: float, initial_stress: float = 0.0
 ) -> float:
     """L_s (m) of a patch with its advancing front; `critical` is L_c (m).
 
+    Growth begins between two of the lengths tried, with a pair of modes that oscillates
+    (:mod:`.lengths`). L_s is where a parabola through the pair's growth vanishes. Where the pair
+    oscillates in a narrow window only, that is not where growth begins, and L_s is bisected.
+
     Raises
     ------
     NoPatch
-        If no patch of these lengths has a growing oscillating mode, or its creep opens the fault.
+        If no patch of these lengths has a growing mode, or its creep opens the fault.
     """
+
+    def advanced(lengths: ArrayLike) -> Advance:
+        return advance(patches, lengths, initial_state, initial_stress)
+
     tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
     for lengths in (tried, tried * (1.0 / SHORTEST) ** (1.0 - 1.0 / TRIED)):
-        rates = oscillating(advance(patches, lengths, initial_state, initial_stress))
-        growth = np.where(np.isnan(rates), -1.0, rates.real)
-        i = int(np.argmax(growth > 0.0))
-        if growth[i] > 0.0:
+        found = advanced(lengths)
+        growing = fastest(found) > 0.0
+        i = int(np.argmax(growing))
+        if growing[i]:
             break
     else:
         raise NoPatch(f"no patch up to {lengths[-1] / critical:.2g} L_c has a growing mode")
     if i == 0:
         raise NoPatch(f"the patch grows its mode from {lengths[0] / critical:.2g} L_c on or before")
-    at = np.exp(np.interp(0.0, growth[i - 1 : i + 1], np.log(lengths[i - 1 : i + 1])))
-    near = at * np.exp(NEAR)
-    found = oscillating(advance(patches, near, initial_state, initial_stress)).real
-    fit = np.polynomial.Polynomial.fit(NEAR, found, 2)
-    roots = fit.roots()
+    low, high = lengths[i - 1 : i + 1]
+    pair = oscillating(found)[i - 1 : i + 1].real
+    if np.isfinite(pair).all():
+        at = float(np.exp(np.interp(0.0, pair, np.log([low, high]))))
+        onset = _vanishing(advanced, at)
+        before, after = fastest(advanced(onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])))
+        if before < 0.0 < after:
+            return onset
+    while high / low > 1.0 + NARROW:
+        middle = float(np.sqrt(low * high))
+        if fastest(advanced([middle]))[0] > 0.0:
+            high = middle
+        else:
+            low = middle
+    return float(np.sqrt(low * high))
+
+
+def _vanishing(advanced: Callable[[ArrayLike], Advance], at: float) -> float:
+    """Where a parabola through the pair's growth around a length (m) vanishes; `at` if nowhere."""
+    growth = oscillating(advanced(at * np.exp(NEAR))).real
+    if not np.isfinite(growth).all():
+        return at
+    roots = np.polynomial.Polynomial.fit(NEAR, growth, 2).roots()
     real = roots[np.abs(roots.imag) < 1e-9].real
-    return float(at * np.exp(real[np.abs(real).argmin()]))
+    return float(at * np.exp(real[np.abs(real).argmin()])) if real.size else at

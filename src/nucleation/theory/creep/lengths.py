@@ -1,7 +1,13 @@
-"""The stability length L_s: the shortest creeping patch with a growing oscillating mode.
+"""The stability length L_s: the shortest creeping patch with a growing mode.
 
 The eigenproblem of :mod:`.linearised` is solved at lengths that rise by a constant factor until a
 mode grows, from below the shortest that any fault is known to have, and then between the last two.
+
+All modes count, oscillating or not. A growth rate that is real cannot cross zero: its mode would
+keep the balance of forces at rest, ``(K1 + f S2) dw = 0``, and a patch of any length resists slip.
+So growth begins with a pair of complex rates. Where ``a << zeta`` that pair oscillates in a narrow
+window of lengths only and then grows without oscillation: a search for oscillating modes steps over
+the window and finds nothing, or a longer patch.
 """
 
 from __future__ import annotations
@@ -33,12 +39,9 @@ from .linearised import FrozenPatch, constant_coefficients, creeping_patch, loca
 from .modes import Creep, creep, modes_for, response
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
-OSCILLATING = 0.01
-"""Modes of a smaller angular frequency, over V/D, do not count: none that has to do with L_s is as
-slow, and it is less than what is asked of a run's patch, whose spectrum is not as clean."""
-
 SHORTEST, FACTOR = 0.7, 1.12  # where the search starts, over its guess; from length to length
-PRECISION = 1e-5  # relative, of L_s for a given number of modes
+PRECISION = 1e-9  # relative, of L_s for a given number of modes
+STEP = 1e-3  # of log L, in the derivative of the growth rate
 
 
 class NoPatch(ValueError):
@@ -117,9 +120,14 @@ class Patches:
             friction = constant_coefficients(creep.slip_rate, *values)
         return creeping_patch(creep, friction)
 
-    def rate(self, length: float, number: int | None = None) -> complex:
-        """Lambda over V/D of the fastest growing oscillating mode, NaN without one."""
-        return self.at(length, number).oscillating(OSCILLATING)
+    def growth(self, length: float, number: int | None = None) -> float:
+        """Re Lambda over V/D of the fastest growing mode, oscillating or not."""
+        return float(self.at(length, number).eigenvalues[0].real)
+
+    def rate_near(self, length: float, rate: complex, number: int | None = None) -> complex:
+        """Lambda over V/D of the mode whose rate is nearest to another."""
+        rates = self.at(length, number).eigenvalues
+        return complex(rates[np.abs(rates - rate).argmin()])
 
 
 def stability_point(patches: Patches, critical: float) -> StabilityPoint:
@@ -128,15 +136,14 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     Raises
     ------
     NoPatch
-        If homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing oscillating
-        mode, or its creep opens the fault.
+        If homogeneous sliding is stable, no patch up to ``LONGEST L_c`` has a growing mode, or its
+        creep opens the fault.
     """
     if not math.isfinite(critical):
         raise NoPatch("homogeneous sliding is stable")
 
-    def growth(log_length: float, number: int | None = None) -> float:
-        found = patches.rate(math.exp(log_length), number).real
-        return -1.0 if math.isnan(found) else found  # without an oscillating mode all decay
+    def growth(log_length: float) -> float:
+        return patches.growth(math.exp(log_length))
 
     low, step = math.log(SHORTEST * _guess(patches.one) * critical), math.log(FACTOR)
     while growth(low) > 0.0:
@@ -145,12 +152,21 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     while growth(high) <= 0.0:
         low, high = high, high + step
         if low > longest:
-            raise NoPatch(f"no patch up to {LONGEST:g} L_c has a growing oscillating mode")
-    at = brentq(growth, low, high, xtol=PRECISION)
-    rate = patches.rate(math.exp(at))
-    slope = (growth(at + 1e-3) - growth(at - 1e-3)) / 2e-3
-    error = abs(growth(at, 3 * patches.number // 4) - growth(at)) / slope + PRECISION
-    return StabilityPoint(math.exp(at), rate.imag, slope, error)
+            raise NoPatch(f"no patch up to {LONGEST:g} L_c has a growing mode")
+    return _point(patches, brentq(growth, low, high, xtol=PRECISION))
+
+
+def _point(patches: Patches, log_length: float) -> StabilityPoint:
+    """What is known of the pair of modes whose growth begins at a length."""
+    length = math.exp(log_length)
+    rates = patches.at(length).eigenvalues
+    pairs = rates[rates.imag > 0.0]
+    rate = complex((pairs if pairs.size else rates)[0])
+    before, after = (patches.rate_near(length * math.exp(d), rate).real for d in (-STEP, STEP))
+    slope = (after - before) / (2.0 * STEP)
+    with_fewer_modes = patches.rate_near(length, rate, 3 * patches.number // 4).real
+    error = abs(with_fewer_modes - rate.real) / slope + PRECISION
+    return StabilityPoint(length, rate.imag, slope, error)
 
 
 def _guess(one: Systems) -> float:
@@ -181,7 +197,7 @@ def stability_length(
     -------
     ndarray or DataArray
         L_s (m), broadcast shape; NaN where homogeneous sliding is stable, where no patch up to
-        ``3 L_c`` has a growing oscillating mode, and where its creep would open the fault. A
+        ``3 L_c`` has a growing mode, and where its creep would open the fault. A
         DataArray if there is one among the parameters, else a pint quantity if there is one.
 
     Raises

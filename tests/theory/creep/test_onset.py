@@ -1,0 +1,166 @@
+"""Where growth begins, over all that is accepted: no window is stepped over, nothing jumps.
+
+Where ``a << zeta`` the growing pair of modes oscillates in a window of lengths of a few per cent.
+"""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from nucleation.api import critical_length, stability_length
+from nucleation.model.friction.law import Friction
+from nucleation.model.linearised import interface_state
+from nucleation.model.parameters import Geometry, Parameters
+from nucleation.theory.arrays import fault_of
+from nucleation.theory.creep import front, lengths
+from nucleation.theory.creep.front import first_growing
+from nucleation.theory.creep.lengths import NoPatch, Patches, stability_point
+from nucleation.theory.critical import theory_lengths
+from nucleation.theory.crossings import largest_crossings
+from nucleation.theory.transfer import bodies_of
+
+DIRECT = 1e-4  # a of the faults below
+SOFTNESS = 3e9 * 1e-6 / 1e6  # mu D/sigma0 (m)
+
+BODIES = {
+    "rigid base": {"second_shear_modulus": np.inf},
+    "identical": {},
+    "softer above": {"second_shear_modulus": 1.5e10},
+    "softer below": {"second_shear_modulus": 1e9},
+    "pushed top": {"second_shear_modulus": np.inf, "far_side": "velocity"},
+}
+
+
+def fault(ratio, height, bodies, friction=0.5):
+    """One of zeta/a = `ratio`, with a height over mu D/(zeta sigma0)."""
+    scale = SOFTNESS / (ratio * DIRECT)
+    return {
+        "shear_modulus": 3e9, "poisson_ratio": 0.3, "normal_stress": 1e6, "slip_distance": 1e-6,
+        "a": DIRECT, "zeta": ratio * DIRECT, "friction": friction, "height": height * scale,
+    } | BODIES[bodies]  # fmt: skip
+
+
+def patches_of(parameters):
+    """The patches of one fault, and its L_c (m)."""
+    found = []
+
+    def note(systems):
+        found.append((Patches(systems), 2.0 * np.pi / float(largest_crossings(systems)[0])))
+        return systems.a
+
+    fault_of(parameters).evaluate(note)
+    return found[0]
+
+
+def ratio_of(parameters):
+    return float(stability_length(**parameters)) / float(critical_length(**parameters))
+
+
+@pytest.mark.parametrize(
+    ("own", "expected"),
+    [
+        # both by an independent eigenproblem
+        ({"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "friction": 0.65,
+          "slip_distance": 5e-6, "a": 1.5e-5, "zeta": 400 * 1.5e-5, "height": 5e-3}, 0.4947),
+        ({"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3, "normal_stress": 1e6, "friction": 0.41,
+          "slip_distance": 5e-7, "a": 1.56e-4, "zeta": 0.0156, "height": 1e-3,
+          "second_shear_modulus": np.inf}, 0.4934),
+    ],
+)  # fmt: skip
+def test_a_narrow_window_is_not_stepped_over(own, expected):
+    assert ratio_of(own) == pytest.approx(expected, rel=1e-3)
+
+
+FAULTS = st.tuples(
+    st.floats(-0.5, 3.0).map(lambda log: 10.0**log),
+    st.one_of(st.just(np.inf), st.floats(-3.0, 2.0).map(lambda log: 10.0**log)),
+    st.sampled_from(list(BODIES)),
+    st.floats(0.0, 0.9),
+).filter(lambda drawn: drawn[2] != "pushed top" or drawn[1] > 2.0)
+"""zeta/a, height, bodies, friction; lower layers under a top that moves are stable, or nearly."""
+
+
+@pytest.mark.slow
+@settings(max_examples=40)
+@given(FAULTS)
+def test_the_shortest_growing_patch(drawn):
+    """All shorter patches of a fine grid decay, by the full matrix, and the next longer grows."""
+    patches, critical = patches_of(fault(*drawn))
+    assume(np.isfinite(critical))
+    found = stability_point(patches, critical)
+    for length in critical * np.geomspace(0.1, 1.0, 60):
+        growth = np.linalg.eigvals(patches.at(length).matrix).real.max()
+        if abs(length / found.length - 1.0) > 1e-3:
+            assert (growth > 0.0) == (length > found.length), length / critical
+    assert found.frequency > 0.0 and found.growth > 0.0
+
+
+@pytest.mark.slow
+@settings(max_examples=20)
+@given(FAULTS, st.floats(1.01, 1.5), st.floats(0.3, 1.5))
+def test_the_steps_of_the_search_do_not_matter(drawn, factor, shortest):
+    patches, critical = patches_of(fault(*drawn))
+    assume(np.isfinite(critical))
+    usual = stability_point(patches, critical).length
+    with pytest.MonkeyPatch.context() as changed:
+        changed.setattr(lengths, "FACTOR", factor)
+        changed.setattr(lengths, "SHORTEST", shortest)
+        assert stability_point(patches, critical).length == pytest.approx(usual, rel=1e-7)
+
+
+def assert_smooth(values):
+    """Each value is the mean of its neighbours within 2 %; a window stepped over is 100 %."""
+    logs = np.log(values)
+    assert np.abs(logs[1:-1] - 0.5 * (logs[:-2] + logs[2:])).max() < 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bodies", BODIES)
+@pytest.mark.parametrize("height", [0.003, 0.3, 30.0, np.inf])
+def test_continuous_in_weakening(bodies, height):
+    """From zeta/a = .3 to 1000, in layers that are thin to thick, and half-spaces."""
+    if bodies == "pushed top" and height < 1.0:
+        pytest.skip("a thin layer under a top that moves is stable")
+    found = [ratio_of(fault(q, height, bodies)) for q in np.geomspace(0.3, 1e3, 40)]
+    assert_smooth(found)
+    assert (np.diff(found) < 0.0).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bodies", [name for name in BODIES if name != "pushed top"])
+@pytest.mark.parametrize("ratio", [1.0, 100.0, 1000.0])
+def test_continuous_in_height(bodies, ratio):
+    heights = np.geomspace(1e-4, 1e3, 70)
+    found = [ratio_of(fault(ratio, height, bodies)) for height in heights]
+    assert_smooth(found)
+    assert ratio_of(fault(ratio, np.inf, bodies)) == pytest.approx(found[-1], rel=2e-3)
+
+
+def narrow_run(zeta):
+    """A run whose friction has the least a that its law allows, and its L_c (m)."""
+    law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
+    run = Parameters(friction=law, geometry=Geometry(height=0.01, length=3.0))
+    return run, float(theory_lengths([(*bodies_of(run), interface_state(run))])[0])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("zeta", [0.14, 0.4])
+def test_the_front_steps_over_no_window_either(zeta, monkeypatch):
+    run, critical = narrow_run(zeta)
+    usual = first_growing(Patches.of(run), critical, 1.0)
+    for tried in (9, 40):
+        monkeypatch.setattr(front, "TRIED", tried)
+        assert first_growing(Patches.of(run), critical, 1.0) == pytest.approx(usual, rel=2e-3)
+    rates = [
+        front.fastest(front.advance(Patches.of(run), [part * usual], 1.0))[0]
+        for part in (0.99, 1.01)
+    ]
+    assert rates[0] < 0.0 < rates[1]
+
+
+def test_no_patch_up_to_the_longest(monkeypatch):
+    patches, critical = patches_of(fault(1.0, 1.0, "identical"))
+    monkeypatch.setattr(lengths, "LONGEST", 0.3)
+    with pytest.raises(NoPatch, match=r"no patch up to 0\.3 L_c has a growing mode"):
+        stability_point(patches, critical)
