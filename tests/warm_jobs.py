@@ -45,7 +45,7 @@ class Subprocess:
     def __getattr__(self, name: str) -> Any:
         return getattr(subprocess, name)
 
-    def Popen(self, command: Any, **options: Any) -> Any:  # noqa: N802  as it is called there
+    def Popen(self, command: Any, **options: Any) -> Any:
         words = shlex.split(command) if isinstance(command, str) else []
         if "-m" in words and words[words.index("-m") + 1].startswith("nucleation.pipeline"):
             return Job(self._address, words[words.index("-m") + 1 :], options.get("env"))
