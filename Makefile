@@ -108,8 +108,8 @@ reference: $(DEV_STAMP) ## Make the committed reference set again, from the resu
 	@# digits beyond the twelfth are those of one machine
 	sed -E 's/([0-9]\.[0-9]{11})[0-9]+/\1/g' results/lengths.csv > results/reference/lengths.csv
 
-targets: $(STAMP) ## List what TARGETS may name
-	@$(LAUNCH) targets --quiet all $(OPTIONS)
+targets: $(STAMP) ## List rules and targets; every file in results/ can be asked for as well
+	@$(LAUNCH) --list-rules $(OPTIONS)
 
 check: $(STAMP) ## List results that are stale, incomplete, damaged or foreign
 	$(LAUNCH) check $(OPTIONS)

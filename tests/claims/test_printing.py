@@ -71,6 +71,6 @@ def test_pdf_has_what_the_article_has():
 
 def test_printed_figures_are_those_of_the_template():
     shown = re.findall(r"figures/(\w+)\.png", (ROOT / "docs/article.md.in").read_text("utf-8"))
-    rules = (ROOT / "workflow/rules/targets.smk").read_text("utf-8")
+    rules = (ROOT / "workflow/rules/claims.smk").read_text("utf-8")
     named = re.findall(r'"(\w+)"', re.search(r"PAPERS_FIGURES = .*\nPRINTED = .*", rules)[0])
     assert shown == named

@@ -34,7 +34,7 @@ ADDED += ["src/nucleation/figures/beyond/figure_laws.py", "src/nucleation/analys
 def checkout(tmp_path_factory):
     """A copy of the project with the page's additions."""
     copy = tmp_path_factory.mktemp("checkout")
-    parts = ("Snakefile", "pyproject.toml", "src", "workflow", "config")
+    parts = ("Snakefile", "pyproject.toml", "src", "workflow", "config", "profiles")
     for part in (*parts, "tests/model/test_laws.py"):
         (copy / part).parent.mkdir(parents=True, exist_ok=True)
         take = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2

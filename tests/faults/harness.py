@@ -25,14 +25,15 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 import yaml
-from nucleation.pipeline.steps import Task
 from processes import ENVIRONMENT, ROOT, Done, Lost, Running, require
 from warm_snakemake import warm
 
 from nucleation.configuration.load import load
 from nucleation.datasets import netcdf, variables
+from nucleation.model.friction.registry import plugins
 from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
-from nucleation.pipeline.running import UNFINISHED, task_of_run
+from nucleation.pipeline.recipes import Recipe
+from nucleation.pipeline.running import SIMULATE, UNFINISHED
 from nucleation.pipeline.store import Store, StoreError, key_in, path_in, read_note
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
@@ -82,14 +83,15 @@ class Place:
         """The store of the results, as it is now."""
         return Store(self.results / "store")
 
-    def task(self, id: str) -> Task:
-        """What the job of a simulation has to do, with paths below the directory."""
-        runs = load(self.directory / "config.yaml").runs
-        return task_of_run(next(run for run in runs if run.id == id).to_dict(), Path("results"))
+    def key(self, id: str) -> str:
+        """The key of a simulation."""
+        parameters = load(self.directory / "config.yaml").run(id).parameters
+        values = {"parameters": parameters.to_dict()}
+        return Recipe(id, [], "results", SIMULATE, plugins(parameters), values, {}, []).key
 
     def simulation(self, id: str) -> Path:
         """The dataset of one simulation."""
-        return path_in(self.store.entry(self.task(id).key), ".nc")
+        return path_in(self.store.entry(self.key(id)), ".nc")
 
     def forget(self, *ids: str) -> None:
         """Remove simulations from the store; the links to them lead nowhere then."""
@@ -104,12 +106,11 @@ class Place:
 
     def checkpoint(self, id: str) -> Path:
         """The checkpoint of one simulation."""
-        return self.results / UNFINISHED / f"{Path(self.task(id).link).stem}.checkpoint.npz"
+        return self.results / UNFINISHED / f"{id}.checkpoint.npz"
 
     def log(self, id: str) -> str:
         """What a simulation has written to its log."""
-        name = Path(self.task(id).link).with_suffix(".log").name
-        return (self.results / "logs" / "simulations" / name).read_text(errors="replace")
+        return (self.results / "logs" / "batches" / f"{id}.log").read_text(errors="replace")
 
     def start(
         self,
@@ -224,7 +225,9 @@ def require_same(datasets: dict[str, xr.Dataset], expected: dict[str, xr.Dataset
 
 
 def rules(done: Done) -> set[str]:
-    """The rules that were run, without the target of the lengths, which always is."""
+    """The rules that were run, without the target of the lengths."""
+    if "Nothing to be done" in done.output:
+        return set()
     table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", done.output, re.S)
     require(table, f"it ran nothing: {done.output[-1500:]}")
     return {line.split()[0] for line in table[1].splitlines()} - {"lengths"}

@@ -141,7 +141,7 @@ def code_edited_during_a_run(place, reference, random):
     place.forget(*IDS)
     beside = place.directory.parent
     checkout, other = (beside / f"{place.directory.name}.{name}" for name in ("checkout", "store"))
-    for part in ("src", "workflow", "config", "docs"):
+    for part in ("src", "workflow", "config", "docs", "profiles"):
         shutil.copytree(ROOT / part, checkout / part)
     shutil.copy(ROOT / "Snakefile", checkout)
     other.mkdir()

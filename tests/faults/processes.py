@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import os
-import re
 import signal
 import subprocess
 import time
@@ -81,7 +80,7 @@ class Running:
         found = []
         for process in self.tree():
             with contextlib.suppress(psutil.Error):
-                if re.search(r"/tmp\w*\.simulate\.py$", " ".join(process.cmdline())):
+                if {"nucleation.pipeline.job", "simulate"} <= {*process.cmdline()}:
                     found.append(process)
         return found
 

@@ -6,16 +6,36 @@ import io
 import json
 import stat
 import tarfile
+import tempfile
+from pathlib import Path
 
 import pytest
+import xarray as xr
 
-from nucleation.pipeline import bundle, check
+from nucleation.datasets import netcdf
+from nucleation.pipeline import bundle
 from nucleation.pipeline.bundle import CHECKSUMS, BundleError
+from nucleation.pipeline.planning import RECIPES
+from nucleation.pipeline.recipes import Recipe
 from nucleation.pipeline.store import Store, StoreError
+from nucleation.pipeline.views import lay
 
 KEY, OTHER, UNSHOWN = "0" * 16, "1" * 16, "2" * 16
-FILES = {KEY: {"result.nc": b"a run"}, OTHER: {"result.csv": b"1,2\n", "result.columns.csv": b"x"},
-         UNSHOWN: {"result.nc": b"of other parameters"}}  # fmt: skip
+
+
+def dataset(key):
+    """The bytes of a dataset with a key."""
+    with tempfile.TemporaryDirectory() as place:
+        path = Path(place, "result.nc")
+        netcdf.write(xr.Dataset(), path, key=key)
+        return path.read_bytes()
+
+
+FILES = {
+    KEY: {"result.nc": dataset(KEY)},
+    OTHER: {"result.csv": b"1,2\n", "result.columns.csv": b"x"},
+    UNSHOWN: {"result.nc": dataset(UNSHOWN)},
+}
 
 CONFIG = "studies: {one: {runs: [{height: 0.02, n_x: 40, n_y: 4}]}}"
 
@@ -28,13 +48,25 @@ def put(store, key, files):
     store.put(key, make, {"name": key})
 
 
+def show(results, name, key, *suffixes):
+    """Lay the files of a result, and the recipe that the workflow has planned."""
+    files = [f"results/{name}{suffix}" for suffix in suffixes]
+    recipe = Recipe(name, files, "results", "module:function", [], {}, {}, [])
+    place = results / "store" / RECIPES / "place" / f"{name}.json"
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.write_text(json.dumps({"key": key, **recipe._asdict()}))
+    for file, suffix in zip(files, suffixes, strict=True):
+        lay(results.parent / file, results / "store" / key / f"result{suffix}")
+
+
 @pytest.fixture
 def made(tmp_path):
     """A directory with results of which some are shown, and a file of the user's among them."""
     results = tmp_path / "made" / "results"
     for key, files in FILES.items():
         put(Store(results / "store"), key, files)
-    check.show(results, "paper", [("simulations/a b", KEY), ("lengths", OTHER)])
+    show(results, "simulations/a b", KEY, ".nc")
+    show(results, "lengths", OTHER, ".csv", ".columns.csv")
     (results / "lengths.csv").rename(results / "mine.csv")
     (results / "lengths.csv").write_text("mine")
     (tmp_path / "made" / "config.yaml").write_text(CONFIG)
@@ -99,7 +131,7 @@ def test_nothing_is_written_without_results_or_over_a_file(made, archive):
 
 def test_program_among_results_is_not_packed(made):
     put(Store(made / "results/store"), "3" * 16, {"result.py": b"1"})
-    check.show(made / "results", "own", [("own", "3" * 16)])
+    show(made / "results", "own", "3" * 16, ".nc")
     with pytest.raises(BundleError, match=r"result\.py.: it is neither"):
         bundle.write(made / "out.tar", made / "config.yaml", made)
 

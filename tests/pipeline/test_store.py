@@ -8,7 +8,9 @@ import shutil
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+import xarray as xr
 
+from nucleation.datasets import netcdf
 from nucleation.pipeline import store as module
 from nucleation.pipeline.store import (
     NOTE,
@@ -23,7 +25,7 @@ from nucleation.pipeline.store import (
 KEY, OTHER = "0" * 16, "1" * 16
 
 
-def put(store, key=KEY, content=b"hours of work", name="result.nc"):
+def put(store, key=KEY, content=b"hours of work", name="result.csv"):
     store.put(key, lambda place: (place / name).write_bytes(content), {"name": "a"})
     return store.entry(key)
 
@@ -39,7 +41,7 @@ def names(directory):
 
 def test_entry_is_whole_or_not_there(store):
     def broken(place):
-        (place / "result.nc").write_bytes(b"half")
+        (place / "result.csv").write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
     with pytest.raises(OSError, match="No space"):
@@ -55,7 +57,7 @@ def test_of_writers_at_once_one_wins(store):
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(lambda content: put(Store(store.directory), KEY, content), contents))
     assert read_note(store.entry(KEY), whole=True)
-    assert (store.entry(KEY) / "result.nc").read_bytes() in contents
+    assert (store.entry(KEY) / "result.csv").read_bytes() in contents
     assert names(store.directory) == [KEY], "nobody's entry was moved aside"
 
 
@@ -74,7 +76,7 @@ def test_kill_between_two_steps(store, step):
     assert store.listed() == ([KEY] if step == "shutil.rmtree" else [])
     assert read_note(put(store), whole=True)
     if store.listed():
-        assert (store.entry(KEY) / "result.nc").read_bytes() == b"hours of work"
+        assert (store.entry(KEY) / "result.csv").read_bytes() == b"hours of work"
 
 
 def other_note(**changes):
@@ -93,10 +95,10 @@ DAMAGE = {
     "no files": other_note(files=None),
     "file outside": other_note(files={"../../evil.nc": {"size": 4, "sha256": "0"}}),
     "absolute": other_note(files={"/etc/passwd": {"size": 4, "sha256": "0"}}),
-    "file cut off": lambda entry: (entry / "result.nc").write_bytes(b"hours"),
-    "file gone": lambda entry: (entry / "result.nc").unlink(),
+    "file cut off": lambda entry: (entry / "result.csv").write_bytes(b"hours"),
+    "file gone": lambda entry: (entry / "result.csv").unlink(),
 }
-UNSEEN = {"file changed": lambda entry: (entry / "result.nc").write_bytes(b"HOURS OF WORK")}
+UNSEEN = {"file changed": lambda entry: (entry / "result.csv").write_bytes(b"HOURS OF WORK")}
 """What only a look at all bytes tells."""
 
 
@@ -131,7 +133,7 @@ def test_what_is_given_is_taken_by_another(store, other, tmp_path, capsys):
     for _ in range(2):
         other.give(entry)
     assert clone.take(KEY, [other]) == other.directory
-    for name in (NOTE, "result.nc"):
+    for name in (NOTE, "result.csv"):
         assert (clone.entry(KEY) / name).stat().st_mode & 0o777 == 0o444
     assert read_note(clone.entry(KEY), whole=True) == read_note(entry)
     assert capsys.readouterr().err == "" and names(clone.directory) == [KEY]
@@ -195,3 +197,67 @@ def test_stores_are_named_by_the_environment(tmp_path, monkeypatch, capsys):
         others()
     assert [store.directory for store in others(strict=False)] == [tmp_path]
     assert "is no directory" in capsys.readouterr().err
+
+
+def fifo_for_a_note(entry):
+    (entry / NOTE).unlink()
+    os.mkfifo(entry / NOTE)
+
+
+def endless_file(entry):
+    rewrite(entry, files={"result.csv": {"size": 0, "sha256": hashlib.sha256(b"").hexdigest()}})
+    (entry / "result.csv").unlink()
+    (entry / "result.csv").symlink_to("/dev/zero")
+
+
+def huge_note(entry):
+    (entry / NOTE).chmod(0o644)
+    os.truncate(entry / NOTE, 2**33)
+
+
+def no_files(entry):
+    rewrite(entry, files={})
+
+
+def elsewhere(entry):
+    entry.rename(entry.parent.parent / "elsewhere")
+    entry.symlink_to(entry.parent.parent / "elsewhere")
+
+
+def another_result(entry):
+    """A dataset of another key, with the digest that the note says."""
+    path = entry / "result.nc"
+    netcdf.write(xr.Dataset(), path, key=OTHER)
+    content = path.read_bytes()
+    about = {"size": len(content), "sha256": hashlib.sha256(content).hexdigest()}
+    rewrite(entry, files={"result.nc": about})
+
+
+def rewrite(entry, **changes):
+    path = entry / NOTE
+    note = {**json.loads(path.read_text()), **changes}
+    path.chmod(0o644)
+    path.write_text(json.dumps(note))
+
+
+SPECIAL = (fifo_for_a_note, endless_file, huge_note, no_files, elsewhere, another_result)
+
+
+@pytest.mark.parametrize("how", SPECIAL)
+def test_special_entry_elsewhere_neither_hangs_nor_is_taken(store, other, how, capsys):
+    how(put(other))
+    assert store.take(KEY, [other]) is None and store.note(KEY) is None
+    assert not store.listed() and not list(store.directory.glob(".*"))
+    said = capsys.readouterr().err
+    assert (said.startswith("Not taken from") and said.count("\n") == 1) or how is fifo_for_a_note
+    give_all(put(store), [other])
+    assert read_note(other.entry(KEY), whole=True)["name"] == "a", "the right one is there now"
+
+
+@pytest.mark.parametrize("how", SPECIAL)
+def test_special_entry_of_the_own_store_is_moved_aside(store, how):
+    how(put(store))
+    with pytest.raises(StoreError):
+        read_note(store.entry(KEY), whole=True)
+    put(Store(store.directory))
+    assert read_note(store.entry(KEY), whole=True)["name"] == "a"

@@ -114,14 +114,11 @@ def test_signal_leaves_a_checkpoint_to_go_on_from(whole, tmp_path, number):
         if len(steps) == 321:
             os.kill(os.getpid(), number)
 
-    try:
-        one, _ = checkpoint(path, every=1e9)
-        one.listen()
-        with pytest.raises(Stopped, match=f"stopped by {number.name}; a further run goes on"):
-            simulate(COARSE, progress=interrupt, keep=one.keep)
-    finally:
-        for n, handler in before.items():
-            signal.signal(n, handler)
+    one, _ = checkpoint(path, every=1e9)
+    message = f"stopped by {number.name}; a further run goes on"
+    with pytest.raises(Stopped, match=message), one.listening():
+        simulate(COARSE, progress=interrupt, keep=one.keep)
+    assert {n: signal.getsignal(n) for n in SIGNALS} == before, "a job hears of signals again"
     assert len(steps) == 321
     two, log = checkpoint(path)
     assert_same(simulate(COARSE, start=two.load()), record)

@@ -80,7 +80,11 @@ class Workflow:
         for rule, count in re.findall(r"(\w+) (\d+)", kept[1] if kept else ""):
             counts[rule] -= min(int(count), counts[rule])
         own = makers(self.checkout)
-        return {rule: count for rule, count in counts.items() if count and rule.removeprefix("fault_") in own}
+        return {
+            rule: count
+            for rule, count in counts.items()
+            if count and rule.removeprefix("fault_") in own
+        }
 
     def dataset(self, kind: str, id: str, results: str = "results/quick") -> Path:
         """The dataset of a kind and a run that is shown: the file in the store, by its own path."""

@@ -47,7 +47,8 @@ def test_default_target_is_the_whole_paper(paper):
         ("figure_s2", {"simulate": 5, "extract": 1, "draw_figure_s2": 1}),
         ("claims", {"theory": 1, "dispersion": 1, "simulate": 6, "extract": 2, "follow_patches": 1,
                     "evaluate_claims": 1}),
-        ("results/quick/figures/study_drop.png", {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
+        ("results/quick/figures/study_drop.png",
+         {"simulate_and_measure": 2, "join_batches": 1, "draw_study": 1}),
         ("crosscheck", {"crosscheck_own": 4, "crosscheck_freefem": 4, "compare_crosscheck": 1,
                         "draw_figure_crosscheck": 1}),  # two of the runs are of two blocks
     ],
@@ -163,7 +164,7 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
 
 def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     listed = workflow("--list-rules").stdout
-    texts = dict(re.findall(r"^(\w+)\n    (\S.*)$", listed, re.M))
+    texts = dict(re.findall(r"^(\w+) \((.+)\)$", listed, re.M))
     modules = {path.stem for path in (ROOT / "src/nucleation/figures").rglob("figure_*.py")}
     assert len(modules) > 9
     assert modules == {name for name in texts if name.startswith("figure_")}

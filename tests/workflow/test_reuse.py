@@ -71,7 +71,8 @@ def test_code_edited_after_planning_is_refused(plain, tmp_path):
     edit(plain, "src/nucleation/pipeline/job.py", "    recipe, keys = read(recipe_file)\n",
          "    recipe, keys = read(recipe_file)\n"
          "    _f = Path(__file__).parents[1] / 'simulation/control.py'\n"
-         "    _f.write_text(_f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5'))\n")  # fmt: skip
+         "    _c = _f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5')\n"
+         "    _f.write_text(_c)\n")  # fmt: skip
     values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},
               "runs": [{"height": 0.1, "tolerance": 0.1}]}}}  # fmt: skip
     mine = plain.configured(values, "edited.yaml")

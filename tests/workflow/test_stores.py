@@ -81,10 +81,19 @@ def test_job_goes_on_without_a_store_that_its_node_lacks(workflow, monkeypatch):
     (recipe,) = (workflow.directory / "results/quick/store/recipes").glob("*/tables/table_s1.json")
     monkeypatch.setenv("NUCLEATION_STORES", "/no/such/store")
     monkeypatch.setenv("PYTHONPATH", str(workflow.checkout / "src"))
-    command = [sys.executable, "-m", "nucleation.pipeline.job", recipe, "write_table_s1", "1", "log"]
+    command = [
+        sys.executable,
+        "-m",
+        "nucleation.pipeline.job",
+        recipe,
+        "write_table_s1",
+        "1",
+        "log",
+    ]
     job = subprocess.run(command, cwd=workflow.directory, capture_output=True, text=True)
     assert job.returncode == 0, job.stderr
-    assert "Not used: the store '/no/such/store' is no directory" in (
-        workflow.directory / "log"
-    ).read_text()
+    assert (
+        "Not used: the store '/no/such/store' is no directory"
+        in (workflow.directory / "log").read_text()
+    )
     assert (workflow.directory / "results/quick/tables/table_s1.md").exists()

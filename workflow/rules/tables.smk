@@ -61,6 +61,11 @@ rule gather_map:
         JOB
 
 
+def compared_with_theory():
+    """The runs whose L_s stands beside that of the theory."""
+    return runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)
+
+
 rule gather_patch_theory:
     """Lengths of creeping patches by theory, beside those of simulations"""
     input:

@@ -187,6 +187,12 @@ rule patch_convergence:
         f"{RESULTS}/patch_convergence.csv",
 
 
+rule figure_crosscheck:
+    """The figure of both solvers"""
+    input:
+        rules.draw_figure_crosscheck.output,
+
+
 rule crosscheck:
     """The same runs by an independent solver, and the figure of both"""
     input:
@@ -203,6 +209,8 @@ rule report:
 # Questions about results, which nothing is made for.
 rule check:
     """List results that are stale, incomplete, damaged or foreign"""
+    log:
+        f"{RESULTS}/logs/check.log",
     localrule: True
     params:
         results=lambda wildcards: recipe.results,
@@ -210,11 +218,14 @@ rule check:
     message:
         "Check of the results"
     shell:
-        f"exec {PYTHON} -m nucleation.pipeline.check check {{params.results:q}} {{params.expected:q}}"
+        f"{PYTHON} -m nucleation.pipeline.check check {{params.results:q}} {{params.expected:q}}"
+        " | tee {log:q}"
 
 
 rule prune:
     """List results that nothing refers to; the environment's PRUNE=yes removes them"""
+    log:
+        f"{RESULTS}/logs/prune.log",
     localrule: True
     params:
         results=lambda wildcards: recipe.results,
@@ -222,4 +233,5 @@ rule prune:
     message:
         "Results that nothing refers to"
     shell:
-        f"exec {PYTHON} -m nucleation.pipeline.check prune {{params.results:q}} {{params.expected:q}}"
+        f"{PYTHON} -m nucleation.pipeline.check prune {{params.results:q}} {{params.expected:q}}"
+        " | tee {log:q}"

@@ -2,7 +2,6 @@
 
 import math
 import shlex
-import signal
 import sys
 from pathlib import Path
 from typing import Any
@@ -128,28 +127,27 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     from ..analysis.progress import Progress
     from ..datasets import netcdf, provenance
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
-    from ..simulation.checkpoints import SIGNALS, Stopped
+    from ..simulation.checkpoints import Stopped
     from ..simulation.run import simulate
 
     digest = simulation_code(run.parameters)
     attributes = provenance.attributes(run.parameters.to_dict(), digest, _command(output, run))
     checkpoint = checkpoint_of(run.parameters, output, digest)
     progress = Progress(run.parameters, sys.stderr)
-    handlers = {number: signal.getsignal(number) for number in SIGNALS}
-    checkpoint.listen()
+
+    def write(dataset: Any, path: Path) -> None:
+        netcdf.write(dataset, path, **attributes)
+
     try:
-        dataset, path = run_to_file(
-            simulate, run.parameters, output,
-            lambda dataset, path: netcdf.write(dataset, path, **attributes),
-            checkpoint, progress,
-        )  # fmt: skip
+        with checkpoint.listening():
+            dataset, path = run_to_file(
+                simulate, run.parameters, output, write, checkpoint, progress
+            )
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED
     finally:
         progress.close()
-        for number, handler in handlers.items():
-            signal.signal(number, handler)
     if path != output:
         click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED

@@ -76,7 +76,7 @@ def attributes(
     sources : mapping of role to keys
         What it is made from.
     key : str
-        Of the dataset in the workflow (:func:`nucleation.pipeline.steps.key`), if it is from there.
+        Of the dataset in the workflow (:func:`nucleation.pipeline.store.key`), if it is from there.
     """
     made = {
         "parameters": json.dumps(parameters, sort_keys=True),

@@ -65,17 +65,21 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
-    recipes = [one for recipe, _ in kept_recipes(store) for one in (recipe, *recipe.parts)]
-    recipes = [one for one in recipes if one.call and store.note(one.key) is not None]
+    planned = [
+        (key, one)
+        for recipe, keys in kept_recipes(store)
+        for key, one in zip(keys, (recipe, *recipe.parts), strict=True)
+        if one.call and (store.entry(key) / NOTE).is_file()
+    ]
     digests: set[str] = set()
     entries: dict[str, Path] = {}
-    for key in sorted({one.key for one in recipes}):
+    for key in sorted({key for key, _ in planned}):
         files = read_note(store.entry(key), whole=True)["files"]
         digests |= {file["sha256"] for file in files.values()}
         entries |= {f"store/{key}/{name}": store.entry(key) / name for name in (*files, NOTE)}
     if not entries:
         raise BundleError(f"there are no results in {results}: make them first")
-    names = {os.path.relpath(file, one.results) for one in recipes for file in one.files}
+    names = {os.path.relpath(file, one.results) for _, one in planned for file in one.files}
     shown = {name: results / name for name in sorted(names) if not name.endswith(".nc")}
     copies = {  # and no file of the user's own
         name: path for name, path in shown.items() if path.is_file() and content(path) in digests

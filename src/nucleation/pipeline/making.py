@@ -122,7 +122,11 @@ class Maker:
             return run_of(recipe, self.put, self.origin(recipe))
         made = self.called(recipe)
         self.put(recipe, made)
-        if isinstance(made, xr.Dataset) and "onset_time" in made and recipe.name.startswith(LENGTHS):
+        if (
+            isinstance(made, xr.Dataset)
+            and "onset_time" in made
+            and recipe.name.startswith(LENGTHS)
+        ):
             for line in without_event(rows_of(made)):
                 study = recipe.name.removeprefix(LENGTHS)
                 print(f"Warning: study {study}: {line}", file=sys.__stderr__)

@@ -90,10 +90,10 @@ class Plan:
     @cached_property
     def runs(self) -> bool:
         """Whether jobs will run, not only be listed; they are told what is forced."""
-        plan = self._workflow
-        runs = plan.executor_plugin is not None and not (plan.dryrun or plan.touch)
+        workflow = self._workflow
+        runs = workflow.executor_plugin is not None and not (workflow.dryrun or workflow.touch)
         if runs:
-            os.environ[FORCED] = "\n".join(_forced(plan.dag_settings))
+            os.environ[FORCED] = "\n".join(_forced(workflow.dag_settings))
         return runs
 
     @cached_property
@@ -226,6 +226,7 @@ class Plan:
             for path in map(Path, recipe.files):
                 if leads_nowhere(path):  # Snakemake would stop there
                     path.unlink()
+                    self._workflow.iocache.clear()
         if not (shown and is_old(file) and key_of(file) == recipe.key):
             write(file, recipe.text("" if shown else str(time.time_ns())))
         if shown:
@@ -236,19 +237,22 @@ class Plan:
         for one in recipe.needed:
             if self.store.note(one.key) is None and self.store.take(one.key, self._others):
                 self._taken += 1
+        changed = False
         for one in (recipe, *recipe.parts):
             if is_shown(one, self.store) and (is_linked(one) or not self._links):
                 continue
+            changed = True
+            earlier = self.store.entry(key_of(file) or "none")
+            for path in one.files:
+                withdraw(Path(path), earlier / Path(recipe.stored(path)).name)
             if all(self.store.note(part.key) for part in one.needed):
                 show(one)
                 self._shown += one is recipe
                 for path in one.files:
                     # what Snakemake noted is of another result
                     self._workflow.persistence.cleanup_metadata(self._files[path])
-            else:
-                earlier = self.store.entry(key_of(file) or "none")
-                for path in one.files:
-                    withdraw(Path(path), earlier / Path(recipe.stored(path)).name)
+        if changed:
+            self._workflow.iocache.clear()  # Snakemake may have looked at the files before
 
     def _is_kept(self, key: str) -> bool:
         """Whether a store has a result, as far as can be told without copying it."""

@@ -6,13 +6,16 @@ their digest. It is kept as JSON, so that a job makes what was planned, on whate
 """
 
 import json
+import re
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import code
-from .store import STEM, Store, key, of_file, plain
+from .store import PATTERN, STEM, Store, key, of_file, plain
+
+MANIFEST = re.compile(rf'\{{("[^"]+": "{PATTERN}"(, )?)*\}}\n')
 
 Sources = dict[str, str | list[str]]
 """What is read, by the names of a function's arguments: files in the store, or of others."""
@@ -85,6 +88,11 @@ class Recipe(_Ingredients):
     def _plain(self) -> dict[str, Any]:
         parts = [{"key": part.key, **part._plain()} for part in self.parts]
         return self._asdict() | {"parts": parts}
+
+
+def is_manifest(text: str | None) -> bool:
+    """Whether a text is that of :meth:`Recipe.manifest`, of whatever batch."""
+    return text is not None and re.fullmatch(MANIFEST, text) is not None
 
 
 def listed(paths: Any) -> list[str]:

@@ -15,12 +15,14 @@ import json
 import os
 import re
 import shutil
+import stat
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
+from ..datasets import seal
 from ..datasets.files import flush
 
 LENGTH = 16  # hexadecimal digits: 64 bits, of which thousands of results never share one
@@ -70,7 +72,22 @@ def content(path: str | Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
+@contextlib.contextmanager
+def _plain(path: Path, largest: int) -> Iterator[BinaryIO]:
+    """A file open to be read, which must be a regular one, no link, of at most some bytes.
+
+    Opening a pipe does not wait for somebody to write to it.
+    """
+    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    with os.fdopen(descriptor, "rb") as file:
+        found = os.fstat(descriptor)
+        if not stat.S_ISREG(found.st_mode) or found.st_size > largest:
+            raise StoreError(f"{path} is no regular file of at most {largest} bytes")
+        yield file
+
+
 NOTE = "entry.json"
+LARGEST_NOTE = 2**20  # bytes of what an entry says of itself
 STEM = "result"
 """Name of the files of an entry, before their suffix."""
 FILE = re.compile(rf"{STEM}(\.\w+)+")
@@ -105,18 +122,29 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
     StoreError
         If it is damaged, or the entry of another key.
     """
+    key = key or entry.name
     try:
-        note = json.loads((entry / NOTE).read_text("utf-8"))
-        if note["key"] != (key or entry.name):
+        if entry.is_symlink():
+            raise StoreError(f"{entry} is a link: nothing outside a store is followed")
+        with _plain(entry / NOTE, LARGEST_NOTE) as stream:
+            note = json.loads(stream.read())
+        if note["key"] != key:
             raise StoreError(f"{entry} holds the result of another key, {note['key']}")
+        if not note["files"]:
+            raise StoreError(f"{entry} is damaged: it has no files")
         for name, file in note["files"].items():
             path = entry / name
             if not FILE.fullmatch(name):  # a plain one, which can't lead out of the entry
                 raise StoreError(f"{name!r} is no name of a result's file")
-            if path.stat().st_size != file["size"]:
+            found = path.lstat()
+            if not stat.S_ISREG(found.st_mode):
+                raise StoreError(f"{path} is damaged: it is no regular file")
+            if found.st_size != file["size"]:
                 raise StoreError(f"{path} is damaged: it has not the size it was given")
             if whole and content(path) != file["sha256"]:
                 raise StoreError(f"{path} is damaged: it is not what was written")
+            if whole and path.suffix == ".nc" and seal.attributes(path).get("key") != key:
+                raise StoreError(f"{path} is the result of another key")
     except StoreError:
         raise
     except BAD as error:
@@ -142,7 +170,7 @@ class Store:
         """
         if key not in self._known:
             self._known[key] = None
-            if (self.entry(key) / NOTE).exists():
+            if os.path.lexists(self.entry(key) / NOTE):
                 try:
                     self._known[key] = read_note(self.entry(key))
                 except StoreError as error:

@@ -9,7 +9,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from .recipes import Recipe
+from .recipes import Recipe, is_manifest
 from .store import Store, content, key_in
 
 
@@ -106,7 +106,8 @@ def withdraw(file: Path, earlier: Path | None = None) -> None:
     if not os.path.lexists(file):
         return
     is_link = file.is_symlink() and key_in(os.readlink(file)) is not None
-    if is_link or leads_nowhere(file) or (earlier is not None and shows(file, earlier)):
+    is_copy = earlier is not None and shows(file, earlier)
+    if is_link or is_copy or leads_nowhere(file) or is_manifest(_text(file)):
         file.unlink()
         return
     names = (file.with_name(f"{file.name}~{number or ''}") for number in itertools.count())

@@ -64,6 +64,8 @@ def script_json(value: Any) -> Markup:
 def caption_html(template: str, params: dict[str, Any]) -> str:
     """A caption as HTML, from reStructuredText with Jinja2's placeholders.
 
+    They are ``snakemake.params.NAME`` and ``snakemake.wildcards.NAME``, as in Snakemake's report.
+
     Raises
     ------
     jinja2.UndefinedError
@@ -71,5 +73,9 @@ def caption_html(template: str, params: dict[str, Any]) -> str:
     docutils.utils.SystemMessage
         For a mistake in the text.
     """
-    text = Environment(undefined=StrictUndefined).from_string(template).render(params)
+    text = (
+        Environment(undefined=StrictUndefined)
+        .from_string(template)
+        .render(snakemake={"params": params, "wildcards": params})
+    )
     return publish_parts(text, writer="html5", settings_overrides=CAPTIONS)["body"]

@@ -13,7 +13,7 @@ import signal
 import sys
 import time
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import FrameType
 from typing import TextIO
@@ -105,16 +105,12 @@ class Checkpoint:
         """Delete the checkpoint, once the result is safe."""
         self.path.unlink(missing_ok=True)
 
-    def listen(self) -> None:
-        """From now on a signal of :data:`SIGNALS` stops the run after its present step."""
-        for number in SIGNALS:
-            signal.signal(number, self._ask)
-
     @contextlib.contextmanager
-    def listening(self):
+    def listening(self) -> Iterator[None]:
+        """While this lasts a signal of :data:`SIGNALS` stops the run after its present step."""
         before = {number: signal.signal(number, self._ask) for number in SIGNALS}
         try:
-            yield self
+            yield
         finally:
             for number, handler in before.items():
                 signal.signal(number, handler)

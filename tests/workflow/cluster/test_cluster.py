@@ -31,8 +31,8 @@ RUNS = configure(CONFIG).runs
 
 def log_files(workflow):
     """The logs of simulations by id, as far as they exist."""
-    paths = (workflow.directory / "results/quick/logs/simulations").glob("*.log")
-    return {path.stem.rpartition(".")[0]: path for path in paths}
+    paths = (workflow.directory / "results/quick/logs/batches").glob("*.log")
+    return {path.stem: path for path in paths}
 
 
 def logs(workflow):
@@ -46,7 +46,7 @@ def hold(workflow):
     held = []
     for process in psutil.process_iter():
         with contextlib.suppress(psutil.Error):
-            if f"{workflow.directory}/.snakemake/scripts" not in " ".join(process.cmdline()):
+            if "nucleation.pipeline.job" not in process.cmdline():
                 continue
             if wanted & {file.path for file in process.open_files()}:
                 process.suspend()
@@ -119,7 +119,7 @@ def test_a_core_for_each_simulation(disturbed):
     assert {job["NumCPUs"] for job in simulations} == {"1"}
     assert {job["TimeLimit"] for job in simulations} == {"01:00:00"}
     smallest, largest = (
-        300 + f(estimated_megabytes(run.parameters) for run in RUNS) for f in (min, max)
+        450 + f(estimated_megabytes(run.parameters) for run in RUNS) for f in (min, max)
     )
     again = max(simulations, key=lambda job: int(job["JobId"]))
     for job in simulations:
@@ -145,7 +145,7 @@ def stopped(slurm, workflow_type, tmp_path_factory):
     checkout = tmp_path_factory.mktemp("stopped")
     for path in (Path(__file__).parent / "small").iterdir():
         (checkout / path.name).write_text(path.read_text())
-    (checkout / "workflow").symlink_to(ROOT / "workflow")
+    (checkout / "profiles").symlink_to(ROOT / "profiles")
     made = workflow_type(checkout, checkout=checkout, profile="slurm")
     process = made.start(*OFTEN)
     yield made, process

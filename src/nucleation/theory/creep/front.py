@@ -162,7 +162,7 @@ def first_growing(
     """L_s (m) of a patch with its advancing front; `critical` is L_c (m).
 
     Growth begins between two of the lengths tried, with a pair of modes that oscillates
-    (:mod:`.lengths`). L_s is where a parabola through the pair's growth vanishes. Where the pair
+    (:mod:`nucleation.theory.creep.lengths`). L_s is where a parabola through the pair's growth vanishes. Where the pair
     oscillates in a narrow window only, that is not where growth begins, and L_s is bisected.
 
     Raises
