@@ -25,7 +25,9 @@ $(error VENV = "$(VENV)" is not allowed: make knows no file names with blanks)
 endif
 ENVIRONMENT := '$(subst ','\'',$(VENV))'
 BIN := $(ENVIRONMENT)/bin
+# What `make paper` needs is installed, and what development needs too.
 STAMP := $(VENV)/environment.stamp
+DEV_STAMP := $(VENV)/environment-dev.stamp
 STEM = $(shell $(BIN)/python -c 'import tomllib; \
 	p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(p["name"], p["version"], sep="-")')
 
@@ -36,46 +38,51 @@ CONFIGURED = $${CONFIG:+--configfile "$$CONFIG"}
 OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
-.PHONY: help paper report quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
+.PHONY: help install paper report replication quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
 	targets check prune bundle restore release released torture weight
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
 	@echo "Variables: PYTHON (the newest of 3.11 to 3.13) CORES=$$CORES TARGETS='figure_3 lengths' (all if empty) CONFIG=my.yaml"
 
-paper: $(STAMP) ## Make every figure, table and verdict, in results/
+install: $(STAMP) ## Install what `make paper` needs, in .venv
+
+paper: $(if $(findstring replication,$(TARGETS)),$(DEV_STAMP),$(STAMP)) ## Make every figure, table and verdict, in results/
 	$(LAUNCH) $$TARGETS $(OPTIONS)
 
 report: $(STAMP) ## Make results/report.html: verdicts, figures, the lengths of any fault, in half an hour to an hour
 	$(LAUNCH) report $(OPTIONS)
 
+replication: $(DEV_STAMP) ## Make the article with all figures as PDF, results/replication.pdf
+	$(LAUNCH) replication $(OPTIONS)
+
 quick: $(STAMP) ## The same on coarse grids in a minute, in results/quick/
 	$(LAUNCH) $$TARGETS --cores "$$CORES" --configfile config/quick.yaml
 
 # Two workers more than there are cores: tests of a cluster and of faults mostly wait.
-test: $(STAMP) ## Run the tests
+test: $(DEV_STAMP) ## Run the tests
 	@$(PYTEST) -n "$$(expr "$$CORES" + 2)"
 
-test-quick: $(STAMP) ## Run those that are neither slow nor start a whole system, in a minute
+test-quick: $(DEV_STAMP) ## Run those that are neither slow nor start a whole system, in a minute
 	@$(PYTEST) -n "$$CORES" -m "not slow and not system"
 
-torture: $(STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
+torture: $(DEV_STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	FAULT_SEED="$$SEED" $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
 
 weight: ## Count lines and words against their budgets
 	@python3 .ci/weight.py
 
-lint: $(STAMP) ## Check style, types, and which wing imports which
+lint: $(DEV_STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check --quiet .
 	@$(BIN)/snakefmt --check Snakefile workflow
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 
-hooks: $(STAMP) ## Have git check what make lint checks before each commit
+hooks: $(DEV_STAMP) ## Have git check what make lint checks before each commit
 	@$(BIN)/pre-commit install
 
-docs: $(STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
+docs: $(DEV_STAMP) ## Build the documentation, its tutorials executed, in docs/_build/html/
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
 
 calculator: $(STAMP) ## Make results/calculator.html: the lengths of any fault, in one page
@@ -90,7 +97,7 @@ REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv verifica
 	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
 
-reference: $(STAMP) ## Make the committed reference set again, from the results of the workflow
+reference: $(DEV_STAMP) ## Make the committed reference set again, from the results of the workflow
 	$(BIN)/snakemake paper replication patch_convergence figure_patch_stability figure_3_extended \
 		figure_convergence figure_sensitivity figure_verification figure_dispersion figure_drop \
 		animation figure_pairs figure_2_simulated pairs figure_map figure_patch_theory floors \
@@ -113,7 +120,7 @@ prune: $(STAMP) ## List results that nothing refers to; PRUNE=yes removes them
 bundle: $(STAMP) ## Write all results of CONFIG with a manifest to FILE (results.tar)
 	@$(BIN)/python -m nucleation.pipeline.bundle write "$${FILE:-results.tar}" "$$CONFIG"
 
-release: $(STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
+release: $(DEV_STAMP) ## Make all of it and put what is to be published into RELEASE (release/)
 	$(LAUNCH) paper replication report $(OPTIONS)
 	@$(MAKE) --no-print-directory released
 
@@ -136,17 +143,21 @@ released:
 restore: $(STAMP) ## Start from the results in FILE, with nothing computed again
 	@$(BIN)/python -m nucleation.pipeline.bundle restore "$$FILE" "$$CONFIG"
 
-schema: $(STAMP) ## Make config/schema.yaml again, after a change of a parameter's declaration
-	PYTHONPATH=src $(BIN)/python -m nucleation.configuration.load > config/schema.yaml
+schema: $(STAMP) ## Make config/schema.json, with which a text editor checks configurations (docs/studies.md)
+	$(BIN)/python -m nucleation.configuration.schema > config/schema.json
 
 # For all Pythons and machines at once, with one version of a package on all of them if there is one.
-lock: ## Pin the newest versions of what pyproject.toml names in environment.txt (needs uv)
-	uv pip compile --upgrade --universal --python-version 3.11 --fork-strategy fewest \
-		--generate-hashes --no-emit-index-url --custom-compile-command "make lock" \
-		--all-extras pyproject.toml -o environment.txt
+LOCK = uv pip compile --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \
+	--no-annotate --no-emit-index-url --custom-compile-command "make lock" pyproject.toml
+
+lock: ## Pin the newest versions of what pyproject.toml names in environment*.txt (needs uv)
+	$(LOCK) --upgrade --all-extras -o environment-dev.txt
+	$(LOCK) --upgrade --extra workflow --constraint environment-dev.txt -o environment.txt
 
 clean-venv: ## Remove the installed environment
 	rm -rf -- $(ENVIRONMENT)
+
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r
 
 # Everything installed is pinned and hashed. The package itself is not installed but pointed to, so
 # that the code of the checkout is what runs. An environment that works keeps its Python.
@@ -160,14 +171,17 @@ $(STAMP): environment.txt
 			"$${python:-none was found}$${python:+ is not}: make PYTHON=/path/to/python3.13" >&2; \
 			exit 1 ;; \
 		esac; }
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes \
-		-r environment.txt
+	$(INSTALL) environment.txt
 	$(BIN)/python -c 'import pathlib, sysconfig; \
 		path = pathlib.Path(sysconfig.get_path("purelib"), "nucleation.pth"); \
 		path.write_text(str(pathlib.Path("src").absolute()) + "\n")'
 	printf '#!/bin/sh\nexec "%s/python" -m nucleation "$$@"\n' "$$(cd $(BIN) && pwd)" > $(BIN)/nucleation
 	chmod +x $(BIN)/nucleation
 	@touch $(ENVIRONMENT)/environment.stamp
+
+$(DEV_STAMP): environment-dev.txt $(STAMP)
+	$(INSTALL) environment-dev.txt
+	@touch $(ENVIRONMENT)/environment-dev.stamp
 
 # A Python that is asked for where the environment has another one: said, rather than not used.
 ifeq ($(PYTHON_IS),command line)

@@ -26,13 +26,15 @@ NAMES = [
 @pytest.fixture
 def make(tmp_path):
     """Run make in a place whose environment notes how its Python is called; give the calls."""
-    (tmp_path / "environment.txt").touch()
+    for name in ("environment.txt", "environment-dev.txt"):
+        (tmp_path / name).touch()
     programs = tmp_path / "venv" / "bin"
     programs.mkdir(parents=True)
     for name in ("python", "snakemake"):
         (programs / name).write_text(PROGRAM.format(python="/usr/bin/env python3"))
         (programs / name).chmod(0o755)
-    (tmp_path / "venv" / "environment.stamp").touch()
+    for name in ("environment", "environment-dev"):
+        (tmp_path / "venv" / f"{name}.stamp").touch()
 
     def run(*arguments, **variables):
         (tmp_path / "called").unlink(missing_ok=True)
@@ -84,3 +86,26 @@ def test_an_environment_with_a_blank_in_its_name_is_refused(tmp_path):
     done = subprocess.run(command, cwd=tmp_path, text=True, capture_output=True)
     assert done.returncode != 0
     assert 'VENV = "my venv" is not allowed' in done.stderr
+
+
+PIP = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r"]
+
+
+@pytest.mark.parametrize(
+    ("target", "installed"),
+    [
+        ("install", ["environment.txt"]),
+        ("paper", ["environment.txt"]),
+        ("report", ["environment.txt"]),
+        ("quick", ["environment.txt"]),
+        ("replication", ["environment.txt", "environment-dev.txt"]),
+        ("test-quick", ["environment.txt", "environment-dev.txt"]),
+        ("docs", ["environment.txt", "environment-dev.txt"]),
+    ],
+)
+def test_each_target_installs_what_it_needs(make, tmp_path, target, installed):
+    for stamp in tmp_path.glob("venv/*.stamp"):
+        stamp.unlink()
+    (tmp_path / "venv/bin/sphinx-build").symlink_to("python")
+    assert [call[-1] for call in make(target) if call[:-1] == PIP] == installed
+    assert [call for call in make("paper") if call[:-1] == PIP] == []

@@ -85,9 +85,22 @@ def test_what_is_asked_for_is_what_the_extra_brings(extra):
     assert PROJECT["name"] == installed.DISTRIBUTION
 
 
+def pinned(file):
+    """Versions, with the machines that they are for, by package."""
+    found = {}
+    for name, version in re.findall(r"^([\w.-]+)==([^\\\n]+)", (ROOT / file).read_text(), re.M):
+        found.setdefault(normal(name), set()).add(version.partition(";")[0].strip())
+    return found
+
+
 def test_everything_declared_is_pinned():
-    pinned = re.findall(r"^([\w.-]+)==", (ROOT / "environment.txt").read_text(), re.M)
-    assert named(PROJECT["dependencies"]) | named(EXTRAS["test"]) <= set(map(normal, pinned))
+    paper, everything = pinned("environment.txt"), pinned("environment-dev.txt")
+    core = named(PROJECT["dependencies"])
+    assert core | named(EXTRAS["workflow"]) <= set(paper)
+    assert core | named(EXTRAS["test"]) <= set(everything)
+    assert {"sphinx", "mypy", "pytest", "pypandoc-binary", "typst", "ruff"}.isdisjoint(paper)
+    for name, versions in paper.items():
+        assert versions <= everything[name], f"{name}: make lock"
     assert {"solver", "figures", "report", "workflow", "article", "docs", "test"} == set(EXTRAS)
 
 

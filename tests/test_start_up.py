@@ -18,7 +18,7 @@ SCIENCE = ("scipy", "pandas", "jsonschema")
 CONFIGURATION = """
 from nucleation.configuration import advice, load, schema
 settings = load.load()
-schema.text()
+schema.build()
 advice.advise(settings.runs)
 """
 LAZY = """

@@ -8,7 +8,7 @@ import pint
 import pytest
 import xarray as xr
 
-from nucleation.configuration.load import schema
+from nucleation.configuration import schema
 from nucleation.configuration.settings import Limits
 from nucleation.configuration.study_names import study_parameters
 from nucleation.model.material import Material

@@ -13,12 +13,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import pypandoc
-import typst
 import xarray as xr
 import yaml
 
+from ..datasets.installed import require
 from . import article
+
+try:
+    import pypandoc
+    import typst
+except ModuleNotFoundError:
+    require("article")  # says what to install
+    raise
 
 FORMAT = "markdown-implicit_figures"
 STYLE = """

@@ -136,7 +136,3 @@ def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:
         return parse("", value, entry) if entry else value
     except ParameterError:
         return value
-
-
-if __name__ == "__main__":  # python -m nucleation.configuration.load > config/schema.yaml
-    print(schema.text(), end="")

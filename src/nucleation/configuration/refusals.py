@@ -44,7 +44,7 @@ def value_problems(values: Any) -> Iterator[str]:
         keys = {k: _several(e) if e.many else _single(e) for k, e in entries.items()}
         checks[group] = _mapping(keys)
     checks["studies"] = _studies
-    yield from _mapping(checks, needed=["studies"])((), values)
+    yield from _mapping(checks)((), values)
 
 
 def _studies(place: Place, given: Any) -> Iterator[str]:

@@ -1,12 +1,14 @@
-"""The JSON schema of the configuration, made from the declarations of the parameters."""
+"""What keys a configuration may have, and a JSON schema of them for text editors.
+
+Both follow from the declarations of the parameters. ``python -m nucleation.configuration.schema``
+prints the schema.
+"""
 
 import dataclasses
 import json
 from collections.abc import Mapping
 from functools import cache
 from typing import Any
-
-import yaml
 
 from ..analysis.definitions import ExtractionSettings
 from ..model import parameters
@@ -93,8 +95,8 @@ def build() -> Node:
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "Configuration of the workflow; SI units; made by make schema",
-        **_mapping("all settings; a key left out has its default", sections, ["studies"]),
+        "title": "Configuration of the workflow; SI units",
+        **_mapping("all settings; a key left out has the paper's value", sections),
         "$defs": {"study": _study(), **{k: _leaf(entry) for k, entry in RANGE.items()}},
     }
 
@@ -164,7 +166,5 @@ def _values(leaf: Node, entry: Quantity) -> Node:
     return {"description": f"{entry.description}: a value, a list or a range", "anyOf": forms}
 
 
-def text() -> str:
-    """The schema as YAML."""
-    plain = json.loads(json.dumps(build()))  # in which nothing is shared, and marked as an alias
-    return yaml.safe_dump(plain, sort_keys=False, width=100, allow_unicode=True)
+if __name__ == "__main__":
+    print(json.dumps(build(), indent=1, ensure_ascii=False))

@@ -123,7 +123,7 @@ def study_runs(
     name : str
         The study's name.
     study : dict
-        Its section of the configuration, valid against the schema.
+        Its section of the configuration, whose values are allowed.
     base : Parameters
         Values of all that the study does not set.
     main_text : InterfaceState

@@ -14,6 +14,7 @@ EXTRAS = {
     "solver": ("numba", "rocket_fft", "netCDF4", "pandas", "tqdm"),
     "figures": ("matplotlib", "PIL"),
     "report": ("jinja2", "markupsafe", "docutils"),
+    "article": ("pypandoc", "typst"),
 }
 """Modules that an extra brings."""
 
