@@ -119,7 +119,9 @@ def job_taken_for_failed(place, reference, random):
         running.signal(TERM)
         running.end()
         place.finish()
-    require(second.status == 0 or "locked" in second.output, second.output)
+    # Snakemake's own race: it stops if its directory of locks is removed while it makes its own
+    refused = any(text in second.output for text in ("locked", ".snakemake/locks/"))
+    require(second.status == 0 or refused, second.output)
 
 
 @fault
@@ -157,6 +159,8 @@ def code_edited_during_a_run(place, reference, random):
     os.utime(file)
     done = place.start(checkout=checkout, NUCLEATION_STORES=str(other)).end()
     require(done.status == 0, done.output)
-    require_same(datasets(Store(other)), reference.contents)
+    kept = datasets(Store(other))  # with those of the edited code, if it was planned with that
+    require(kept.keys() >= reference.contents.keys(), f"datasets are {sorted(kept)}")
+    require_same({key: kept[key] for key in reference.contents}, reference.contents)
     for directory in (checkout, other):
         shutil.rmtree(directory)

@@ -66,10 +66,10 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
         raise BundleError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
     planned = [
-        (key, one)
-        for recipe, keys in kept_recipes(store)
-        for key, one in zip(keys, (recipe, *recipe.parts), strict=True)
-        if one.call and (store.entry(key) / NOTE).is_file()
+        (one.key, one)
+        for recipe in kept_recipes(store)
+        for one in (recipe, *recipe.parts)
+        if one.call and (store.entry(one.key) / NOTE).is_file()
     ]
     digests: set[str] = set()
     entries: dict[str, Path] = {}

@@ -33,12 +33,12 @@ def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
     os.environ |= dict.fromkeys(ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     sys.stderr = Path(log).open("a", buffering=1, encoding="utf-8")  # noqa: SIM115  to the end
-    recipe, keys = read(recipe_file)
+    recipe = read(recipe_file)
     try:
         if is_forced(rule, recipe) or not is_there(recipe):
             from .making import make
 
-            make(recipe, keys, rule, int(threads), is_forced(rule, recipe))
+            make(recipe, rule, int(threads), is_forced(rule, recipe))
         show(recipe)
     except SystemExit as error:  # with the reason
         print(error, file=terminal)

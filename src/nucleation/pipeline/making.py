@@ -41,13 +41,13 @@ OF_MACHINE = ("wall_seconds", "peak_megabytes", "created", "versions", "command"
 """What differs between two results of one recipe."""
 
 
-def make(recipe: Recipe, keys: Sequence[str], rule: str, threads: int, forced: bool) -> None:
-    """Make the result of a recipe that was planned with some keys, and put it into the store.
+def make(recipe: Recipe, rule: str, threads: int, forced: bool) -> None:
+    """Make the result of a recipe, and put it into the store.
 
     Ends the process with a line that says why if that can't be done.
     """
     try:
-        verify(recipe, keys)
+        verify(recipe)
         gc.freeze()  # at its end Python would look through all that is loaded, for .3 s
         Maker(rule, recipe.store, forced).make(recipe, threads)
     except EXPECTED as error:
@@ -57,7 +57,7 @@ def make(recipe: Recipe, keys: Sequence[str], rule: str, threads: int, forced: b
         sys.exit(f"{rule}: {type(error).__name__}: {error}")
 
 
-def verify(recipe: Recipe, keys: Sequence[str]) -> None:
+def verify(recipe: Recipe) -> None:
     """Load all code of a recipe, and make sure that it is what the recipe was planned with.
 
     Raises
@@ -68,8 +68,8 @@ def verify(recipe: Recipe, keys: Sequence[str]) -> None:
     every = (recipe, *recipe.parts)
     for roots in dict.fromkeys(one.roots for one in every):
         code.load(*roots)
-    for one, key in zip(every, keys, strict=True):
-        if one.key != key:
+    for one in every:
+        if one.key_now() != one.key:
             raise code.CodeError(
                 f"the code, the parameters or the sources of {one.name} have changed since this "
                 "job was planned: start the workflow again"

@@ -232,23 +232,22 @@ class Plan:
             self._kept[rule] += all(self._is_kept(one.key) for one in recipe.needed)
             for path in map(Path, recipe.files):
                 if leads_nowhere(path):  # Snakemake would stop there
-                    path.unlink()
-                    self._workflow.iocache.clear()
+                    path.unlink(missing_ok=True)
+                    self._tell_of(str(path))
         if not (shown and is_old(file) and key_of(file) == recipe.key):
             write(file, recipe.text("" if shown else str(time.time_ns())))
         if shown:
             os.utime(file, (0, 0))
+        self._tell_of(str(file))
 
     def _update_views(self, recipe: Recipe, file: Path) -> None:
         """Show what the stores have of a result, and take away what shows another one."""
         for one in recipe.needed:
             if self.store.note(one.key) is None and self.store.take(one.key, self._others):
                 self._taken += 1
-        changed = False
         for one in (recipe, *recipe.parts):
             if is_shown(one, self.store) and (is_linked(one) or not self._links):
                 continue
-            changed = True
             earlier = self.store.entry(key_of(file) or "none")
             for path in one.files:
                 withdraw(Path(path), earlier / Path(recipe.stored(path)).name)
@@ -258,8 +257,19 @@ class Plan:
                 for path in one.files:
                     # what Snakemake noted is of another result
                     self._workflow.persistence.cleanup_metadata(self._files[path])
-        if changed:
-            self._workflow.iocache.clear()  # Snakemake may have looked at the files before
+            for path in one.files:
+                self._tell_of(path)
+
+    def _tell_of(self, path: str) -> None:
+        """Correct what Snakemake remembers of a file: it may have looked before this changed it.
+
+        Its own ``iocache.clear()`` keeps which directories it has listed, and takes every file in
+        them for missing from then on.
+        """
+        known = self._workflow.iocache
+        known.exists_local[path] = os.path.exists(path)
+        for facts in (known.mtime, known.size, known.checksum):
+            facts.pop(path, None)
 
     def _is_kept(self, key: str) -> bool:
         """Whether a store has a result, as far as can be told without copying it."""
@@ -292,8 +302,8 @@ def key_of(file: Path) -> str | None:
     return found[1].decode() if found else None
 
 
-def kept_recipes(store: Store) -> Iterator[tuple[Recipe, list[str]]]:
-    """The recipes of all directories of results that share a store, with their planned keys.
+def kept_recipes(store: Store) -> Iterator[Recipe]:
+    """The recipes of all directories of results that share a store, as they were planned.
 
     Those of a working directory that is gone are left out.
 
@@ -322,9 +332,9 @@ def _is_in_use(place: Path, store: Store) -> bool:
 def referred(store: Store) -> set[str]:
     """Keys in a store that recipes of any directory of results refer to, or their files show."""
     found: set[str] = set()
-    for recipe, keys in kept_recipes(store):
-        found.update(keys)
+    for recipe in kept_recipes(store):
         for one in (recipe, *recipe.parts):
+            found.add(one.key)
             found.update(key for path in one.source_keys.values() for key in path)
             links = (os.path.realpath(file) for file in one.files if os.path.islink(file))
             found.update(filter(None, map(key_in, links)))

@@ -41,7 +41,11 @@ class Recipe(_Ingredients):
 
     @cached_property
     def key(self) -> str:
-        """The key of the result: a digest of its code, its arguments and its sources' keys."""
+        """The key of the result; of a recipe that was read the one that was planned."""
+        return self.key_now()
+
+    def key_now(self) -> str:
+        """A digest of its code, its arguments and its sources' keys, as they are now."""
         if not self.call:
             return key("", {}, {"parts": [part.key for part in self.parts]})
         function = self.call.partition(":")[2]
@@ -100,12 +104,13 @@ def listed(paths: Any) -> list[str]:
     return [str(paths)] if isinstance(paths, str) else [str(path) for path in paths]
 
 
-def read(path: str | Path) -> tuple[Recipe, list[str]]:
-    """The recipe in a file, and the keys that it and its parts had when it was planned."""
-    values = json.loads(Path(path).read_text("utf-8"))
-    return _made(values), [values["key"], *(part["key"] for part in values["parts"])]
+def read(path: str | Path) -> Recipe:
+    """The recipe in a file; it and its parts have the keys with which they were planned."""
+    return _made(json.loads(Path(path).read_text("utf-8")))
 
 
 def _made(values: Mapping[str, Any]) -> Recipe:
     given = {name: values[name] for name in Recipe._fields}
-    return Recipe(**given | {"parts": [*map(_made, values["parts"])]})
+    recipe = Recipe(**given | {"parts": [*map(_made, values["parts"])]})
+    vars(recipe)["key"] = values["key"]
+    return recipe

@@ -152,6 +152,26 @@ def read_note(entry: Path, key: str | None = None, whole: bool = False) -> Note:
     return dict(note)
 
 
+def _may_have_changed(entry: Path) -> bool:
+    """Whether a file of an entry was changed after the entry was given its name, or was copied.
+
+    By the times of inodes: no program can set these, and they are cheap to ask for. Only a disk
+    that fails changes a file and not them; ``check`` reads every byte.
+    """
+    try:
+        named = entry.lstat().st_ctime_ns
+        return any(path.lstat().st_ctime_ns >= named for path in entry.iterdir())
+    except OSError:
+        return True
+
+
+def _mark_as_whole(entry: Path) -> None:
+    """Make the inode of an entry newer than those of its files, which were found to be right."""
+    times = entry.stat()
+    with contextlib.suppress(OSError):  # of somebody else: it is read again the next time
+        os.utime(entry, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
 class Store:
     """A store in a directory, which need not exist."""
 
@@ -166,13 +186,18 @@ class Store:
     def note(self, key: str) -> Note | None:
         """What the entry of a key says of itself; None without one that is right.
 
-        It is looked at once. One that is not right is said, and not used.
+        It is looked at once. One that is not right is said, and not used. If a file may have been
+        changed since the entry was made, its bytes are read.
         """
         if key not in self._known:
             self._known[key] = None
-            if os.path.lexists(self.entry(key) / NOTE):
+            entry = self.entry(key)
+            if os.path.lexists(entry / NOTE):
                 try:
-                    self._known[key] = read_note(self.entry(key))
+                    changed = _may_have_changed(entry)
+                    self._known[key] = read_note(entry, whole=changed)
+                    if changed:
+                        _mark_as_whole(entry)
                 except StoreError as error:
                     print(f"Not used: {error}", file=sys.stderr)
         return self._known[key]

@@ -3,6 +3,7 @@
 What is no such file is somebody's own. It is never overwritten, but moved aside.
 """
 
+import contextlib
 import itertools
 import os
 import shutil
@@ -105,12 +106,13 @@ def withdraw(file: Path, earlier: Path | None = None) -> None:
     """
     if not os.path.lexists(file):
         return
-    is_link = file.is_symlink() and key_in(os.readlink(file)) is not None
-    is_copy = earlier is not None and shows(file, earlier)
-    if is_link or is_copy or leads_nowhere(file) or is_manifest(_text(file)):
-        file.unlink()
-        return
-    names = (file.with_name(f"{file.name}~{number or ''}") for number in itertools.count())
-    kept = next(name for name in names if not os.path.lexists(name))
-    file.rename(kept)
-    print(f"{file} is not of the workflow: it is now {kept}", file=sys.stderr)
+    with contextlib.suppress(FileNotFoundError):  # another process was faster
+        is_link = file.is_symlink() and key_in(os.readlink(file)) is not None
+        is_copy = earlier is not None and shows(file, earlier)
+        if is_link or is_copy or leads_nowhere(file) or is_manifest(_text(file)):
+            file.unlink()
+            return
+        names = (file.with_name(f"{file.name}~{number or ''}") for number in itertools.count())
+        kept = next(name for name in names if not os.path.lexists(name))
+        file.rename(kept)
+        print(f"{file} is not of the workflow: it is now {kept}", file=sys.stderr)
