@@ -39,7 +39,7 @@ OPTIONS = --cores "$$CORES" $(CONFIGURED)
 
 .DEFAULT_GOAL := help
 .PHONY: help install paper report replication quick test test-quick lint hooks docs calculator bench reference schema lock clean-venv asked-python \
-	targets check prune bundle restore release released torture weight
+	targets check prune bundle restore release released torture
 
 help: ## This list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 14
@@ -68,9 +68,6 @@ test-quick: $(DEV_STAMP) ## Run those that are neither slow nor start a whole sy
 
 torture: $(DEV_STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
 	FAULT_SEED="$$SEED" $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
-
-weight: ## Count lines and words against their budgets
-	@python3 .ci/weight.py
 
 lint: $(DEV_STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .
