@@ -161,9 +161,9 @@ def code_edited_during_a_run(place, reference, random):
     require(done.status == 0, done.output)
     kept = datasets(Store(other))
     require(kept.keys() >= set(map(place.key, IDS)), f"datasets are {sorted(kept)}")
-    known = (
-        kept.keys() & reference.contents.keys()
-    )  # others are of edited code, if that was planned
+    # others are of the edited code, if it was edited before it was planned with
+    known = kept.keys() & reference.contents.keys()
     require_same({key: kept[key] for key in known}, reference.contents)
+    place.prune()
     for directory in (checkout, other):
         shutil.rmtree(directory)
