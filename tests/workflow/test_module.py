@@ -82,3 +82,40 @@ def test_rules_of_the_module_are_the_hosts(workflow, tmp_path):
     other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
     expected = {"fault_simulate": 2, "fault_extract": 1, "fault_gather_lengths": 1}
     assert other.planned("every") == expected
+
+
+@pytest.mark.parametrize("prefix", ["", "fault/"])
+def test_a_file_of_the_module_is_an_input_of_the_host(workflow, tmp_path, prefix):
+    file = f"{prefix.rstrip('/')}/results/lengths.csv".lstrip("/")
+    module = MODULE.replace("\n\nuse", f'\n    prefix: "{prefix}"\n\nuse') if prefix else MODULE
+    count = f"""
+rule count:
+    default_target: True
+    input: "{file}"
+    output: "count.txt"
+    shell: "wc -l < {{input}} > {{output}}"
+"""
+    (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{module}{count}')
+    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
+    configure(tmp_path, 1)
+    host = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    done = host()
+    assert done.returncode == 0, done.stdout
+    assert (tmp_path / "count.txt").read_text() == "3\n"  # with the head
+    assert "Nothing to be done" in host().stdout
+    shown = [path.relative_to(tmp_path) for path in tmp_path.rglob("lengths.csv")]
+    assert [str(path) for path in shown] == [file]
+    (tmp_path / file).unlink()
+    assert "Shown without a job: 1 results" in host().stdout
+    assert "All is current" in host("fault_check").stdout
+
+
+def test_paths_that_are_replaced_are_refused(workflow, tmp_path):
+    module = MODULE.replace("\n\nuse", '\n    replace_prefix: {"results/": "r/"}\n\nuse')
+    every = '\nrule every:\n    default_target: True\n    input: "r/lengths.csv"\n'
+    (tmp_path / "Snakefile").write_text(f'configfile: "mine.yaml"\n{module}{every}')
+    (tmp_path / "profiles").symlink_to(ROOT / "profiles")
+    configure(tmp_path, 1)
+    other = dataclasses.replace(workflow, checkout=tmp_path, config=tmp_path / "mine.yaml")
+    done = other("--dry-run")
+    assert done.returncode != 0 and "use prefix, not replace_prefix" in done.stdout

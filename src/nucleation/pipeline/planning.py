@@ -59,7 +59,9 @@ class Plan:
     def __call__(self, rule: str) -> Callable[[Any], str]:
         """The input function that gives the file with the recipe of a rule."""
         self._names.append(rule)
-        return lambda wildcards: self._file_of(rule, dict(wildcards.items()))
+        return lambda wildcards: self._file_of(rule, dict(wildcards.items())).removeprefix(
+            self.prefix
+        )
 
     def _report(self) -> None:
         """Say what was found in stores, in a line."""
@@ -73,8 +75,16 @@ class Plan:
     @cached_property
     def results(self) -> str:
         """The directory of results where Snakemake has it: a module may have a prefix."""
+        return self.prefix + self._configured
+
+    @cached_property
+    def prefix(self) -> str:
+        """What a module's ``prefix:`` puts before the paths of its rules; empty without one."""
         name = str(getattr(self._rules, self._names[0]).output[0])
-        return name[: name.index(self._configured)] + self._configured
+        before, found, _ = name.partition(self._configured)
+        if not found:
+            raise ValueError(f"{name} is not in {self._configured}: use prefix, not replace_prefix")
+        return before
 
     @cached_property
     def store(self) -> Store:
@@ -195,9 +205,10 @@ class Plan:
         return found
 
     def _placed(self, paths: Any) -> Any:
-        """Files of a parameter with the prefix that a module may have; Snakemake sees to inputs."""
-        prefix = self.results.removesuffix(self._configured)
-        return prefix + paths if isinstance(paths, str) else [prefix + path for path in paths]
+        """Files of a parameter with the prefix of a module, which Snakemake puts before inputs."""
+        if not isinstance(paths, str):
+            return [self._placed(path) for path in paths]
+        return paths if os.path.isabs(paths) or paths.startswith("..") else self.prefix + paths
 
     def _name(self, file: str) -> str:
         """The name of a result: that of its first file, without the suffix."""

@@ -1,0 +1,169 @@
+"""Snakemake's switches: each means here what it means in any workflow, before a build and after."""
+
+import dataclasses
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+RUN = {"height": [0.05, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1}
+FILES = ("lengths.csv", "lengths.nc", "lengths/s.csv", "figures/study_s.png", "figures/study_s.pdf")
+SAME = "made again: the same as in the store, which is kept"
+RULES = {"simulate", "extract", "gather_lengths", "draw_study"}
+
+
+@pytest.fixture(scope="module")
+def built(workflow_type, tmp_path_factory):
+    """A study of two runs with its lengths and its figure."""
+    made = workflow_type(tmp_path_factory.mktemp("switches"))
+    made = made.configured({"studies": {"s": {"runs": [RUN]}}})
+    done = made()
+    assert done.returncode == 0, done.stdout
+    return made
+
+
+@pytest.fixture
+def copied(built, tmp_path):
+    """A copy of it, to be changed."""
+    directory = tmp_path / "copy"
+    shutil.copytree(built.directory, directory, symlinks=True)
+    return dataclasses.replace(built, directory=directory, config=directory / built.config.name)
+
+
+@pytest.fixture
+def fresh(built, tmp_path):
+    """The same before anything is built."""
+    return dataclasses.replace(built, directory=tmp_path)
+
+
+def printed(run, *arguments):
+    """What Snakemake prints, if it ends well."""
+    done = run(*arguments)
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+def logs(run):
+    """What the jobs have written."""
+    paths = sorted((run.directory / "results" / "logs").glob("*/*.log"))
+    return "".join(path.read_text() for path in paths)
+
+
+def node_names(graph):
+    """The rules in a graph in the language of dot."""
+    return set(re.findall(r'label ?= ?"(\w+)', graph)) & RULES
+
+
+@pytest.mark.parametrize("switch", ["--summary", "-D"])
+def test_summary_lists_every_file(built, fresh, switch):
+    for run in (built, fresh):
+        listed = printed(run, switch)
+        assert all(f"results/{name}\t" in listed for name in FILES)
+    assert "no update" in printed(built, switch) and "update pending" not in printed(built, switch)
+
+
+@pytest.mark.parametrize("switch", ["--dag", "--rulegraph", "--filegraph"])
+def test_graphs_have_every_rule(built, fresh, switch):
+    for run in (built, fresh):
+        graph = printed(run, switch)
+        if switch == "--filegraph":
+            assert all(rule in graph for rule in RULES)
+        else:
+            assert node_names(graph) == RULES
+
+
+@pytest.mark.parametrize("switch", ["--forcerun", "-R"])
+def test_a_forced_rule_computes_again_and_compares(copied, switch):
+    before = {path: path.read_bytes() for path in copied.directory.glob("results/simulations/*.nc")}
+    printed(copied, "lengths", switch, "simulate")
+    assert logs(copied).count(SAME) == 2
+    assert all(path.read_bytes() == content for path, content in before.items())
+
+
+def test_a_forced_file_and_all_of_them_compute_again(copied):
+    (file, _) = sorted(copied.directory.glob("results/simulations/*.nc"))
+    printed(copied, str(file.relative_to(copied.directory)), "-f")
+    assert logs(copied).count(SAME) == 1
+    assert copied.planned("lengths", "-F") == {"simulate": 2, "extract": 1, "gather_lengths": 1}
+    printed(copied, "lengths", "--forceall")
+    assert logs(copied).count(SAME) == 4, (
+        "the file, then both simulations and the lengths of the study"
+    )
+
+
+def test_until_and_omit_from_know_the_rules(fresh):
+    assert fresh.planned("--until", "simulate") == {"simulate": 2}
+    assert fresh.planned("--omit-from", "draw_study").keys() == RULES - {"draw_study"}
+    printed(fresh, "--until", "simulate")
+    results = fresh.directory / "results"
+    assert len([*results.glob("simulations/*.nc")]) == 2 and not (results / "lengths.csv").exists()
+
+
+def test_threads_and_resources_of_a_rule_can_be_set(fresh):
+    commands = printed(fresh, "lengths", "--dry-run", "-p", "--set-threads", "simulate=2")
+    assert len(re.findall(r"nucleation\.pipeline\.job \S+ simulate 2 ", commands)) == 2
+    free = printed(fresh, "simulations")
+    assert "Execute 2 jobs" in free
+    bound = ("--resources", "licences=1", "--set-resources", "simulate:licences=1")
+    assert printed(fresh, "simulations", "-F", *bound).count("Execute 1 jobs") >= 2
+
+
+def test_a_dry_run_changes_no_visible_file(copied):
+    listed = {path: path.lstat().st_mtime_ns for path in copied.directory.glob("results/*/*")}
+    assert "Nothing to be done" in printed(copied, "--dry-run")
+    changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
+    assert changed.planned("lengths")["simulate"] == 2
+    for path, time in listed.items():
+        assert path.lstat().st_mtime_ns == time or "logs" in path.parts
+
+
+def test_rules_are_listed_with_what_they_make(built):
+    listed = printed(built, "--list-rules")
+    (line,) = re.findall(r"^simulate\b.*(?:\n +.*)*", listed, re.M)
+    assert "simulat" in line.removeprefix("simulate")
+    assert set(re.findall(r"^(\w+)", listed, re.M)) >= RULES
+
+
+def test_lint_misses_no_log(built):
+    assert "No log directive" not in built("--lint").stdout
+
+
+def test_report_has_figures_and_captions(built, tmp_path):
+    file = tmp_path / "report.html"
+    printed(built, "--report", str(file))
+    page = file.read_text()
+    assert "study_s" in page and RULES - {"draw_study"} <= set(re.findall(r"\w+", page))
+
+
+@pytest.mark.parametrize("lost", [False, True], ids=["notes", "no notes"])
+def test_touch_makes_nothing_stale_or_current(copied, lost):
+    if lost:
+        shutil.rmtree(copied.directory / ".snakemake")
+    printed(copied, "--touch")
+    assert copied.planned() == {}
+    changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
+    changed("--touch")
+    assert changed.planned("lengths")["simulate"] == 2
+
+
+def test_deleted_output_is_shown_again_without_a_job(copied):
+    printed(copied, "--delete-all-output")
+    results = copied.directory / "results"
+    assert not any((results / name).exists() for name in FILES)
+    assert "Shown without a job" in printed(copied)
+    assert all((results / name).is_file() for name in FILES) and not logs(copied).count("again")
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_every_file_is_a_target(built, fresh, file):
+    assert built.planned(f"results/{file}") == {}
+    assert fresh.planned(f"results/{file}")["simulate"] == 2
+
+
+def test_a_clone_needs_no_flag(tmp_path, built):
+    """Snakemake finds the default profile where it looks for it, beside the Snakefile."""
+    command = [sys.executable, "-m", "snakemake", "table_s1", "--dry-run", "--directory", tmp_path]
+    done = subprocess.run(command, cwd=built.checkout, capture_output=True, text=True)
+    assert done.returncode == 0 and "write_table_s1" in done.stdout + done.stderr
