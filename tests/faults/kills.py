@@ -119,8 +119,9 @@ def job_taken_for_failed(place, reference, random):
         running.signal(TERM)
         running.end()
         place.finish()
-    # Snakemake's own race: it stops if its directory of locks is removed while it makes its own
-    refused = any(text in second.output for text in ("locked", ".snakemake/locks/"))
+    # or by Snakemake, where the first one ends or shows a file while the second looks
+    refusals = ("locked", ".snakemake/locks/", "a concurrent process has deleted it")
+    refused = any(text in second.output for text in refusals)
     require(second.status == 0 or refused, second.output)
 
 

@@ -119,6 +119,17 @@ def test_a_dry_run_changes_no_visible_file(copied):
         assert path.lstat().st_mtime_ns == time or "logs" in path.parts
 
 
+def test_a_run_beside_another_one_changes_nothing(copied):
+    """It stops before its first job, and so does not take away what the other one shows."""
+    locks = copied.directory / ".snakemake" / "locks"
+    locks.mkdir(exist_ok=True)
+    (locks / "0.output.lock").write_text("results/lengths.csv\n")
+    changed = copied.configured({"studies": {"s": {"runs": [{**RUN, "tolerance": 0.2}]}}})
+    done = changed("lengths")
+    assert done.returncode != 0 and "cannot be locked" in done.stdout
+    assert all((copied.directory / "results" / name).is_file() for name in FILES)
+
+
 def test_rules_are_listed_with_what_they_make(built):
     listed = printed(built, "--list-rules")
     (line,) = re.findall(r"^simulate\b.*(?:\n +.*)*", listed, re.M)

@@ -30,6 +30,7 @@ from .views import can_link, is_linked, is_shown, leads_nowhere, show, withdraw,
 
 RECIPES = "recipes"  # directory in a store, with one for each directory of results
 WORKING = "directory"  # file beside recipes: where they were planned, as seen from the store
+LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
 HEAD = re.compile(rf'{{"key": "({PATTERN})"'.encode())  # of a recipe's file
 
 
@@ -104,9 +105,13 @@ class Plan:
 
     @cached_property
     def runs(self) -> bool:
-        """Whether jobs will run, not only be listed; they are told what is forced."""
+        """Whether jobs will run, not only be listed; they are told what is forced.
+
+        Where another run is at work Snakemake stops later, and nothing may be changed before.
+        """
         workflow = self._workflow
         runs = workflow.executor_plugin is not None and not (workflow.dryrun or workflow.touch)
+        runs = runs and not any(Path(LOCKS).glob("*"))
         if runs:
             os.environ[FORCED] = "\n".join(_forced(workflow.dag_settings))
         return runs
@@ -279,7 +284,7 @@ class Plan:
         """
         known = self._workflow.iocache
         known.exists_local[path] = os.path.exists(path)
-        for facts in (known.mtime, known.size, known.checksum):
+        for facts in filter(None, (known.mtime, known.size, known.checksum)):
             facts.pop(path, None)
 
     def _is_kept(self, key: str) -> bool:
