@@ -186,6 +186,39 @@ def test_a_killed_batch_keeps_what_is_finished(workflow, batched):
     assert_same_datasets(slow, single)
 
 
+def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow):
+    """On two cores; what is made from the checkpoints is what is made without them."""
+    values = configuration(2, HEIGHTS[:2])
+    values["studies"]["many"]["defaults"] = SHORT | {"tolerance": 1e-4, "end_time": 4.0}
+    slow = workflow.configured(values)
+    process = slow.start("lengths", "--cores", "2")
+    while begun(slow) < 2:
+        time.sleep(0.02)
+        assert process.poll() is None
+    for child in psutil.Process(process.pid).children(recursive=True):
+        if "nucleation.pipeline.job" in child.cmdline():
+            child.terminate()
+    printed, _ = process.communicate(timeout=120)
+    left = list((slow.directory / "results/unfinished").glob("*.checkpoint.npz"))
+    assert process.returncode != 0 and len(left) == 2 and not datasets(slow), printed
+    done = slow("lengths", "--cores", "2")
+    assert done.returncode == 0, done.stdout
+    (log,) = (slow.directory / "results/logs/batches").glob("*.log")
+    assert log.read_text().count("the run goes on from results/unfinished") == 2
+
+    whole = slow.configured(values | {"results": "whole"}, "whole.yaml")
+    assert whole("lengths", "--cores", "1").returncode == 0
+    for name, path in datasets(slow).items():
+        (other,) = (slow.directory / "whole" / "store").glob(f"{path.parent.name}/result.nc")
+        ours, theirs = netcdf.read(path), netcdf.read(other)
+        cost = ["wall_seconds", "peak_megabytes"]
+        assert (
+            ours.drop_vars(cost, errors="ignore")
+            .drop_attrs()
+            .identical(theirs.drop_vars(cost, errors="ignore").drop_attrs())
+        ), name
+
+
 def test_what_is_read_one_by_one_is_what_a_batch_makes(workflow, batched):
     """Without a table of its own; of what is there already, nothing is made again."""
     quiet = workflow.configured(configuration(2, study_name=READ_ONE_BY_ONE))

@@ -248,7 +248,8 @@ class Batch:
 
         It is called where the result is made. Of a part that has failed there is nothing.
         """
-        done = side_by_side(lambda i: self._one(i, function), len(self._parts), self._cores)
+        names = [part.name for part in self._parts]
+        done = side_by_side(lambda i: self._one(i, function), names, self._cores)
         self._failures += [failure for failure, _ in done if failure]
         return [value for failure, value in done if not failure]
 

@@ -6,7 +6,7 @@ import os
 import signal
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, cast
@@ -16,38 +16,48 @@ from ..simulation.checkpoints import SIGNALS
 Workers = dict[Connection, BaseProcess]
 
 
-def side_by_side(work: Callable[[int], Any], number: int, cores: int) -> list[Any]:
-    """The values of `work` for 0, 1, ... up to a number, from one process for each core.
+def side_by_side(work: Callable[[int], Any], names: Sequence[str], cores: int) -> list[Any]:
+    """The values of `work` for 0, 1, ..., from one process for each core.
+
+    `names` say what each value is of, for messages.
 
     If one of them ends its process (SystemExit), the others finish what they have begun, and this
     process ends for the same reason. Signals that ask a job to stop are passed on to the processes.
     """
-    if min(number, cores) < 2:
-        return [work(i) for i in range(number)]
-    context, found = multiprocessing.get_context("fork"), [None] * number
+    count = len(names)
+    if min(count, cores) < 2:
+        return [work(i) for i in range(count)]
+    context = multiprocessing.get_context("fork")
+    found: list[Any] = [None] * count
     workers: Workers = {}
-    for _ in range(min(number, cores)):
+    given: dict[Connection, int] = {}
+    for _ in range(min(count, cores)):
         ours, theirs = context.Pipe()
         workers[ours] = context.Process(target=_serve, args=(work, theirs, [ours, *workers]))
         workers[ours].start()
         theirs.close()
-    waiting, reasons = iter(range(number)), []
+    waiting = iter(range(count))
+    reasons: list[str] = []
     with _signals_passed_on(workers):
         for connection in list(workers):
-            _give(connection, next(waiting), workers)
+            given[connection] = next(waiting)
+            _give(connection, given[connection], workers)
         while workers:
             for connection in cast(list[Connection], wait(list(workers))):
                 try:
-                    done, value, reason = connection.recv()
+                    value, reason = connection.recv()
                 except (EOFError, OSError):
-                    done, value, reason = None, None, "a process of this job was killed"
+                    reasons.append(f"{names[given[connection]]}: its process was killed")
                     workers.pop(connection).join()
+                    continue
                 if reason:
                     reasons.append(reason)
-                elif done is not None:
-                    found[done] = value
-                if connection in workers:
-                    _give(connection, None if reasons else next(waiting, None), workers)
+                else:
+                    found[given[connection]] = value
+                following = None if reasons else next(waiting, None)
+                if following is not None:
+                    given[connection] = following
+                _give(connection, following, workers)
     if reasons:
         sys.exit("\n".join(dict.fromkeys(reasons)))
     return found
@@ -82,7 +92,7 @@ def _serve(work: Callable[[int], Any], connection: Connection, foreign: list[Con
         except BaseException as error:
             traceback.print_exc()
             reason = f"{type(error).__name__}: {error}"
-        connection.send((wanted, value, reason))
+        connection.send((value, reason))
 
 
 @contextlib.contextmanager
