@@ -33,10 +33,13 @@ class Progress:
     The part of the way never falls: it is the simulated time over the end time, or the patch's
     length over the linear theory's if that is more. The event comes somewhat before that length,
     and takes many short steps: the wall time that is left can't be told, but the steps per second
-    are. A terminal gets a bar, as does a notebook if `terminal` says so; a file gets lines.
+    are. A terminal gets a bar, as does a notebook if `terminal` says so; a file gets lines, which
+    begin with the `name` of the run if there is one.
     """
 
-    def __init__(self, parameters: Parameters, stream: TextIO, terminal: bool = False) -> None:
+    def __init__(
+        self, parameters: Parameters, stream: TextIO, terminal: bool = False, name: str = ""
+    ) -> None:
         threshold = ExtractionSettings().edge_threshold * parameters.loading.velocity
         x = Grid.of(parameters.geometry, parameters.mesh).x
         self._patch = Extent(x, threshold, parameters.loading.kind)
@@ -46,6 +49,7 @@ class Progress:
         with contextlib.suppress(NoInstability):
             self._expected_length = run_length(parameters, interface)
         self._stream = stream
+        self._start_of_line = f"{name}: " if name else ""
         shown = terminal or stream.isatty()
         style = "{l_bar}{bar}|{postfix}"
         self._bar = tqdm(total=100, file=stream, bar_format=style, leave=False) if shown else None
@@ -74,7 +78,8 @@ class Progress:
             self._bar.set_postfix_str(f"{text}, {speed}")
         else:
             text += f", rejected {control.rejected}, {done} % of the way, {speed}"
-            print(f"step {control.steps}: {text}", file=self._stream, flush=True)
+            line = f"{self._start_of_line}step {control.steps}: {text}"
+            print(line, file=self._stream, flush=True)
 
     def part_done(self, simulated: float, length: float) -> float:
         """Part of the way, from the simulated time (s) and the patch length (m); never falls.

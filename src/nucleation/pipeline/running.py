@@ -49,7 +49,7 @@ def run_of(
         else:
             netcdf.write(dataset, path, **origin)
 
-    progress = Progress(parameters, sys.stderr)
+    progress = Progress(parameters, sys.stderr, name=name)
     try:
         with checkpoint.listening():
             dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
@@ -57,6 +57,7 @@ def run_of(
         sys.exit(f"{name}: {stopped}")
     if path != place:
         raise PartFailed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
+    print(f"{name}: {dataset.attrs['status']}", file=sys.stderr)
     return dataset
 
 

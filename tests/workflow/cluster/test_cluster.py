@@ -171,6 +171,24 @@ def test_time_limit_leaves_time_for_a_checkpoint(stopped):
     assert (made.directory / "heard.txt").read_text() == "heard, and lived on\n"
 
 
+def test_a_batch_runs_on_two_cores(slurm, workflow_type, local, tmp_path_factory):
+    """Four simulations in one job: two at once, and the results of jobs of their own."""
+    batch = {**CONFIG, "studies": {"paper": STUDY | {"runs_per_job": 4}}}
+    made = workflow_type(tmp_path_factory.mktemp("batch"), profile="slurm").configured(batch)
+    process = made.start("simulations", *OFTEN)
+    try:
+        output, _ = process.communicate(timeout=600)
+    finally:
+        slurm.end(process, made.directory)
+    assert process.returncode == 0, output
+    (job,) = (job for job in slurm.jobs(made.directory) if "simulate" in job["Comment"])
+    assert job["NumCPUs"] == "2" and job["JobState"] == "COMPLETED"
+    (log,) = logs(made).values()
+    until_one_has_ended, _, _ = log.partition(": completed")
+    assert until_one_has_ended.count(FIRST) == 2
+    assert_same_variables(made, local, [run.id for run in RUNS])
+
+
 def test_slurm_of_others_is_refused(slurm, tmp_path):
     config = tmp_path / "slurm.conf"
     config.write_text("ClusterName=others\n")
