@@ -70,11 +70,6 @@ WARNED = {
         "patch needs about 8.59 s to become unstable",
     ),
     "block": (GOOD | {"length": 0.4}, "block short (s-aging-H0.005-phi1-length0.4-n_x400)"),
-    "strengthening": (
-        GOOD | {"aging_coefficient": 0.0},
-        "friction strengthens (s-aging-H0.005-phi1-aging_coefficient0-n_x400): zeta = -0.00495 at "
-        "V = 1e-05 m/s; the theory's critical length, 0.235 m, is that of the weakening",
-    ),
     "start": (
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
         "start above the strength (",

@@ -160,8 +160,18 @@ BAD = {
         [f"{RUN}: geometry.length = ", "(0, 1e+07) m"],
     ),
     "a theory without instability": (
-        {"main_text_interface": {"zeta": -0.005}, **study(TALL)},
-        ["main_text_interface: zeta = -0.005 with a = 0.0068", "stable at every wavenumber"],
+        {"friction": {"aging_coefficient": 0.0},
+         **study({"height": [0.005, 0.1], "length": 3.0}, role="paper")},
+        ["main_text_interface: zeta = -0.00495", "friction grows with slip rate at every"],
+    ),
+    "a rounding of another fault's friction": (
+        {"main_text_interface": {"zeta": 0.02}, **study(TALL)},
+        ["main_text_interface.zeta = 0.02 is not allowed", "friction law's own value, 0.015599"],
+    ),
+    "a run whose friction is not the one that is rounded": (
+        study({**TALL, "characteristic_slip_distance": 1e-6}, interface="main_text"),
+        [f"{RUN}: interface = main_text is not allowed", "slip_length = 5e-07 m is no rounding",
+         "own value, 1e-06 m", "it must be friction_law"],
     ),
     "crosscheck beyond the memory": (
         changed("crosscheck.n_x", 100000),

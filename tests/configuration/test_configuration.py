@@ -1,5 +1,6 @@
 """The configuration: what is made of a good one."""
 
+import math
 from collections import Counter
 
 import pytest
@@ -11,10 +12,11 @@ from nucleation.configuration.load import configure, load
 from nucleation.configuration.runs import first_realisations
 from nucleation.configuration.studies import theory_curves
 from nucleation.model.friction.law import Friction
-from nucleation.model.linearised import InterfaceState
+from nucleation.model.linearised import InterfaceState, interface_state
 from nucleation.model.material import Material
 from nucleation.model.parameters import Loading, Parameters
 from nucleation.model.quantities import ParameterError, declarations
+from nucleation.theory import arrays
 from nucleation.theory.critical import critical_length
 
 
@@ -203,3 +205,28 @@ def test_parameters_survive_the_way_through_a_rule():
 def test_unknown_run_is_named():
     with pytest.raises(ParameterError, match="role: paper has a run with height 7 m"):
         load(CONFIG / "quick.yaml").shown(7)
+
+
+@pytest.mark.parametrize("interface", ["main_text", "friction_law"])
+@pytest.mark.parametrize(
+    "friction", [{"characteristic_slip_distance": 1e-6}, {"rate_coefficient": 0.006}]
+)
+def test_the_theory_follows_the_friction_law(friction, interface):
+    """Also where its rounded values are not given; by the functions of the library."""
+    made = configure({"friction": friction, **study({"height": 0.005}, interface=interface)})
+    (run,) = made.runs
+    law, material = run.parameters.friction, run.parameters.material
+    friction_coefficient, a, zeta = law.expansion(1e-5)
+    own = arrays.critical_length(
+        shear_modulus=material.shear_modulus, poisson_ratio=material.poisson_ratio, height=0.005,
+        second_shear_modulus=math.inf, normal_stress=1e6, a=a, zeta=zeta,
+        friction=friction_coefficient, slip_distance=law.characteristic_slip_distance,
+    )  # fmt: skip
+    assert run.theory_length == pytest.approx(float(own), rel=1e-12)
+    assert made.main_text_interface == interface_state(run.parameters)
+
+
+def test_the_papers_rounding_is_that_of_its_own_law():
+    assert configure(study({"height": 0.005})).main_text_interface == InterfaceState()
+    same = configure({"friction": {"evolution": "slip"}, **study({"height": 0.005})})
+    assert same.main_text_interface == InterfaceState()

@@ -99,9 +99,8 @@ def _about(run: Run) -> Iterator[Advice]:
         yield Advice(
             "friction strengthens", -interface.zeta,
             f"zeta = {interface.zeta:.3g} at V = {run.parameters.loading.velocity:g} m/s; the "
-            f"theory's critical length, {run.theory_length:.3g} m, is "
-            + ("that of the weakening in main_text_interface" if run.interface.zeta > 0.0 else
-               "due to the normal stress alone, which slip changes: it takes long to grow"),
+            f"theory's critical length, {run.theory_length:.3g} m, is due to the normal stress "
+            "alone, which slip changes: it takes long to grow",
         )  # fmt: skip
         return
     yield from _steps(run, 2.0 * math.pi * math.sqrt(interface.a / interface.zeta))

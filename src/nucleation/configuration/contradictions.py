@@ -6,13 +6,14 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from ..analysis.definitions import ExtractionSettings
+from ..model.linearised import linearised, not_rounded_from
 from ..model.parameters import FIRST_STEP, Parameters
 from ..model.perturbation import ALONG_X, ELEMENTS_PER_CORRELATION, KINDS
 from ..model.quantities import ParameterError
 from ..model.recording import STUCK_BELOW
 from ..theory.critical import NoInstability, theory_length
 from ..verification.crosscheck.plan import runs as crosscheck_runs
-from .roles import LITERATURE
+from .roles import LITERATURE, OWN
 from .runs import Run
 from .settings import Limits, estimated_megabytes
 
@@ -35,6 +36,8 @@ def setting_problems(settings: Any) -> Iterator[str]:
             f"extraction: edge_threshold_low = {low:g}, edge_threshold = {edge:g}, "
             f"edge_threshold_high = {high:g} is not allowed: they must ascend, each in (0, 1]"
         )
+    if all(study.role == OWN for study in settings.studies.values()):
+        return  # no figure of the paper is asked for
     try:
         for height in (min(curves.heights), max(curves.heights)):
             theory_length(height, base.material, interface)
@@ -51,6 +54,18 @@ def setting_problems(settings: Any) -> Iterator[str]:
         return
     for run in parameters.values():
         yield from memory_problems("crosscheck", run, settings.limits)
+
+
+def rounding_problems(settings: Any) -> Iterator[str]:
+    """Values of the main text that do not round those of the friction law."""
+    base = settings.base
+    exact = linearised(base.friction, base.loading)
+    foreign = not_rounded_from(settings.main_text_interface, exact)
+    if foreign:
+        yield (
+            f"{foreign.replace(' is no', ' is not allowed: it is no')}; leave the section "
+            "main_text_interface out, and the theory follows from the friction law"
+        )
 
 
 def run_problems(

@@ -9,13 +9,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ..model.linearised import loaded
+from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..model.units import parse
 from . import schema
 from .configuration import Configuration
-from .contradictions import results_directory, results_problems, setting_problems
+from .contradictions import results_directory, results_problems, rounding_problems, setting_problems
 from .refusals import range_problems, stop_on, value_problems
 from .roles import problems_of_studies
 from .strict_yaml import read_yaml
@@ -67,7 +67,10 @@ def completed(values: Any) -> Any:
             "the configuration lacks the key studies: only a checkout of the project has the "
             "paper's, in config/config.yaml"
         )
-    return _merged((*map(read_yaml, DEFAULTS), values))
+    default = _merged(map(read_yaml, DEFAULTS))
+    if {"friction", "loading"} & values.keys():
+        del default["main_text_interface"]  # which rounds the paper's own friction law
+    return _merged((default, values))
 
 
 def configure(values: Any, *, lazy: bool = False) -> Configuration:
@@ -101,18 +104,32 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     settings = Configuration(
         results=results_directory(values),
         base=base,
-        main_text_interface=loaded(groups.pop("main_text_interface"), base.loading),
+        main_text_interface=_main_text(values.get("main_text_interface"), groups, base),
         studies={name: study_settings(section) for name, section in sections.items()},
         sections=sections,
         stepping=tuple(values.get("stepping", {})),
         **groups,
     )
+    stop_on([*rounding_problems(settings)])
     expanded = [] if lazy else settings.studies
     problems = [problem for study in expanded for problem in settings.problems_of(study)]
     problems += problems_of_studies(settings.studies)
     problems += setting_problems(settings)
     stop_on(problems)
     return settings
+
+
+def _main_text(given: Any, groups: dict[str, Any], base: Parameters) -> InterfaceState:
+    """The friction on which the theory's curves stand.
+
+    Without a section of its own the paper's rounded values, if they are roundings of the friction
+    law; of any other law its own values.
+    """
+    rounded = loaded(groups.pop("main_text_interface"), base.loading)
+    exact = linearised(base.friction, base.loading)
+    if not given and not_rounded_from(rounded, exact):
+        return exact
+    return rounded
 
 
 def _group(name: str, values: dict[str, Any]) -> Any:

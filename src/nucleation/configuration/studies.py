@@ -12,7 +12,7 @@ import numpy as np
 
 from ..model.checked import Checked
 from ..model.friction.constants import CONSTANTS, with_constants
-from ..model.linearised import InterfaceState, linearised, loaded
+from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, quantity
 from ..theory.critical import NoInstability, run_length, theory_lengths
@@ -44,7 +44,7 @@ class StudySettings(Checked):
     )  # fmt: skip
     interface: str = quantity(
         "linearised friction of the theory: the rounded values of the group main_text_interface, "
-        "or each run's own friction law expanded at its velocity",
+        "which must be those of the run's friction law, or that law expanded at the run's velocity",
         choices=("main_text", "friction_law"), default="friction_law",
     )  # fmt: skip
     table: str = quantity(
@@ -198,9 +198,16 @@ def _fault(
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = replace(parameters, friction=friction)
     _ = friction.evolution_law  # a file that can't be loaded is told of before any work
-    if settings.interface == "main_text":
-        return parameters, loaded(main_text, loading)
-    return parameters, linearised(parameters.friction, loading)
+    own = linearised(parameters.friction, loading)
+    if settings.interface != "main_text":
+        return parameters, own
+    foreign = not_rounded_from(main_text, own)
+    if foreign:
+        raise ParameterError(
+            f"interface = main_text is not allowed: {foreign}; it must be friction_law, so that "
+            "the theory follows from the run's own friction law"
+        )
+    return parameters, loaded(main_text, loading)
 
 
 def _theory_lengths(faults: Iterable[tuple[Any, ...]]) -> Iterator[float]:

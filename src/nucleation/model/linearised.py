@@ -1,6 +1,7 @@
 """Friction linearised about steady sliding at one velocity: what the linear theory knows of it."""
 
 import dataclasses
+from decimal import Decimal
 from functools import lru_cache
 
 from .checked import Checked
@@ -49,6 +50,29 @@ def linearised(friction: Friction, loading: Loading) -> InterfaceState:
     """The friction law of a run, expanded about steady sliding at the imposed velocity."""
     f0, a, zeta = friction.expansion(loading.velocity)
     return loaded(InterfaceState(f0, a, zeta, friction.characteristic_slip_distance), loading)
+
+
+DIGITS = 2, 6
+"""Significant digits to which a value is compared with what it rounds: at least, and at most."""
+
+
+def not_rounded_from(rounded: InterfaceState, exact: InterfaceState) -> str:
+    """The first value that is no rounding of the exact one, in words; empty if all are.
+
+    A value rounds another one if both agree in all significant digits of the former: 0.41 rounds
+    0.4143.
+    """
+    for field in ("slip_length", "a", "zeta", "friction"):
+        value, of_law = getattr(rounded, field), getattr(exact, field)
+        given = len(Decimal(repr(float(value))).normalize().as_tuple().digits)
+        digits = min(max(given, DIGITS[0]), DIGITS[1])
+        if float(f"{value:.{digits}g}") != float(f"{of_law:.{digits}g}"):
+            unit = " m" if field == "slip_length" else ""
+            return (
+                f"main_text_interface.{field} = {value:g}{unit} is no rounding of the friction "
+                f"law's own value, {of_law:.6g}{unit}"
+            )
+    return ""
 
 
 def loaded(interface: InterfaceState, loading: Loading) -> InterfaceState:
