@@ -1,10 +1,17 @@
 """The watch for the drop against a maximum taken anew over the whole window."""
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nucleation.simulation.event import DropWatch
+from nucleation.analysis.definitions import find_onset
+from nucleation.analysis.record import Record
+from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Stepping
+from nucleation.simulation.event import DropWatch, Outcome, PatchBursts
+from nucleation.simulation.run import simulate
 
 forces = st.lists(st.floats(0.0, 1e5) | st.sampled_from([0.0, 1.0, 100.0]), min_size=1, max_size=60)
 seeds = st.integers(0, 2**32 - 1)
@@ -45,3 +52,45 @@ def test_watch_goes_on_from_its_maxima(values, seed, window, data):
         assert i < cut or other.dropped(*each) == dropped
     assert (np.diff(watch.maxima[:, 0]) >= 0.0).all()
     assert (np.diff(watch.maxima[:, 1]) < 0.0).all()
+
+
+THICK = Parameters(
+    geometry=Geometry(height=2.0, length=5.6),
+    mesh=Mesh(n_x=800, n_y=16, grading=20.0),
+    stepping=Stepping(end_time=1e-3, time_after_event=0.0),
+)
+"""A thick block: at its corner the static start leaves a shear stress above the strength."""
+
+
+def test_a_free_corner_that_slips_is_no_event():
+    """It was one: at 4.5e-6 s, in a patch of two thousandths of L_c."""
+    made = simulate(THICK)
+    record = Record(made)
+    time, rate, place = record.fastest_elsewhere
+    assert time < 1e-4 and rate > 1e-3 and place > 0.9 * THICK.geometry.length
+    force = np.abs(made["driving_force"].values)
+    fast = made["maximal_slip_rate"].values > 10.0 * THICK.loading.velocity
+    naive_onset = find_onset(made["step_time"].values, force, THICK.memory_time, 0.02, fast)
+    assert naive_onset is not None, "anything that slips fast was enough"
+    assert made.attrs["status"] == Outcome.END_TIME.value and record.onset is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "time", "position", "expected"),
+    [
+        ("edge", 1.0, 0.1, True),
+        ("edge", 0.04, 0.1, False),  # before D/V
+        ("edge", 1.0, 0.9, False),  # at the far end
+        ("top", 0.04, 0.9, True),
+        ("remote", 0.04, 0.9, True),
+    ],
+)
+def test_whose_burst_it_is(kind, time, position, expected):
+    loading = Loading(kind=kind, stress_rate=1.0 if kind == "remote" else 0.0)
+    parameters = replace(Parameters(), loading=loading)
+    bursts = PatchBursts(parameters)
+    slow, fast = 9.0 * parameters.loading.velocity, 11.0 * parameters.loading.velocity
+    assert not bursts.at(time, slow, position)
+    assert bursts.at(time, fast, position) == expected
+    assert bursts.at(time + 1e-3, fast, 0.9) == expected, "until the burst is over"
+    assert not bursts.at(time + 2e-3, slow, position)

@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 from ..model.checked import Checked
 from ..model.parameters import EVENT_DROP
 from ..model.quantities import quantity
-from ..simulation.event import DropWatch
+from ..simulation.event import NEAR, DropWatch
 from ..types import Array
 
 REBOUND = 0.1  # a rise by this part of the fall that follows belongs to the fall
-SEARCHED = 0.5  # part of the block, from the loaded edge, in which the patch's edge is sought
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,7 +55,7 @@ def find_onset(
     """The first abrupt drop of a force magnitude (N/m) over the times (s) of all steps, or None.
 
     `window` (s) and `drop` (a fraction) are of :class:`~nucleation.simulation.event.DropWatch`;
-    `fast` is whether the interface slips fast at these times, always by default.
+    `fast` is whether the patch slips fast at these times, always by default.
     """
     watch = DropWatch(window, drop)
     fast = np.ones(time.size, dtype=bool) if fast is None else fast
@@ -90,7 +89,7 @@ def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> Array:
     is searched, so that slip at the far corner does not count. Zero if nothing slips faster.
     """
     rate = np.maximum(np.abs(slip_rate), 1e-300, dtype=float)  # also of single precision
-    near = int(np.searchsorted(x, SEARCHED * x[-1], side="right"))
+    near = int(np.searchsorted(x, NEAR * x[-1], side="right"))
     faster = rate[..., :near] > threshold
     inside = near - 1 - faster[..., ::-1].argmax(axis=-1)
     ends = np.array([inside, np.minimum(inside + 1, x.size - 1)])

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
-from ..simulation.event import FAST, WINDOW
+from ..simulation.event import FAST, WINDOW, PatchBursts
 from ..types import Array
 from .definitions import ExtractionSettings, Onset, find_onset, patch_lengths
 
@@ -77,9 +77,40 @@ class Record:
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
         window = WINDOW * self.parameters.memory_time
-        fast = self.simulation["maximal_slip_rate"].values > FAST * self.velocity
         force = np.abs(self.simulation["driving_force"].values)
-        return find_onset(self.step_time, force, window, self.settings.drop, fast)
+        return find_onset(self.step_time, force, window, self.settings.drop, self._fast)
+
+    @property
+    def _fast(self) -> NDArray[np.bool_]:
+        """Whether the patch slips fast at each step."""
+        bursts = PatchBursts(self.parameters)
+        steps = zip(self.step_time, self._largest_rate, self._fastest_position, strict=True)
+        return np.array([bursts.at(*step) for step in steps])
+
+    @property
+    def _largest_rate(self) -> Array:
+        return self.simulation["maximal_slip_rate"].values
+
+    @property
+    def _fastest_position(self) -> Array:
+        """Where the interface slips fastest (m) at each step; another solver does not tell."""
+        if "fastest_position" not in self.simulation:
+            return np.zeros(self.step_time.size)
+        return self.simulation["fastest_position"].values
+
+    @property
+    def fastest_elsewhere(self) -> tuple[float, float, float] | None:
+        """Time (s), slip rate (m/s) and place (m) of the fastest burst that is not the patch's.
+
+        None if all fast slip, up to the onset of an event, is the patch's.
+        """
+        last = self.step_time.size if self.onset is None else self.onset.start
+        fast = self._largest_rate > FAST * self.velocity
+        rates = np.where(fast & ~self._fast, self._largest_rate, 0.0)[:last]
+        if not rates.any():
+            return None
+        at = int(rates.argmax())
+        return float(self.step_time[at]), float(rates[at]), float(self._fastest_position[at])
 
     @property
     def drop_times(self) -> Array:

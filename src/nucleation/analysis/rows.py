@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable
-from .definitions import SEARCHED
+from ..simulation.event import NEAR
 
 Row = dict[str, Any]
 
@@ -80,7 +80,7 @@ def why(row: Mapping[str, Any]) -> str:
         return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
     patch += f", {reached / theory:.2g} of the theory's critical length"
     edge = row["loading"] == "edge"
-    if edge and reached > NEARLY * SEARCHED * row["block_length"]:
+    if edge and reached > NEARLY * NEAR * row["block_length"]:
         return f"{patch}, and filled the half of the block in which it is followed"
     if reached < theory:
         return f"{patch}: a longer end_time may show it"

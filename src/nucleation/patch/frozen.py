@@ -18,11 +18,11 @@ import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..analysis.definitions import SEARCHED
 from ..analysis.record import Record
 from ..fem.bodies import BodyOperator, body_of
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
+from ..simulation.event import NEAR
 from ..simulation.run import interface_of
 from ..theory.creep.linearised import OSCILLATING, FrozenPatch, log_state_derivatives
 from ..types import Array
@@ -45,7 +45,7 @@ def frozen_patch(
     first = grid.n_x + 1 - operator.body.free_nodes  # node 0 is driven, repeats another, or is free
     slipping = slip_rate > slowest
     if first and not grid.periodic:
-        slipping &= grid.x <= SEARCHED * grid.length
+        slipping &= grid.x <= NEAR * grid.length
     nodes = np.flatnonzero(slipping[first:]) + first
     v, phi, force, law = slip_rate[nodes], state[nodes], normal_force[nodes], _at(law, nodes)
     f = law.coefficient(v, phi)

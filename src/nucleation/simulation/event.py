@@ -4,7 +4,9 @@ While the patch creeps, the magnitude of the driving force changes over seconds;
 falls within milliseconds. The event is found when the force has fallen by a given fraction below
 its largest value of a short time window, the memory time D/V of friction, while the interface slips
 fast somewhere: a slow decrease, as in an oscillation of the creeping patch that decays again, is no
-event, nor is a force that follows a fluctuating load.
+event, nor is a force that follows a fluctuating load. Where an edge is pushed the fast slip has to
+be the patch's: a free corner at the far end, whose shear stress the static start leaves above the
+strength, slips fast as well, and drives nothing.
 """
 
 import enum
@@ -12,7 +14,7 @@ from collections import deque
 
 import numpy as np
 
-from ..model.parameters import EVENT_DROP
+from ..model.parameters import EVENT_DROP, Parameters
 from ..types import Array
 
 
@@ -35,6 +37,31 @@ class Outcome(enum.Enum):
 
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach
+NEAR = 0.5  # part of the block, from a pushed edge, in which its patch is sought
+
+
+class PatchBursts:
+    """Tells whether the interface slips fast because its patch does; fed step by step.
+
+    A burst lasts as long as the interface slips faster than :data:`FAST` anywhere. Where an edge is
+    pushed, a burst is the patch's once its fastest point is in the half of the block next to the
+    edge, later than the memory time D/V. Under other loads a patch may be anywhere.
+    """
+
+    def __init__(self, parameters: Parameters) -> None:
+        pushed = parameters.loading.kind == "edge"
+        self._fast = FAST * parameters.loading.velocity
+        self._from = parameters.memory_time if pushed else -np.inf
+        self._end = NEAR * parameters.geometry.length if pushed else np.inf
+        self.own = False  # whether the burst that goes on is the patch's
+
+    def at(self, time: float, rate: float, position: float) -> bool:
+        """Whether the patch slips fast at a time (s): by the largest rate (m/s) and its x (m)."""
+        if rate <= self._fast:
+            self.own = False
+        elif time > self._from and position <= self._end:
+            self.own = True
+        return self.own
 
 
 class DropWatch:
@@ -57,7 +84,7 @@ class DropWatch:
     def dropped(self, time: float, force: float, fast: bool = True) -> bool:
         """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop.
 
-        `fast` tells whether the interface now slips faster than :data:`FAST` anywhere.
+        `fast` tells whether the patch slips fast now (:class:`PatchBursts`).
         """
         while self._largest and self._largest[-1][1] <= force:
             self._largest.pop()

@@ -159,3 +159,13 @@ def largest_size(values):
     for i in range(values.size):
         largest = max(largest, abs(values[i]))
     return largest
+
+
+@compiled
+def largest_at(values):
+    """Index of the largest absolute value, the first of several."""
+    found = 0
+    for i in range(1, values.size):
+        if abs(values[i]) > abs(values[found]):
+            found = i
+    return found

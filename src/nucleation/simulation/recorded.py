@@ -17,6 +17,7 @@ RECORDED = {
     "step_size": Variable("s", "time step", "dt"),
     "driving_force": Variable("N/m", "force per depth that loads the fault", "f_d"),
     "maximal_slip_rate": Variable("m/s", "maximal slip rate", "max v"),
+    "fastest_position": Variable("m", "position of the maximal slip rate", "x"),
     "newton_iterations": Variable("1", "Newton iterations of the step"),
     "perturbation": Variable("1", "declared relative perturbation, as realised", "eps xi"),
     "snapshot_time": Variable("s", "time of the snapshot", "t"),

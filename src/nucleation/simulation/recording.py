@@ -12,7 +12,7 @@ from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
 from ..types import Array
 from . import passes
-from .event import FAST, WINDOW, DropWatch
+from .event import WINDOW, DropWatch, PatchBursts
 from .recorded import RECORDED
 from .state import State
 from .step import Dynamics, StepReport
@@ -21,7 +21,11 @@ LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
 INTERFACE = ("slip_rate", "state", "normal_stress", "slip", "shear_stress")
 FOR_LENGTHS = INTERFACE[:3]  # of which patch, edge and the frozen patch's stability are made
-PER_STEP = ("step_time", "driving_force", "maximal_slip_rate", "step_size", "newton_iterations")
+PER_STEP = (
+    "step_time", "driving_force", "maximal_slip_rate", "fastest_position", "step_size",
+    "newton_iterations",
+)  # fmt: skip
+ONLY_IN_FULL = PER_STEP[4:]  # of which no length is made
 BULK = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
 FRAME_STEPS = 40  # and at least every so many steps
 SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
@@ -36,7 +40,7 @@ class Recorder:
         self._velocity = parameters.loading.velocity
         self._fields = INTERFACE if self._level.covers("interface") else FOR_LENGTHS
         self._longest_pause = LONGEST_PAUSE * parameters.memory_time
-        self._rows: list[tuple[float, float, float, float, int]] = []
+        self._rows: list[tuple[float, float, float, float, float, int]] = []
         self._frames: list[tuple[float, Array]] = []
         self._snapshots: list[tuple[float, Array]] = []
         self._snapshots_below: list[Array] = []  # at the same times, on a second body
@@ -44,6 +48,7 @@ class Recorder:
         self._last_frame_step = 0
         self._next_snapshot_rate = 0
         self._watch = DropWatch(WINDOW * parameters.memory_time, parameters.stepping.event_drop)
+        self._bursts = PatchBursts(parameters)
         self._event_time = np.inf
         self._time = 0.0
 
@@ -60,12 +65,12 @@ class Recorder:
     def record(self, state: State, report: StepReport) -> None:
         """Take in the initial state or one accepted step."""
         interface = report.interface
-        fastest = passes.largest_size(interface.slip_rate)
+        node = passes.largest_at(interface.slip_rate)
+        fastest, position = float(abs(interface.slip_rate[node])), float(self.grid.x[node])
         self._time = state.time
-        self._rows.append(
-            (state.time, state.last_step, report.driving_force, fastest, interface.iterations)
-        )
-        fast = fastest > FAST * self._velocity
+        force, step, iterations = report.driving_force, state.last_step, interface.iterations
+        self._rows.append((state.time, force, fastest, position, step, iterations))
+        fast = self._bursts.at(state.time, fastest, position)
         if self._watch.dropped(state.time, abs(report.driving_force), fast):
             self._event_time = min(self._event_time, self._time)
         self._maybe_frame(state, report)
@@ -127,11 +132,12 @@ class Recorder:
             "next_snapshot_rate": np.array(self._next_snapshot_rate),
             "watched": self._watch.maxima,
             "event_time": np.array(self._event_time),
+            "own_burst": np.array(self._bursts.own),
         }
 
     def restore(self, arrays: Mapping[str, NDArray]) -> None:
         """The inverse of :meth:`to_arrays`, on a recorder of the same parameters."""
-        self._rows = [(*row[:4], int(row[4])) for row in arrays["rows"].tolist()]
+        self._rows = [(*row[:5], int(row[5])) for row in arrays["rows"].tolist()]
         self._frames = list(zip(arrays["frame_times"].tolist(), arrays["frames"], strict=True))
         self._last_scaled = np.arcsinh(self._frames[-1][1][0] / self._velocity)
         self._last_frame_step = int(arrays["last_frame_step"])
@@ -141,6 +147,7 @@ class Recorder:
         self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
         self._watch.maxima = arrays["watched"]
         self._event_time = float(arrays["event_time"])
+        self._bursts.own = bool(arrays["own_burst"])
         self._time = self._rows[-1][0]
 
     def dataset(self) -> xr.Dataset:
@@ -150,15 +157,14 @@ class Recorder:
     def _dataset(self) -> xr.Dataset:
         times = np.array([t for t, _ in self._frames])
         frames = np.array([fields for _, fields in self._frames])
-        time, size, force, fastest, iterations = map(np.array, zip(*self._rows, strict=True))
-        rows = dict(zip(PER_STEP, (time, force, fastest, size, iterations), strict=True))
+        rows = dict(zip(PER_STEP, map(np.array, zip(*self._rows, strict=True)), strict=True))
         data: dict[str, Any] = {name: (("step",), values) for name, values in rows.items()}
         data |= {name: (("time", "x"), frames[:, i]) for i, name in enumerate(self._fields)}
         dataset = xr.Dataset(data, {"time": times, "x": self.grid.x})
         dataset.attrs["parameters"] = self.parameters.to_json()
         if not self._level.covers("interface"):
             return self._for_lengths(dataset)
-        realised = self._drive.realised(time, times)
+        realised = self._drive.realised(rows["step_time"], times)
         if realised is not None:
             dataset["perturbation"] = realised
         return dataset.assign(self._bodies()) if self._level.covers("everything") else dataset
@@ -170,7 +176,7 @@ class Recorder:
         slips[:, 1:] |= fast[:, :-1]  # and nodes beside it, between which edges are
         slips[:, :-1] |= fast[:, 1:]
         kept = {name: dataset[name].where(slips, 0.0).astype(np.float32) for name in FOR_LENGTHS}
-        return dataset.drop_vars(PER_STEP[3:]).assign(kept)
+        return dataset.drop_vars(ONLY_IN_FULL).assign(kept)
 
     def _bodies(self) -> xr.Dataset:
         """The snapshots of the bodies."""
