@@ -7,6 +7,7 @@ from configurations import messages, study
 from nucleation import api
 from nucleation.configuration.load import configure
 from nucleation.configuration.strict_yaml import read_yaml
+from nucleation.model.quantities import ParameterError
 
 SI = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "density": 2650.0, "velocity": 1e-6,
@@ -75,3 +76,10 @@ def test_the_same_names_in_configuration_and_api():
     assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.theory_length, rel=1e-6)
     with pytest.raises(api.ParameterError, match="f is not allowed beside friction"):
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)
+
+
+def test_a_tag_that_does_not_fit_is_no_yaml(tmp_path):
+    path = tmp_path / "f.yaml"
+    path.write_text("height: !!timestamp x\n")
+    with pytest.raises(ParameterError, match="is not valid YAML"):
+        read_yaml(path)

@@ -189,9 +189,10 @@ def test_bad_values_have_no_result(web, field):
     )
     assert web.locator("#others tbody").count() == 3
     low = QUANTITIES[field.key.removeprefix("second_")].low
-    for bad in ("", str(low), "1e30"):
+    below = 0.5 * low if low > 0.0 else low
+    for bad in ("", str(below), "1e30"):
         web.fill(f"#{field.key}", bad)
         assert web.get_attribute(f"#{field.key}", "aria-invalid") == "true"
         (said,) = web.locator("#values dt").all_inner_texts()
-        assert said.startswith(f"No values: {field.label} must lie in (")
+        assert said.startswith(f"No values: {field.label} must lie in ")
         assert web.locator("#others tbody").count() == 0

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..model.quantities import Quantity
+from ..theory.arrays import fault_of
 from ..theory.fault import Fault, Values, checked, labelled, takes_fault, where
 from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
@@ -249,14 +250,15 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     Dataset
         One variable (m) for each, NaN outside its validity, with ``formula``, ``source``,
         ``validity``, ``system`` and ``needs`` as attributes. Arrays without named dimensions
-        have the dimensions ``axis_0``, ``axis_1``, ...
+        have the dimensions ``axis_0``, ``axis_1``, ... Its unit is each variable's attribute
+        ``units``, also where pint quantities were given.
 
     Raises
     ------
     ParameterError
         If a parameter is missing, unknown or outside its range.
     """
-    return lengths_of(Fault(**fault), weakening_rate)
+    return lengths_of(fault_of(fault), weakening_rate)
 
 
 def lengths_of(fault: Fault, weakening_rate: Values | None = None) -> xr.Dataset:

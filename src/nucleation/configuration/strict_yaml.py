@@ -32,7 +32,8 @@ def read_yaml(path: str | os.PathLike[str]) -> Any:
         raise
     except OSError as error:
         raise ParameterError(f"{path} can't be read: {error.strerror}") from error
-    except (yaml.YAMLError, ValueError, RecursionError) as error:  # no UTF-8, no such date, ...
+    except (yaml.YAMLError, ValueError, TypeError, AttributeError, RecursionError) as error:
+        # no UTF-8, no such date, a tag that does not fit its value, ...
         raise ParameterError(f"{path} is not valid YAML: {error}") from error
 
 

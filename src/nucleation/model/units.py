@@ -11,6 +11,7 @@ from .quantities import ParameterError, Quantity, check
 
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(rf"\s*([+-]?(?:{_DIGITS}|inf(?:inity)?))\s*(?:/\s*({_DIGITS}))?\s*(.*?)\s*")
+DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)")
 UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅]{1,60}")
 COMMON_UNITS = (
     *("Pa", "kPa", "MPa", "GPa", "m", "km", "cm", "mm", "um", "nm", "s", "ms", "min", "h", "yr"),
@@ -63,6 +64,9 @@ def parse(key: str, text: str, entry: Quantity) -> Any:
 
 def _number(text: str, entry: Quantity) -> float:
     """The number that a text means: a decimal or a fraction, with or without a unit."""
+    comma = DECIMAL_COMMA.match(text)
+    if comma:
+        raise ValueError(f"write a decimal point, {comma[1]}.{comma[2]} in place of {comma[0]}")
     parts = NUMBER.fullmatch(text)
     if not parts or (parts[2] and not float(parts[2])):
         raise ValueError("it is no number with a unit")
@@ -115,6 +119,11 @@ def magnitude(key: str, value: Any, entry: Quantity) -> Any:
         return [magnitude(f"{key}[{i}]", item, entry) for i, item in enumerate(value)]
     if isinstance(value, str):
         return parse(key, value, entry)
+    if np.ma.is_masked(getattr(value, "magnitude", value)):
+        raise ParameterError(
+            f"{key} is not allowed: some of its values are masked; give {entry.description} "
+            "everywhere"
+        )
     if is_quantity(value):
         return rescaled(key, value.magnitude, f"{value.units:D}", entry)
     attributes = getattr(value, "attrs", None)

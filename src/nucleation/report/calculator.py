@@ -4,6 +4,8 @@ The page computes L_c, L_s and the lengths in use by the report's own code (``th
 ``stability.js``); what they are called, their sources and limits come from the library.
 """
 
+import dataclasses
+import math
 import sys
 import urllib.parse
 from collections.abc import Mapping
@@ -114,9 +116,10 @@ def data() -> dict[str, Any]:
 def _in_page(field: Field) -> dict[str, Any]:
     """A field with its units in SI units and its range; the second body is not rigid here."""
     entry = QUANTITIES[field.key.removeprefix("second_")]
+    unbounded = dataclasses.replace(entry, low=-math.inf, high=math.inf)  # of which a unit is one
     return {
         "key": field.key, "label": field.label, "optional": bool(field.empty),
-        "units": {unit: parse(field.key, f"1e-9{unit}", entry) * 1e9 for unit in field.units},
+        "units": {unit: parse(field.key, f"1{unit}", unbounded) for unit in field.units},
         "low": entry.low, "high": min(entry.high, 1e99), "closed": entry.closed,
         "range": bounds(entry),
     }  # fmt: skip

@@ -46,7 +46,7 @@ def _declared() -> dict[str, Quantity]:
     )
     distance = declarations(Friction)["characteristic_slip_distance"]
     names = ("normal_stress", "a", "zeta", "friction", "velocity")
-    return {
+    found = {
         "shear_modulus": material["shear_modulus"],
         "poisson_ratio": material["poisson_ratio"],
         "height": body["height"],
@@ -60,6 +60,22 @@ def _declared() -> dict[str, Quantity]:
         "second_far_side": body["far_side"],
         "plane": material["plane"],
     }
+    return {name: _above(FLOORS.get(name, 0.0), entry) for name, entry in found.items()}
+
+
+FLOORS = {
+    "shear_modulus": 1e-9, "second_shear_modulus": 1e-9, "normal_stress": 1e-6, "a": 1e-12,
+    "slip_distance": 1e-15, "height": 1e-12, "second_height": 1e-12, "velocity": 1e-30,
+}  # fmt: skip
+"""The least values (SI units) of what is positive: far below any known one, and still computed."""
+
+
+def _above(floor: float, entry: Quantity) -> Quantity:
+    """A declaration whose range begins with a floor, if that is not zero."""
+    if floor == 0.0:
+        return entry
+    closed = "both" if entry.closed in ("high", "both") else "low"
+    return dataclasses.replace(entry, low=floor, closed=closed)
 
 
 QUANTITIES = _declared()
@@ -141,6 +157,9 @@ class Fault:
     registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        missing = [name for name in REQUIRED if getattr(self, name) is None]
+        if missing:
+            raise ParameterError(f"{', '.join(missing)} is missing: None is not allowed")
         for name in self._given():
             if is_quantity(getattr(self, name)):
                 object.__setattr__(self, "registry", getattr(self, name)._REGISTRY)
@@ -263,6 +282,7 @@ def takes_fault(function: F) -> F:
     return function
 
 
+REQUIRED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance")
 _WORDS = ("far_side", "second_far_side", "plane")
 _OF_SYSTEMS = (
     "shear_modulus", "poisson_ratio", "height", "second_shear_modulus", "second_poisson_ratio",
@@ -285,7 +305,14 @@ def where(condition: Any, first: Any, second: Any) -> Any:
 def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
     """The value in SI units as an array of floats, all in the declared range."""
     value = magnitude(name, value, entry)
-    array = value if labelled(value) else np.asarray(value)
+    try:
+        array = value if labelled(value) else np.asarray(value)
+    except (TypeError, ValueError):  # lists of unlike lengths, datasets
+        kind = type(value).__name__
+        raise ParameterError(
+            f"{name} is not allowed: {entry.description} must be a number, an array of numbers or "
+            f"a DataArray, and not this {kind}"
+        ) from None
     if array.dtype.kind not in "iuf":
         raise ParameterError(refusal(name, value, entry))
     array = array.astype(float)
