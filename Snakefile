@@ -10,6 +10,7 @@
 # newer than the output if and only if that is another result.
 import functools
 import gc
+import importlib.util
 import os
 import runpy
 import shlex
@@ -31,6 +32,14 @@ BASE = Path(workflow.current_basedir)  # of this file, also where it is a module
 SOURCE = str(Path(BASE, "src"))
 sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
+
+LIBRARIES = ("numpy", "scipy", "xarray", "netCDF4", "matplotlib", "yaml", "pint", "numba")
+missing = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
+if missing:
+    raise WorkflowError(
+        f"{', '.join(missing)} not installed beside this snakemake, in {sys.prefix}: run `make "
+        "install` in the project's directory, and .venv/bin/snakemake there"
+    )
 
 # Compiled code that is outdated must not be run, here and in the jobs.
 bytecode = runpy.run_path(str(Path(SOURCE, "nucleation", "pipeline", "bytecode.py")))

@@ -3,6 +3,8 @@
 import dataclasses
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -101,6 +103,29 @@ def test_bad_command_line_stops_before_any_job(workflow, arguments, fragment):
     assert fragment in done.stdout
     assert "Traceback (most recent call last)" not in done.stdout
     assert not (workflow.directory / "results").exists()
+
+
+@pytest.mark.parametrize("name", ["store", "logs"])
+def test_a_file_in_the_place_of_a_directory_stops_before_any_job(workflow, name):
+    place = workflow.directory / "results" / "quick" / name
+    place.parent.mkdir(parents=True)
+    place.write_text("my own\n")
+    done = workflow("table_s1")
+    assert done.returncode != 0 and f"{place} is no directory" in done.stdout
+    assert "Traceback" not in done.stdout and place.read_text() == "my own\n"
+
+
+def test_a_snakemake_without_the_libraries_says_how_to_get_them(workflow):
+    hidden = (
+        "import importlib.util as util, sys; found = util.find_spec;"
+        "util.find_spec = lambda name, *more: None if name == 'numpy' else found(name, *more);"
+        "from snakemake.cli import main; main(sys.argv[1:])"
+    )
+    command = [sys.executable, "-c", hidden, *workflow.arguments("table_s1")]
+    done = subprocess.run(command, cwd=workflow.directory, capture_output=True, text=True)
+    lines = [line for line in done.stderr.splitlines() if "numpy" in line]
+    assert done.returncode != 0 and len(lines) == 1 and "make install" in lines[0]
+    assert "Traceback" not in done.stderr
 
 
 def test_warnings_of_a_study_come_once(workflow):

@@ -156,7 +156,15 @@ def results_problems(results: str) -> Iterator[str]:
 
 def directory_problem(results: str | os.PathLike[str]) -> str | None:
     """Why results can't be written to a directory, which need not exist yet; or None."""
-    path = Path(results).absolute()
+    for place in (results, Path(results, "store"), Path(results, "logs")):
+        problem = _not_writable(results, place)
+        if problem:
+            return problem
+    return None
+
+
+def _not_writable(results: str | os.PathLike[str], place: str | os.PathLike[str]) -> str | None:
+    path = Path(place).absolute()
     while not os.path.lexists(path):
         path = path.parent
     if not path.is_dir():
