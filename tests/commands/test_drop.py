@@ -4,10 +4,12 @@ import json
 
 import pytest
 
+from nucleation.model.linearised import interface_state
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch import expected_drop as module
 from nucleation.patch.delay import ClosedForm, Drop
 from nucleation.patch.expected_drop import ExpectedDrop, NoDrop
+from nucleation.theory.critical import run_length
 
 DROP = Drop(0.32, 0.31, 0.33, 14.0, 13.5, 14.5)
 CLOSED = ClosedForm(0.25, 0.322, 0.014, 50.0, 1e-5)
@@ -19,8 +21,8 @@ class Law:
 
     answer = ExpectedDrop(DROP, CLOSED, "")
 
-    def __call__(self, parameters, theory_length):
-        self.parameters, self.theory_length = parameters, theory_length
+    def __call__(self, parameters):
+        self.parameters = parameters
         if isinstance(self.answer, Exception):
             raise self.answer
         return self.answer
@@ -38,7 +40,6 @@ def test_it_asks_for_the_fault_that_is_given(nucleation, law):
     assert law.parameters.geometry.height == 0.02
     assert law.parameters.friction.evolution == "slip"
     assert law.parameters.perturbation == Perturbation("state", 1e-4)
-    assert 0.4 < law.theory_length < 0.5
     nucleation("drop", "--height", "2cm")
     assert law.parameters.perturbation == Perturbation("normal_load", 1e-4)
 
@@ -56,9 +57,10 @@ def test_scales_near_the_velocity_are_warned_of(nucleation, law):
 def test_text(nucleation, law):
     ended = nucleation(*WORDS)
     assert (ended.code, ended.err) == (0, "")
-    assert f"L_c    {law.theory_length:.4g} m" in ended.out
-    assert f"L_s    0.25 m      {0.25 / law.theory_length:.3g} L_c" in ended.out
-    assert f"L_d    0.32 m      {0.32 / law.theory_length:.3g} L_c" in ended.out
+    critical = run_length(law.parameters, interface_state(law.parameters))
+    assert 0.4 < critical < 0.5 and f"L_c    {critical:.4g} m" in ended.out
+    assert f"L_s    0.25 m      {0.25 / critical:.3g} L_c" in ended.out
+    assert f"L_d    0.32 m      {0.32 / critical:.3g} L_c" in ended.out
     assert "0.31 m" in ended.out and "0.33 m" in ended.out and "13.5 to 14.5 s" in ended.out
     assert "normal_load, relative strength 0.0001, correlated over 1 D/V" in ended.out
     assert "docs/drop.md" in ended.out and "DO NOT" not in ended.out

@@ -79,7 +79,7 @@ def command(
         from ..patch.expected_drop import NoDrop, expected_drop
 
         try:
-            found, code = expected_drop(run.parameters, critical), DONE
+            found, code = expected_drop(run.parameters), DONE
         except NoDrop as error:
             code, reason = UNKNOWN, str(error)
         for topic, _, text in changing_friction(run):
