@@ -7,6 +7,9 @@ from scipy.optimize import root
 from scipy.special import sici
 
 from nucleation.api import stability_length
+from nucleation.theory.arrays import critical_length, fault_of
+from nucleation.theory.creep.lengths import stability_values
+from nucleation.theory.creep.modes import SLIMMEST, response
 from nucleation.theory.creep.thin import thin_limit
 
 THIN_BLOCK = {
@@ -87,3 +90,35 @@ def test_thin_blocks_come_to_it():
 def test_without_weakening():
     with pytest.raises(ValueError, match="zeta/a"):
         thin_limit(0.0)
+
+
+LAYER = {
+    "shear_modulus": 3.1e9, "poisson_ratio": 1.0 / 3.0, "friction": 0.0, "a": 0.0068,
+    "slip_distance": 5e-7, "normal_stress": 1e6,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("second", [{"second_shear_modulus": np.inf}, {}], ids=["rigid", "same"])
+@pytest.mark.parametrize("zeta_over_a", [0.3, 0.5, 1.0, 2.288, 6.0, 20.0])
+def test_the_patch_of_a_very_thin_layer_meets_the_limit_within_its_error(zeta_over_a, second):
+    """It was 0.3 % short with a stated error of 0.009 %."""
+    given = LAYER | second | {"zeta": zeta_over_a * LAYER["a"], "height": 1e-8}
+    length, _, error = stability_values(fault_of(given))
+    ratio = length / critical_length(**given)
+    assert ratio == pytest.approx(thin_limit(zeta_over_a).length_ratio, rel=error)
+    assert error < 3e-3
+
+
+def test_layers_slimmer_than_the_tables_reach_go_on_from_those_that_are_not():
+    one = systems(1e-3)
+    at = SLIMMEST * 1e-3
+    before, after = (response(one, at * factor) for factor in (1.0 - 1e-7, 1.0 + 1e-7))
+    largest = np.abs(before.shear).max()
+    np.testing.assert_allclose(after.shear, before.shear, atol=2e-6 * largest, rtol=1e-5)
+
+
+def systems(height):
+    given = LAYER | {"zeta": 0.016, "height": height, "second_shear_modulus": np.inf}
+    found = []
+    fault_of(given).evaluate(lambda own: found.append(own) or np.zeros((1, 1)))
+    return found[0]

@@ -36,7 +36,7 @@ from ..fault import Fault, Values, takes_fault
 from ..spectrum import Systems
 from ..transfer import bodies_of
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
-from .modes import Creep, creep, modes_for, response
+from .modes import Creep, creep, extrapolation_error, modes_for, response
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
 SHORTEST, FACTOR = 0.7, 1.12  # where the search starts, over its guess; from length to length
@@ -54,7 +54,7 @@ class StabilityPoint(NamedTuple):
     length: float  # L_s (m)
     frequency: float  # angular frequency of its mode there, over V/D
     growth: float  # d Re Lambda/d log L, over V/D
-    error: float  # relative, of the length, by what three quarters of the modes would give
+    error: float  # relative, of the length: by three quarters of the modes, and of slim layers
 
 
 @dataclasses.dataclass(frozen=True)
@@ -166,6 +166,7 @@ def _point(patches: Patches, log_length: float) -> StabilityPoint:
     slope = (after - before) / (2.0 * STEP)
     with_fewer_modes = patches.rate_near(length, rate, 3 * patches.number // 4).real
     error = abs(with_fewer_modes - rate.real) / slope + PRECISION
+    error += extrapolation_error(patches.one, length)
     return StabilityPoint(length, rate.imag, slope, error)
 
 

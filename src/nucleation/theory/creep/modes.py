@@ -38,9 +38,10 @@ above: pushed that way, slip piles up compression behind the front (:func:`modes
 STIFFER_ABOVE = -0.05  # f G2/G1 of the half-spaces below which there are more modes
 CUT = 14.0  # kH beyond which layers are half-spaces: q^2 exp(-2 q) is 1e-10
 # patch lengths over height for which there are tables: thicker layers need shorter ones; those
-# thinner than the last are not taken as they are (_thickened)
+# thinner than the last are extrapolated
 REACHES = (5.0, 25.0, 250.0)
 SLIMMEST = REACHES[-1]
+EXTRAPOLATED = 1e-3  # error of L_s of the slimmest layers, against their limit (:mod:`.thin`)
 WIDTH, POINTS = 6.0, 10  # panels of kappa and their Gauss points: J_2n(kappa) turns with 2 pi
 FINEST = 1e-3  # the first panel, of thick layers
 
@@ -157,8 +158,33 @@ def response(one: Systems, length: float, number: int = MODES, loading: str = "e
 
 
 def _half_response(one: Systems, length: float, number: int, even: bool) -> Response:
-    """That of the modes of one symmetry about x = 0, at x > 0."""
-    one, by_shear, by_normal = _thickened(one, length)
+    """That of the modes of one symmetry about x = 0, at x > 0.
+
+    A layer that is slimmer than the slimmest with tables is extrapolated, linearly in H/L, from
+    that one and one twice as high.
+    """
+    slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
+    if slim <= SLIMMEST:
+        return _resolved(one, length, number, even)
+    first, second = (
+        _thickened(one, length, number, even, slim / reach) for reach in (SLIMMEST, 0.5 * SLIMMEST)
+    )
+    beyond = SLIMMEST / slim - 1.0
+    return dataclasses.replace(
+        first,
+        shear=first.shear + beyond * (second.shear - first.shear),
+        normal=first.normal + beyond * (second.normal - first.normal),
+    )
+
+
+def extrapolation_error(one: Systems, length: float) -> float:
+    """Relative error of L_s, at most, by which a layer is slimmer than the tables reach."""
+    slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
+    return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0
+
+
+def _resolved(one: Systems, length: float, number: int, even: bool) -> Response:
+    """The same of layers that are not slimmer than the tables reach."""
     far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
     slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
     own = modes(number, min(reach for reach in REACHES if slim <= reach * (1.0 + 1e-9)), even)
@@ -168,25 +194,23 @@ def _half_response(one: Systems, length: float, number: int, even: bool) -> Resp
     shear = far.xx * own.half_space + own.shear[:used].T @ ((found.xx - far.xx)[:, None] * slip)
     normal = far.xy * own.gradients + own.normal[:used].T @ ((found.xy - far.xy)[:, None] * slip)
     scale = float(one.softness[0]) / length
-    return Response(own, length, by_shear * scale * shear, by_normal * scale * normal)
+    return Response(own, length, scale * shear, scale * normal)
 
 
-def _thickened(one: Systems, length: float) -> tuple[Systems, float, float]:
-    """Layers much thinner than the patch made thicker, and factors that undo it for ``kL = pi``.
+def _thickened(one: Systems, length: float, number: int, even: bool, factor: float) -> Response:
+    """The response of layers made thicker by a factor, which is undone for ``kL = pi``.
 
     Where ``kH`` is small G1 and G2 are powers of k, and thickness is but a factor.
     """
-    heights = [float(b.height[0]) for b in one.pair if b is not None]
-    thicker = length / (SLIMMEST * min(heights))
-    if thicker <= 1.0:
-        return one, 1.0, 1.0
-    own, thick = (
-        s.pair.stiffness(np.array([np.pi / length]), whole=False)
-        for s in (one, _over_heights(one, thicker))
-    )
+    thicker = _over_heights(one, factor)
+    found = _resolved(thicker, length, number, even)
+    k = np.array([np.pi / length])
+    own, thick = (system.pair.stiffness(k, whole=False) for system in (one, thicker))
     with np.errstate(divide="ignore", invalid="ignore"):
-        factors = [float(a[0] / b[0]) for a, b in ((own.xx, thick.xx), (own.xy, thick.xy))]
-    return _over_heights(one, thicker), factors[0], factors[1] if np.isfinite(factors[1]) else 0.0
+        by_shear, by_normal = float(own.xx[0] / thick.xx[0]), float(own.xy[0] / thick.xy[0])
+    if not np.isfinite(by_normal):
+        by_normal = 0.0
+    return dataclasses.replace(found, shear=by_shear * found.shear, normal=by_normal * found.normal)
 
 
 def _over_heights(one: Systems, factor: float) -> Systems:
