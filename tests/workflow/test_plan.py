@@ -187,6 +187,15 @@ def test_configuration_of_ones_own_needs_no_target(workflow):
     assert planned == {"simulate": 3, **once}
 
 
+def test_studies_that_all_have_their_own_table_can_be_built(workflow):
+    run = {"height": 0.1, "n_x": 40, "n_y": 4}
+    own = workflow.configured({"studies": {"s": {"table": "own", "runs": [run]}}})
+    for target in ((), ("studies",)):
+        planned = own.planned(*target)
+        assert planned.items() >= {"simulate": 1, "extract": 1, "draw_study": 1}.items()
+        assert "gather_lengths" not in planned
+
+
 def test_every_rule_has_a_text_and_every_figure_is_a_target(workflow):
     listed = workflow("--list-rules").stdout
     texts = dict(re.findall(r"^(\w+) \((.+)\)$", listed, re.M))
