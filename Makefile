@@ -67,7 +67,7 @@ test-quick: $(DEV_STAMP) ## Run those that are neither slow nor start a whole sy
 	@$(PYTEST) -n "$$CORES" -m "not slow and not system"
 
 torture: $(DEV_STAMP) ## Kill, damage and fill disks FAULTS=200 times (SEED=1): nothing may be lost
-	FAULT_SEED="$$SEED" $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
+	FAULT_COUNT="$$FAULTS" FAULT_SEED="$$SEED" $(BIN)/python -m pytest -v tests/faults -o tmp_path_retention_policy=failed
 
 lint: $(DEV_STAMP) ## Check style, types, and which wing imports which
 	@$(BIN)/ruff check .
