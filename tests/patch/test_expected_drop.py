@@ -33,9 +33,9 @@ GRANITE = Parameters(
 
 def test_drop_follows_loss_of_stability():
     found = expected_drop(FAULT)
-    assert 0.5 * THEORY < found.closed_form.stability_length < 0.6 * THEORY
+    assert 0.5 * THEORY < found.closed_form.front_length < 0.6 * THEORY
     drop = found.drop
-    assert found.closed_form.stability_length < drop.low < drop.length < drop.high < THEORY
+    assert found.closed_form.front_length < drop.low < drop.length < drop.high < THEORY
     assert drop.time_low < drop.time < drop.time_high
     assert found.closed_form.length == pytest.approx(drop.length, rel=0.04)
     assert found.trusted and not found.doubt
@@ -92,7 +92,7 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     fault = dataclasses.replace(fault, friction=law)
     critical = float(theory_lengths([(*bodies_of(fault), interface_state(fault))])[0])
     found = expected_drop(fault)
-    start = found.closed_form.stability_length
+    start = found.closed_form.front_length
     assert 0.4 * critical < start < found.drop.low < found.drop.length < 1.3 * start
     assert "whose mode could be followed" in found.doubt
 

@@ -48,7 +48,12 @@ def _counts(name: str) -> bool:
 @source_options
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    as_json: bool, file: Path | None, run_id: str | None, config: str | None, **options: Any
+    as_json: bool,
+    file: Path | None,
+    run_id: str | None,
+    config: str | None,
+    paper: bool,
+    **options: Any,
 ) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 
@@ -60,7 +65,7 @@ def command(
     Example:
       nucleation drop --height 2cm --perturbation normal_load --strength 1e-4
     """
-    base, given = sourced(file, run_id, config, options)
+    base, given = sourced(file, run_id, config, paper, options)
     values = merged(base, USUAL | given if base is None else given)
     if values["perturbation"] == "none":
         raise ParameterError(
@@ -108,7 +113,7 @@ def _cure(parameters: Parameters) -> str:
 def _described(found: ExpectedDrop) -> dict[str, Any]:
     """What JSON has of the drop."""
     return {
-        "stability_length": found.closed_form.stability_length,
+        "stability_length": found.stability_length,
         "drop": found.drop._asdict(),
         "closed_form": found.closed_form._asdict(),
         "trusted": found.trusted,
@@ -130,7 +135,7 @@ def _lines(
         return [*lines, f"  The law of the drop does not reach this fault: {reason}."]
     drop = found.drop
     for name, length, meaning in (
-        ("L_s", found.closed_form.stability_length, "it turns unstable"),
+        ("L_s", found.stability_length, "it turns unstable"),
         ("L_d", drop.length, "half of the realisations have dropped,"),
         ("", drop.low, "16 % of them,"),
         ("", drop.high, "84 % of them"),

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..model.linearised import interface_state
 from ..model.parameters import Geometry, Parameters
-from ..theory.creep.lengths import NoPatch
+from ..theory.creep.lengths import NoPatch, stability_length_of
 from ..theory.critical import NoInstability, run_length
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
@@ -28,6 +28,7 @@ class NoDrop(ValueError):
 class ExpectedDrop(NamedTuple):
     """What is to be expected of a fault under its declared perturbation; lengths in m."""
 
+    stability_length: float  # L_s
     drop: Drop
     closed_form: ClosedForm
     doubt: str  # why the law should not be relied upon here, empty if it should
@@ -62,7 +63,8 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     found = growth(history, declared)
     drop = found.drop(declared.strength)
     closed = found.closed_form(history, declared.strength)
-    return ExpectedDrop(drop, closed, "; ".join(_doubts(history, drop, closed, critical)))
+    stable = stability_length_of(parameters, critical)
+    return ExpectedDrop(stable, drop, closed, "; ".join(_doubts(history, drop, closed, critical)))
 
 
 def _doubts(history: ModeHistory, drop: Drop, closed: ClosedForm, critical: float) -> Iterator[str]:
@@ -73,10 +75,10 @@ def _doubts(history: ModeHistory, drop: Drop, closed: ClosedForm, critical: floa
             f"the perturbation is strong (eps_eff = {closed.effective:.2g}, the law holds below "
             f"{STRONGEST:g}): bursts that come to rest may make the drop later"
         )
-    if closed.stability_length > LATEST_GROWTH * longest:
+    if closed.front_length > LATEST_GROWTH * longest:
         yield (
             "growth begins near the longest patch whose mode could be followed, at "
-            f"{closed.stability_length / longest:.2g} of its length: how it goes on is not known"
+            f"{closed.front_length / longest:.2g} of its length: how it goes on is not known"
         )
     if not np.isfinite([drop.length, drop.low, drop.high]).all():
         yield "the drop lies beyond the lengths that the mode's trends are carried on to"
