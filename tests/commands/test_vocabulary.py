@@ -78,6 +78,21 @@ def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
     assert drop["closed_form"]["front_length"] == pytest.approx(length, rel=0.06)
 
 
+def test_one_fault_in_antiplane_shear(nucleation, tmp_path):
+    """BP1: 3221 m of half-spaces; friction and Poisson's ratio do not matter."""
+    fault = words({
+        "--shear-modulus": "32.04GPa", "--poisson": "0.25", "--normal-stress": "50MPa",
+        "--a": "0.010", "--b": "0.015", "--slip-distance": "8mm", "--velocity": "1nm/s",
+        "--friction": "0.6", "--plane": "antiplane", "--height": "30km",
+    })  # fmt: skip
+    for command in (("length",), ("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
+        ended = nucleation(*command, *fault, "--json")
+        assert theory(ended) == pytest.approx(3221, abs=1), ended.err
+    assert "antiplane shear, with mu* = mu" in nucleation("length", *fault).out
+    rollers = nucleation("length", *fault, "--far-side", "roller")
+    assert rollers.code == 2 and "one of velocity, traction, free, clamped" in rollers.err
+
+
 def test_a_fault_of_its_own_has_scales_of_its_own(nucleation, tmp_path):
     """The paper's v*, v0, phi*, age and correlation length are those of V = 10 um/s, D = .5 um."""
     fault = {**FAULT, "--velocity": "1mm/yr", "--friction": "0.65", "--height": "5m"}

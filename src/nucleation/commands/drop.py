@@ -19,7 +19,7 @@ from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length, reason_of_stability
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
-from .fault_options import of_parameters, told
+from .fault_options import of_parameters, plane_in_words, told
 from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
 from .text import to_json
 
@@ -127,7 +127,7 @@ def _lines(
     if math.isnan(critical):
         return [f"No critical length: {reason}."]
     lines = [
-        f"Theory of homogeneous sliding, in plane {parameters.material.plane}:",
+        f"Theory of homogeneous sliding, in {plane_in_words(parameters.material.plane)}:",
         f"  L_c    {f'{critical:.4g} m':<26} critical nucleation length",
         "The creeping patch:",
     ]

@@ -14,6 +14,7 @@ from ..answers.uncertainty import Range, parse_range
 from ..model.friction.constants import CONSTANTS
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS, law_declarations
+from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters, names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
@@ -49,7 +50,7 @@ def system_line(fault: Fault, loading: str = "edge", known: bool = True) -> str:
         bodies = f"two identical bodies, each {_body(*first)}"
     else:
         bodies = f"{_body(*first)} on {_body(*second)}"
-    return f"System: {bodies}; {BEGINS[loading]}; plane {fault.plane}."
+    return f"System: {bodies}; {BEGINS[loading]}; {plane_in_words(fault.plane)}."
 
 
 def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
@@ -59,6 +60,11 @@ def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
         return f"a half-space {own}"
     side = {"traction": "free", "velocity": "moved"}.get(str(far_side), far_side)
     return f"a layer {float(height):.4g} m high with its far side {side} {own}"
+
+
+def plane_in_words(plane: str) -> str:
+    """How bodies deform: plane strain, plane stress, antiplane shear."""
+    return "antiplane shear" if plane == ANTIPLANE else f"plane {plane}"
 
 
 def one_material(fault: Fault) -> bool:

@@ -32,6 +32,7 @@ from .fault_options import (
     fault_values,
     one_material,
     parameters_of,
+    plane_in_words,
     said_of,
     scales,
     systems_of_lengths,
@@ -164,10 +165,11 @@ def _as_text(
                 value = lengths[length.key]
                 lines += _length_lines(length, value, fault, theory["critical_length"])
     modulus = "" if one_material(fault) else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
-    star = "mu/(1 - nu)" if fault.plane == "strain" else "mu (1 + nu)"
+    star = {"strain": "mu/(1 - nu)", "stress": "mu (1 + nu)", "antiplane": "mu"}[fault.plane]
+    plane = plane_in_words(fault.plane)
     lines += [
         "",
-        f"in plane {fault.plane}, with mu* = {star}{modulus}, b = a + zeta, natural logarithms;",
+        f"in {plane}, with mu* = {star}{modulus}, b = a + zeta, natural logarithms;",
         "all are full lengths",
     ]
     return "\n".join(lines)

@@ -7,7 +7,7 @@ import click
 from ..answers.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
 from ..theory.fault import QUANTITIES, Fault
 from . import DONE, EXIT_CODES, STABLE
-from .fault_options import doubts_told, fault_options, fault_values, said_of
+from .fault_options import doubts_told, fault_options, fault_values, plane_in_words, said_of
 from .options import option
 from .text import to_json
 
@@ -70,7 +70,7 @@ def _as_text(
             lines += [f"{at} {long}, {now / length:.3g} times the specimen: it does not nucleate."]
         else:
             lines += [f"{at} there is no {name}: it does not nucleate."]
-    lines.append(f"{name} fits into {length:.4g} m, in plane {plane}, if")
+    lines.append(f"{name} fits into {length:.4g} m, in {plane_in_words(plane)}, if")
     low, high = fit.searched
     for first, last in fit.intervals:
         if last == high and first > low:
