@@ -83,7 +83,7 @@ def test_a_law_that_is_named(nucleation, samples, tmp_path):
     expected = api.length_quantiles(
         **FAULT, poisson_ratio="0.25 (0.2 to 0.3)", b=0.015, a=A, height=0.2
     )
-    values = list(found["lengths"][0]["quantiles"].values())
+    values = list(map(float, found["lengths"][0]["quantiles"].values()))
     np.testing.assert_allclose(values, expected["value"][0], rtol=1e-12)
 
 

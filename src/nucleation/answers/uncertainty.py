@@ -192,8 +192,8 @@ def _quantiles(values: Array, shares: Array) -> Array:
 def _errors(values: Array) -> Array:
     """Standard errors of the quantiles, from the binomial scatter of their shares.
 
-    Half the distance of the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``. Infinite if
-    one of these is.
+    Half the distance of the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``; infinite
+    if one of these is.
     """
     shares = np.array(QUANTILES)
     scatter = np.sqrt(shares * (1.0 - shares) / max(values.size, 1))
@@ -228,7 +228,8 @@ def length_quantiles(
         ``value(key, quantile)`` (m), infinite where so many draws are stable, which no patch of
         any length nucleates; its standard ``error(key, quantile)`` (m) by the finite number of
         draws; and the ``share(key)`` of the valid draws that have the length. Draws for which a
-        formula of the literature does not hold are left out of its quantiles. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
+        formula of the literature does not hold are left out of its quantiles. Keys:
+        ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
         :data:`~nucleation.answers.in_use.LENGTHS`. Attributes: ``draws``; ``invalid``,
         no valid faults, with parameters that were ``outside``; ``stable``, without L_c.
 

@@ -68,7 +68,7 @@ def print_quantiles(
         found = length_quantiles(**known)
     said = said_of(middle, given, options["loading"])
     click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
-    return STABLE if np.isnan(found["value"][0]).all() else DONE
+    return DONE if found["share"][0] > 0.0 else STABLE
 
 
 def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
