@@ -21,7 +21,7 @@ import numpy as np
 from scipy import fft
 
 from ...fem.block import Block
-from ...fem.condensed import Condensed, Response
+from ...fem.condensed import Operator, Response
 from ...fem.grid import Field, Grid, Motion
 from ...model.friction.law import Friction
 from ...model.parameters import Parameters
@@ -45,7 +45,7 @@ class GivenDisplacement:
     extra_normal: float = 0.0
 
     def solve(
-        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+        self, operator: Operator, response: Response, past: Past, imposed: Imposed, guess: Array
     ) -> InterfaceSolution:
         """The forces that hold the interface there; arguments of :meth:`Interface.solve`."""
         w = self.problem.exact_w(imposed.time)
