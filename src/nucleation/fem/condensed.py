@@ -187,6 +187,9 @@ class ElasticBody(ABC):
     grid: Grid
     """The mesh of the (upper) body; its lowest nodes are those of the interface."""
 
+    far_side: str
+    """Boundary condition of the (upper) body's far side, a key of :data:`.separable.HELD`."""
+
     @property
     @abstractmethod
     def free_nodes(self) -> int:

@@ -1,4 +1,4 @@
-"""Compiled loops over fields, edge values and the interface's nodes; layout as in :mod:`.kernels`."""
+"""Compiled loops over fields, edge values and interface nodes; layout as in :mod:`.kernels`."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -123,6 +123,7 @@ class FreeBlock(ElasticBody):
 
     def __init__(self, grid: Grid, odd: Block | BlockPair, even: Block | BlockPair) -> None:
         self.grid = grid
+        self.far_side = odd.far_side
         self.odd = odd
         self.even = even
         self._middle = grid.n_x // 2

@@ -53,6 +53,7 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         self.upper = upper
         self.lower = lower
         self.grid = one
+        self.far_side = upper.far_side
 
     @property
     def grid_below(self) -> Grid:
