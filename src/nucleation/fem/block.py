@@ -26,27 +26,14 @@ class Block(BlockModes):
 class BlockOperator(SeparableOperator, CondensedOnNodes):
     """``K + s M`` of a :class:`Block` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
+    body: Block
     edge: RightEdge
 
     def __init__(self, body: Block, s: float) -> None:
         super().__init__(body, s)
-        self._block = body
+        self.along_x = body
+        self.modal = self.pivot[:2]  # the first row, as u_y is zero
         self.edge = RightEdge(body, s, self._inverse, self._lower)
-
-    @property
-    def body(self) -> Block:
-        """The block itself."""
-        return self._block
-
-    @property
-    def along_x(self) -> Block:
-        """The block itself."""
-        return self._block
-
-    @property
-    def modal(self) -> Array:
-        """D and N per mode: the first row of the stiffness, as ``u_y`` is zero."""
-        return self.pivot[:2]
 
     def _profiles(self, edge: Array) -> Array:
         """Profiles along y of the forces that edge values exert on the modes."""

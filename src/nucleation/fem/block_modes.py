@@ -19,7 +19,7 @@ from scipy import fft
 from ..model.material import Material
 from ..types import Array
 from . import transforms
-from .grid import Field, Grid
+from .grid import Components, Field, Grid
 from .separable import SeparableBody
 
 
@@ -73,7 +73,7 @@ class BlockModes(SeparableBody):
         """Return the amplitudes of nodal values at i = 0..n_x - 1 (last axis), cosine basis."""
         return fft.dct(nodal, type=3) / self.grid.n_x
 
-    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> tuple[Array, Array]:
+    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
         """Return the nodal forces of ``stiffness * amplitudes - reduced`` per mode.
 
         Parameters
@@ -93,7 +93,7 @@ class BlockModes(SeparableBody):
         """
         return transforms.nodal_forces(stiffness, amplitudes, reduced, self._alternating)
 
-    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+    def interface_forces(self, modal: Array) -> Components:
         """Return the nodal forces; the forces per mode are ``modal * n_x/2``, (2, ..., n_x).
 
         Along x at i = 1..n_x and along y at i = 0..n_x - 1. With alternating signs, the cosines in
@@ -120,7 +120,7 @@ class BlockModes(SeparableBody):
         load.edge[-1] = forces[-1]
         return load
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y, each of shape (n_y + 1, n_x + 1)."""
         left = np.zeros((self.grid.n_y + 1, 1))
         x = self.sine_values(field.modes[:, 0])

@@ -25,10 +25,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array
-from .grid import Field, Grid, Motion, Motions, Terms
+from .grid import Components, Field, Grid, Motion, Motions, Terms
 
 Nodes = NDArray[np.intp]
 """Numbers of nodes of the interface."""
+
+Blocks = tuple[NDArray, NDArray]
+"""D and N between some nodes."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -91,17 +94,18 @@ class Balance(NamedTuple):
 
 
 class Operator(ABC):
-    """``K + s M`` of a body for one ``s`` (1/s^2), factorised and condensed on the interface.
+    """``K + s M`` of a body for one ``s``, factorised and condensed on the interface.
 
-    ``s = 0`` is statics.
+    Attributes
+    ----------
+    body : ElasticBody
+        The body itself.
+    s : float
+        Factor of the mass matrix (1/s^2); zero is statics.
     """
 
+    body: ElasticBody
     s: float
-
-    @property
-    @abstractmethod
-    def body(self) -> ElasticBody:
-        """The body itself."""
 
     @property
     @abstractmethod
@@ -114,11 +118,11 @@ class Operator(ABC):
         """Memory that the operator holds once all of its parts are in use (MB)."""
 
     @abstractmethod
-    def apply(self, w: Array) -> tuple[Array, Array]:
+    def apply(self, w: Array) -> Components:
         """Return ``D w`` at the free nodes and ``N w`` at the nodes 0..n_x (N/m), for w (m)."""
 
     @abstractmethod
-    def tangent(self, nodes: Nodes, dtype: type = float) -> tuple[NDArray, NDArray]:
+    def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
         """Return dense blocks of D and N between some free nodes.
 
         Parameters
@@ -181,34 +185,56 @@ class Operator(ABC):
         """
 
 
+def between(nodes: Nodes, matrices: Components, dtype: type) -> Blocks:
+    """Select the blocks of dense matrices between some free nodes.
+
+    Parameters
+    ----------
+    nodes : ndarray of int
+        Numbers of the nodes from one on, sorted, shape (n,).
+    matrices : pair of ndarray
+        D and N between all free nodes.
+    dtype : type
+        Type of the result's numbers.
+
+    Returns
+    -------
+    stiffness, coupling : ndarray
+        Shape (n, n) each.
+    """
+    stiffness, coupling = matrices
+    if nodes.size < len(stiffness):
+        block = np.ix_(nodes - 1, nodes - 1)
+        stiffness = stiffness[block]
+        coupling = coupling[block]
+    return stiffness.astype(dtype), coupling.astype(dtype)
+
+
 class ElasticBody(ABC):
-    """An elastic body on an interface."""
+    """An elastic body on an interface.
+
+    Attributes
+    ----------
+    grid : Grid
+        The mesh of the (upper) body; its lowest nodes are those of the interface.
+    grid_below : Grid or None
+        The mesh of a second body, upside down: its lowest nodes are those of the interface.
+    far_side : str
+        Boundary condition of the (upper) body's far side, a key of :data:`.separable.HELD`.
+    free_nodes : int
+        Number of the interface's nodes that friction moves.
+    crossing_time : float
+        Time (s) in which shear waves cross the body.
+    total_mass : float
+        Mass (kg/m) that moves with the driven edge.
+    """
 
     grid: Grid
-    """The mesh of the (upper) body; its lowest nodes are those of the interface."""
-
+    grid_below: Grid | None = None
     far_side: str
-    """Boundary condition of the (upper) body's far side, a key of :data:`.separable.HELD`."""
-
-    @property
-    @abstractmethod
-    def free_nodes(self) -> int:
-        """Number of the interface's nodes that friction moves."""
-
-    @property
-    @abstractmethod
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the body."""
-
-    @property
-    @abstractmethod
-    def total_mass(self) -> float:
-        """Mass (kg/m) that moves with the driven edge."""
-
-    @property
-    def grid_below(self) -> Grid | None:
-        """The mesh of a second body, upside down: its lowest nodes are those of the interface."""
-        return None
+    free_nodes: int
+    crossing_time: float
+    total_mass: float
 
     @property
     def no_memory(self) -> Array:
@@ -323,12 +349,12 @@ class ElasticBody(ABC):
         return motions
 
     @abstractmethod
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y of the (upper) body, levels from the interface up.
 
         Each has the shape (n_y + 1, n_x + 1).
         """
 
-    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values_below(self, field: Field) -> Components:
         """Return nodal u_x and u_y of a second body, levels from the interface down."""
         raise NotImplementedError("there is no second body")

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from ..types import Array
 from . import field_kernels, transforms
 from .block_modes import BlockModes
-from .condensed import Balance, Expectation, Nodes, Operator, Response
-from .grid import Field
+from .condensed import Balance, Blocks, Expectation, Nodes, Operator, Response
+from .grid import Components, Field
 from .right_edge import EdgeValues, predicted
 
 EDGE_FELT = 1e-16  # of a node's own stiffness, squared coupling: 1e-8 in the coupling
@@ -43,21 +43,23 @@ class _EdgedResponse(Response):
 
 
 class CondensedOnNodes(Operator):
-    """``K + s M`` of a body with the nodes and the modes of a block (:mod:`.block_modes`)."""
+    """``K + s M`` of a body with the nodes and the modes of a block (:mod:`.block_modes`).
 
+    Attributes
+    ----------
+    along_x : BlockModes
+        A block with the modes.
+    modal : ndarray
+        D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x).
+    edge : EdgeValues
+        The right edge.
+    """
+
+    along_x: BlockModes
+    modal: Array
     edge: EdgeValues
     _last_asked: tuple[bytes, type] | None = None
-    _last_blocks: tuple[NDArray, NDArray]
-
-    @property
-    @abstractmethod
-    def along_x(self) -> BlockModes:
-        """A block with the modes."""
-
-    @property
-    @abstractmethod
-    def modal(self) -> Array:
-        """D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x)."""
+    _last_blocks: Blocks
 
     @abstractmethod
     def swept_down(self, load: Field, edge: Array) -> Array:
@@ -197,7 +199,7 @@ class CondensedOnNodes(Operator):
         holds = solved or error < self.edge.round_off
         return Balance(displacement, np.array(error), holds)
 
-    def apply(self, w: Array) -> tuple[Array, Array]:
+    def apply(self, w: Array) -> Components:
         """Return ``D w``, (n_x,), and ``N w``, (n_x + 1,) (N/m), for w at nodes 1..n_x (m)."""
         amplitudes = self.along_x.sine_amplitudes(w)
         tangential, normal = self.along_x.forces(self.modal, amplitudes, self._no_load)
@@ -251,7 +253,7 @@ class CondensedOnNodes(Operator):
             return self.along_x.grid.n_x + 1
         return int(np.argmax(felt)) + 1
 
-    def tangent(self, nodes: Nodes, dtype: type = float) -> tuple[NDArray, NDArray]:
+    def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
         """Return dense blocks of D and N, as :meth:`.Operator.tangent`.
 
         The last blocks are kept: mostly the same nodes slip in the next step.
@@ -262,7 +264,7 @@ class CondensedOnNodes(Operator):
             self._last_blocks = self._between(nodes, dtype)
         return self._last_blocks
 
-    def _between(self, nodes: Nodes, dtype: type) -> tuple[NDArray, NDArray]:
+    def _between(self, nodes: Nodes, dtype: type) -> Blocks:
         n = self.along_x.grid.n_x
         blocks: NDArray = np.empty((2, nodes.size, nodes.size), dtype=dtype)
         stiffness, coupling = blocks

@@ -16,15 +16,15 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
 from ..model.material import Material
 from ..types import Array
 from .block import Block
-from .condensed import Balance, ElasticBody, Expectation, Nodes, Operator, Response
-from .grid import Field, Grid, Motion, Terms
+from .condensed import Balance, Blocks, ElasticBody, Expectation, Nodes, Operator, Response, between
+from .grid import Components, Field, Grid, Motion, Terms
 from .pair import BlockPair
+from .separable import rate_of_change
 
 
 class EvenHalf(Block):
@@ -63,11 +63,6 @@ class EvenHalf(Block):
         x_integral = np.append(grid.length * self._ends[0], np.zeros(n))
         self._set_modes(theta, x_integral, signs * self._ends * weights)
 
-    @property
-    def free_nodes(self) -> int:
-        """Number of the interface's nodes that friction moves."""
-        return self.modes
-
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Return the amplitudes of nodal values of u_x at i = 0..n_x (last axis)."""
         scaled = (2.0 / self.grid.n_x) ** 0.5 * self._ends * nodal
@@ -84,13 +79,13 @@ class EvenHalf(Block):
         first = inner[..., :1]
         return np.concatenate((-first, np.zeros_like(first), inner), axis=-1)
 
-    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+    def interface_forces(self, modal: Array) -> Components:
         """Return the nodal forces along x at i = 0..n_x and along y at i = -1..n_x - 1."""
         tangential = self._ends**2 * self.sine_values(modal[0])
         normal = self.cosine_values(modal[1])
         return tangential, normal
 
-    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> tuple[Array, Array]:
+    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
         """Return the nodal forces along x at i = 0..n_x and along y at i = -1..n_x.
 
         Parameters as of :meth:`.BlockModes.forces`.
@@ -102,7 +97,7 @@ class EvenHalf(Block):
         """Return zeros: an even stress on the top acts on the other half."""
         return self.zero_field()
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y at i = 0..n_x, each of shape (n_y + 1, n_x + 1)."""
         x = self.sine_values(field.modes[:, 0])
         y = self.cosine_values(field.modes[:, 1])
@@ -126,30 +121,13 @@ class FreeBlock(ElasticBody):
         self.far_side = odd.far_side
         self.odd = odd
         self.even = even
+        self.free_nodes = grid.n_x + 1
+        self.crossing_time = odd.crossing_time
+        self.total_mass = 2.0 * even.total_mass
         self._middle = grid.n_x // 2
-
-    @property
-    def grid_below(self) -> Grid | None:
-        """The mesh of a second block."""
-        half = self.odd.grid_below
-        if half is None:
-            return None
-        return dataclasses.replace(half, length=self.grid.length, n_x=self.grid.n_x)
-
-    @property
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the block."""
-        return self.odd.crossing_time
-
-    @property
-    def free_nodes(self) -> int:
-        """All of the interface's nodes."""
-        return self.grid.n_x + 1
-
-    @property
-    def total_mass(self) -> float:
-        """Mass (kg/m) of the (upper) block."""
-        return 2.0 * self.even.total_mass
+        below = odd.grid_below
+        if below is not None:
+            self.grid_below = dataclasses.replace(below, length=grid.length, n_x=grid.n_x)
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
         """Return the values themselves: no node of the interface is driven."""
@@ -244,27 +222,19 @@ class FreeBlock(ElasticBody):
         self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
     ) -> Motion:
         """Return the motion at a new displacement, as :meth:`ElasticBody.motion`."""
-        odd_past = []
-        even_past = []
-        for motion in motions:
-            odd, even = self.parts(motion.displacement)
-            odd_past.append(Motion(odd, odd, 0.0))  # only the displacement is used
-            even_past.append(Motion(even, even, 0.0))
-        odd, even = self.parts(displacement)
-        odd_motion = self.odd.motion(past, beta, odd, odd_past)
-        even_motion = self.even.motion(past, beta, even, even_past)
-        velocity = self.joined(odd_motion.velocity, even_motion.velocity)
+        velocity = rate_of_change(past, beta, displacement, motions)
+        _, even = self.parts(velocity)
         # the odd part has no momentum along x
-        return Motion(displacement, velocity, 2.0 * even_motion.momentum)
+        return Motion(displacement, velocity, 2.0 * self.even.momentum_x(even))
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y of the (upper) block, each of shape (n_y + 1, n_x + 1)."""
         odd, even = self.parts(field)
         odd_x, even_y = self.odd.nodal_values(odd)
         even_x, odd_y = self.even.nodal_values(even)
         return self.whole(odd_x, even_x), self.whole(odd_y, even_y)
 
-    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values_below(self, field: Field) -> Components:
         """Return nodal u_x and u_y of the second block, levels from the interface down."""
         odd, even = self.parts(field)
         odd_x, even_y = self.odd.nodal_values_below(odd)
@@ -283,45 +253,42 @@ class _FreeResponse(Response):
 class _FreeOperator(Operator):
     """``K + s M`` of a :class:`FreeBlock` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
+    body: FreeBlock
+
     def __init__(self, body: FreeBlock, s: float) -> None:
-        self._whole = body
+        self.body = body
         self.s = s
         self._odd = body.odd.operator(s)
         self._even = body.even.operator(s)
 
     @property
-    def body(self) -> FreeBlock:
-        """The block itself."""
-        return self._whole
-
-    @property
     def megabytes(self) -> float:
         """Memory that the operator holds once all of its parts are in use (MB)."""
-        dense = 16e-6 * self._whole.free_nodes**2
+        dense = 16e-6 * self.body.free_nodes**2
         return self._odd.megabytes + self._even.megabytes + dense
 
-    def _forces(self, odd: tuple[Array, Array], even: tuple[Array, Array]) -> tuple[Array, Array]:
+    def _forces(self, odd: Components, even: Components) -> Components:
         """Tangential and normal forces at all nodes from those on the halves."""
         odd_x, even_y = odd
         even_x, odd_y = even
         odd_x = np.insert(odd_x, 0, 0.0, axis=-1)
         odd_y = odd_y[..., 1:]
-        x = self._whole.whole(odd_x, even_x)
-        y = self._whole.whole(odd_y, even_y)
-        middle = self._whole.grid.n_x // 2  # it belongs to both halves of the block
+        x = self.body.whole(odd_x, even_x)
+        y = self.body.whole(odd_y, even_y)
+        middle = self.body.grid.n_x // 2  # it belongs to both halves of the block
         x[..., middle] *= 2.0
         y[..., middle] *= 2.0
         return x, y
 
-    def apply(self, w: Array) -> tuple[Array, Array]:
+    def apply(self, w: Array) -> Components:
         """Return ``D w`` and ``N w`` (N/m) at all nodes, for w (m) there."""
-        odd, even = self._whole.halved(w)
+        odd, even = self.body.halved(w)
         return self._forces(self._odd.apply(odd), self._even.apply(even))
 
     @cached_property
-    def _dense(self) -> tuple[Array, Array]:
+    def _dense(self) -> Components:
         """D and N between all nodes, a column for each node that moves."""
-        units = np.eye(self._whole.free_nodes)
+        units = np.eye(self.body.free_nodes)
         columns = [self.apply(unit) for unit in units]
         stiffness = np.array([tangential for tangential, _ in columns])
         coupling = np.array([normal for _, normal in columns])
@@ -333,16 +300,14 @@ class _FreeOperator(Operator):
         stiffness, _ = self._dense
         return np.ascontiguousarray(stiffness.diagonal())
 
-    def tangent(self, nodes: Nodes, dtype: type = float) -> tuple[NDArray, NDArray]:
+    def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
         """Return dense blocks of D and N, as :meth:`.Operator.tangent`."""
-        block = np.ix_(nodes - 1, nodes - 1)
-        stiffness, coupling = self._dense
-        return stiffness[block].astype(dtype), coupling[block].astype(dtype)
+        return between(nodes, self._dense, dtype)
 
     def respond(self, load: Field, w: Array) -> _FreeResponse:
         """Find the forces that hold the interface, edges in balance (:class:`.Operator`)."""
-        odd_load, even_load = self._whole.parts(load)
-        odd_w, even_w = self._whole.halved(w)
+        odd_load, even_load = self.body.parts(load)
+        odd_w, even_w = self.body.halved(w)
         odd = self._odd.respond(odd_load, odd_w)
         even = self._even.respond(even_load, even_w)
         tangential, normal = self._forces(
@@ -353,7 +318,7 @@ class _FreeOperator(Operator):
     def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
         """Find the displacement of the block, as :meth:`.Operator.balance`."""
         assert isinstance(response, _FreeResponse)
-        odd_w, even_w = self._whole.halved(w)
+        odd_w, even_w = self.body.halved(w)
         odd = self._odd.balance(response.odd, odd_w).displacement
         even = self._even.balance(response.even, even_w).displacement
-        return Balance(self._whole.joined(odd, even), self._whole.no_memory, True)
+        return Balance(self.body.joined(odd, even), self.body.no_memory, True)

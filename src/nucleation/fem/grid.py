@@ -11,6 +11,9 @@ import numpy as np
 from ..model.parameters import Geometry, Mesh
 from ..types import Array
 
+Components = tuple[Array, Array]
+"""Values along x and along y, or the tangential and the normal component."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Grid:

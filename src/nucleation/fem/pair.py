@@ -17,7 +17,7 @@ import numpy as np
 from ..types import Array
 from .block import Block
 from .condensed_nodes import CondensedOnNodes
-from .grid import Field, Motion, Motions
+from .grid import Components, Field, Motion, Motions
 from .right_edge import EdgeValues, inverse_within
 from .series import SeriesStiffness, TwoBodies
 
@@ -83,46 +83,31 @@ class BlockPair(TwoBodies[Block]):
 class _PairOperator(CondensedOnNodes):
     """``K + s M`` of a :class:`BlockPair` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
+    body: BlockPair
+
     def __init__(self, body: BlockPair, s: float) -> None:
-        self._pair = body
+        self.body = body
         self.s = s
         self.upper = body.upper.operator(s)
         self.lower = body.lower.operator(s)
         self.series = SeriesStiffness(self.upper, self.lower)
+        self.along_x = body.upper
+        self.modal = self.series.modal
+        self.levels_above = body.grid.n_y + 1  # in a field, the lower block's levels follow them
         self.edge = _PairEdge(self)
-
-    @property
-    def body(self) -> BlockPair:
-        """The pair itself."""
-        return self._pair
-
-    @property
-    def along_x(self) -> Block:
-        """The upper block."""
-        return self._pair.upper
-
-    @property
-    def modal(self) -> Array:
-        """D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x)."""
-        return self.series.modal
-
-    @property
-    def levels_above(self) -> int:
-        """Number of levels of the upper block; in a field, the lower one's follow them."""
-        return self._pair.grid.n_y + 1
 
     @property
     def megabytes(self) -> float:
         """Memory that the operator holds once all of its parts are in use (MB)."""
-        levels = self.levels_above + self._pair.lower.grid.n_y + 1
-        own = 8e-6 * (13 * self._pair.grid.n_x + 2 * levels**2)
+        levels = self.levels_above + self.body.lower.grid.n_y + 1
+        own = 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
         return self.upper.megabytes + self.lower.megabytes + own
 
     def swept_down(self, load: Field, edge: Array) -> Array:
         """Sweep a load (N/m) down to the interface in both blocks, with given edge values (m)."""
         modes = np.empty_like(load.modes)
-        above, below = self._pair.parts(load)
-        into_above, into_below = self._pair.parts(Field(modes, edge))
+        above, below = self.body.parts(load)
+        into_above, into_below = self.body.parts(Field(modes, edge))
         self.upper.swept(above, into_above.edge, into_above.modes)
         self.lower.swept(below, into_below.edge, into_below.modes)
         return modes
@@ -148,7 +133,7 @@ class _PairOperator(CondensedOnNodes):
         lowest = swept[:2].copy()
         self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
         self.upper.substitute(lowest)
-        load_above, _ = self._pair.parts(load)
+        load_above, _ = self.body.parts(load)
         edge_above = edge[: self.levels_above]
         return self.upper.edge.corner_reaction(load_above, lowest, edge_above)
 
@@ -216,7 +201,7 @@ class _PairEdge(EdgeValues):
         return independent @ inverse @ independent.T
 
     @cached_property
-    def to_interface(self) -> tuple[Array, Array]:
+    def to_interface(self) -> Components:
         """Nodal forces on the interface, all other unknowns eliminated, per edge value."""
         (x, y), lower = self._to_modes
         above = y.copy()

@@ -17,18 +17,16 @@ block the node of the driven edge, repeats the last one.
 from __future__ import annotations
 
 import dataclasses
-from abc import abstractmethod
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 from scipy.linalg import circulant
 
 from ..model.material import Material
 from ..types import Array, ComplexArray
-from .condensed import Balance, Expectation, Nodes, Operator, Response
-from .grid import Field, Grid
+from .condensed import Balance, Blocks, Expectation, Nodes, Operator, Response, between
+from .grid import Components, Field, Grid
 from .separable import SeparableBody, SeparableOperator
 
 
@@ -100,7 +98,7 @@ class PeriodicBlock(SeparableBody):
         mean, a, b = self._split(amplitudes)
         return self._values(mean, a + 1j * b)
 
-    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+    def interface_forces(self, modal: Array) -> Components:
         """Return the nodal forces along x and y of modal ones, (2, n_x)."""
         return self.sine_values(modal[0]), self.cosine_values(modal[1])
 
@@ -124,7 +122,7 @@ class PeriodicBlock(SeparableBody):
         load.modes[-1, 1, 0] = -normal_stress * self.grid.dx
         return load
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y, each of shape (n_y + 1, n_x + 1); column 0 is the last one."""
         x = self.sine_values(field.modes[:, 0])
         y = self.cosine_values(field.modes[:, 1])
@@ -132,17 +130,20 @@ class PeriodicBlock(SeparableBody):
 
 
 class Circulant(Operator):
-    """D and N between the nodes of a period, which are circulant matrices."""
+    """D and N between the nodes of a period, which are circulant matrices.
 
-    @property
-    @abstractmethod
-    def along_x(self) -> PeriodicBlock:
-        """A layer with the modes."""
+    Attributes
+    ----------
+    along_x : PeriodicBlock
+        A layer with the modes.
+    modal : ndarray
+        D and N per mode, times 2/n_x (N/m per m), (2, n_x).
+    """
 
-    @abstractmethod
-    def interface_forces(
-        self, w_amplitudes: Array, reduced: Array | float = 0.0
-    ) -> tuple[Array, Array]:
+    along_x: PeriodicBlock
+    modal: Array
+
+    def interface_forces(self, w_amplitudes: Array, reduced: Array | float = 0.0) -> Components:
         """Return the nodal forces along x and y on the (upper) layer at all nodes.
 
         Parameters
@@ -157,14 +158,15 @@ class Circulant(Operator):
         tangential, normal : ndarray
             Forces (N/m), shape (n_x,) each.
         """
+        return self.along_x.interface_forces(self.modal * w_amplitudes - reduced)
 
-    def apply(self, w: Array) -> tuple[Array, Array]:
+    def apply(self, w: Array) -> Components:
         """Return ``D w``, (n_x,), and ``N w``, (n_x + 1,) with entry 0 (N/m)."""
         tangential, normal = self.interface_forces(self.along_x.sine_amplitudes(w))
         return tangential, with_entry_zero(normal)
 
     @cached_property
-    def _columns(self) -> tuple[Array, Array]:
+    def _columns(self) -> Components:
         """First columns of D and N."""
         unit = np.zeros(self.along_x.grid.n_x)
         unit[0] = 1.0
@@ -178,47 +180,29 @@ class Circulant(Operator):
         return np.full(self.along_x.grid.n_x, column[0])
 
     @cached_property
-    def _dense(self) -> list[Array]:
+    def _dense(self) -> Components:
         """D and N between all nodes."""
-        return [circulant(column) for column in self._columns]
+        stiffness, coupling = self._columns
+        return circulant(stiffness), circulant(coupling)
 
-    def tangent(self, nodes: Nodes, dtype: type = float) -> tuple[NDArray, NDArray]:
+    def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
         """Return dense blocks of D and N, as :meth:`.Operator.tangent`."""
-        stiffness, coupling = self._dense
-        if nodes.size < self.along_x.grid.n_x:
-            block = np.ix_(nodes - 1, nodes - 1)
-            stiffness = stiffness[block]
-            coupling = coupling[block]
-        return stiffness.astype(dtype), coupling.astype(dtype)
+        return between(nodes, self._dense, dtype)
 
 
 class PeriodicOperator(SeparableOperator, Circulant):
     """``K + s M`` of a :class:`PeriodicBlock`; D and N are circulant."""
 
+    body: PeriodicBlock
+
     def __init__(self, body: PeriodicBlock, s: float) -> None:
         super().__init__(body, s)
-        self._layer = body
-
-    @property
-    def body(self) -> PeriodicBlock:
-        """The layer itself."""
-        return self._layer
-
-    @property
-    def along_x(self) -> PeriodicBlock:
-        """The layer itself."""
-        return self._layer
-
-    def interface_forces(
-        self, w_amplitudes: Array, reduced: Array | float = 0.0
-    ) -> tuple[Array, Array]:
-        """Return the nodal forces, as :meth:`Circulant.interface_forces`."""
-        stiffness = self.pivot[:2]
-        return self._layer.interface_forces(stiffness * w_amplitudes - reduced)
+        self.along_x = body
+        self.modal = self.pivot[:2]
 
     def respond(self, load: Field, w: Array) -> Response:
         """Find the forces that hold the interface, as :meth:`.Operator.respond`."""
-        amplitudes = self._layer.sine_amplitudes(w)
+        amplitudes = self.body.sine_amplitudes(w)
         _, reduced = self.solve(load, amplitudes, np.zeros_like(load.edge))
         tangential, normal = self.interface_forces(amplitudes, reduced)
         return Response(w, tangential, with_entry_zero(normal), load)
@@ -226,9 +210,9 @@ class PeriodicOperator(SeparableOperator, Circulant):
     def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
         """Find the displacement of the layer, as :meth:`.Operator.balance`."""
         edge = np.zeros_like(response.load.edge)
-        amplitudes = self._layer.sine_amplitudes(w)
+        amplitudes = self.body.sine_amplitudes(w)
         modes, _ = self.solve(response.load, amplitudes, edge)
-        return Balance(Field(modes, edge), self._layer.no_memory, True)
+        return Balance(Field(modes, edge), self.body.no_memory, True)
 
 
 def with_entry_zero(nodal: Array) -> Array:

@@ -58,8 +58,10 @@ class _SweptResponse(Response):
 class _PeriodicPairOperator(Circulant):
     """``K + s M`` of a :class:`PeriodicPair`; D and N are circulant."""
 
+    body: PeriodicPair
+
     def __init__(self, body: PeriodicPair, s: float) -> None:
-        self._pair = body
+        self.body = body
         self.s = s
         self.upper = body.upper.operator(s)
         self.lower = body.lower.operator(s)
@@ -72,34 +74,20 @@ class _PeriodicPairOperator(Circulant):
             self.series.compliance[:, 0] = 0.0
             self.series.forces[:, 0] = np.tile(0.5 * np.eye(2).ravel(), 2)
             self.series.by_slip[:, 0] = 0.5, 0.0
-
-    @property
-    def body(self) -> PeriodicPair:
-        """The pair itself."""
-        return self._pair
-
-    @property
-    def along_x(self) -> PeriodicBlock:
-        """The upper layer."""
-        return self._pair.upper
+        self.along_x = body.upper
+        self.modal = self.series.modal
 
     @property
     def megabytes(self) -> float:
         """Memory that the operator holds once all of its parts are in use (MB)."""
         return self.upper.megabytes + self.lower.megabytes
 
-    def interface_forces(
-        self, w_amplitudes: Array, reduced: Array | float = 0.0
-    ) -> tuple[Array, Array]:
-        """Return the nodal forces on the upper layer, as :meth:`.Circulant.interface_forces`."""
-        return self.along_x.interface_forces(self.series.modal * w_amplitudes - reduced)
-
     def respond(self, load: Field, w: Array) -> _SweptResponse:
         """Find the forces that hold the interface, as :meth:`.Operator.respond`."""
         modes = np.empty_like(load.modes)
         no_edge = np.zeros_like(load.edge)
-        load_above, load_below = self._pair.parts(load)
-        above, below = self._pair.parts(Field(modes, no_edge))
+        load_above, load_below = self.body.parts(load)
+        above, below = self.body.parts(Field(modes, no_edge))
         self.upper.swept(load_above, above.edge, above.modes)
         self.lower.swept(load_below, below.edge, below.modes)
         held, start = self.series.loaded(above.modes[0], below.modes[0])
@@ -111,9 +99,9 @@ class _PeriodicPairOperator(Circulant):
         """Find the displacement of both layers, as :meth:`.Operator.balance`."""
         assert isinstance(response, _SweptResponse)
         field = Field(response.swept, np.zeros_like(response.load.edge))
-        above, below = self._pair.parts(field)
+        above, below = self.body.parts(field)
         amplitudes = self.along_x.sine_amplitudes(w)
         self.series.set_interface(above.modes, below.modes, amplitudes, response.start)
         self.upper.substitute(above.modes)
         self.lower.substitute(below.modes)
-        return Balance(field, self._pair.no_memory, True)
+        return Balance(field, self.body.no_memory, True)

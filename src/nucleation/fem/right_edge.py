@@ -15,7 +15,7 @@ from ..types import Array
 from . import field_kernels, kernels
 from .block_modes import BlockModes
 from .condensed import Expectation
-from .grid import Field
+from .grid import Components, Field
 from .matrices import dense, product, transposed
 
 ROUND_OFF = 4.0  # relative, of the edge values: times epsilon and the condition (H / dy)^2
@@ -42,7 +42,7 @@ class EdgeValues(ABC):
 
     @property
     @abstractmethod
-    def to_interface(self) -> tuple[Array, Array]:
+    def to_interface(self) -> Components:
         """Nodal forces on the interface, bulk eliminated, per unit of each edge value.
 
         Tangential at the nodes 1..n_x and normal at 0..n_x - 1 (N/m per m), a row for each edge
@@ -225,7 +225,7 @@ class RightEdge(EdgeValues):
         return inverse_within(self.schur, slice(1, None))
 
     @cached_property
-    def to_interface(self) -> tuple[Array, Array]:
+    def to_interface(self) -> Components:
         """Nodal forces on the interface, bulk eliminated, per unit of each edge value."""
         return self.body.interface_forces(self.body.mode_scale * self.to_modes())
 

@@ -17,7 +17,7 @@ from ..model.material import Material
 from ..types import Array
 from . import field_kernels, kernels, matrices
 from .condensed import ElasticBody, Operator
-from .grid import Field, Grid, Motion, Terms
+from .grid import Components, Field, Grid, Motion, Terms
 
 HELD = {
     "free": (False, False),
@@ -45,6 +45,15 @@ class SeparableBody(ElasticBody):
         Weight of each mode in the forces on an edge that has unknowns of its own, (3, modes).
     far_side : str
         Boundary condition of the far side, a key of :data:`HELD`.
+
+    Attributes
+    ----------
+    mass, stiffness, derivative : ndarray
+        The matrices along y (:mod:`.matrices`), shape (3, n_y + 1).
+    modes : int
+        Number of modes.
+    mode_scale : float
+        Factor 2/n_x of all loads and stiffnesses per mode.
     """
 
     def __init__(
@@ -59,6 +68,9 @@ class SeparableBody(ElasticBody):
         self.grid = grid
         self.material = material
         self.far_side = far_side
+        self.crossing_time = grid.height / material.shear_wave_speed
+        self.total_mass = material.density * grid.length * grid.height
+        self.mode_scale = 2.0 / grid.n_x
         self.mass, self.stiffness, self.derivative = matrices.element_matrices(grid.y)
         self.row_sums = self.mass.sum(axis=0)
         self._set_modes(theta, x_integral, edge_weights)
@@ -72,33 +84,14 @@ class SeparableBody(ElasticBody):
         self.x_integral = x_integral
         self.edge_weights = edge_weights
         self.modes = theta.size
-
-    @property
-    def free_nodes(self) -> int:
-        """Number of the interface's nodes that friction moves."""
-        return self.grid.n_x
-
-    @property
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the height."""
-        return self.grid.height / self.material.shear_wave_speed
-
-    @property
-    def total_mass(self) -> float:
-        """Mass of the body (kg/m)."""
-        return self.material.density * self.grid.length * self.grid.height
-
-    @property
-    def mode_scale(self) -> float:
-        """Factor 2/n_x of all loads and stiffnesses per mode."""
-        return 2.0 / self.grid.n_x
+        self.free_nodes = theta.size
 
     @abstractmethod
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Return the amplitudes of nodal values of u_x (last axis) at the free nodes."""
 
     @abstractmethod
-    def interface_forces(self, modal: Array) -> tuple[Array, Array]:
+    def interface_forces(self, modal: Array) -> Components:
         """Return nodal forces along x and y; the forces per mode are ``modal * n_x/2``."""
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
@@ -197,8 +190,10 @@ class SeparableOperator(Operator):
         Stiffness on the interface per mode, times 2/n_x (N/m per m): xx, xy, yy, (3, modes).
     """
 
+    body: SeparableBody
+
     def __init__(self, body: SeparableBody, s: float) -> None:
-        self._body = body
+        self.body = body
         self.s = s
         grid = body.grid
         material = body.material
@@ -226,7 +221,7 @@ class SeparableOperator(Operator):
     @property
     def megabytes(self) -> float:
         """Memory that the operator holds once all of its parts are in use (MB)."""
-        grid = self._body.grid
+        grid = self.body.grid
         levels = grid.n_y + 1
         return 8e-6 * levels * (9 * grid.n_x + 2 * levels)
 
@@ -290,8 +285,8 @@ class SeparableOperator(Operator):
             self._lower,
             load.modes,
             self._profiles(edge),
-            self._body.edge_weights,
-            self._body.mode_scale,
+            self.body.edge_weights,
+            self.body.mode_scale,
             modes,
         )
         return modes

@@ -22,7 +22,7 @@ import numpy as np
 from ..types import Array
 from . import kernels
 from .condensed import ElasticBody
-from .grid import Field, Grid, Motion, Terms
+from .grid import Components, Field, Motion, Terms
 from .separable import SeparableBody, SeparableOperator, rate_of_change
 
 Layer = TypeVar("Layer", bound=SeparableBody)
@@ -53,32 +53,16 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         self.upper = upper
         self.lower = lower
         self.grid = one
+        self.grid_below = other
         self.far_side = upper.far_side
-
-    @property
-    def grid_below(self) -> Grid:
-        """The lower body's mesh, its levels from the interface down."""
-        return self.lower.grid
-
-    @property
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the slower body."""
-        return max(self.upper.crossing_time, self.lower.crossing_time)
+        self.free_nodes = upper.free_nodes
+        self.crossing_time = max(upper.crossing_time, lower.crossing_time)
+        self.total_mass = upper.total_mass  # the lower body does not move with the edge
 
     @property
     def no_memory(self) -> Array:
         """The memory before the first step, that of the upper body."""
         return self.upper.no_memory
-
-    @property
-    def total_mass(self) -> float:
-        """Mass (kg/m) that moves with the driven edge: the upper body's."""
-        return self.upper.total_mass
-
-    @property
-    def free_nodes(self) -> int:
-        """Number of the interface's nodes that friction moves."""
-        return self.upper.free_nodes
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
         """Add the value of the driven edge's node, as :meth:`ElasticBody.on_all_nodes`."""
@@ -153,12 +137,12 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         above, _ = self.parts(velocity)
         return self.upper.momentum_x(above)
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y of the upper body, each of shape (n_y + 1, n_x + 1)."""
         above, _ = self.parts(field)
         return self.upper.nodal_values(above)
 
-    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
+    def nodal_values_below(self, field: Field) -> Components:
         """Return nodal u_x and u_y of the lower body, its levels from the interface down."""
         _, below = self.parts(field)
         x, y = self.lower.nodal_values(below)
