@@ -17,7 +17,11 @@ CORNERS = ((0, 0), (1, 0), (0, 1), (1, 1))
 """Nodes of an element along x and y; its unknowns are x and y of each."""
 
 
-def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, Array]:
+def _element_matrices(
+    dx: float,
+    dy: float,
+    material: Material,
+) -> tuple[Array, Array]:
     """Stiffness and consistent mass of one element, (8, 8) each."""
     point = 1.0 / np.sqrt(3.0)
     stiffness = np.zeros((8, 8))
@@ -37,7 +41,12 @@ def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, 
     return stiffness, mass
 
 
-def _stiffness(by_x: Array, by_y: Array, area: float, material: Material) -> Array:
+def _stiffness(
+    by_x: Array,
+    by_y: Array,
+    area: float,
+    material: Material,
+) -> Array:
     """Stiffness of one element from one Gauss point, by the gradients of the shape functions.
 
     In antiplane shear u_x is the displacement along z, and u_y bears only the load on the top.
@@ -67,7 +76,12 @@ def _stiffness(by_x: Array, by_y: Array, area: float, material: Material) -> Arr
     return area * strain.T @ elastic @ strain
 
 
-def unknown(grid: Grid, i: ArrayLike, j: ArrayLike, component: int) -> Array:
+def unknown(
+    grid: Grid,
+    i: ArrayLike,
+    j: ArrayLike,
+    component: int,
+) -> Array:
     """Number the unknowns.
 
     Parameters

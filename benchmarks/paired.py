@@ -60,10 +60,18 @@ def _unpack(commit: str, directory: str) -> None:
         check=True,
         stdout=subprocess.PIPE,
     )
-    subprocess.run(["tar", "-x", "-C", directory], input=archive.stdout, check=True)
+    subprocess.run(
+        ["tar", "-x", "-C", directory],
+        input=archive.stdout,
+        check=True,
+    )
 
 
-def paired(commit: str, run: str = RUN, turns: int = TURNS) -> dict[str, Any]:
+def paired(
+    commit: str,
+    run: str = RUN,
+    turns: int = TURNS,
+) -> dict[str, Any]:
     """Compare the time of a step here with that at an earlier commit.
 
     Parameters

@@ -171,10 +171,17 @@ def _speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dic
     nodes = grid.n_x + 1
     driven = 2 * np.arange(grid.n_y + 1) * nodes
     interface = np.arange(2 * nodes)
-    free = np.setdiff1d(np.arange(stiffness.shape[0]), np.append(driven, interface))
+    free = np.setdiff1d(
+        np.arange(stiffness.shape[0]),
+        np.append(driven, interface),
+    )
     matrix = (stiffness + 1e6 * mass)[free][:, free].tocsc()
     start = time.perf_counter()
-    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+    factors = splu(
+        matrix,
+        permc_spec="MMD_AT_PLUS_A",
+        options={"SymmetricMode": True},
+    )
     factorisation = time.perf_counter() - start
     right = np.ones(free.size)
     (solve,) = _fastest(lambda: factors.solve(right), blocks=3)
@@ -198,7 +205,11 @@ def _scaling(parameters: Parameters) -> dict[str, Any]:
     }
 
 
-def _scaling_along(axis: str, numbers: tuple[int, ...], meshes: list[Parameters]) -> dict[str, Any]:
+def _scaling_along(
+    axis: str,
+    numbers: tuple[int, ...],
+    meshes: list[Parameters],
+) -> dict[str, Any]:
     """Time per step on some meshes with these numbers of elements along one axis."""
     tasks = [_timed_steps(mesh) for mesh in meshes]
     seconds = np.array(_fastest(*tasks)) / STEPS
@@ -254,7 +265,11 @@ def _precisions(parameters: Parameters) -> list[dict[str, float]]:
     return rows
 
 
-def _simulated(parameters: Parameters, tolerance: float, longest_step: float) -> xr.Dataset:
+def _simulated(
+    parameters: Parameters,
+    tolerance: float,
+    longest_step: float,
+) -> xr.Dataset:
     values = {
         "tolerance": tolerance,
         "longest_step": longest_step,

@@ -75,7 +75,11 @@ def _cost(command: list[str], directory: Path) -> Cost:
             text = output.read().decode(errors="replace")
             raise RuntimeError(f"{' '.join(command)} failed:\n{text[-4000:]}")
     seconds = time.perf_counter() - start
-    return Cost(seconds, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0)
+    return Cost(
+        seconds,
+        used.ru_utime + used.ru_stime,
+        used.ru_maxrss / 1024.0,
+    )
 
 
 def snakemake(*arguments: str) -> list[str]:
@@ -148,7 +152,11 @@ def configuration(runs: int, per_job: int) -> dict[str, Any]:
     return {"stepping": stepping, "studies": {"many": study}}
 
 
-def _planned(runs: int, per_job: int, directory: Path) -> dict[str, float]:
+def _planned(
+    runs: int,
+    per_job: int,
+    directory: Path,
+) -> dict[str, float]:
     """The cost of a dry run of a study; its configuration stays in the directory."""
     text = yaml.safe_dump(configuration(runs, per_job))
     (directory / "config.yaml").write_text(text, encoding="utf-8")
@@ -172,7 +180,11 @@ def _made(directory: Path) -> dict[str, float]:
     }
 
 
-def _study_costs(runs: int, per_job: int, makes: bool) -> dict[str, dict[str, float]]:
+def _study_costs(
+    runs: int,
+    per_job: int,
+    makes: bool,
+) -> dict[str, dict[str, float]]:
     """The costs of one study by command, in a directory that is removed afterwards."""
     with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as name:
         directory = Path(name)

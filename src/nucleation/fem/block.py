@@ -40,23 +40,51 @@ class BlockOperator(SeparableOperator, CondensedOnNodes):
         return self.edge.profiles(edge)
 
     def swept_down(self, load: Field, edge: Array) -> Array:
-        """Sweep a load (N/m) down to the interface, with given edge values (m)."""
+        """Sweep a load (N/m) down to the interface, with given edge values (m).
+
+        Parameters
+        ----------
+        load, edge
+            As in :meth:`.CondensedOnNodes.swept_down`.
+        """
         return self.swept(load, edge)
 
     def reduced(self, swept: Array) -> tuple[Array, None]:
         """Return the load in level 0; on a rigid base it does not move the interface."""
         return swept[0].copy(), None
 
-    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
-        """Sweep back from the interface in place, as in :class:`.CondensedOnNodes`."""
+    def substitute_up(
+        self,
+        swept: Array,
+        amplitudes: Array,
+        start: Array | None,
+    ) -> None:
+        """Sweep back from the interface in place.
+
+        Parameters
+        ----------
+        swept, amplitudes, start
+            As in :meth:`.CondensedOnNodes.substitute_up`.
+        """
         swept[0, 0] = amplitudes
         swept[0, 1] = 0.0
         self.substitute(swept)
 
     def corner_reaction(
-        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+        self,
+        load: Field,
+        swept: Array,
+        edge: Array,
+        amplitudes: Array,
+        start: Array | None,
     ) -> float:
-        """Return the normal force (N/m) on the corner, as in :class:`.CondensedOnNodes`."""
+        """Return the normal force (N/m) on the corner.
+
+        Parameters
+        ----------
+        load, swept, edge, amplitudes, start
+            As in :meth:`.CondensedOnNodes.corner_reaction`.
+        """
         lowest = swept[:2].copy()
         self.substitute_up(lowest, amplitudes, start)
         return self.edge.corner_reaction(load, lowest, edge)

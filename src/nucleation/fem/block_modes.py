@@ -36,7 +36,12 @@ class BlockModes(SeparableBody):
         Boundary condition of the far side, a key of :data:`.separable.HELD`.
     """
 
-    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
+    def __init__(
+        self,
+        grid: Grid,
+        material: Material,
+        far_side: str = "free",
+    ) -> None:
         mode = np.arange(grid.n_x)
         theta = (mode + 0.5) * np.pi / grid.n_x
         self._alternating = (-1.0) ** mode
@@ -50,7 +55,14 @@ class BlockModes(SeparableBody):
         )
         edge_weights = self._alternating * weights
         x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
-        super().__init__(grid, material, theta, x_integral, edge_weights, far_side)
+        super().__init__(
+            grid,
+            material,
+            theta,
+            x_integral,
+            edge_weights,
+            far_side,
+        )
 
     @property
     def no_memory(self) -> Array:
@@ -73,7 +85,12 @@ class BlockModes(SeparableBody):
         """Return the amplitudes of nodal values at i = 0..n_x - 1 (last axis), cosine basis."""
         return fft.dct(nodal, type=3) / self.grid.n_x
 
-    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
+    def forces(
+        self,
+        stiffness: Array,
+        amplitudes: Array,
+        reduced: Array,
+    ) -> Components:
         """Return the nodal forces of ``stiffness * amplitudes - reduced`` per mode.
 
         Parameters

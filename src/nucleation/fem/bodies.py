@@ -6,7 +6,8 @@ from collections.abc import Callable
 from ..model.parameters import Parameters
 from .block import Block
 from .condensed import ElasticBody
-from .free_block import EvenHalf, FreeBlock
+from .even_half import EvenHalf
+from .free_block import FreeBlock
 from .grid import Grid
 from .pair import BlockPair
 from .periodic import PeriodicBlock
@@ -67,7 +68,11 @@ def _half_block(parameters: Parameters, kind: type[Block]) -> Block | BlockPair:
 
 
 def _half(grid: Grid) -> Grid:
-    return dataclasses.replace(grid, length=grid.length / 2.0, n_x=grid.n_x // 2)
+    return dataclasses.replace(
+        grid,
+        length=grid.length / 2.0,
+        n_x=grid.n_x // 2,
+    )
 
 
 def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:

@@ -154,7 +154,12 @@ class Operator(ABC):
         Response
         """
 
-    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[Response]:
+    def responses(
+        self,
+        load: Field,
+        w: Array,
+        expected: Expectation,
+    ) -> Iterator[Response]:
         """Yield responses as of :meth:`respond`, cheaper ones first; the last one always holds.
 
         Parameters
@@ -167,7 +172,12 @@ class Operator(ABC):
         yield self.respond(load, w)
 
     @abstractmethod
-    def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
+    def balance(
+        self,
+        response: Response,
+        w: Array,
+        expected: Expectation | None = None,
+    ) -> Balance:
         """Find the body's displacement once the interface has been solved.
 
         Parameters
@@ -274,7 +284,12 @@ class ElasticBody(ABC):
         """
 
     @abstractmethod
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
+    def inertia_load(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field | None = None,
+    ) -> Field:
         """Add the inertia of a linear combination of fields to a load.
 
         Parameters
@@ -310,7 +325,11 @@ class ElasticBody(ABC):
 
     @abstractmethod
     def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+        self,
+        past: Sequence[float],
+        beta: float,
+        displacement: Field,
+        motions: Sequence[Motion],
     ) -> Motion:
         """Return the motion at a new displacement by ``u = c1 u_1 + c2 u_2 + beta du/dt``.
 
@@ -330,7 +349,12 @@ class ElasticBody(ABC):
         Motion
         """
 
-    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+    def settled(
+        self,
+        motions: Motions,
+        step: float,
+        slid: float,
+    ) -> Motions:
         """Remove parts of a motion that grow from round-off alone; here there are none.
 
         Parameters

@@ -96,7 +96,12 @@ class CondensedOnNodes(Operator):
         """
 
     @abstractmethod
-    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
+    def substitute_up(
+        self,
+        swept: Array,
+        amplitudes: Array,
+        start: Array | None,
+    ) -> None:
         """Sweep back from the interface, in place.
 
         Parameters
@@ -111,7 +116,12 @@ class CondensedOnNodes(Operator):
 
     @abstractmethod
     def corner_reaction(
-        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+        self,
+        load: Field,
+        swept: Array,
+        edge: Array,
+        amplitudes: Array,
+        start: Array | None,
     ) -> float:
         """Return the normal force on the corner's node, from the lowest levels alone.
 
@@ -130,7 +140,12 @@ class CondensedOnNodes(Operator):
             The force on the upper body (N/m).
         """
 
-    def respond(self, load: Field, w: Array, edge: Array | None = None) -> _EdgedResponse:
+    def respond(
+        self,
+        load: Field,
+        w: Array,
+        edge: Array | None = None,
+    ) -> _EdgedResponse:
         """Find the forces that hold the interface, the edge in balance.
 
         Parameters
@@ -148,10 +163,28 @@ class CondensedOnNodes(Operator):
         given = np.zeros_like(load.edge) if edge is None else edge
         swept = self.swept_down(load, given)
         reduced, start = self.reduced(swept)
-        tangential, normal = self.along_x.forces(self.modal, amplitudes, reduced)
+        tangential, normal = self.along_x.forces(
+            self.modal,
+            amplitudes,
+            reduced,
+        )
         if edge is not None:
-            normal[-1] = self.corner_reaction(load, swept, edge, amplitudes, start)
-            return _EdgedResponse(w, tangential, normal, load, edge, start, swept)
+            normal[-1] = self.corner_reaction(
+                load,
+                swept,
+                edge,
+                amplitudes,
+                start,
+            )
+            return _EdgedResponse(
+                w,
+                tangential,
+                normal,
+                load,
+                edge,
+                start,
+                swept,
+            )
         self.substitute_up(swept, amplitudes, start)
         residual = self.edge.residual(load, swept, given)
         found = self.edge.correction(residual)
@@ -159,22 +192,41 @@ class CondensedOnNodes(Operator):
         normal[-1] = self.edge.schur[0] @ found - residual[0]
         return _EdgedResponse(w, tangential, normal, load, found, start)
 
-    def responses(self, load: Field, w: Array, expected: Expectation) -> Iterator[_EdgedResponse]:
+    def responses(
+        self,
+        load: Field,
+        w: Array,
+        expected: Expectation,
+    ) -> Iterator[_EdgedResponse]:
         """Yield a response with predicted edge values, if that worked last time, then the full one.
 
-        Far from slip and waves the right edge moves as predicted, to round-off. Parameters as of
-        :meth:`.Operator.responses`.
+        Far from slip and waves the right edge moves as predicted, to round-off.
+
+        Parameters
+        ----------
+        load, w, expected
+            As in :meth:`.Operator.responses`.
         """
         last_error = float(expected.memory)
         if last_error < self.edge.round_off:
             yield self.respond(load, w, predicted(expected))
         yield self.respond(load, w)
 
-    def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
-        """Find the displacement, as :meth:`.Operator.balance`.
+    def balance(
+        self,
+        response: Response,
+        w: Array,
+        expected: Expectation | None = None,
+    ) -> Balance:
+        """Find the displacement.
 
         Predicted edge values are corrected to the values in balance. The memory is the relative
         error of the prediction.
+
+        Parameters
+        ----------
+        response, w, expected
+            As in :meth:`.Operator.balance`.
         """
         assert isinstance(response, _EdgedResponse)
         edge = response.edge
@@ -189,7 +241,11 @@ class CondensedOnNodes(Operator):
         self.substitute_up(modes, self.along_x.sine_amplitudes(w), start)
         own = edge
         if not solved:
-            residual = self.edge.residual(response.load, modes, response.edge)
+            residual = self.edge.residual(
+                response.load,
+                modes,
+                response.edge,
+            )
             own = response.edge + self.edge.correction(residual)
         displacement = Field(modes, own)
         if expected is None:
@@ -202,7 +258,11 @@ class CondensedOnNodes(Operator):
     def apply(self, w: Array) -> Components:
         """Return ``D w``, (n_x,), and ``N w``, (n_x + 1,) (N/m), for w at nodes 1..n_x (m)."""
         amplitudes = self.along_x.sine_amplitudes(w)
-        tangential, normal = self.along_x.forces(self.modal, amplitudes, self._no_load)
+        tangential, normal = self.along_x.forces(
+            self.modal,
+            amplitudes,
+            self._no_load,
+        )
         transforms.add_edge_in_balance(
             w,
             self.edge.felt,
@@ -254,9 +314,14 @@ class CondensedOnNodes(Operator):
         return int(np.argmax(felt)) + 1
 
     def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
-        """Return dense blocks of D and N, as :meth:`.Operator.tangent`.
+        """Return dense blocks of D and N.
 
         The last blocks are kept: mostly the same nodes slip in the next step.
+
+        Parameters
+        ----------
+        nodes, dtype
+            As in :meth:`.Operator.tangent`.
         """
         asked = (nodes.tobytes(), dtype)
         if asked != self._last_asked:

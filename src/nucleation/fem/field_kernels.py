@@ -8,7 +8,12 @@ from .compiling import compiled_loop
 
 
 @compiled_loop
-def edge_sums(weights: Array, field: Array, first: int, out: Array) -> None:
+def edge_sums(
+    weights: Array,
+    field: Array,
+    first: int,
+    out: Array,
+) -> None:
     """Sum a field over the modes, with the weights of the right edge.
 
     ``out[0] = sum_m weights[0] u_x``, ``out[1] = sum_m weights[1] u_x`` and
@@ -75,7 +80,12 @@ def products(matrices: Array, vector: Array) -> Array:
 
 @compiled_loop
 def edge_residual(
-    matrices: Array, weights: Array, field: Array, edge: Array, load: Array, levels: int
+    matrices: Array,
+    weights: Array,
+    field: Array,
+    edge: Array,
+    load: Array,
+    levels: int,
 ) -> Array:
     """Return ``load - sum_k A_k s_k`` at the lowest levels.
 
@@ -202,7 +212,13 @@ def add_inertia(
 
 @compiled_loop
 def rate_of_change(
-    c1: float, c2: float, beta: float, new: Array, u: Array, u_past: Array, out: Array
+    c1: float,
+    c2: float,
+    beta: float,
+    new: Array,
+    u: Array,
+    u_past: Array,
+    out: Array,
 ) -> None:
     """Find the rate by ``new = c1 u + c2 u_past + beta rate``.
 
@@ -228,7 +244,12 @@ def rate_of_change(
 
 @compiled_loop
 def interface_blocks(
-    d: Array, h: Array, n: int, nodes: NDArray[np.intp], stiffness: NDArray, coupling: NDArray
+    d: Array,
+    h: Array,
+    n: int,
+    nodes: NDArray[np.intp],
+    stiffness: NDArray,
+    coupling: NDArray,
 ) -> None:
     """Fill ``D_ij = d(i-j) - d(i+j)`` and ``N_ij = h(i+j) - h(i-j)`` between interface nodes.
 

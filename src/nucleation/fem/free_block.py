@@ -2,10 +2,10 @@
 
 Any displacement is the sum of two parts about the middle of the block. In the odd part u_x is odd
 and u_y even: the half block is held along x in the middle, and is a :class:`.block.Block` with its
-left edge there. In the even part u_x is even and u_y odd (:class:`EvenHalf`). On a grid with an
-even number of elements both are blocks of half the length with one free edge, and they do not
-interact: stiffness, inertia, edge and interface are those of :mod:`.block` and :mod:`.pair`. At a
-node ``c + i``, c being the middle node, the displacement is even + odd, at ``c - i`` even - odd.
+left edge there. In the even part u_x is even and u_y odd (:class:`.even_half.EvenHalf`). On a grid
+with an even number of elements both are blocks of half the length with one free edge, and they do
+not interact: stiffness, inertia, edge and interface are those of :mod:`.block` and :mod:`.pair`. At
+a node ``c + i``, c being the middle node, the displacement is even + odd, at ``c - i`` even - odd.
 All nodes 0..n_x of the interface are free.
 """
 
@@ -16,93 +16,13 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-from scipy import fft
 
-from ..model.material import Material
 from ..types import Array
 from .block import Block
 from .condensed import Balance, Blocks, ElasticBody, Expectation, Nodes, Operator, Response, between
 from .grid import Components, Field, Grid, Motion, Terms
 from .pair import BlockPair
 from .separable import rate_of_change
-
-
-class EvenHalf(Block):
-    """The right half of a block in which u_x is even about the middle and u_y odd.
-
-    The modes are ``u_x = cos(theta_m i)``, ``u_y = -sin(theta_m i)`` with ``theta_m = m pi/n_x``,
-    m = 0..n_x. The norm of the first and the last one is twice that of the others: they are divided
-    by the square root of two. The interface's nodes 0..n_x are free, and count as a block's nodes
-    1..n_x + 1; its node 0 is here the mirror image of node 1.
-
-    Parameters
-    ----------
-    grid : Grid
-        The mesh of the half.
-    material : Material
-        Elastic moduli and density.
-    far_side : str
-        Boundary condition of the far side, a key of :data:`.separable.HELD`.
-    """
-
-    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
-        super().__init__(grid, material, far_side)
-        n = grid.n_x
-        mode = np.arange(n + 1)
-        self._ends = np.ones(n + 1)
-        self._ends[[0, -1]] = 0.5**0.5
-        theta = mode * np.pi / n
-        weights = np.array(
-            [
-                np.sin(theta / 2.0) ** 2,
-                np.cos(theta / 2.0) ** 2,
-                np.sin(theta),
-            ]
-        )
-        signs = (-1.0) ** mode
-        x_integral = np.append(grid.length * self._ends[0], np.zeros(n))
-        self._set_modes(theta, x_integral, signs * self._ends * weights)
-
-    def sine_amplitudes(self, nodal: Array) -> Array:
-        """Return the amplitudes of nodal values of u_x at i = 0..n_x (last axis)."""
-        scaled = (2.0 / self.grid.n_x) ** 0.5 * self._ends * nodal
-        return fft.dct(scaled, type=1, norm="ortho")
-
-    def sine_values(self, amplitudes: Array) -> Array:
-        """Return the nodal values of u_x at i = 0..n_x (last axis)."""
-        values = fft.dct(amplitudes, type=1, norm="ortho")
-        return values * (self.grid.n_x / 2.0) ** 0.5 / self._ends
-
-    def cosine_values(self, amplitudes: Array) -> Array:
-        """Return the nodal values of u_y at i = -1..n_x - 1 (last axis)."""
-        inner = -0.5 * fft.dst(amplitudes[..., 1:-1], type=1)
-        first = inner[..., :1]
-        return np.concatenate((-first, np.zeros_like(first), inner), axis=-1)
-
-    def interface_forces(self, modal: Array) -> Components:
-        """Return the nodal forces along x at i = 0..n_x and along y at i = -1..n_x - 1."""
-        tangential = self._ends**2 * self.sine_values(modal[0])
-        normal = self.cosine_values(modal[1])
-        return tangential, normal
-
-    def forces(self, stiffness: Array, amplitudes: Array, reduced: Array) -> Components:
-        """Return the nodal forces along x at i = 0..n_x and along y at i = -1..n_x.
-
-        Parameters as of :meth:`.BlockModes.forces`.
-        """
-        tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
-        return tangential, np.append(normal, 0.0)
-
-    def top_load(self, normal_stress: float) -> Field:
-        """Return zeros: an even stress on the top acts on the other half."""
-        return self.zero_field()
-
-    def nodal_values(self, field: Field) -> Components:
-        """Return nodal w_x and u_y at i = 0..n_x, each of shape (n_y + 1, n_x + 1)."""
-        x = self.sine_values(field.modes[:, 0])
-        y = self.cosine_values(field.modes[:, 1])
-        right = field.edge[:, None]
-        return x, np.hstack((y[:, 1:], right))
 
 
 class FreeBlock(ElasticBody):
@@ -116,7 +36,12 @@ class FreeBlock(ElasticBody):
         The right halves for u_x odd and even about the middle.
     """
 
-    def __init__(self, grid: Grid, odd: Block | BlockPair, even: Block | BlockPair) -> None:
+    def __init__(
+        self,
+        grid: Grid,
+        odd: Block | BlockPair,
+        even: Block | BlockPair,
+    ) -> None:
         self.grid = grid
         self.far_side = odd.far_side
         self.odd = odd
@@ -127,10 +52,20 @@ class FreeBlock(ElasticBody):
         self._middle = grid.n_x // 2
         below = odd.grid_below
         if below is not None:
-            self.grid_below = dataclasses.replace(below, length=grid.length, n_x=grid.n_x)
+            self.grid_below = dataclasses.replace(
+                below,
+                length=grid.length,
+                n_x=grid.n_x,
+            )
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
-        """Return the values themselves: no node of the interface is driven."""
+        """Return the values themselves: no node of the interface is driven.
+
+        Parameters
+        ----------
+        values, driven
+            As in :meth:`.ElasticBody.on_all_nodes`.
+        """
         return values
 
     def operator(self, s: float) -> _FreeOperator:
@@ -187,7 +122,13 @@ class FreeBlock(ElasticBody):
         return np.concatenate((left[..., :0:-1], right), axis=-1)
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """Return the motion of the block at rest, seen from its top (:class:`ElasticBody`)."""
+        """Return the motion of the block at rest, seen from its top.
+
+        Parameters
+        ----------
+        displacement, velocity
+            As in :meth:`.ElasticBody.at_rest`.
+        """
         _, even = self.parts(displacement)
         motion = self.even.at_rest(even, velocity)
         rates = self.joined(self.odd.zero_field(), motion.velocity)
@@ -204,8 +145,19 @@ class FreeBlock(ElasticBody):
         even = self.even.top_load(normal_stress)
         return self.joined(odd, even)
 
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """Add the inertia of fields to a load, as :meth:`ElasticBody.inertia_load`."""
+    def inertia_load(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field | None = None,
+    ) -> Field:
+        """Add the inertia of fields to a load.
+
+        Parameters
+        ----------
+        s, terms, load
+            As in :meth:`.ElasticBody.inertia_load`.
+        """
         odd_terms = []
         even_terms = []
         for coefficient, field in terms:
@@ -219,13 +171,27 @@ class FreeBlock(ElasticBody):
         )
 
     def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+        self,
+        past: Sequence[float],
+        beta: float,
+        displacement: Field,
+        motions: Sequence[Motion],
     ) -> Motion:
-        """Return the motion at a new displacement, as :meth:`ElasticBody.motion`."""
+        """Return the motion at a new displacement.
+
+        Parameters
+        ----------
+        past, beta, displacement, motions
+            As in :meth:`.ElasticBody.motion`.
+        """
         velocity = rate_of_change(past, beta, displacement, motions)
         _, even = self.parts(velocity)
         # the odd part has no momentum along x
-        return Motion(displacement, velocity, 2.0 * self.even.momentum_x(even))
+        return Motion(
+            displacement,
+            velocity,
+            2.0 * self.even.momentum_x(even),
+        )
 
     def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y of the (upper) block, each of shape (n_y + 1, n_x + 1)."""
@@ -301,24 +267,52 @@ class _FreeOperator(Operator):
         return np.ascontiguousarray(stiffness.diagonal())
 
     def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
-        """Return dense blocks of D and N, as :meth:`.Operator.tangent`."""
+        """Return dense blocks of D and N.
+
+        Parameters
+        ----------
+        nodes, dtype
+            As in :meth:`.Operator.tangent`.
+        """
         return between(nodes, self._dense, dtype)
 
     def respond(self, load: Field, w: Array) -> _FreeResponse:
-        """Find the forces that hold the interface, edges in balance (:class:`.Operator`)."""
+        """Find the forces that hold the interface, edges in balance.
+
+        Parameters
+        ----------
+        load, w
+            As in :meth:`.Operator.respond`.
+        """
         odd_load, even_load = self.body.parts(load)
         odd_w, even_w = self.body.halved(w)
         odd = self._odd.respond(odd_load, odd_w)
         even = self._even.respond(even_load, even_w)
         tangential, normal = self._forces(
-            (odd.tangential, odd.normal), (even.tangential, even.normal)
+            (odd.tangential, odd.normal),
+            (even.tangential, even.normal),
         )
         return _FreeResponse(w, tangential, normal, load, odd, even)
 
-    def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
-        """Find the displacement of the block, as :meth:`.Operator.balance`."""
+    def balance(
+        self,
+        response: Response,
+        w: Array,
+        expected: Expectation | None = None,
+    ) -> Balance:
+        """Find the displacement of the block.
+
+        Parameters
+        ----------
+        response, w, expected
+            As in :meth:`.Operator.balance`.
+        """
         assert isinstance(response, _FreeResponse)
         odd_w, even_w = self.body.halved(w)
         odd = self._odd.balance(response.odd, odd_w).displacement
         even = self._even.balance(response.even, even_w).displacement
-        return Balance(self.body.joined(odd, even), self.body.no_memory, True)
+        return Balance(
+            self.body.joined(odd, even),
+            self.body.no_memory,
+            True,
+        )

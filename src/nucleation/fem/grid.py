@@ -56,7 +56,13 @@ class Grid:
         -------
         Grid
         """
-        return cls(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+        return cls(
+            geometry.length,
+            geometry.height,
+            mesh.n_x,
+            mesh.n_y,
+            mesh.grading,
+        )
 
     @property
     def dx(self) -> float:
@@ -121,7 +127,11 @@ class Field:
         }
 
     @classmethod
-    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Field:
+    def from_arrays(
+        cls,
+        name: str,
+        arrays: Mapping[str, Array],
+    ) -> Field:
         """Read a field from the arrays of :meth:`to_arrays`.
 
         Parameters
@@ -168,7 +178,11 @@ class Motion:
         return displacement | velocity | momentum
 
     @classmethod
-    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Motion:
+    def from_arrays(
+        cls,
+        name: str,
+        arrays: Mapping[str, Array],
+    ) -> Motion:
         """Read a motion from the arrays of :meth:`to_arrays`.
 
         Parameters

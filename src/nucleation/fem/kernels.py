@@ -93,9 +93,12 @@ def factorise(
                 t[1, m] = txy
                 t[2, m] = tyx
                 t[3, m] = tyy
-                pivot[0, m] = kx * md + mx * kd - (txx * uxx + txy * uxy)
-                pivot[1, m] = c * cd - (txx * uyx + txy * uyy)
-                pivot[2, m] = ky * md + my * kd - (tyx * uyx + tyy * uyy)
+                own_xx = kx * md + mx * kd
+                pivot[0, m] = own_xx - (txx * uxx + txy * uxy)
+                own_xy = c * cd
+                pivot[1, m] = own_xy - (txx * uyx + txy * uyy)
+                own_yy = ky * md + my * kd
+                pivot[2, m] = own_yy - (tyx * uyx + tyy * uyy)
         if j > 0:
             q = inverse[j]
             for m in range(kxx.size):
@@ -115,7 +118,12 @@ def factorise(
 
 @compiled_loop
 def eliminate(
-    lower: Array, load: Array, profiles: Array, weights: Array, scale: float, out: Array
+    lower: Array,
+    load: Array,
+    profiles: Array,
+    weights: Array,
+    scale: float,
+    out: Array,
 ) -> None:
     """Sweep a load from the top to the interface, ``out[j] = r[j] - T[j] out[j+1]``.
 
@@ -158,8 +166,14 @@ def eliminate(
             for m in range(x.size):
                 ux = above[0, m]
                 uy = above[1, m]
-                x[m] = (rx[m] - (a * wa[m] + b * wb[m])) - (t[0, m] * ux + t[1, m] * uy)
-                y[m] = (ry[m] - c * wc[m]) - (t[2, m] * ux + t[3, m] * uy)
+                load_x = rx[m]
+                edge_x = a * wa[m] + b * wb[m]
+                above_x = t[0, m] * ux + t[1, m] * uy
+                x[m] = (load_x - edge_x) - above_x
+                load_y = ry[m]
+                edge_y = c * wc[m]
+                above_y = t[2, m] * ux + t[3, m] * uy
+                y[m] = (load_y - edge_y) - above_y
 
 
 @compiled_loop
@@ -183,127 +197,22 @@ def substitute(inverse: Array, lower: Array, rhs: Array) -> None:
         for m in range(x.size):
             rx = x[m]
             ry = y[m]
-            x[m] = q[0, m] * rx + q[1, m] * ry - (t[0, m] * px[m] + t[2, m] * py[m])
-            y[m] = q[1, m] * rx + q[2, m] * ry - (t[1, m] * px[m] + t[3, m] * py[m])
-
-
-@compiled_loop
-def diagonal_inverse(inverse: Array, lower: Array, out: Array) -> None:
-    """Find the diagonal blocks of the inverse of the levels 1..n_y, interface held fixed.
-
-    ``out[j] = Q[j] + T[j-1]^T out[j-1] T[j-1]``, with ``out[0] = 0``.
-
-    Parameters
-    ----------
-    inverse, lower : ndarray
-        Q and T of :func:`factorise`.
-    out : ndarray
-        Filled with the blocks: xx, xy, yy, shape (n_y + 1, 3, modes).
-    """
-    modes = inverse.shape[2]
-    for m in range(modes):
-        out[0, 0, m] = 0.0
-        out[0, 1, m] = 0.0
-        out[0, 2, m] = 0.0
-    for j in range(1, inverse.shape[0]):
-        s = out[j - 1]
-        t = lower[j - 1]
-        q = inverse[j]
-        to = out[j]
-        for m in range(modes):
-            sxx = s[0, m]
-            sxy = s[1, m]
-            syy = s[2, m]
-            txx = t[0, m]
-            txy = t[1, m]
-            tyx = t[2, m]
-            tyy = t[3, m]
-            # S T, first and second column
-            ax = sxx * txx + sxy * tyx
-            ay = sxy * txx + syy * tyx
-            bx = sxx * txy + sxy * tyy
-            by = sxy * txy + syy * tyy
-            to[0, m] = q[0, m] + txx * ax + tyx * ay
-            to[1, m] = q[1, m] + txx * bx + tyx * by
-            to[2, m] = q[2, m] + txy * bx + tyy * by
-
-
-@compiled_loop
-def respond(
-    inverse: Array,
-    lower: Array,
-    diagonal: Array,
-    profiles: Array,
-    weights: Array,
-    scale: float,
-    first: int,
-    solution: Array,
-) -> None:
-    """Find the displacement under the force of one edge value, interface held fixed.
-
-    The force acts on the levels first-1 .. first+1.
-
-    Parameters
-    ----------
-    inverse, lower : ndarray
-        Q and T of :func:`factorise`.
-    diagonal : ndarray
-        The result of :func:`diagonal_inverse`.
-    profiles : ndarray
-        Profiles of the force at those levels, shape (3, up to 3).
-    weights : ndarray
-        Weight of each mode in the edge's forces, shape (3, modes).
-    scale : float
-        Scale of the loads.
-    first : int
-        A level from 1 on.
-    solution : ndarray
-        Filled from level first - 1 on, shape (n_y + 1, 2, modes); lower levels are not needed.
-    """
-    top = inverse.shape[0] - 1
-    modes = inverse.shape[2]
-    loaded = profiles.shape[1]
-    base = first - 1
-    for m in range(modes):
-        lx = 0.0  # loads of the upper levels, eliminated down to the base
-        ly = 0.0
-        for row in range(loaded - 1, -1, -1):
-            j = base + row
-            x = scale * (profiles[0, row] * weights[0, m] + profiles[1, row] * weights[1, m])
-            y = scale * profiles[2, row] * weights[2, m]
-            if row + 1 < loaded:
-                t = lower[j]
-                x -= t[0, m] * lx + t[1, m] * ly
-                y -= t[2, m] * lx + t[3, m] * ly
-            lx = x
-            ly = y
-            solution[j, 0, m] = x
-            solution[j, 1, m] = y
-        s = diagonal[base]
-        solution[base, 0, m] = s[0, m] * lx + s[1, m] * ly
-        solution[base, 1, m] = s[1, m] * lx + s[2, m] * ly
-    for j in range(first, top + 1):
-        below = solution[j - 1]
-        here = solution[j]
-        t = lower[j - 1]
-        q = inverse[j]
-        for m in range(modes):
-            px = below[0, m]
-            py = below[1, m]
-            ax = -(t[0, m] * px + t[2, m] * py)
-            ay = -(t[1, m] * px + t[3, m] * py)
-            if j < base + loaded:
-                x = here[0, m]
-                y = here[1, m]
-                ax += q[0, m] * x + q[1, m] * y
-                ay += q[1, m] * x + q[2, m] * y
-            here[0, m] = ax
-            here[1, m] = ay
+            own_x = q[0, m] * rx + q[1, m] * ry
+            below_x = t[0, m] * px[m] + t[2, m] * py[m]
+            x[m] = own_x - below_x
+            own_y = q[1, m] * rx + q[2, m] * ry
+            below_y = t[1, m] * px[m] + t[3, m] * py[m]
+            y[m] = own_y - below_y
 
 
 @compiled_loop
 def load_couple(
-    compliance: Array, forces: Array, upper: Array, lower: Array, held: Array, start: Array
+    compliance: Array,
+    forces: Array,
+    upper: Array,
+    lower: Array,
+    held: Array,
+    start: Array,
 ) -> None:
     """Find the effect of two bodies' reduced loads at zero slip, per mode.
 
@@ -325,12 +234,12 @@ def load_couple(
         y1 = upper[1, m]
         x2 = lower[0, m]
         y2 = -lower[1, m]
-        held[0, m] = (forces[4, m] * x1 + forces[5, m] * y1) - (
-            forces[0, m] * x2 + forces[1, m] * y2
-        )
-        held[1, m] = (forces[6, m] * x1 + forces[7, m] * y1) - (
-            forces[2, m] * x2 + forces[3, m] * y2
-        )
+        upper_x = forces[4, m] * x1 + forces[5, m] * y1
+        lower_x = forces[0, m] * x2 + forces[1, m] * y2
+        held[0, m] = upper_x - lower_x
+        upper_y = forces[6, m] * x1 + forces[7, m] * y1
+        lower_y = forces[2, m] * x2 + forces[3, m] * y2
+        held[1, m] = upper_y - lower_y
         x = x1 + x2
         y = y1 + y2
         start[0, m] = compliance[0, m] * x + compliance[1, m] * y

@@ -26,10 +26,17 @@ def element_matrices(nodes: Array) -> tuple[Array, Array, Array]:
     """
     h = np.diff(nodes)
     left, right = _beside_nodes(h)
-    mass = np.array([left / 6.0, (left + right) / 3.0, right / 6.0])
+    mass = np.array(
+        [
+            left / 6.0,
+            (left + right) / 3.0,
+            right / 6.0,
+        ]
+    )
     left, right = _beside_nodes(1.0 / h)
     stiffness = np.array([-left, left + right, -right])
-    left, right = _beside_nodes(np.full(h.size, 0.5))
+    halves = np.full(h.size, 0.5)
+    left, right = _beside_nodes(halves)
     diagonal = np.zeros(nodes.size)
     diagonal[0] = -0.5
     diagonal[-1] = 0.5
@@ -70,10 +77,19 @@ def product(matrix: Array, values: Array) -> Array:
 def transposed(matrix: Array) -> Array:
     """Return the diagonals of the transposed matrix, (3, n)."""
     lower, diagonal, upper = matrix
-    return np.array([np.roll(upper, 1), diagonal, np.roll(lower, -1)])
+    return np.array(
+        [
+            np.roll(upper, 1),
+            diagonal,
+            np.roll(lower, -1),
+        ]
+    )
 
 
 def dense(matrix: Array) -> Array:
     """Return a tridiagonal matrix as a dense array, (n, n)."""
     lower, diagonal, upper = matrix
-    return np.diag(diagonal) + np.diag(lower[1:], -1) + np.diag(upper[:-1], 1)
+    out = np.diag(diagonal)
+    out += np.diag(lower[1:], -1)
+    out += np.diag(upper[:-1], 1)
+    return out

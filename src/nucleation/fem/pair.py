@@ -55,13 +55,22 @@ class BlockPair(TwoBodies[Block]):
         lower.edge[:] = -1.0
         return self.joined(upper, lower)
 
-    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
+    def settled(
+        self,
+        motions: Motions,
+        step: float,
+        slid: float,
+    ) -> Motions:
         """Remove a translation along y that has grown from round-off, if no far side is held.
 
         No force acts on such a translation but round-off, which makes it grow without bound over
         minutes. Once it exceeds :data:`LIFTED` times the slip, it is removed with its velocity: the
-        motions are seen from a corner that does not rise. Parameters as of
-        :meth:`ElasticBody.settled`.
+        motions are seen from a corner that does not rise.
+
+        Parameters
+        ----------
+        motions, step, slid
+            As in :meth:`.ElasticBody.settled`.
         """
         rise = float(motions[0].displacement.edge[0])
         rate = float(motions[0].velocity.edge[0])
@@ -73,7 +82,12 @@ class BlockPair(TwoBodies[Block]):
             for motion, age in zip(motions, ages, strict=False)
         )
 
-    def _raised(self, motion: Motion, distance: float, rate: float) -> Motion:
+    def _raised(
+        self,
+        motion: Motion,
+        distance: float,
+        rate: float,
+    ) -> Motion:
         """A motion with both blocks moved up by a distance (m), at a rate (m/s)."""
         displacement = motion.displacement.plus(self._risen.times(distance))
         velocity = motion.velocity.plus(self._risen.times(rate))
@@ -104,7 +118,13 @@ class _PairOperator(CondensedOnNodes):
         return self.upper.megabytes + self.lower.megabytes + own
 
     def swept_down(self, load: Field, edge: Array) -> Array:
-        """Sweep a load (N/m) down to the interface in both blocks, with given edge values (m)."""
+        """Sweep a load (N/m) down to the interface in both blocks, with given edge values (m).
+
+        Parameters
+        ----------
+        load, edge
+            As in :meth:`.CondensedOnNodes.swept_down`.
+        """
         modes = np.empty_like(load.modes)
         above, below = self.body.parts(load)
         into_above, into_below = self.body.parts(Field(modes, edge))
@@ -116,8 +136,19 @@ class _PairOperator(CondensedOnNodes):
         """Return the load that is held, and the displacement of the interface, at w = 0."""
         return self.series.loaded(swept[0], swept[self.levels_above])
 
-    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
-        """Sweep back from the interface in place, as in :class:`.CondensedOnNodes`."""
+    def substitute_up(
+        self,
+        swept: Array,
+        amplitudes: Array,
+        start: Array | None,
+    ) -> None:
+        """Sweep back from the interface in place.
+
+        Parameters
+        ----------
+        swept, amplitudes, start
+            As in :meth:`.CondensedOnNodes.substitute_up`.
+        """
         assert start is not None
         above = swept[: self.levels_above]
         below = swept[self.levels_above :]
@@ -126,12 +157,28 @@ class _PairOperator(CondensedOnNodes):
         self.lower.substitute(below)
 
     def corner_reaction(
-        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+        self,
+        load: Field,
+        swept: Array,
+        edge: Array,
+        amplitudes: Array,
+        start: Array | None,
     ) -> float:
-        """Return the normal force (N/m) on the corner, as in :class:`.CondensedOnNodes`."""
+        """Return the normal force (N/m) on the corner.
+
+        Parameters
+        ----------
+        load, swept, edge, amplitudes, start
+            As in :meth:`.CondensedOnNodes.corner_reaction`.
+        """
         assert start is not None
         lowest = swept[:2].copy()
-        self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
+        self.series.set_interface(
+            lowest,
+            np.empty_like(lowest),
+            amplitudes,
+            start,
+        )
         self.upper.substitute(lowest)
         load_above, _ = self.body.parts(load)
         edge_above = edge[: self.levels_above]
@@ -152,13 +199,32 @@ class _PairEdge(EdgeValues):
         """Relative error of the edge values in any solve."""
         return max(self._above.round_off, self._below.round_off)
 
-    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
-        """Return the unbalanced force on the edge values (N/m), stacked."""
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+    ) -> Array:
+        """Return the unbalanced force on the edge values (N/m), stacked.
+
+        Parameters
+        ----------
+        load, modes, edge
+            As in :meth:`.EdgeValues.residual`.
+        """
         body = self._operator.body
         load_above, load_below = body.parts(load)
         above, below = body.parts(Field(modes, edge))
-        residual_above = self._above.residual(load_above, above.modes, above.edge)
-        residual_below = self._below.residual(load_below, below.modes, below.edge)
+        residual_above = self._above.residual(
+            load_above,
+            above.modes,
+            above.edge,
+        )
+        residual_below = self._below.residual(
+            load_below,
+            below.modes,
+            below.edge,
+        )
         return np.concatenate((residual_above, residual_below))
 
     @cached_property

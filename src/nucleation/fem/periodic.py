@@ -48,7 +48,12 @@ class PeriodicBlock(SeparableBody):
         If n_x is even.
     """
 
-    def __init__(self, grid: Grid, material: Material, far_side: str = "free") -> None:
+    def __init__(
+        self,
+        grid: Grid,
+        material: Material,
+        far_side: str = "free",
+    ) -> None:
         if grid.n_x % 2 == 0:
             raise ValueError(f"n_x = {grid.n_x} is not allowed: it must be odd in a periodic body")
         grid = dataclasses.replace(grid, periodic=True)
@@ -57,10 +62,23 @@ class PeriodicBlock(SeparableBody):
         theta = 2.0 * np.pi / grid.n_x * number
         x_integral = np.where(theta == 0.0, grid.length, 0.0)
         no_edge = np.zeros((3, grid.n_x))
-        super().__init__(grid, material, theta, x_integral, no_edge, far_side)
+        super().__init__(
+            grid,
+            material,
+            theta,
+            x_integral,
+            no_edge,
+            far_side,
+        )
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
-        """Repeat the last node's value as entry 0; `driven` is not used."""
+        """Repeat the last node's value as entry 0; `driven` is not used.
+
+        Parameters
+        ----------
+        values, driven
+            As in :meth:`.ElasticBody.on_all_nodes`.
+        """
         return with_entry_zero(values)
 
     def operator(self, s: float) -> PeriodicOperator:
@@ -143,7 +161,11 @@ class Circulant(Operator):
     along_x: PeriodicBlock
     modal: Array
 
-    def interface_forces(self, w_amplitudes: Array, reduced: Array | float = 0.0) -> Components:
+    def interface_forces(
+        self,
+        w_amplitudes: Array,
+        reduced: Array | float = 0.0,
+    ) -> Components:
         """Return the nodal forces along x and y on the (upper) layer at all nodes.
 
         Parameters
@@ -186,7 +208,13 @@ class Circulant(Operator):
         return circulant(stiffness), circulant(coupling)
 
     def tangent(self, nodes: Nodes, dtype: type = float) -> Blocks:
-        """Return dense blocks of D and N, as :meth:`.Operator.tangent`."""
+        """Return dense blocks of D and N.
+
+        Parameters
+        ----------
+        nodes, dtype
+            As in :meth:`.Operator.tangent`.
+        """
         return between(nodes, self._dense, dtype)
 
 
@@ -201,14 +229,35 @@ class PeriodicOperator(SeparableOperator, Circulant):
         self.modal = self.pivot[:2]
 
     def respond(self, load: Field, w: Array) -> Response:
-        """Find the forces that hold the interface, as :meth:`.Operator.respond`."""
+        """Find the forces that hold the interface.
+
+        Parameters
+        ----------
+        load, w
+            As in :meth:`.Operator.respond`.
+        """
         amplitudes = self.body.sine_amplitudes(w)
-        _, reduced = self.solve(load, amplitudes, np.zeros_like(load.edge))
+        _, reduced = self.solve(
+            load,
+            amplitudes,
+            np.zeros_like(load.edge),
+        )
         tangential, normal = self.interface_forces(amplitudes, reduced)
         return Response(w, tangential, with_entry_zero(normal), load)
 
-    def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
-        """Find the displacement of the layer, as :meth:`.Operator.balance`."""
+    def balance(
+        self,
+        response: Response,
+        w: Array,
+        expected: Expectation | None = None,
+    ) -> Balance:
+        """Find the displacement of the layer.
+
+        Parameters
+        ----------
+        response, w, expected
+            As in :meth:`.Operator.balance`.
+        """
         edge = np.zeros_like(response.load.edge)
         amplitudes = self.body.sine_amplitudes(w)
         modes, _ = self.solve(response.load, amplitudes, edge)

@@ -83,7 +83,13 @@ class _PeriodicPairOperator(Circulant):
         return self.upper.megabytes + self.lower.megabytes
 
     def respond(self, load: Field, w: Array) -> _SweptResponse:
-        """Find the forces that hold the interface, as :meth:`.Operator.respond`."""
+        """Find the forces that hold the interface.
+
+        Parameters
+        ----------
+        load, w
+            As in :meth:`.Operator.respond`.
+        """
         modes = np.empty_like(load.modes)
         no_edge = np.zeros_like(load.edge)
         load_above, load_below = self.body.parts(load)
@@ -93,15 +99,38 @@ class _PeriodicPairOperator(Circulant):
         held, start = self.series.loaded(above.modes[0], below.modes[0])
         amplitudes = self.along_x.sine_amplitudes(w)
         tangential, normal = self.interface_forces(amplitudes, held)
-        return _SweptResponse(w, tangential, with_entry_zero(normal), load, modes, start)
+        return _SweptResponse(
+            w,
+            tangential,
+            with_entry_zero(normal),
+            load,
+            modes,
+            start,
+        )
 
-    def balance(self, response: Response, w: Array, expected: Expectation | None = None) -> Balance:
-        """Find the displacement of both layers, as :meth:`.Operator.balance`."""
+    def balance(
+        self,
+        response: Response,
+        w: Array,
+        expected: Expectation | None = None,
+    ) -> Balance:
+        """Find the displacement of both layers.
+
+        Parameters
+        ----------
+        response, w, expected
+            As in :meth:`.Operator.balance`.
+        """
         assert isinstance(response, _SweptResponse)
         field = Field(response.swept, np.zeros_like(response.load.edge))
         above, below = self.body.parts(field)
         amplitudes = self.along_x.sine_amplitudes(w)
-        self.series.set_interface(above.modes, below.modes, amplitudes, response.start)
+        self.series.set_interface(
+            above.modes,
+            below.modes,
+            amplitudes,
+            response.start,
+        )
         self.upper.substitute(above.modes)
         self.lower.substitute(below.modes)
         return Balance(field, self.body.no_memory, True)

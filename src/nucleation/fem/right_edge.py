@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
 from ..types import Array
-from . import field_kernels, kernels
+from . import edge_kernels, field_kernels, kernels
 from .block_modes import BlockModes
 from .condensed import Expectation
 from .grid import Components, Field
@@ -55,7 +55,12 @@ class EdgeValues(ABC):
         """Relative error of the edge values in any solve."""
 
     @abstractmethod
-    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+    ) -> Array:
         """Return the unbalanced force on the edge values.
 
         Parameters
@@ -122,7 +127,13 @@ class RightEdge(EdgeValues):
         Factors of the bulk's elimination (:func:`.kernels.factorise`).
     """
 
-    def __init__(self, body: BlockModes, s: float, inverse: Array, lower: Array) -> None:
+    def __init__(
+        self,
+        body: BlockModes,
+        s: float,
+        inverse: Array,
+        lower: Array,
+    ) -> None:
         self.body = body
         self._inverse = inverse
         self._lower = lower
@@ -146,11 +157,27 @@ class RightEdge(EdgeValues):
         """Return the profiles along y of ``G^T e``, one per edge weight, (3, n_y + 1)."""
         return field_kernels.products(self._transposed, edge)
 
-    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
-        """Return the unbalanced force on the edge values (N/m), (n_y + 1,)."""
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+    ) -> Array:
+        """Return the unbalanced force on the edge values (N/m), (n_y + 1,).
+
+        Parameters
+        ----------
+        load, modes, edge
+            As in :meth:`.EdgeValues.residual`.
+        """
         return self._residual(load, modes, edge, edge.size)
 
-    def corner_reaction(self, load: Field, lowest: Array, edge: Array) -> float:
+    def corner_reaction(
+        self,
+        load: Field,
+        lowest: Array,
+        edge: Array,
+    ) -> float:
         """Return the normal force on the corner's node.
 
         Parameters
@@ -170,9 +197,20 @@ class RightEdge(EdgeValues):
         corner = self._residual(load, lowest, edge, 1)
         return -corner[0]
 
-    def _residual(self, load: Field, modes: Array, edge: Array, levels: int) -> Array:
+    def _residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+        levels: int,
+    ) -> Array:
         return field_kernels.edge_residual(
-            self._rows, self.body.edge_weights, modes, edge, load.edge, levels
+            self._rows,
+            self.body.edge_weights,
+            modes,
+            edge,
+            load.edge,
+            levels,
         )
 
     @cached_property
@@ -198,7 +236,7 @@ class RightEdge(EdgeValues):
         body = self.body
         levels = body.grid.n_y + 1
         diagonal = np.empty_like(self._inverse)
-        kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
+        edge_kernels.diagonal_inverse(self._inverse, self._lower, diagonal)
         solution = np.zeros((levels, 2, body.modes))
         sums = np.zeros((levels, 3, levels))
         for i, unit in enumerate(np.eye(levels)):
@@ -206,7 +244,7 @@ class RightEdge(EdgeValues):
             profiles = self.profiles(unit)[:, first - 1 : first + 2]
             if first == 1:
                 profiles[:, 0] = 0.0  # the interface is held fixed
-            kernels.respond(
+            edge_kernels.respond(
                 self._inverse,
                 self._lower,
                 diagonal,
@@ -216,7 +254,12 @@ class RightEdge(EdgeValues):
                 first,
                 solution,
             )
-            field_kernels.edge_sums(body.edge_weights, solution, first - 1, sums[i])
+            field_kernels.edge_sums(
+                body.edge_weights,
+                solution,
+                first - 1,
+                sums[i],
+            )
         return np.moveaxis(sums, 1, 0)
 
     @cached_property

@@ -75,7 +75,12 @@ class SeparableBody(ElasticBody):
         self.row_sums = self.mass.sum(axis=0)
         self._set_modes(theta, x_integral, edge_weights)
 
-    def _set_modes(self, theta: Array, x_integral: Array, edge_weights: Array) -> None:
+    def _set_modes(
+        self,
+        theta: Array,
+        x_integral: Array,
+        edge_weights: Array,
+    ) -> None:
         """Set the modes; parameters as of the class."""
         dx = self.grid.dx
         self.x_stiffness = 4.0 * np.sin(theta / 2.0) ** 2 / dx
@@ -95,7 +100,13 @@ class SeparableBody(ElasticBody):
         """Return nodal forces along x and y; the forces per mode are ``modal * n_x/2``."""
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
-        """Add the value of the driven edge's node, as :meth:`ElasticBody.on_all_nodes`."""
+        """Add the value of the driven edge's node.
+
+        Parameters
+        ----------
+        values, driven
+            As in :meth:`.ElasticBody.on_all_nodes`.
+        """
         nodal = np.empty(values.size + 1)
         nodal[0] = driven
         nodal[1:] = values
@@ -114,13 +125,28 @@ class SeparableBody(ElasticBody):
         load.modes[:, 0] = per_level[:, None] * per_mode
         return load
 
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """Add the inertia of fields to a load, as :meth:`ElasticBody.inertia_load`."""
+    def inertia_load(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field | None = None,
+    ) -> Field:
+        """Add the inertia of fields to a load.
+
+        Parameters
+        ----------
+        s, terms, load
+            As in :meth:`.ElasticBody.inertia_load`.
+        """
         if load is None:
             load = self.zero_field()
         nothing = (0.0, terms[0][1])
         missing = 4 - len(terms)  # the kernel takes four terms
-        coefficients, fields = zip(*terms, *[nothing] * missing, strict=True)
+        coefficients, fields = zip(
+            *terms,
+            *[nothing] * missing,
+            strict=True,
+        )
         density = s * self.material.density
         modes, edge = field_kernels.add_inertia(
             self.mass,
@@ -137,14 +163,30 @@ class SeparableBody(ElasticBody):
         return Field(modes, edge)
 
     def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+        self,
+        past: Sequence[float],
+        beta: float,
+        displacement: Field,
+        motions: Sequence[Motion],
     ) -> Motion:
-        """Return the motion at a new displacement, as :meth:`ElasticBody.motion`."""
+        """Return the motion at a new displacement.
+
+        Parameters
+        ----------
+        past, beta, displacement, motions
+            As in :meth:`.ElasticBody.motion`.
+        """
         velocity = rate_of_change(past, beta, displacement, motions)
         return Motion(displacement, velocity, self.momentum_x(velocity))
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """Return the motion of a body at rest, as :meth:`ElasticBody.at_rest`."""
+        """Return the motion of a body at rest.
+
+        Parameters
+        ----------
+        displacement, velocity
+            As in :meth:`.ElasticBody.at_rest`.
+        """
         rates = self.zero_field()
         rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.modes))
         return Motion(displacement, rates, self.momentum_x(rates))
@@ -156,7 +198,10 @@ class SeparableBody(ElasticBody):
 
 
 def rate_of_change(
-    past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+    past: Sequence[float],
+    beta: float,
+    displacement: Field,
+    motions: Sequence[Motion],
 ) -> Field:
     """Return the rate of a displacement by ``u = c1 u_1 + c2 u_2 + beta du/dt``.
 
@@ -175,7 +220,13 @@ def rate_of_change(
     oldest = motions[-1].displacement
     modes = np.empty_like(displacement.modes)
     field_kernels.rate_of_change(
-        c1, c2, beta, displacement.modes, newest.modes, oldest.modes, modes
+        c1,
+        c2,
+        beta,
+        displacement.modes,
+        newest.modes,
+        oldest.modes,
+        modes,
     )
     edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
     return Field(modes, edge)
@@ -225,7 +276,12 @@ class SeparableOperator(Operator):
         levels = grid.n_y + 1
         return 8e-6 * levels * (9 * grid.n_x + 2 * levels)
 
-    def solve(self, load: Field, w_amplitudes: Array, edge: Array) -> tuple[Array, Array]:
+    def solve(
+        self,
+        load: Field,
+        w_amplitudes: Array,
+        edge: Array,
+    ) -> tuple[Array, Array]:
         """Solve for the modes of the bulk, interface and edge given.
 
         Parameters
@@ -260,9 +316,18 @@ class SeparableOperator(Operator):
             The swept load, with the displacement in level 0; at least the two lowest levels.
         """
         levels = len(modes)
-        kernels.substitute(self._inverse[:levels], self._lower[: levels - 1], modes)
+        kernels.substitute(
+            self._inverse[:levels],
+            self._lower[: levels - 1],
+            modes,
+        )
 
-    def swept(self, load: Field, edge: Array, modes: Array | None = None) -> Array:
+    def swept(
+        self,
+        load: Field,
+        edge: Array,
+        modes: Array | None = None,
+    ) -> Array:
         """Sweep a load from the top down to the interface.
 
         Parameters

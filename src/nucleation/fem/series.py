@@ -65,7 +65,13 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         return self.upper.no_memory
 
     def on_all_nodes(self, values: Array, driven: float) -> Array:
-        """Add the value of the driven edge's node, as :meth:`ElasticBody.on_all_nodes`."""
+        """Add the value of the driven edge's node.
+
+        Parameters
+        ----------
+        values, driven
+            As in :meth:`.ElasticBody.on_all_nodes`.
+        """
         return self.upper.on_all_nodes(values, driven)
 
     def parts(self, field: Field) -> tuple[Field, Field]:
@@ -101,8 +107,19 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         upper = self.upper.translation_load(acceleration)
         return self.joined(upper, self.lower.zero_field())
 
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """Add the inertia of fields to a load, as :meth:`ElasticBody.inertia_load`."""
+    def inertia_load(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field | None = None,
+    ) -> Field:
+        """Add the inertia of fields to a load.
+
+        Parameters
+        ----------
+        s, terms, load
+            As in :meth:`.ElasticBody.inertia_load`.
+        """
         above = []
         below = []
         for coefficient, field in terms:
@@ -116,17 +133,32 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         )
 
     def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
+        self,
+        past: Sequence[float],
+        beta: float,
+        displacement: Field,
+        motions: Sequence[Motion],
     ) -> Motion:
-        """Return the motion at a new displacement, as :meth:`ElasticBody.motion`.
+        """Return the motion at a new displacement.
 
         Its momentum is the upper body's alone.
+
+        Parameters
+        ----------
+        past, beta, displacement, motions
+            As in :meth:`.ElasticBody.motion`.
         """
         velocity = rate_of_change(past, beta, displacement, motions)
         return Motion(displacement, velocity, self.momentum_x(velocity))
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """Return the motion of the pair at rest, as :meth:`ElasticBody.at_rest`."""
+        """Return the motion of the pair at rest.
+
+        Parameters
+        ----------
+        displacement, velocity
+            As in :meth:`.ElasticBody.at_rest`.
+        """
         above, _ = self.parts(displacement)
         own = self.upper.at_rest(above, velocity)
         rates = self.joined(own.velocity, self.lower.zero_field())
@@ -196,7 +228,11 @@ class SeriesStiffness:
         )
         self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
 
-    def loaded(self, upper: Array, lower: Array) -> tuple[Array, Array]:
+    def loaded(
+        self,
+        upper: Array,
+        lower: Array,
+    ) -> tuple[Array, Array]:
         """Return the effect of reduced loads at zero slip.
 
         Parameters
@@ -213,10 +249,23 @@ class SeriesStiffness:
         """
         held = np.empty_like(self.modal)
         start = np.empty_like(self.modal)
-        kernels.load_couple(self.compliance, self.forces, upper, lower, held, start)
+        kernels.load_couple(
+            self.compliance,
+            self.forces,
+            upper,
+            lower,
+            held,
+            start,
+        )
         return held, start
 
-    def set_interface(self, upper: Array, lower: Array, amplitudes: Array, start: Array) -> None:
+    def set_interface(
+        self,
+        upper: Array,
+        lower: Array,
+        amplitudes: Array,
+        start: Array,
+    ) -> None:
         """Write the displacement of both bodies at the interface into their level 0.
 
         Parameters

@@ -22,7 +22,10 @@ def sine_amplitudes(nodal: Array) -> Array:
 
 @compiled
 def nodal_forces(
-    stiffness: Array, amplitudes: Array, reduced: Array, alternating: Array
+    stiffness: Array,
+    amplitudes: Array,
+    reduced: Array,
+    alternating: Array,
 ) -> tuple[Array, Array]:
     """Return the nodal forces of ``stiffness * amplitudes - reduced`` per mode, times n/2.
 
@@ -67,7 +70,12 @@ def nodal_forces(
 
 @compiled
 def add_edge_in_balance(
-    w: Array, felt: Array, response: Array, schur: Array, tangential: Array, normal: Array
+    w: Array,
+    felt: Array,
+    response: Array,
+    schur: Array,
+    tangential: Array,
+    normal: Array,
 ) -> None:
     """Add the forces of an edge that is in balance with w to the forces on the interface.
 
@@ -91,7 +99,12 @@ def add_edge_in_balance(
 
 
 @compiled
-def add_edge(edge: Array, felt: Array, tangential: Array, normal: Array) -> None:
+def add_edge(
+    edge: Array,
+    felt: Array,
+    tangential: Array,
+    normal: Array,
+) -> None:
     """Add the forces of given edge values (m) to the forces on the interface.
 
     Parameters

@@ -119,11 +119,20 @@ def sliding_state(dynamics: Dynamics, perturbation: Array) -> State:
     rates = np.full(n + 1, velocity)
     steady = float(np.log(friction.steady_state(velocity)))
     log_state = steady + np.append(0.0, perturbation)
-    return State.beginning(motion, rates, log_state, response.w, balance.memory)
+    return State.beginning(
+        motion,
+        rates,
+        log_state,
+        response.w,
+        balance.memory,
+    )
 
 
 def one_wavelength(
-    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
+    parameters: Parameters,
+    height: float,
+    wavenumber: float,
+    nodes: int = NODES,
 ) -> Parameters:
     """Replace the block by one wavelength ``2 pi / k``, with a mesh that resolves it.
 
@@ -158,7 +167,11 @@ def _mesh(geometry: Geometry, nodes: int) -> Mesh:
     fewest, most = ROWS
     rows = geometry.height * nodes / geometry.length
     graded = geometry.height > GRADED * geometry.length
-    return Mesh(nodes, round(min(max(rows, fewest), most)), GRADING if graded else 1.0)
+    return Mesh(
+        nodes,
+        round(min(max(rows, fewest), most)),
+        GRADING if graded else 1.0,
+    )
 
 
 def _follow_mode(parameters: Parameters) -> tuple[float, ComplexArray]:
@@ -195,7 +208,10 @@ def _fitted_rates(interval: float, amplitude: ComplexArray) -> ComplexArray:
 
 
 def measured_rates(
-    parameters: Parameters, height: float, wavenumber: float, nodes: int = NODES
+    parameters: Parameters,
+    height: float,
+    wavenumber: float,
+    nodes: int = NODES,
 ) -> ComplexArray:
     """Measure both growth rates of a wavenumber in the time integration.
 
@@ -232,7 +248,9 @@ def _heights_for(parameters: Parameters) -> list[float]:
 
 
 def dispersion_dataset(
-    parameters: Parameters, heights: ArrayLike = HEIGHTS, modes: ArrayLike = MODES
+    parameters: Parameters,
+    heights: ArrayLike = HEIGHTS,
+    modes: ArrayLike = MODES,
 ) -> xr.Dataset:
     """Compute growth rates and frequencies by Eq. (5) and by the time integration.
 
@@ -286,7 +304,11 @@ Values = tuple[tuple[str, ...], Array]
 """Dimensions of a variable and its values."""
 
 
-def _columns(name: str, rates: ComplexArray, along: str) -> dict[str, Values]:
+def _columns(
+    name: str,
+    rates: ComplexArray,
+    along: str,
+) -> dict[str, Values]:
     """Growth and frequency of complex rates on (height, along, branch)."""
     dimensions = ("height", along, "branch")
     return {
@@ -301,7 +323,11 @@ def disagreement(dataset: xr.Dataset) -> xr.DataArray:
     frequency = dataset["theory_frequency"]
     error = dataset["measured_growth"] - growth
     error_of_frequency = dataset["measured_frequency"] - frequency
-    difference: xr.DataArray = xr.apply_ufunc(np.hypot, error, error_of_frequency)
+    difference: xr.DataArray = xr.apply_ufunc(
+        np.hypot,
+        error,
+        error_of_frequency,
+    )
     size: xr.DataArray = xr.apply_ufunc(np.hypot, growth, frequency)
     return difference / size
 
@@ -317,7 +343,11 @@ def dispersion_csv(dataset: xr.Dataset) -> str:
     return frame[order].to_csv(index=False, float_format="%.8g")
 
 
-def files(material: Material, friction: Friction, loading: Loading) -> dict[str, xr.Dataset | str]:
+def files(
+    material: Material,
+    friction: Friction,
+    loading: Loading,
+) -> dict[str, xr.Dataset | str]:
     """Make the files of the step ``dispersion``.
 
     Parameters

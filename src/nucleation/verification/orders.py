@@ -60,7 +60,12 @@ STEP_RUNGS = {
 }
 MOST_STEPS = 48  # of the longest steps
 
-COMPRESSION = Term(-1e-4, Power(1.0), Power(0.0, 1.0), Power(1.0))  # sigma_yy = -1.2 MPa
+COMPRESSION = Term(
+    -1e-4,
+    Power(1.0),
+    Power(0.0, 1.0),
+    Power(1.0),
+)  # sigma_yy = -1.2 MPa
 
 
 class _Fields(NamedTuple):
@@ -134,12 +139,22 @@ def log_state(fields: _Fields, parameters: Parameters) -> tuple[Term, Term]:
     steady, varying : Term
     """
     constant = Power(1.0)
-    steady = Term(np.log(parameters.memory_time), constant, constant, constant)
+    steady = Term(
+        np.log(parameters.memory_time),
+        constant,
+        constant,
+        constant,
+    )
     varying = Term(0.5, Sine(3.0, 1.0), constant, fields.state)
     return steady, varying
 
 
-def manufactured(problem: str, name: str, rows: int, grading: float = GRADING) -> Manufactured:
+def manufactured(
+    problem: str,
+    name: str,
+    rows: int,
+    grading: float = GRADING,
+) -> Manufactured:
     """Make the solver with the loads of a problem.
 
     Parameters
@@ -188,7 +203,11 @@ def mesh_errors(problem: str) -> Array:
     return np.array([_errors(manufactured(problem, "mesh", rows), rungs) for rows in ROWS])
 
 
-def step_errors(problem: str, name: str = "step", pattern: ArrayLike = (0,)) -> Array:
+def step_errors(
+    problem: str,
+    name: str = "step",
+    pattern: ArrayLike = (0,),
+) -> Array:
     """Return the errors of a problem with the steps of :data:`STEP_RUNGS`.
 
     Parameters
@@ -229,7 +248,10 @@ def convergence_dataset() -> xr.Dataset:
         :data:`ERRORS` on (problem, refinement, level), and :data:`SPACINGS` of the levels.
         Elastodynamics has only the error of the displacement, and none in the quasi-static limit.
     """
-    found = np.full((len(PROBLEMS), len(REFINEMENTS), len(ROWS), len(ERRORS)), np.nan)
+    found = np.full(
+        (len(PROBLEMS), len(REFINEMENTS), len(ROWS), len(ERRORS)),
+        np.nan,
+    )
     for i, problem in enumerate(PROBLEMS):
         found[i, 0] = mesh_errors(problem)
         found[i, 1] = step_errors(problem, "step")

@@ -59,7 +59,11 @@ class LayerPair(NamedTuple):
     bottom: str = "free"
     height: float | None = None
 
-    def bodies(self, height: float, second_height: float) -> dict[str, float]:
+    def bodies(
+        self,
+        height: float,
+        second_height: float,
+    ) -> dict[str, float]:
         """Return heights and materials by the names of parameters and of columns.
 
         Parameters
@@ -80,7 +84,12 @@ class LayerPair(NamedTuple):
             "second_poisson_ratio": self.second_poisson_ratio,
         }
 
-    def parameters(self, base: Parameters, height: float, second_height: float) -> Parameters:
+    def parameters(
+        self,
+        base: Parameters,
+        height: float,
+        second_height: float,
+    ) -> Parameters:
         """Return the parameters of the pair.
 
         Parameters
@@ -107,8 +116,20 @@ def _thin_layers() -> tuple[LayerPair, ...]:
     """Thin layers with each far side; the upper or the lower one is the stiffer one."""
     found = []
     for bottom, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
-        above = LayerPair(f"stiff above, {bottom}", STIFF, SOFT, bottom=bottom, height=height)
-        below = LayerPair(f"stiff below, {bottom}", SOFT, STIFF, bottom=bottom, height=height)
+        above = LayerPair(
+            f"stiff above, {bottom}",
+            STIFF,
+            SOFT,
+            bottom=bottom,
+            height=height,
+        )
+        below = LayerPair(
+            f"stiff below, {bottom}",
+            SOFT,
+            STIFF,
+            bottom=bottom,
+            height=height,
+        )
         found += [above, below]
     return tuple(found)
 
@@ -125,10 +146,18 @@ HALF_SPACES = (
 """Layers of a height at which their far sides do not matter."""
 
 
-def _sized(layers: LayerPair, base: Parameters, ratio: float) -> tuple[Parameters, float]:
+def _sized(
+    layers: LayerPair,
+    base: Parameters,
+    ratio: float,
+) -> tuple[Parameters, float]:
     """The parameters of a pair for a mode of ``ratio`` k_c, and k_c (1/m)."""
     if layers.height is not None:
-        found = layers.parameters(base, layers.height, LOWER_HEIGHT * layers.height)
+        found = layers.parameters(
+            base,
+            layers.height,
+            LOWER_HEIGHT * layers.height,
+        )
         return found, _critical(found)
     critical = _critical(layers.parameters(base, ENDLESS, ENDLESS))
     height = DEEP * 2.0 * np.pi / (ratio * critical)
@@ -171,7 +200,11 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
     return response.real, -response.imag / f
 
 
-def mode_row(layers: LayerPair, base: Parameters, ratio: float) -> dict[str, Any]:
+def mode_row(
+    layers: LayerPair,
+    base: Parameters,
+    ratio: float,
+) -> dict[str, Any]:
     """Measure one mode between two layers.
 
     Parameters
@@ -256,7 +289,11 @@ def pair_modes_csv(dataset: xr.Dataset) -> str:
     return frame.drop(columns="run").to_csv(index=False, float_format="%.8g")
 
 
-def files(material: Material, friction: Friction, loading: Loading) -> dict[str, xr.Dataset | str]:
+def files(
+    material: Material,
+    friction: Friction,
+    loading: Loading,
+) -> dict[str, xr.Dataset | str]:
     """Make the files of the step ``pair_modes``.
 
     Parameters

@@ -37,7 +37,9 @@ COLUMNS = {
 
 
 def compare(
-    own: xr.Dataset, theirs: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+    own: xr.Dataset,
+    theirs: xr.Dataset,
+    settings: ExtractionSettings = ExtractionSettings(),
 ) -> dict[str, float]:
     """Compute one row of the table: onset, critical length, differences.
 
@@ -91,7 +93,11 @@ def compare(
 
 def _driving_force(run: xr.Dataset, instants: Array) -> Array:
     """f_d (N/m) at some instants (s)."""
-    return np.interp(instants, run["step_time"].values, run["driving_force"].values)
+    return np.interp(
+        instants,
+        run["step_time"].values,
+        run["driving_force"].values,
+    )
 
 
 def _root_mean_square(values: Array) -> float:

@@ -71,7 +71,9 @@ def installed() -> bool:
 
 
 def arguments(
-    parameters: Parameters, settings: CrosscheckSettings, extraction: ExtractionSettings
+    parameters: Parameters,
+    settings: CrosscheckSettings,
+    extraction: ExtractionSettings,
 ) -> dict[str, str]:
     """Return the script's arguments, by name.
 
@@ -146,7 +148,11 @@ def _realisation(parameters: Parameters) -> str:
     time = declared.correlation_time * parameters.memory_time
     series: Series | Sheet = Series(declared.seed, time)
     if declared.kind == "state":
-        x = np.linspace(0.0, parameters.geometry.length, parameters.mesh.n_x + 1)
+        x = np.linspace(
+            0.0,
+            parameters.geometry.length,
+            parameters.mesh.n_x + 1,
+        )
         series = Sheet(declared.seed, time, declared.correlation_length, x)
     # the last step ends after the end of the run
     coefficients = series.coefficients(parameters.stepping.end_time + parameters.memory_time)
@@ -239,7 +245,11 @@ def _read(directory: Path, parameters: Parameters) -> xr.Dataset:
         "parameters": parameters.to_json(),
         "steps": steps.shape[0],
     }
-    found = xr.Dataset({**on_frames, **on_steps}, coordinates, attributes)
+    found = xr.Dataset(
+        {**on_frames, **on_steps},
+        coordinates,
+        attributes,
+    )
     return annotate(found, RECORDED | STEPS)
 
 
@@ -273,7 +283,13 @@ def of_run(
     """
     with TemporaryDirectory() as directory:
         try:
-            found = solve(scripts[0].parent, Path(directory), parameters, crosscheck, settings)
+            found = solve(
+                scripts[0].parent,
+                Path(directory),
+                parameters,
+                crosscheck,
+                settings,
+            )
         except FreeFemError as error:
             raise ParameterError(str(error)) from None
     return found.assign_attrs(parameters=parameters.to_json())

@@ -126,7 +126,9 @@ class CrosscheckSettings(Checked):
 
 
 def runs(
-    base: Parameters, settings: CrosscheckSettings, interface: InterfaceState
+    base: Parameters,
+    settings: CrosscheckSettings,
+    interface: InterfaceState,
 ) -> dict[str, Parameters]:
     """List the simulations to make with both solvers.
 

@@ -51,7 +51,13 @@ class _GivenDisplacement:
         imposed: Imposed,
         guess: Array,
     ) -> InterfaceSolution:
-        """Find the forces that hold the interface; parameters as of :meth:`Interface.solve`."""
+        """Find the forces that hold the interface.
+
+        Parameters
+        ----------
+        operator, response, past, imposed, guess
+            As in :meth:`.Interface.solve`.
+        """
         w = self.problem.exact_w(imposed.time)
         change, change_normal = operator.apply(w - response.w)
         tangential = response.tangential + change
@@ -118,7 +124,12 @@ class Manufactured(Drive):
     def at(self, time: float) -> Imposed:
         """Return the motion of the driven edge and the source of the state at a time (s)."""
         source = self.source(time) if self.log_state else None
-        return Imposed(time, self.velocity * time, self.velocity, state_forcing=source)
+        return Imposed(
+            time,
+            self.velocity * time,
+            self.velocity,
+            state_forcing=source,
+        )
 
     def load(self, time: float) -> Field:
         """Return the load (N/m) of displacement and applied traction at a time (s)."""
@@ -143,9 +154,19 @@ class Manufactured(Drive):
 
     def exact_w(self, time: float) -> Array:
         """Return the exact w_x (m) at the interface's nodes 1..n_x at a time (s)."""
-        return self.exact.value(0, self.grid.x[1:], np.zeros(self.grid.n_x), time)
+        return self.exact.value(
+            0,
+            self.grid.x[1:],
+            np.zeros(self.grid.n_x),
+            time,
+        )
 
-    def exact_slip_rate(self, x: Array, time: float, by_t: int = 0) -> Array:
+    def exact_slip_rate(
+        self,
+        x: Array,
+        time: float,
+        by_t: int = 0,
+    ) -> Array:
         """Return the exact slip rate or a derivative in time.
 
         Parameters
@@ -162,10 +183,21 @@ class Manufactured(Drive):
         ndarray
             The slip rate (m/s), or its derivative.
         """
-        own = self.exact.value(0, x, np.zeros_like(x), time, by_t=1 + by_t)
+        own = self.exact.value(
+            0,
+            x,
+            np.zeros_like(x),
+            time,
+            by_t=1 + by_t,
+        )
         return own if by_t else self.velocity + own
 
-    def exact_log_state(self, x: Array, time: float, by_t: int = 0) -> Array:
+    def exact_log_state(
+        self,
+        x: Array,
+        time: float,
+        by_t: int = 0,
+    ) -> Array:
         """Return the exact psi = log(phi) or a derivative in time.
 
         Parameters
@@ -195,7 +227,14 @@ class Manufactured(Drive):
         states = np.array([self.exact_log_state(self.grid.x, t) for t in times])
         w = np.array([self.exact_w(t) for t in times])
         motions = tuple(self.exact_motion(t) for t in times[:2])
-        return State(motions, times, rates, states, w, self.body.no_memory)
+        return State(
+            motions,
+            times,
+            rates,
+            states,
+            w,
+            self.body.no_memory,
+        )
 
     def displacement_error(self, state: State) -> float:
         """Return the root mean square over the area of the nodal error (m)."""

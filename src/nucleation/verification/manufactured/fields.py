@@ -85,7 +85,14 @@ class Displacement:
     terms: tuple[tuple[Term, ...], tuple[Term, ...]]
     material: Material
 
-    def value(self, component: int, x: Array, y: Array, t: float, **orders: int) -> Array:
+    def value(
+        self,
+        component: int,
+        x: Array,
+        y: Array,
+        t: float,
+        **orders: int,
+    ) -> Array:
         """Return a component or a derivative of it.
 
         Parameters
@@ -141,7 +148,12 @@ class Displacement:
         trace = lame * (xx + yy)
         return trace + 2 * shear * xx, shear * xy, trace + 2 * shear * yy
 
-    def body_force(self, x: Array, y: Array, t: float) -> tuple[Array, Array]:
+    def body_force(
+        self,
+        x: Array,
+        y: Array,
+        t: float,
+    ) -> tuple[Array, Array]:
         """Return ``rho u_tt - div sigma``.
 
         Parameters
@@ -223,7 +235,11 @@ class Loads:
 
     def interface_stress(self, t: float) -> tuple[Array, Array]:
         """Return sigma_xy and sigma_yy (Pa) at the Gauss points of the interface at t (s)."""
-        _, shear, normal = self.exact.stress(self.x, np.zeros_like(self.x), t)
+        _, shear, normal = self.exact.stress(
+            self.x,
+            np.zeros_like(self.x),
+            t,
+        )
         return shear, normal
 
     def mean_over_area(self, error: Array) -> float:
