@@ -200,7 +200,11 @@ def _errors(problem: Manufactured, rungs: Iterable[int]) -> tuple[float, float, 
 def mesh_errors(problem: str) -> Array:
     """Return the errors of a problem on the meshes of :data:`ROWS`, (level, 3)."""
     rungs = [MESH_RUNG] * MESH_STEPS
-    return np.array([_errors(manufactured(problem, "mesh", rows), rungs) for rows in ROWS])
+    found = []
+    for rows in ROWS:
+        solved = manufactured(problem, "mesh", rows)
+        found.append(_errors(solved, rungs))
+    return np.array(found)
 
 
 def step_errors(

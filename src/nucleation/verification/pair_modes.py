@@ -24,7 +24,8 @@ from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import bodies_of
 from ..types import Array
-from .dispersion import MODES_OF_SLIDING, by_direction, disagreement, measured_rates
+from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
+from .single_mode import measured_rates
 
 RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # k over the critical one
 DEEP = 1.2  # wavelengths: layers as high as this are half-spaces for a mode, to 1e-4
@@ -187,7 +188,9 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
     def column(name: str) -> Array:
         return modes[name].values[:, None]
 
-    rates = modes["measured_growth"].values + 1j * modes["measured_frequency"].values
+    growth = modes["measured_growth"].values
+    frequency = modes["measured_frequency"].values
+    rates = growth + 1j * frequency
     mu = column("shear_modulus")
     k = column("mode_wavenumber")
     f = column("friction")

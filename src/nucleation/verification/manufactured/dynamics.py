@@ -150,7 +150,9 @@ class Manufactured(Drive):
         """Return exact w_x and u_y (m) at the nodes, or a derivative, (2, n_y + 1, n_x + 1)."""
         x = self.grid.x[None]
         y = self.grid.y[:, None]
-        return np.array([self.exact.value(c, x, y, time, **orders) for c in (0, 1)])
+        w_x = self.exact.value(0, x, y, time, **orders)
+        u_y = self.exact.value(1, x, y, time, **orders)
+        return np.array([w_x, u_y])
 
     def exact_w(self, time: float) -> Array:
         """Return the exact w_x (m) at the interface's nodes 1..n_x at a time (s)."""
@@ -216,15 +218,16 @@ class Manufactured(Drive):
 
     def exact_motion(self, time: float) -> Motion:
         """Return the body's motion at a time (s)."""
-        displacement = block_field(self.body, self.nodal_exact(time, by_t=0))
+        displacement = block_field(self.body, self.nodal_exact(time))
         rate = block_field(self.body, self.nodal_exact(time, by_t=1))
         return Motion(displacement, rate, self.body.momentum_x(rate))
 
     def exact_state(self, step: float) -> State:
         """Return the state at t = 0, with exact values at 0, -step and -2 step (s)."""
         times = np.array([0.0, -step, -2 * step])
-        rates = np.array([self.exact_slip_rate(self.grid.x, t) for t in times])
-        states = np.array([self.exact_log_state(self.grid.x, t) for t in times])
+        x = self.grid.x
+        rates = np.array([self.exact_slip_rate(x, t) for t in times])
+        states = np.array([self.exact_log_state(x, t) for t in times])
         w = np.array([self.exact_w(t) for t in times])
         motions = tuple(self.exact_motion(t) for t in times[:2])
         return State(
@@ -270,7 +273,8 @@ class Manufactured(Drive):
         ndarray
         """
         state = np.exp(self.exact_log_state(x, time))
-        return self.friction.coefficient(self.exact_slip_rate(x, time), state)
+        slip_rate = self.exact_slip_rate(x, time)
+        return self.friction.coefficient(slip_rate, state)
 
     def applied_force(self, time: float) -> Array:
         """Return the nodal force (N/m) of the applied traction along x, at the nodes 0..n_x."""

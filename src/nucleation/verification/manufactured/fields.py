@@ -30,7 +30,8 @@ class Sine:
 
     def __call__(self, x: Array, order: int = 0) -> Array:
         """Return the derivative of an order at x."""
-        angle = self.rate * x + self.phase + order * np.pi / 2
+        shift = order * np.pi / 2
+        angle = self.rate * x + self.phase + shift
         return self.rate**order * np.sin(angle)
 
 
@@ -65,9 +66,14 @@ class Term:
         by_t: int = 0,
     ) -> Array:
         """Return the derivative of the given orders at x, y (m) and t (s)."""
-        time = np.asarray(t, float)
-        factors = self.x(x, by_x) * self.y(y, by_y) * self.t(time, by_t)
-        return self.amplitude * factors
+        along_x = self.x(x, by_x)
+        along_y = self.y(y, by_y)
+        in_time = self.t(np.asarray(t, float), by_t)
+        return self.amplitude * (along_x * along_y * in_time)
+
+
+Terms = tuple[Term, ...]
+"""The terms of a sum."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -82,7 +88,7 @@ class Displacement:
         Elastic moduli and density.
     """
 
-    terms: tuple[tuple[Term, ...], tuple[Term, ...]]
+    terms: tuple[Terms, Terms]
     material: Material
 
     def value(
@@ -143,10 +149,15 @@ class Displacement:
         along_x = {"by_x": by_x + 1, "by_y": by_y}
         along_y = {"by_x": by_x, "by_y": by_y + 1}
         xx = self.value(0, x, y, t, **along_x)
-        xy = self.value(0, x, y, t, **along_y) + self.value(1, x, y, t, **along_x)
+        xy = self.value(0, x, y, t, **along_y)
+        xy = xy + self.value(1, x, y, t, **along_x)
         yy = self.value(1, x, y, t, **along_y)
         trace = lame * (xx + yy)
-        return trace + 2 * shear * xx, shear * xy, trace + 2 * shear * yy
+        return (
+            trace + 2 * shear * xx,
+            shear * xy,
+            trace + 2 * shear * yy,
+        )
 
     def body_force(
         self,
@@ -173,7 +184,9 @@ class Displacement:
         _, xy_by_y, yy_by_y = self.stress(x, y, t, by_y=1)
         inertia_x = density * self.value(0, x, y, t, by_t=2)
         inertia_y = density * self.value(1, x, y, t, by_t=2)
-        return inertia_x - xx_by_x - xy_by_y, inertia_y - xy_by_x - yy_by_y
+        along_x = inertia_x - xx_by_x - xy_by_y
+        along_y = inertia_y - xy_by_x - yy_by_y
+        return along_x, along_y
 
 
 def _quadrature(nodes: Array) -> tuple[Array, Array]:
@@ -182,11 +195,13 @@ def _quadrature(nodes: Array) -> tuple[Array, Array]:
     local = 0.5 * (1 + points)
     lengths = np.diff(nodes)[:, None]
     e = np.arange(lengths.size)
-    weighted = np.zeros((e.size + 1, e.size, POINTS))
-    weighted[e, e] = 0.5 * lengths * weights * (1 - local)
-    weighted[e + 1, e] = 0.5 * lengths * weights * local
-    positions = nodes[:-1, None] + lengths * local
-    return positions.ravel(), weighted.reshape(e.size + 1, -1)
+    left = nodes[:-1, None]
+    scaled = 0.5 * lengths * weights
+    weighted = np.zeros((nodes.size, e.size, POINTS))
+    weighted[e, e] = scaled * (1 - local)
+    weighted[e + 1, e] = scaled * local
+    positions = left + lengths * local
+    return positions.ravel(), weighted.reshape(nodes.size, -1)
 
 
 class Loads:
@@ -218,8 +233,11 @@ class Loads:
 
         They do not contain the traction on the interface.
         """
-        force = self.exact.body_force(self.x[None], self.y[:, None], t)
-        out = np.array([self.along_y @ component @ self.along_x.T for component in force])
+        x = self.x[None]
+        y = self.y[:, None]
+        force = self.exact.body_force(x, y, t)
+        to_nodes = self.along_x.T
+        out = np.array([self.along_y @ component @ to_nodes for component in force])
         top = np.full_like(self.x, self.grid.height)
         _, xy, yy = self.exact.stress(self.x, top, t)
         out[0, -1] += self.along_x @ xy
@@ -248,16 +266,19 @@ class Loads:
         columns = self.along_x.sum(axis=1)
         area = np.outer(rows, columns)
         squares = (error**2).sum(axis=0)
-        return float(np.sqrt(squares.ravel() @ area.ravel() / area.sum()))
+        total = squares.ravel() @ area.ravel()
+        return float(np.sqrt(total / area.sum()))
 
     def field(self, forces: Array) -> Field:
         """Return nodal forces (2, n_y + 1, n_x + 1) as a load: ``2/n sum_i F_i sin`` per mode."""
         n = self.grid.n_x
-        theta = (np.arange(n) + 0.5) * np.pi / n
-        i = np.arange(1, n + 1)
-        sines = np.sin(np.outer(i, theta))
-        cosines = np.cos(np.outer(i - 1, theta))
+        mode = np.arange(n)
+        node = np.arange(1, n + 1)
+        theta = (mode + 0.5) * np.pi / n
+        sines = np.sin(np.outer(node, theta))
+        cosines = np.cos(np.outer(node - 1, theta))
+        x, y = forces
         modes = np.empty((self.grid.n_y + 1, 2, n))
-        modes[:, 0] = 2 / n * forces[0, :, 1:] @ sines
-        modes[:, 1] = 2 / n * forces[1, :, :-1] @ cosines
-        return Field(modes, forces[1, :, -1].copy())
+        modes[:, 0] = 2 / n * x[:, 1:] @ sines
+        modes[:, 1] = 2 / n * y[:, :-1] @ cosines
+        return Field(modes, y[:, -1].copy())
