@@ -36,7 +36,7 @@ Costs = dict[str, dict[str, dict[str, float]]]
 """Costs by study and command."""
 
 
-class Cost(NamedTuple):
+class _Cost(NamedTuple):
     """The cost of a command, with all processes that it starts.
 
     Parameters
@@ -52,7 +52,7 @@ class Cost(NamedTuple):
     megabytes: float
 
 
-def _cost(command: list[str], directory: Path) -> Cost:
+def _cost(command: list[str], directory: Path) -> _Cost:
     """Run a command of Python's, ``-m`` and its arguments, in a directory; return its cost.
 
     A command that fails is a RuntimeError with its output.
@@ -75,7 +75,7 @@ def _cost(command: list[str], directory: Path) -> Cost:
             text = output.read().decode(errors="replace")
             raise RuntimeError(f"{' '.join(command)} failed:\n{text[-4000:]}")
     seconds = time.perf_counter() - start
-    return Cost(
+    return _Cost(
         seconds,
         used.ru_utime + used.ru_stime,
         used.ru_maxrss / 1024.0,
@@ -217,8 +217,8 @@ def workflow_table(costs: Costs) -> str:
     lines = [f"{'runs':>20}  {'':14}{'s':>8}{'cpu s':>8}{'MB':>8}"]
     for runs, by_command in costs.items():
         for name, spent in by_command.items():
-            seconds, processor_seconds, megabytes = (spent[field] for field in Cost._fields)
-            further = [f"{k} {v:.3g}" for k, v in spent.items() if k not in Cost._fields]
+            seconds, processor_seconds, megabytes = (spent[field] for field in _Cost._fields)
+            further = [f"{k} {v:.3g}" for k, v in spent.items() if k not in _Cost._fields]
             line = f"{runs:>20}  {name:14}{seconds:8.1f}{processor_seconds:8.1f}{megabytes:8.0f}"
             lines.append(f"{line}  {', '.join(further)}".rstrip())
     return "\n".join(lines)

@@ -45,15 +45,7 @@ class BlockModes(SeparableBody):
         mode = np.arange(grid.n_x)
         theta = (mode + 0.5) * np.pi / grid.n_x
         self._alternating = (-1.0) ** mode
-        # chi being the edge's hat function: int chi w', int chi' w, nodal value beside the edge
-        weights = np.array(
-            [
-                np.sin(theta / 2.0) ** 2,
-                np.cos(theta / 2.0) ** 2,
-                np.sin(theta),
-            ]
-        )
-        edge_weights = self._alternating * weights
+        edge_weights = self._alternating * edge_forces(theta)
         x_integral = 0.5 * grid.dx / np.tan(theta / 2.0)
         super().__init__(
             grid,
@@ -144,3 +136,18 @@ class BlockModes(SeparableBody):
         y = self.cosine_values(field.modes[:, 1])
         right = field.edge[:, None]
         return np.hstack((left, x)), np.hstack((y, right))
+
+
+def edge_forces(theta: Array) -> Array:
+    """Return the forces of modes on the right edge, but for their signs, shape (3, modes).
+
+    ``int chi w'`` and ``int chi' w``, chi being the edge's hat function, and the nodal value beside
+    the edge, for modes with the angle theta per element.
+    """
+    return np.array(
+        [
+            np.sin(theta / 2.0) ** 2,
+            np.cos(theta / 2.0) ** 2,
+            np.sin(theta),
+        ]
+    )

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..types import Array
+from .field_kernels import rate_of_change
 from .grid import Components, Field, Grid, Motion, Motions, Terms
 
 Nodes = NDArray[np.intp]
@@ -324,6 +325,12 @@ class ElasticBody(ABC):
         """
 
     @abstractmethod
+    def momentum_x(self, velocity: Field) -> float:
+        """Return the momentum along x (kg/s per unit depth) of a velocity field w_t (m/s).
+
+        It is that of the body that moves with the driven edge.
+        """
+
     def motion(
         self,
         past: Sequence[float],
@@ -348,6 +355,22 @@ class ElasticBody(ABC):
         -------
         Motion
         """
+        c1, c2 = past
+        newest = motions[0].displacement
+        oldest = motions[-1].displacement
+        modes = np.empty_like(displacement.modes)
+        rate_of_change(
+            c1,
+            c2,
+            beta,
+            displacement.modes,
+            newest.modes,
+            oldest.modes,
+            modes,
+        )
+        edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
+        velocity = Field(modes, edge)
+        return Motion(displacement, velocity, self.momentum_x(velocity))
 
     def settled(
         self,

@@ -6,6 +6,7 @@ from scipy import fft
 from ..model.material import Material
 from ..types import Array
 from .block import Block
+from .block_modes import edge_forces
 from .grid import Components, Field, Grid
 
 
@@ -39,16 +40,9 @@ class EvenHalf(Block):
         self._ends = np.ones(n + 1)
         self._ends[[0, -1]] = 0.5**0.5
         theta = mode * np.pi / n
-        weights = np.array(
-            [
-                np.sin(theta / 2.0) ** 2,
-                np.cos(theta / 2.0) ** 2,
-                np.sin(theta),
-            ]
-        )
         signs = (-1.0) ** mode
         x_integral = np.append(grid.length * self._ends[0], np.zeros(n))
-        self._set_modes(theta, x_integral, signs * self._ends * weights)
+        self._set_modes(theta, x_integral, signs * self._ends * edge_forces(theta))
 
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Return the amplitudes of nodal values of u_x at i = 0..n_x (last axis)."""

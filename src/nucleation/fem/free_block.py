@@ -12,7 +12,6 @@ All nodes 0..n_x of the interface are free.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -22,7 +21,6 @@ from .block import Block
 from .condensed import Balance, Blocks, ElasticBody, Expectation, Nodes, Operator, Response, between
 from .grid import Components, Field, Grid, Motion, Terms
 from .pair import BlockPair
-from .separable import rate_of_change
 
 
 class FreeBlock(ElasticBody):
@@ -170,28 +168,10 @@ class FreeBlock(ElasticBody):
             self.even.inertia_load(s, even_terms, even_load),
         )
 
-    def motion(
-        self,
-        past: Sequence[float],
-        beta: float,
-        displacement: Field,
-        motions: Sequence[Motion],
-    ) -> Motion:
-        """Return the motion at a new displacement.
-
-        Parameters
-        ----------
-        past, beta, displacement, motions
-            As in :meth:`.ElasticBody.motion`.
-        """
-        velocity = rate_of_change(past, beta, displacement, motions)
+    def momentum_x(self, velocity: Field) -> float:
+        """Return the momentum along x (kg/s per unit depth), that of the even part (m/s)."""
         _, even = self.parts(velocity)
-        # the odd part has no momentum along x
-        return Motion(
-            displacement,
-            velocity,
-            2.0 * self.even.momentum_x(even),
-        )
+        return 2.0 * self.even.momentum_x(even)
 
     def nodal_values(self, field: Field) -> Components:
         """Return nodal w_x and u_y of the (upper) block, each of shape (n_y + 1, n_x + 1)."""

@@ -9,7 +9,6 @@ of the ends along x.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
 
 import numpy as np
 
@@ -162,23 +161,6 @@ class SeparableBody(ElasticBody):
         )
         return Field(modes, edge)
 
-    def motion(
-        self,
-        past: Sequence[float],
-        beta: float,
-        displacement: Field,
-        motions: Sequence[Motion],
-    ) -> Motion:
-        """Return the motion at a new displacement.
-
-        Parameters
-        ----------
-        past, beta, displacement, motions
-            As in :meth:`.ElasticBody.motion`.
-        """
-        velocity = rate_of_change(past, beta, displacement, motions)
-        return Motion(displacement, velocity, self.momentum_x(velocity))
-
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """Return the motion of a body at rest.
 
@@ -195,41 +177,6 @@ class SeparableBody(ElasticBody):
         """Return the momentum along x (kg/s per unit depth) of a velocity field w_t (m/s)."""
         along_x = velocity.modes[:, 0] @ self.x_integral
         return self.material.density * float(self.row_sums @ along_x)
-
-
-def rate_of_change(
-    past: Sequence[float],
-    beta: float,
-    displacement: Field,
-    motions: Sequence[Motion],
-) -> Field:
-    """Return the rate of a displacement by ``u = c1 u_1 + c2 u_2 + beta du/dt``.
-
-    Parameters
-    ----------
-    past, beta, displacement, motions
-        As in :meth:`ElasticBody.motion`.
-
-    Returns
-    -------
-    Field
-        The rate (m/s).
-    """
-    c1, c2 = past
-    newest = motions[0].displacement
-    oldest = motions[-1].displacement
-    modes = np.empty_like(displacement.modes)
-    field_kernels.rate_of_change(
-        c1,
-        c2,
-        beta,
-        displacement.modes,
-        newest.modes,
-        oldest.modes,
-        modes,
-    )
-    edge = (displacement.edge - c1 * newest.edge - c2 * oldest.edge) / beta
-    return Field(modes, edge)
 
 
 class SeparableOperator(Operator):

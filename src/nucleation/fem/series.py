@@ -14,7 +14,6 @@ So ``D = (det S2 a1 + det S1 a2) / det T`` and ``N = (det S2 b1 + det S1 b2) / d
 of identical bodies vanishes exactly.
 """
 
-from collections.abc import Sequence
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -23,7 +22,7 @@ from ..types import Array
 from . import kernels
 from .condensed import ElasticBody
 from .grid import Components, Field, Motion, Terms
-from .separable import SeparableBody, SeparableOperator, rate_of_change
+from .separable import SeparableBody, SeparableOperator
 
 Layer = TypeVar("Layer", bound=SeparableBody)
 
@@ -131,25 +130,6 @@ class TwoBodies(ElasticBody, Generic[Layer]):
             self.upper.inertia_load(s, above, load_above),
             self.lower.inertia_load(s, below, load_below),
         )
-
-    def motion(
-        self,
-        past: Sequence[float],
-        beta: float,
-        displacement: Field,
-        motions: Sequence[Motion],
-    ) -> Motion:
-        """Return the motion at a new displacement.
-
-        Its momentum is the upper body's alone.
-
-        Parameters
-        ----------
-        past, beta, displacement, motions
-            As in :meth:`.ElasticBody.motion`.
-        """
-        velocity = rate_of_change(past, beta, displacement, motions)
-        return Motion(displacement, velocity, self.momentum_x(velocity))
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """Return the motion of the pair at rest.

@@ -197,7 +197,7 @@ def _errors(problem: Manufactured, rungs: Iterable[int]) -> tuple[float, float, 
     )
 
 
-def mesh_errors(problem: str) -> Array:
+def _mesh_errors(problem: str) -> Array:
     """Return the errors of a problem on the meshes of :data:`ROWS`, (level, 3)."""
     rungs = [MESH_RUNG] * MESH_STEPS
     found = []
@@ -257,7 +257,7 @@ def convergence_dataset() -> xr.Dataset:
         np.nan,
     )
     for i, problem in enumerate(PROBLEMS):
-        found[i, 0] = mesh_errors(problem)
+        found[i, 0] = _mesh_errors(problem)
         found[i, 1] = step_errors(problem, "step")
         if problem == "elastodynamics":
             found[i, :, :, 1:] = np.nan

@@ -35,7 +35,7 @@ SECOND_DENSITY = 2400.0  # kg/m^3
 LOWER_HEIGHT = 0.6  # of a thin lower layer over the upper one's
 
 
-class LayerPair(NamedTuple):
+class _LayerPair(NamedTuple):
     """Two materials, their heights and the far side of the lower layer.
 
     Parameters
@@ -113,18 +113,18 @@ class LayerPair(NamedTuple):
         return base.replaced(self.bodies(height, second_height) | further)
 
 
-def _thin_layers() -> tuple[LayerPair, ...]:
+def _thin_layers() -> tuple[_LayerPair, ...]:
     """Thin layers with each far side; the upper or the lower one is the stiffer one."""
     found = []
     for bottom, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
-        above = LayerPair(
+        above = _LayerPair(
             f"stiff above, {bottom}",
             STIFF,
             SOFT,
             bottom=bottom,
             height=height,
         )
-        below = LayerPair(
+        below = _LayerPair(
             f"stiff below, {bottom}",
             SOFT,
             STIFF,
@@ -139,16 +139,16 @@ THIN_LAYERS = _thin_layers()
 """Layers of finite height. Free ones are higher: they bend, and bending needs finer elements."""
 
 HALF_SPACES = (
-    LayerPair("half-spaces, stiff below", SOFT, STIFF),
-    LayerPair("half-spaces, stiff above", STIFF, SOFT),
-    LayerPair("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
-    LayerPair("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
+    _LayerPair("half-spaces, stiff below", SOFT, STIFF),
+    _LayerPair("half-spaces, stiff above", STIFF, SOFT),
+    _LayerPair("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
+    _LayerPair("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
 )
 """Layers of a height at which their far sides do not matter."""
 
 
 def _sized(
-    layers: LayerPair,
+    layers: _LayerPair,
     base: Parameters,
     ratio: float,
 ) -> tuple[Parameters, float]:
@@ -204,7 +204,7 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
 
 
 def mode_row(
-    layers: LayerPair,
+    layers: _LayerPair,
     base: Parameters,
     ratio: float,
 ) -> dict[str, Any]:
@@ -212,7 +212,7 @@ def mode_row(
 
     Parameters
     ----------
-    layers : LayerPair
+    layers : _LayerPair
         The layers.
     base : Parameters
         Friction and loading.
@@ -254,7 +254,7 @@ def mode_row(
 
 def pair_modes(
     base: Parameters,
-    pairs: tuple[LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
+    pairs: tuple[_LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
     ratios: tuple[float, ...] = RATIOS,
 ) -> xr.Dataset:
     """Measure the rates of modes between two layers, and compute them by Eq. (5).
@@ -263,7 +263,7 @@ def pair_modes(
     ----------
     base : Parameters
         Friction, density and loading.
-    pairs : tuple of LayerPair
+    pairs : tuple of _LayerPair
         The layers.
     ratios : tuple of float
         Wavenumbers over the critical one of each pair.
@@ -284,7 +284,7 @@ def pair_modes(
     return annotate(xr.Dataset(columns | rates), SHARED | MODES_OF_SLIDING)
 
 
-def pair_modes_csv(dataset: xr.Dataset) -> str:
+def _csv(dataset: xr.Dataset) -> str:
     """Return a line for each mode and direction, with the disagreement of the complex rates."""
     ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
     table = dataset.assign(wavenumber_over_critical=ratio, disagreement=disagreement(dataset))
@@ -311,4 +311,4 @@ def files(
     """
     base = Parameters(material=material, friction=friction, loading=loading)
     found = pair_modes(base)
-    return {".nc": found, ".csv": pair_modes_csv(found)}
+    return {".nc": found, ".csv": _csv(found)}
