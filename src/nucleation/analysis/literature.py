@@ -1,19 +1,20 @@
 """The literature's lengths, each simulated in its own setting and read by its own definition.
 
-Two tall identical bodies, or a low block on a rigid body, under a far stress that rises
-(``remote``). Nucleation begins where f is lower. Without inertia a zone accelerates for ever, so
-its length is read at several slip rates.
+Two tall identical bodies, or a low block on a rigid body, slide steadily under a far stress that
+rises slowly (``remote``). Nucleation begins where f is lower. The formulas are asymptotes at slip
+rates without bound. There is next to no inertia, so a zone's length is read up to slip rates that
+no fault reaches.
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from ..answers.formulas import LOCALISED_LIMIT
-from ..answers.in_use import LENGTHS, TWO_MATERIALS, values_of
+from ..answers.in_use import LENGTHS, TWO_MATERIALS, expanding_length, values_of
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.parameters import Parameters
@@ -22,7 +23,7 @@ from ..types import Array
 from .definitions import slipping_zone
 from .rows import Row
 
-SLIP_RATES = (1e-4, 1e-2, 1e-1)  # m/s, at which lengths are read
+SLIP_RATES = (1e-4, 1e-2, 1.0, 1e3)  # m/s, at which lengths are read
 
 
 class Definition(NamedTuple):
@@ -70,6 +71,9 @@ COLUMNS = {
     "formula_length": Variable("m", "length by the formula"),
     "simulated_length": Variable("m", "length in the simulation"),
     "difference": Variable("1", "simulated length over that of the formula, less 1"),
+    "far_slip_rate": Variable("m/s", "slip rate half a period from the fastest point"),
+    "far_state_ratio": Variable("1", "v phi/D there, 1 in steady sliding"),
+    "finite_speed_length": Variable("m", "Rubin and Ampuero's expanding length at that slip rate"),
     **some(SHARED, "height", "n_x", "n_y"),
     "stress_rate": Variable("Pa/s", "rate of the far shear stress"),
     "change": Variable("1", "relative change of f where nucleation begins"),
@@ -96,20 +100,67 @@ def zone_length(simulation: xr.Dataset, slip_rate: float, definition: Definition
     Between recorded times it is linear in the logarithm of the largest slip rate. NaN if that is
     not reached.
     """
+    x = simulation["x"].values
+
+    def width(rates: Array, states: Array) -> float:
+        threshold = definition.share * float(rates.max())
+        begin, end = slipping_zone(x, rates, threshold, periodic=True)
+        return (end - begin) / definition.part
+
+    return _when_passing(simulation, slip_rate, width)
+
+
+def far_ahead(
+    simulation: xr.Dataset, slip_rate: float, slip_distance: float
+) -> tuple[float, float]:
+    """Slip rate (m/s) and ``v phi/D`` half a period from the fastest point.
+
+    Parameters
+    ----------
+    simulation : Dataset
+        With the slip rates and states of the interface on (time, x).
+    slip_rate : float
+        The largest slip rate (m/s) at the instant that is meant.
+    slip_distance : float
+        D (m).
+
+    Returns
+    -------
+    tuple of float
+        NaN if that slip rate is not reached, or if the fault is stuck there.
+    """
+
+    def far_slip_rate(rates: Array, states: Array) -> float:
+        return float(rates[_opposite(rates)])
+
+    def far_state(rates: Array, states: Array) -> float:
+        return float(states[_opposite(rates)])
+
+    rate = _when_passing(simulation, slip_rate, far_slip_rate)
+    if not rate > 0.0:  # slip rates of a stuck fault are not recorded
+        return math.nan, math.nan
+    return rate, rate * _when_passing(simulation, slip_rate, far_state) / slip_distance
+
+
+def _opposite(rates: Array) -> int:
+    """The node half a period from the fastest; the first and the last node are the same."""
+    period = rates.size - 1
+    return (int(rates.argmax()) + period // 2) % period
+
+
+def _when_passing(
+    simulation: xr.Dataset, slip_rate: float, measure: Callable[[Array, Array], float]
+) -> float:
+    """What is measured of slip rates and states when the largest rate passes a value (m/s)."""
     rates = np.abs(simulation["slip_rate"].values.astype(float))
     fastest = rates.max(axis=1)
     above = np.flatnonzero(fastest >= slip_rate)
     if not above.size or above[0] == 0:
         return math.nan
     pair = [above[0] - 1, above[0]]
-
-    def width(rate: Array) -> float:
-        share = definition.share * float(rate.max())
-        begin, end = slipping_zone(simulation["x"].values, rate, share, periodic=True)
-        return (end - begin) / definition.part
-
-    widths = [width(rates[i]) for i in pair]
-    return float(np.interp(np.log(slip_rate), np.log(fastest[pair]), widths))
+    states = simulation["state"].values
+    measured = [measure(rates[i], states[i]) for i in pair]
+    return float(np.interp(np.log(slip_rate), np.log(fastest[pair]), measured))
 
 
 def literature_table(
@@ -149,6 +200,9 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
     formula = float(values_of(fault)[name])
     for slip_rate in SLIP_RATES:
         found = zone_length(simulation, slip_rate, DEFINITIONS[name])
+        far_slip_rate, far_state_ratio = far_ahead(simulation, slip_rate, fault.slip_distance)
+        at_this_rate = expanding_length(fault, slip_rate, far_slip_rate, far_state_ratio)
+        expands = name == "rubin_ampuero_crack"
         yield {
             "id": id,
             "name": name,
@@ -161,6 +215,9 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
             "formula_length": formula,
             "simulated_length": found,
             "difference": found / formula - 1.0,
+            "far_slip_rate": far_slip_rate,
+            "far_state_ratio": far_state_ratio,
+            "finite_speed_length": float(at_this_rate) if expands else math.nan,
             "height": parameters.geometry.height,
             "n_x": parameters.mesh.n_x,
             "n_y": parameters.mesh.n_y,

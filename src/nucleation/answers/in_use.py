@@ -286,3 +286,45 @@ def values_of(
     else:
         weakening_rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
     return {length.key: length.evaluate(fault, weakening_rate) for length in lengths}
+
+
+def expanding_length(
+    fault: Fault, slip_rate: Values, far_slip_rate: Values, far_state_ratio: Values
+) -> Any:
+    """Length (m) of Rubin and Ampuero's expanding zone at a finite slip rate.
+
+    Parameters
+    ----------
+    fault : Fault
+        Its first material is that of both half-spaces.
+    slip_rate : array_like
+        Largest slip rate v (m/s).
+    far_slip_rate : array_like
+        Slip rate v_far (m/s) far ahead of the zone.
+    far_state_ratio : array_like
+        ``W = v_far phi/D`` far ahead of the zone (dimensionless), 1 in steady sliding.
+
+    Returns
+    -------
+    array_like
+        The full length; NaN outside ``1/2 < a/b < 1``, and where the slip rate is not above that
+        far ahead or the stress does not drop.
+
+    Notes
+    -----
+    Rubin and Ampuero (2005), with ``w = log(v/v_far)``:
+
+        (2 L_b/pi) [(w + log W)/((1 - a/b) w + log W)]^2
+
+    At the tip the strength falls by ``b sigma0 (w + log W)`` over as many slip distances D; the
+    stress within falls by ``sigma0 [(b - a) w + b log W]``. For ``W = 1``, and for any W at
+    slip rates without bound, the length is that of ``rubin_ampuero_crack``.
+    """
+    (unbounded,) = (length for length in LENGTHS if length.key == "rubin_ampuero_crack")
+    asymptote = values_of(fault, lengths=[unbounded])["rubin_ampuero_crack"]
+    acceleration = np.log(slip_rate / far_slip_rate)
+    weakening = fault.zeta / nan0(fault.b)
+    strength_drop = acceleration + np.log(far_state_ratio)
+    stress_drop = weakening * acceleration + np.log(far_state_ratio)
+    length = asymptote * (weakening * strength_drop / nan0(stress_drop)) ** 2
+    return valid((acceleration > 0.0) & (stress_drop > 0.0), length)
