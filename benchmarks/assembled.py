@@ -28,6 +28,15 @@ def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, 
         shape = 0.25 * (1 + signs[:, 0] * xi) * (1 + signs[:, 1] * eta)
         by_x = 0.25 * signs[:, 0] * (1 + signs[:, 1] * eta) * 2 / dx
         by_y = 0.25 * signs[:, 1] * (1 + signs[:, 0] * xi) * 2 / dy
+        if material.plane == "antiplane":  # u_x stands for u_z; u_y only bears the load on the top
+            for own in (slice(0, None, 2), slice(1, None, 2)):
+                gradients = np.zeros((2, 8))
+                gradients[0, own], gradients[1, own] = by_x, by_y
+                stiffness += area * shear * gradients.T @ gradients
+            values = np.zeros((2, 8))
+            values[0, 0::2] = values[1, 1::2] = shape
+            mass += area * material.density * values.T @ values
+            continue
         strain = np.zeros((3, 8))
         strain[0, 0::2], strain[1, 1::2] = by_x, by_y
         strain[2, 0::2], strain[2, 1::2] = by_y, by_x

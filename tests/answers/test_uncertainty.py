@@ -51,15 +51,39 @@ def test_two_ranges_are_independent():
 
 @pytest.mark.slow
 def test_a_signed_parameter_is_normal_and_may_be_stable():
-    """A share of the draws has no L_c; the lengths' quantiles are those of the rest."""
+    """A stable draw has an infinite length: quantiles are those of zeta from its other end."""
     uncertain = {"zeta": "0.005 (-0.001 to 0.011)", "slip_distance": 5e-6}
     found = length_quantiles(**FAULT, a=0.01, **uncertain, draws=100)
-    negative = norm.cdf(-0.005 / (0.006 / norm.ppf(0.95)))
+    width = 0.006 / norm.ppf(0.95)
+    negative = norm.cdf(-0.005 / width)
     share = float(found["share"].sel(key="critical_length"))
     assert share == pytest.approx(1 - negative, abs=0.006)
     assert found.attrs["stable"] == round(100 * (1 - share))
-    middle = norm.ppf(negative + 0.5 * (1 - negative)) * 0.006 / norm.ppf(0.95) + 0.005
-    assert of(found, "critical_length")[2] == pytest.approx(MEDIAN * 0.005 / middle, rel=0.02)
+    zeta = 0.005 + width * norm.ppf(1.0 - np.array(QUANTILES))
+    expected = np.where(zeta > 0.0, MEDIAN * 0.005 / zeta, np.inf)
+    for key in ("critical_length", "homogeneous_sliding"):
+        assert_allclose(of(found, key)[:4], expected[:4], rtol=0.03)
+        assert np.isinf(of(found, key)[4]) and np.isinf(expected[4])
+    assert_allclose(of(found, "critical_length")[2], MEDIAN, rtol=0.02)
+    assert np.isfinite(found["error"].sel(key="critical_length")[:3]).all()
+    assert np.isinf(found["error"].sel(key="critical_length")[4])
+
+
+@pytest.mark.slow
+def test_quantiles_hold_within_their_errors():
+    """Of other seeds, and of ten times as many draws: not more than three errors off."""
+    uncertain = KNOWN | {"slip_distance": "5um (3 to 10)", "normal_stress": "50MPa (20 to 90)"}
+    lengths = {"draws": 200}
+    few = [length_quantiles(**uncertain, **lengths, seed=seed).sel(key="critical_length")
+           for seed in range(5)]  # fmt: skip
+    many = critical_length(**draw(uncertain, draws=20000).values)
+    exact = np.quantile(many, QUANTILES)
+    for found in few:
+        off = np.abs(found["value"].values - exact)
+        assert (off < 3.0 * found["error"].values).all()
+    scatter = np.std([found["value"].values for found in few], axis=0)
+    stated = few[0]["error"].values
+    assert (scatter < 2.0 * stated).all() and (stated < 0.2 * exact).all()
 
 
 def test_samples_are_joint():

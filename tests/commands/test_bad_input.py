@@ -112,9 +112,10 @@ SHOW = [
 ]
 
 DROP = [
+    (["--paper", "--run", "paper-H0.02"], ["--paper is not allowed with a run"]),
     (["--perturbation", "none"], ["round-off", "must be one of"]),
     (
-        ["--zeta-over-a", "9", "--velocity", "1e-12m/s"],
+        ["--paper", "--zeta-over-a", "9", "--velocity", "1e-12m/s"],
         ["dieterich_ruina", "v0 = 1e-09 m/s, regularisation_slip_rate, must be far below V"],
     ),
 ]

@@ -19,7 +19,7 @@ WORDS = ("drop", "--height", "2cm", "--strength", "1e-4", "--second-body", "rigi
 class Law:
     """In place of the law of the drop: an answer, and what was asked for it."""
 
-    answer = ExpectedDrop(DROP, CLOSED, "")
+    answer = ExpectedDrop(0.25, DROP, CLOSED, "")
 
     def __call__(self, parameters):
         self.parameters = parameters
@@ -48,7 +48,7 @@ def test_scales_near_the_velocity_are_warned_of(nucleation, law):
     assert "friction changes" not in nucleation(*WORDS).err
     slow = nucleation(*WORDS, "--velocity", "1um/s")
     assert "slip_rate_scale = 1e-07 m/s" in slow.err and "with constant a and b 0.5" in slow.err
-    of_b = ("--velocity", "10nm/s", "--friction-law", "dieterich_ruina", "--a", "0.01")
+    of_b = ("--paper", "--velocity", "10nm/s", "--friction-law", "dieterich_ruina", "--a", "0.01")
     assert "b = 0.0" in (told := nucleation(*WORDS, *of_b).err) and "at V/10" in told
     others = ("--slip-rate-scale", "1e-10m/s", "--regularisation-slip-rate", "1e-12m/s")
     assert nucleation(*WORDS, "--velocity", "1um/s", *others).err == ""
@@ -66,7 +66,7 @@ def test_text(nucleation, law):
     assert "docs/drop.md" in ended.out and "DO NOT" not in ended.out
     rough = nucleation(*WORDS, "--perturbation", "strength").out
     assert "strength, relative strength 0.0001, correlated over 0.02 m" in rough
-    law.answer = ExpectedDrop(DROP, CLOSED, "the perturbation is strong")
+    law.answer = ExpectedDrop(0.25, DROP, CLOSED, "the perturbation is strong")
     assert "DO NOT RELY ON IT: the perturbation is strong." in nucleation(*WORDS).out
 
 

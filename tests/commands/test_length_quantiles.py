@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from nucleation import api
+from nucleation.commands.uncertainty import as_sure
 
 ROCK = ["length", "--shear-modulus", "30GPa", "--normal-stress", "50MPa", "--slip-distance", "5um"]
 WORDS = [*ROCK, "--poisson", "0.25 (0.2 to 0.3)", "--b", "0.015"]
@@ -33,12 +34,13 @@ def test_the_library_s_numbers(nucleation, samples):
     for entry in found["lengths"]:
         own = expected.sel(key=entry["key"])
         assert entry["share"] == own["share"]
-        values = [math.nan if x is None else x for x in entry["quantiles"].values()]
+        values = [math.nan if x is None else float(x) for x in entry["quantiles"].values()]
         np.testing.assert_allclose(values, own["value"], rtol=1e-12)
     lines = nucleation(*WORDS, *samples).out.splitlines()
     (line,) = (line for line in lines if "critical length L_c" in line)
-    row = [f"{x:.4g}" for x in expected["value"].sel(key="critical_length").values]
-    assert line.split()[-6:] == [*row, "75.0%"]
+    own = expected.sel(key="critical_length")
+    row = [as_sure(*pair) for pair in zip(own["value"].values, own["error"].values, strict=True)]
+    assert line.split()[-6:] == [*row, "75.0%"] and "stable" in row
     assert any(x.startswith("4 draws of poisson_ratio, a: 0 left out, 1 of the") for x in lines)
     assert max(map(len, lines)) <= 100
 
@@ -81,7 +83,7 @@ def test_a_law_that_is_named(nucleation, samples, tmp_path):
     expected = api.length_quantiles(
         **FAULT, poisson_ratio="0.25 (0.2 to 0.3)", b=0.015, a=A, height=0.2
     )
-    values = list(found["lengths"][0]["quantiles"].values())
+    values = list(map(float, found["lengths"][0]["quantiles"].values()))
     np.testing.assert_allclose(values, expected["value"][0], rtol=1e-12)
 
 
@@ -104,3 +106,21 @@ def test_what_is_refused(nucleation, samples, words, message):
     ended = nucleation(*words, *samples)
     assert ended.code == 2
     assert re.search(message, ended.err)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (2.8083, 0.04, "2.81"),
+        (8.09, 0.6, "8.1"),
+        (9.19, 1.1, "9"),
+        (4.89012, 1e-5, "4.890"),
+        (12.3, 20.0, "10"),
+        (3.2e-7, 1e-9, "3.20e-07"),
+        (math.inf, math.inf, "stable"),
+        (3.0, math.inf, "3"),
+        (math.nan, math.nan, "nan"),
+    ],
+)
+def test_digits_follow_the_error(value, error, text):
+    assert as_sure(value, error) == text

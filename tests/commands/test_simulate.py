@@ -124,7 +124,7 @@ def test_a_run_of_the_configuration(nucleation, tmp_path):
 
 def test_constants_of_friction_set_the_law(nucleation, tmp_path):
     """By options beside the law of a file, a run or the defaults; the expansion has them."""
-    words = ["simulate", tmp_path / "run.nc", *SMALL, "--direct-effect", "0.008"]
+    words = ["simulate", tmp_path / "run.nc", "--paper", *SMALL, "--direct-effect", "0.008"]
     nucleation(*words, "--zeta-over-a", "2", "--velocity", "2e-5")
     friction = parameters_of(tmp_path / "run.nc").friction
     f, a, zeta = friction.expansion(2e-5)

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from nucleation.api import critical_length
+from nucleation.api import Parameters, critical_length
 
 FAULT = {
     "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
@@ -48,6 +48,103 @@ def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
     asked = {k: v for k, v in FAULT.items() if k != "--normal-stress"}
     fit = nucleation("specimen", "--length", f"{expected()}m", *words(asked), "--json")
     assert json.loads(fit.out)["intervals"][0][0] == pytest.approx(50e6, rel=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "more",
+    [
+        (),
+        ("--evolution", "slip"),
+        ("--friction-law", "product"),
+        ("--velocity", "1mm/yr"),
+        ("--friction-law", "product", "--regularisation-slip-rate", "0.1um/s"),
+    ],
+    ids=" ".join,
+)
+def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
+    """With the law's own a and b along the patch; v0 = 1e-2 V made the patch of `drop` longer."""
+    sandstone = words({
+        "--shear-modulus": "6GPa", "--poisson": "0.25", "--normal-stress": "5MPa", "--a": "0.010",
+        "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
+        "--height": "20cm",
+    })  # fmt: skip
+    fault = (*sandstone, *more, "--json")
+    length = json.loads(nucleation("length", *fault).out)["theory"]["stability_length"]
+    dry = json.loads(nucleation("simulate", tmp_path / "x.nc", *fault, "--dry-run").out)
+    assert dry["theory"]["stability_length"] == pytest.approx(length, rel=1e-8)
+    drop = json.loads(nucleation("drop", *fault).out)
+    assert drop["stability_length"] == pytest.approx(length, rel=1e-8)
+    assert drop["closed_form"]["front_length"] == pytest.approx(length, rel=0.06)
+
+
+def test_one_fault_in_antiplane_shear(nucleation, tmp_path):
+    """BP1: 3221 m of half-spaces; friction and Poisson's ratio do not matter."""
+    fault = words({
+        "--shear-modulus": "32.04GPa", "--poisson": "0.25", "--normal-stress": "50MPa",
+        "--a": "0.010", "--b": "0.015", "--slip-distance": "8mm", "--velocity": "1nm/s",
+        "--friction": "0.6", "--plane": "antiplane", "--height": "30km",
+    })  # fmt: skip
+    for command in (("length",), ("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
+        ended = nucleation(*command, *fault, "--json")
+        assert theory(ended) == pytest.approx(3221, abs=1), ended.err
+    assert "antiplane shear, with mu* = mu" in nucleation("length", *fault).out
+    rollers = nucleation("length", *fault, "--far-side", "roller")
+    assert rollers.code == 2 and "one of velocity, traction, free, clamped" in rollers.err
+
+
+def test_a_fault_of_its_own_has_scales_of_its_own(nucleation, tmp_path):
+    """The paper's v*, v0, phi*, age and correlation length are those of V = 10 um/s, D = .5 um."""
+    fault = {**FAULT, "--velocity": "1mm/yr", "--friction": "0.65", "--height": "5m"}
+    fault = words({k: v for k, v in fault.items() if k != "--second-body"})
+    ended = nucleation("drop", *fault, "--json")
+    assert json.loads(ended.out)["theory"]["critical_length"] == pytest.approx(2.513, rel=1e-2)
+
+    def planned(*more):
+        found = nucleation("simulate", tmp_path / "run.nc", *fault, *more, "--dry-run", "--json")
+        return json.loads(found.out)["parameters"]
+
+    own = planned("--perturbation", "strength")
+    velocity, memory = own["loading"]["velocity"], 5e-6 / own["loading"]["velocity"]
+    friction = own["friction"]
+    assert friction["law"] == "dieterich_ruina"
+    assert friction["log_rate_coefficient"] == pytest.approx(0.010)
+    assert friction["log_state_coefficient"] == pytest.approx(0.015, rel=1e-6)
+    assert friction["reference_slip_rate"] == velocity
+    assert friction["regularisation_slip_rate"] == pytest.approx(1e-4 * velocity)
+    assert own["loading"]["initial_state"] == pytest.approx(20.0 * memory)
+    zone = 30e9 / 0.75 * 5e-6 / (0.015 * 50e6)
+    assert own["perturbation"]["correlation_length"] == pytest.approx(0.2 * zone)
+    product = planned("--friction-law", "product", "--state-scale", "1e3s")["friction"]
+    assert product["slip_rate_scale"] == pytest.approx(1e-2 * velocity)
+    assert product["state_scale"] == 1e3, "what is given stays"
+
+
+def test_the_paper_fills_in_what_is_not_given(nucleation, tmp_path):
+    usual = Parameters().to_dict()
+    run = nucleation("simulate", tmp_path / "run.nc", "--paper", "--dry-run", "--json").out
+    found = json.loads(run)["parameters"]
+    for group in ("material", "friction", "second_body", "perturbation"):
+        assert found[group] == usual[group]
+    assert found["loading"] == usual["loading"]
+    lengths = [
+        json.loads(nucleation(command, "--paper", "--height", "2cm", "--json").out)
+        for command in ("length", "drop")
+    ]
+    critical, drop = (found["theory"]["critical_length"] for found in lengths)
+    assert critical == pytest.approx(drop, rel=1e-9)
+    assert lengths[0]["theory"]["stability_length"] == pytest.approx(lengths[1]["stability_length"])
+    assert "Not given, so the paper's: shear_modulus" in nucleation("length", "--paper").out
+    assert "--paper" in nucleation("length", "--height", "2cm").err
+
+
+def test_what_is_assumed_of_the_second_body_is_told_by_all(nucleation, tmp_path):
+    """A second body without a height is as high as the first, whichever command is asked."""
+    for body, assumed in (("35GPa,0.25", "as high as the first"), ("same", "like the first")):
+        fault = words({**FAULT, "--second-body": body})
+        for command in (("length",), ("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
+            told = " ".join(nucleation(*command, *fault).out.split())
+            assert f"Assumed: the second body is {assumed}" in told, command
 
 
 def test_one_file_for_all_commands(nucleation, tmp_path):

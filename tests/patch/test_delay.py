@@ -80,7 +80,7 @@ def test_linear_growth_gives_the_closed_form(strength):
     assert np.isnan(found.drop(1e-300).length)  # where the law does not reach
     assert drop.length == pytest.approx(exact_median(strength), rel=2e-3)
     assert closed.length == pytest.approx(exact_median(strength), rel=2e-3)
-    assert closed.stability_length == pytest.approx(START, rel=1e-3)
+    assert closed.front_length == pytest.approx(START, rel=1e-3)
     assert closed.front_speed == pytest.approx(SPEED, rel=1e-6)
     assert closed.growth_slope == pytest.approx(SLOPE, rel=1e-6)
     assert drop.low < drop.length < drop.high

@@ -37,6 +37,7 @@ SHAKEN = {"strength": 1e-2, "seed": 7}
 PAIR = {"second_body": "deformable", "second_shear_modulus": 5e9, "second_n_y": 5}
 RUNS = {
     "slip law": {"evolution": "slip"},
+    "antiplane": {"plane": "antiplane"},
     **{kind: {"perturbation": kind, **SHAKEN} for kind in KINDS[1:]},
     **{f"pair, {bottom}": {**PAIR, "bottom": bottom} for bottom in ("free", "clamped", "roller")},
     "top": {"loading.kind": "top", **PAIR, "bottom": "clamped"},

@@ -132,12 +132,19 @@ def theory(parameters, ratio):
 SETTINGS = {
     "slip law": PARAMETERS.replaced({"evolution": "slip", "height": 0.1}),
     "top": PARAMETERS.replaced({"loading": "top", "height": 0.2}),
+    "antiplane": PARAMETERS.replaced({"plane": "antiplane", "height": 0.1}),
 }
 
 
 @pytest.mark.parametrize(
     ("setting", "ratio"),
-    [("slip law", 0.9), ("top", 0.8), pytest.param("top", 1.25, marks=pytest.mark.slow)],
+    [
+        ("slip law", 0.9),
+        ("antiplane", 0.9),
+        ("antiplane", 1.2),
+        ("top", 0.8),
+        pytest.param("top", 1.25, marks=pytest.mark.slow),
+    ],
 )
 def test_modes_grow_as_the_theory_says(setting, ratio):
     """With the far side that `loading.kind` gives the theory and the period."""
@@ -145,8 +152,9 @@ def test_modes_grow_as_the_theory_says(setting, ratio):
     assert bodies_of(parameters)[0].far_side == ("velocity" if setting == "top" else "free")
     k, expected = theory(parameters, ratio)
     found = dispersion.measured_rates(parameters, parameters.geometry.height, k)
+    found, expected = (rates[np.argsort(rates.imag)] for rates in (found, expected))
     assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
-    assert (found[0].real > 0.0) == (ratio < 1.0)
+    assert (found.real.max() > 0.0) == (ratio < 1.0)
 
 
 @pytest.mark.parametrize(

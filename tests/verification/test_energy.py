@@ -221,7 +221,12 @@ def pair(bottom, thick):
     )  # fmt: skip
 
 
-OTHERS = {"pair, free": pair("free", 10.0), "pair, clamped": pair("clamped", 1.0)} | {
+OTHERS = {
+    "pair, free": pair("free", 10.0),
+    "pair, clamped": pair("clamped", 1.0),
+    "antiplane": EDGE.replaced({"plane": "antiplane"}),
+    "antiplane pair": pair("clamped", 1.0).replaced({"plane": "antiplane"}),
+} | {
     kind: dataclasses.replace(EDGE, perturbation=Perturbation(kind, 0.01, 0.5, seed=1))
     for kind in KINDS[1:]
 }
@@ -252,7 +257,14 @@ REMOTE = Parameters(
 # tolerance: single steps of a remote load miss 2e-10, and changes in the last bit move the sum by
 # up to 4e-10 either way.
 @pytest.mark.parametrize(
-    ("parameters", "missing"), [(TOP, 1e-11), (REMOTE, 1e-9)], ids=["top", "remote"]
+    ("parameters", "missing"),
+    [
+        (TOP, 1e-11),
+        (REMOTE, 1e-9),
+        (TOP.replaced({"plane": "antiplane", "tolerance": 1e-3}), 1e-11),
+        (REMOTE.replaced({"plane": "antiplane"}), 1e-9),
+    ],
+    ids=["top", "remote", "antiplane top", "antiplane remote"],
 )
 def test_energy_balance_of_bodies_that_are_loaded_from_afar(parameters, missing):
     accountant = Accountant(parameters, tolerance=1e-12)

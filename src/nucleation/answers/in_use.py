@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..model.material import ANTIPLANE
 from ..model.quantities import Quantity
 from ..theory.arrays import fault_of
 from ..theory.fault import Fault, Values, checked, labelled, takes_fault, where
@@ -51,6 +52,8 @@ class Length:
             return self.compute(fault)
         names = [field.name for field in dataclasses.fields(Setting)]
         own = {"weakening_rate": weakening_rate, "poisson_ratio": fault.in_plane_ratios[0]}
+        if fault.plane == ANTIPLANE and self.system == RIGID_BASE:
+            own["height"] = 0.5 * fault.height  # mu H resists slip, 2 mu H/(1 - nu) in the plane
         two = self.system == TWO_MATERIALS
         if two:
             modulus, coupling = of_two_materials(fault)
@@ -77,8 +80,11 @@ class Length:
 
 
 def of_two_materials(fault: Fault) -> tuple[Any, Any]:
-    """The modulus M (Pa) of the pair as half-spaces and ``f |beta|``."""
+    """The modulus M (Pa) of the pair as half-spaces and ``f |beta|``, 0 in antiplane shear."""
     nu, second_nu = fault.in_plane_ratios
+    if fault.plane == ANTIPLANE:
+        softness = fault.shear_modulus / fault.second_shear_modulus
+        return 2.0 * fault.shear_modulus / (1.0 + softness), 0.0 * softness
     modulus, beta = formulas.bimaterial(
         fault.shear_modulus, nu, fault.second_shear_modulus, second_nu
     )

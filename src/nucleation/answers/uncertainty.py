@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from ..model.quantities import ParameterError, Quantity, check
@@ -162,6 +163,45 @@ def _sorted(
     return fixed, ranges, samples
 
 
+def _stable_draws(key: str, there: NDArray[np.bool_], stable: NDArray[np.bool_]) -> Any:
+    """The draws in which no patch nucleates by a length: for those of the theory, all without it.
+
+    A formula of the literature has none where friction does not weaken; elsewhere it does not hold.
+    """
+    return ~there if key in _TITLES else ~there & stable
+
+
+def _quantiles(values: Array, shares: Array) -> Array:
+    """Quantiles by Hazen's rule, which is exact for the draws of one range; values may be infinite.
+
+    NaN of no values.
+    """
+    if not values.size:
+        return np.full(shares.size, np.nan)
+    ordered = np.sort(values)
+    position = np.clip(shares * values.size - 0.5, 0.0, values.size - 1.0)
+    below = np.floor(position).astype(int)
+    above = np.ceil(position).astype(int)
+    found = np.full(shares.size, np.inf)
+    finite = np.isfinite(ordered[above])
+    low, high = ordered[below[finite]], ordered[above[finite]]
+    found[finite] = low + (position - below)[finite] * (high - low)
+    return found
+
+
+def _errors(values: Array) -> Array:
+    """Standard errors of the quantiles, from the binomial scatter of their shares.
+
+    Half the distance of the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``; infinite
+    if one of these is.
+    """
+    shares = np.array(QUANTILES)
+    scatter = np.sqrt(shares * (1.0 - shares) / max(values.size, 1))
+    low, high = (_quantiles(values, shares + sign * scatter) for sign in (-1.0, 1.0))
+    with np.errstate(invalid="ignore"):
+        return np.where(np.isinf(high), np.inf, 0.5 * (high - low))
+
+
 @takes_fault
 def length_quantiles(
     *, weakening_rate: Values | None = None, loading: str = "edge", draws: int = 1000,
@@ -185,8 +225,11 @@ def length_quantiles(
     Returns
     -------
     Dataset
-        ``value(key, quantile)`` (m) of the draws that have the length, and their ``share(key)``
-        of all valid ones. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
+        ``value(key, quantile)`` (m), infinite where so many draws are stable, which no patch of
+        any length nucleates; its standard ``error(key, quantile)`` (m) by the finite number of
+        draws; and the ``share(key)`` of the valid draws that have the length. Draws for which a
+        formula of the literature does not hold are left out of its quantiles. Keys:
+        ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
         :data:`~nucleation.answers.in_use.LENGTHS`. Attributes: ``draws``; ``invalid``,
         no valid faults, with parameters that were ``outside``; ``stable``, without L_c.
 
@@ -210,16 +253,23 @@ def length_quantiles(
     size = next(np.size(x) for x in drawn.values.values() if np.ndim(x))
     arrays = np.array([np.broadcast_to(x, (size,)) for x in lengths.values()])
     there = np.isfinite(arrays)
-    found = [  # by Hazen's rule, which is exact for the draws of a single range
-        np.quantile(x[own], QUANTILES, method="hazen")
-        if own.any()
-        else np.full(len(QUANTILES), np.nan)
-        for x, own in zip(arrays, there, strict=True)
+    stable = np.broadcast_to(own.zeta <= 0.0, (size,))
+    never = [_stable_draws(key, there, stable) for key, there in zip(lengths, there, strict=True)]
+    counted = [
+        np.append(x[has], np.full(np.sum(none), np.inf))
+        for x, has, none in zip(arrays, there, never, strict=True)
     ]
+    found = [_quantiles(x, np.array(QUANTILES)) for x in counted]
+    errors = [_errors(x) for x in counted]
     titles = _TITLES | {length.key: length.title for length in others}
     return xr.Dataset(
         {
             "value": (("key", "quantile"), found, {"units": "m", "long_name": "length"}),
+            "error": (
+                ("key", "quantile"),
+                errors,
+                {"units": "m", "long_name": "standard error by the number of draws"},
+            ),
             "share": ("key", there.mean(axis=1), {"units": "1", "long_name": "share of draws"}),
         },
         coords={

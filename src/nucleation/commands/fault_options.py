@@ -5,14 +5,16 @@ import math
 import warnings
 from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
 from ..answers.in_use import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
-from ..answers.uncertainty import parse_range
+from ..answers.uncertainty import Range, parse_range
+from ..model.friction.constants import CONSTANTS
 from ..model.friction.law import Friction
-from ..model.friction.registry import LAWS
+from ..model.friction.registry import LAWS, law_declarations
+from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters, names
 from ..model.plausible import ImplausibleWarning
 from ..model.quantities import ParameterError
@@ -48,7 +50,7 @@ def system_line(fault: Fault, loading: str = "edge", known: bool = True) -> str:
         bodies = f"two identical bodies, each {_body(*first)}"
     else:
         bodies = f"{_body(*first)} on {_body(*second)}"
-    return f"System: {bodies}; {BEGINS[loading]}; plane {fault.plane}."
+    return f"System: {bodies}; {BEGINS[loading]}; {plane_in_words(fault.plane)}."
 
 
 def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
@@ -58,6 +60,11 @@ def _body(modulus: Any, ratio: Any, height: Any, far_side: Any) -> str:
         return f"a half-space {own}"
     side = {"traction": "free", "velocity": "moved"}.get(str(far_side), far_side)
     return f"a layer {float(height):.4g} m high with its far side {side} {own}"
+
+
+def plane_in_words(plane: str) -> str:
+    """How bodies deform: plane strain, plane stress, antiplane shear."""
+    return "antiplane shear" if plane == ANTIPLANE else f"plane {plane}"
 
 
 def one_material(fault: Fault) -> bool:
@@ -125,15 +132,32 @@ def told(parameters: Parameters, base: Parameters | None, given: Mapping[str, An
         f"Friction: {law.law} law, {law.evolution}; at V: f = {f:.4g}, a = {a:.4g}, "
         f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; {scales(law, v)}.",
     ]
+    if base is not None:
+        return lines
+    lines += _papers_told(law, given)
+    if assumed := _assumed_of_bodies(given.keys(), parameters.second_body.deformable):
+        lines.append(f"Assumed: {', '.join(assumed)}.")
+    return lines
+
+
+def _papers_told(law: Friction, given: Mapping[str, Any]) -> list[str]:
+    """The constants of a fault that are not given and so the paper's, in a line."""
     asked = PAPERS
     if any(name in given for name in law.set_by_expansion):
         constants = {"friction", "a", "b"}
         asked = {name: by for name, by in PAPERS.items() if name not in constants}
         asked |= {name: {name} for name in law.set_by_expansion}
     papers = [name for name, by in asked.items() if not by & given.keys()]
-    if base is None and papers:
-        lines.append(f"Not given, so the paper's: {', '.join(papers)}.")
-    return lines
+    return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []
+
+
+def _assumed_of_bodies(given: Collection[str], deformable: bool) -> list[str]:
+    """What was assumed of the second body, in words."""
+    if not deformable:
+        return []
+    if "second_shear_modulus" not in given:
+        return ["the second body is like the first"]
+    return [] if "second_height" in given else ["the second body is as high as the first"]
 
 
 NOTES = {
@@ -147,8 +171,37 @@ NOTES = {
 
 REQUIRED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance")
 
+FRICTION = {
+    "velocity",
+    "evolution",
+    *CONSTANTS,
+    *(names().short(f"friction.{k}") for k in law_declarations()),
+}
+"""The names in studies of what a friction law and its constants at V are given by."""
+
 IN_STUDIES = {k: names().short(names().full(k)) for k in QUANTITIES if k != "far_side"}
 """The names in studies of a fault's parameters; of a far side a simulation has one kind alone."""
+
+
+SCALES = (
+    "regularisation_slip_rate",
+    "reference_slip_rate",
+    "slip_rate_scale",
+    "state_scale",
+)
+"""The names in studies of what makes a and b of a friction law change with the slip rate."""
+
+
+class GivenFault(NamedTuple):
+    """A fault as options and files give it."""
+
+    values: dict[str, Any]
+    """The parameters of :class:`~nucleation.theory.fault.Fault`."""
+    law: Friction | None
+    """The friction law of `simulate` and `drop`; None without f or V, or where no law fits."""
+    told: list[str]
+    """What is not given and so the paper's, in a line."""
+
 
 fault_options = together(
     *(
@@ -159,7 +212,7 @@ fault_options = together(
         for key, entry in QUANTITIES.items()
     ),
     option("--zeta-over-a", key="zeta_over_a", entry=names()["zeta_over_a"]),
-    parameter_options(("evolution", "friction_law")),
+    parameter_options(("evolution", "friction_law", *SCALES)),
     second_body_option,
     click.option(
         "--per-decade", is_flag=True, help="a, b and zeta are given per decade, for log10"
@@ -170,28 +223,54 @@ fault_options = together(
 
 
 def fault_values(
-    per_decade: bool, file: Path | None, run_id: str | None, config: str | None, optional: str = "",
-    ranges: bool = False, **options: Any,
-) -> dict[str, Any]:  # fmt: skip
-    """The parameters of :class:`~nucleation.theory.fault.Fault` that options and files give.
+    per_decade: bool,
+    file: Path | None,
+    run_id: str | None,
+    config: str | None,
+    paper: bool,
+    optional: str = "",
+    ranges: bool = False,
+    **options: Any,
+) -> GivenFault:
+    """The fault that options and files give.
 
-    Raises ParameterError if one is wrong or missing, but for an `optional` one, or a file has a
-    range, but for `ranges`.
+    Raises ParameterError if a parameter is wrong or missing, but for an `optional` one, or a file
+    has a range, but for `ranges`.
     """
     own = given_of(options)
     if per_decade:
         own |= {k: own[k] / math.log(10.0) for k in ("a", "b", "zeta") if k in own}
     by_study = {IN_STUDIES.get(k, k): v for k, v in own.items() if k != "far_side"}
-    base, given = sourced(file, run_id, config, by_study, ranges)
-    if base or any(given.keys() & Friction(law=law).set_by_expansion for law in LAWS):
-        found = of_parameters(merged_parameters(base, given))
+    base, given = sourced(file, run_id, config, paper, by_study, ranges)
+    if base or paper or any(given.keys() & Friction(law=law).set_by_expansion for law in LAWS):
+        parameters = merged_parameters(base, given)
+        found = of_parameters(parameters)
+        law: Friction | None = parameters.friction
+        told = [] if base else _papers_told(parameters.friction, given)
     else:
-        found = _of_study(given)
+        found, told = _of_study(given), []
+        law = _law_of(found, given)
     found |= {k: v for k, v in own.items() if k in ("far_side", "second_far_side")}
     for name in REQUIRED:
         if name not in found and name != optional:
-            raise ParameterError(f"{name} is missing: give {words(name)[-1]}, or --parameters FILE")
-    return found
+            raise ParameterError(
+                f"{name} is missing: give {words(name)[-1]} or --parameters FILE, or take what is "
+                "not given from the paper by --paper"
+            )
+    return GivenFault(found, law, told)
+
+
+def _law_of(found: Mapping[str, Any], given: Mapping[str, Any]) -> Friction | None:
+    """The law of a fault of its own, if it can be known."""
+    needed = ("velocity", "friction", "a", "slip_distance")
+    if any(
+        not isinstance(found.get(name), float) or isinstance(found[name], Range) for name in needed
+    ):
+        return None
+    of_friction = {k: v for k, v in given.items() if k in FRICTION}
+    with contextlib.suppress(ParameterError):
+        return merged_parameters(None, of_friction).friction
+    return None
 
 
 def _of_study(given: Mapping[str, Any]) -> dict[str, Any]:
@@ -225,11 +304,8 @@ def said_of(
     fault: Fault, given: Mapping[str, Any], loading: str = "edge", known: bool = True
 ) -> list[str]:
     """The system of a fault of which some parameters are `given`, and what was assumed."""
-    assumed = []
-    if "second_shear_modulus" not in given:
-        assumed.append("the second body is like the first")
-    elif "second_height" not in given and math.isfinite(given["second_shear_modulus"]):
-        assumed.append("the second body is as high as the first")
+    deformable = math.isfinite(given.get("second_shear_modulus", 1.0))
+    assumed = _assumed_of_bodies(given.keys(), deformable)
     if "height" not in given:
         assumed.append("half-spaces")
     elif "far_side" not in given:

@@ -1,6 +1,5 @@
 """``nucleation length``: the theory's critical length of a fault beside the lengths in use."""
 
-import contextlib
 import math
 import textwrap
 from pathlib import Path
@@ -33,16 +32,17 @@ from .fault_options import (
     fault_values,
     one_material,
     parameters_of,
+    plane_in_words,
     said_of,
     scales,
     systems_of_lengths,
 )
-from .options import given_of, option
+from .options import option
 from .text import to_json, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain
 
 NOTEWORTHY = 0.03
-"""Relative change of L_s by the scales of the usual friction law that is told."""
+"""Relative change of L_s by the scales of the friction law from which on it is told."""
 
 DENSITY = declarations(Material)["density"]
 
@@ -80,10 +80,9 @@ def command(
       nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
           --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
     """
-    law = Friction(**given_of({"law": options["friction_law"], "evolution": options["evolution"]}))
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
-    given = fault_values(**options, ranges=True)
+    given, law, papers = fault_values(**options, ranges=True)
     uncertain = {k: v for k, v in given.items() if isinstance(v, Range)} | uncertain
     if uncertain:
         if density is not None:
@@ -96,7 +95,7 @@ def command(
         fault = Fault(**given)
         theory = _theory(given, fault, density, loading, law)
     lengths = {key: float(value) for key, value in values_of(fault, weakening_rate).items()}
-    said = said_of(fault, given, loading)
+    said = said_of(fault, given, loading) + papers
     if as_json:
         found = {
             "system": said,
@@ -114,7 +113,7 @@ def command(
 
 
 def _theory(
-    given: dict[str, Any], fault: Fault, density: float | None, loading: str, law: Friction
+    given: dict[str, Any], fault: Fault, density: float | None, loading: str, law: Friction | None
 ) -> dict[str, Any]:
     """What JSON has of the theory, in SI units; NaN where sliding is stable."""
     velocity = fault.velocity or fault.slip_distance  # at which V/D is one per second
@@ -124,8 +123,11 @@ def _theory(
     if density is not None:
         shear_wave = Material(float(fault.shear_modulus), density=density).shear_wave_speed
         ratio = abs(frequency) / wavenumber / shear_wave
-    stability_length, own_frequency, error = map(float, stability_values(fault, None, loading))
-    found = {
+    if loading != "edge":
+        law = None
+    stability_length, own_frequency, error = map(float, stability_values(fault, law, loading))
+    constant = float(stability_values(fault, None, loading)[0]) if law else stability_length
+    return {
         "critical_length": length,
         "critical_wavenumber": wavenumber,
         "critical_frequency": fault.velocity and frequency,
@@ -135,16 +137,16 @@ def _theory(
         "stability_length": stability_length,
         "stability_frequency_over_rate": own_frequency,
         "stability_length_error": error,
+        "stability_length_of_constant_a_and_b": constant,
     }
-    known = fault.velocity is not None and fault.friction is not None
-    if known and loading == "edge" and math.isfinite(stability_length):
-        with contextlib.suppress(ParameterError):  # of a law that can't have these constants
-            found["stability_length_as_simulated"] = float(stability_values(fault, law)[0])
-    return found
 
 
 def _as_text(
-    said: list[str], fault: Fault, theory: dict[str, Any], lengths: dict[str, float], law: Friction
+    said: list[str],
+    fault: Fault,
+    theory: dict[str, Any],
+    lengths: dict[str, float],
+    law: Friction | None,
 ) -> str:
     lines = [
         *wrapped(*said),
@@ -163,10 +165,11 @@ def _as_text(
                 value = lengths[length.key]
                 lines += _length_lines(length, value, fault, theory["critical_length"])
     modulus = "" if one_material(fault) else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
-    star = "mu/(1 - nu)" if fault.plane == "strain" else "mu (1 + nu)"
+    star = {"strain": "mu/(1 - nu)", "stress": "mu (1 + nu)", "antiplane": "mu"}[fault.plane]
+    plane = plane_in_words(fault.plane)
     lines += [
         "",
-        f"in plane {fault.plane}, with mu* = {star}{modulus}, b = a + zeta, natural logarithms;",
+        f"in {plane}, with mu* = {star}{modulus}, b = a + zeta, natural logarithms;",
         "all are full lengths",
     ]
     return "\n".join(lines)
@@ -193,7 +196,7 @@ def _mode_lines(theory: dict[str, Any]) -> list[str]:
     return lines
 
 
-def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction) -> list[str]:
+def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> list[str]:
     """L_s, what it means, and what friction's own scales make of it."""
     loading, length, critical = (
         theory[name] for name in ("loading", "stability_length", "critical_length")
@@ -204,12 +207,12 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction) -> list[st
     later = "it turns unstable; an event follows later"
     later += ", docs/drop.md" if loading == "edge" else ""
     lines = [head, f"  L_s    {f'{length:.4g} m':<11} {f'{length / critical:.3g} L_c':<10} {later}"]
-    own = theory.get("stability_length_as_simulated", length)
-    if not abs(own / length - 1.0) < NOTEWORTHY:
-        said = "none up to 3 L_c" if math.isnan(own) else f"{own:.4g} m, {own / critical:.3g} L_c,"
+    constant = theory["stability_length_of_constant_a_and_b"]
+    if law and not abs(constant / length - 1.0) < NOTEWORTHY:
+        said = "none up to 3 L_c" if math.isnan(constant) else f"{constant:.4g} m"
         lines.append(
-            f"         {said} with the law of `simulate` and `drop`, {law.law}, whose a and b\n"
-            f"         change along the patch: {scales(law, float(fault.velocity))}"
+            f"         by the {law.law} law, whose a and b change along the patch:\n"
+            f"         {scales(law, float(fault.velocity))}; with constant a and b {said}"
         )
     return lines
 

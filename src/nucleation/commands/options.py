@@ -16,6 +16,7 @@ from ..configuration.study_names import study_parameters
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
+from ..model.own_fault import follows_from
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity, check
 from ..model.units import bounds, parse
@@ -85,6 +86,10 @@ source_options = together(
         "--config", type=click.Path(dir_okay=False),
         help="the configuration that --run is in; default: that of the checkout",
     ),
+    click.option(
+        "--paper", is_flag=True,
+        help="take what is not given from the paper: PMMA on a rigid base, with its friction law",
+    ),
 )  # fmt: skip
 """Where other parameters are from."""
 
@@ -134,13 +139,23 @@ def given_of(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def sourced(
-    file: Path | None, run_id: str | None, config: str | None, options: Mapping[str, Any],
+    file: Path | None,
+    run_id: str | None,
+    config: str | None,
+    paper: bool,
+    options: Mapping[str, Any],
     ranges: bool = False,
-) -> tuple[Parameters | None, dict[str, Any]]:  # fmt: skip
-    """The parameters of a run or a dataset, if one is named, and those that are given."""
+) -> tuple[Parameters | None, dict[str, Any]]:
+    """The parameters of a run or a dataset, if one is named, and those that are given.
+
+    With those that are given come the ones that follow from them, unless they are the paper's or
+    those of the run or the dataset.
+    """
     if file and run_id:
         raise ParameterError("--parameters and --run can't be combined")
-    base, found = None, {"second_body": "deformable"}
+    if paper and (run_id or (file and file.suffix == ".nc")):
+        raise ParameterError("--paper is not allowed with a run or a dataset, which has all values")
+    base, found = None, {"second_body": "rigid" if paper else "deformable"}
     if run_id:
         base, found = _of_run(config, run_id), {}
     elif file and file.suffix == ".nc":
@@ -151,6 +166,8 @@ def sourced(
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]
     if uncertain and not ranges:
         raise ParameterError(f"{uncertain[0]}: only `nucleation length` takes a range")
+    if base is None and not paper and not uncertain:
+        found |= follows_from(found)
     return base, found
 
 

@@ -16,7 +16,7 @@ from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
-from ..model.second_body import SecondBody
+from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
 from .fault_options import told
 from .options import (
@@ -46,13 +46,23 @@ MEMORY = declarations(Limits)["memory"]
 @click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
 @click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
 def command(
-    output: Path, file: Path | None, run_id: str | None, config: str | None, force: bool,
-    dry_run: bool, as_json: bool, length_over_critical: float | None, memory: float | None,
+    output: Path,
+    file: Path | None,
+    run_id: str | None,
+    config: str | None,
+    paper: bool,
+    force: bool,
+    dry_run: bool,
+    as_json: bool,
+    length_over_critical: float | None,
+    memory: float | None,
     **options: Any,
-) -> int:  # fmt: skip
+) -> int:
     """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
 
-    What an option does not give is taken from --parameters or --run, or is the default. Without an
+    What an option does not give is taken from --parameters or --run. Else it is the paper's; but a
+    fault of its own a and b has the regularised Dieterich-Ruina law, with scales that follow from V
+    and D/V, and two identical bodies. With --paper all that is not given is the paper's. Without an
     end time the run goes on until its event, or until that is long overdue by the theory. A bar on
     the terminal shows how far the simulation is, a log gets a line now and then. Ctrl-C and SIGTERM
     leave a checkpoint from which the same command goes on. A simulation that fails numerically
@@ -60,12 +70,12 @@ def command(
 
     \b
     Example:
-      nucleation simulate run.nc --height 5mm --n-x 100 --n-y 10
+      nucleation simulate run.nc --paper --height 5mm --n-x 100 --n-y 10
     """
     if output.suffix != ".nc":
         raise ParameterError(f"OUTPUT = '{output}' is not allowed: its name must end in .nc")
     require_writable(output, force)
-    base, given = sourced(file, run_id, config, options)
+    base, given = sourced(file, run_id, config, paper, options)
     values = merged(base, given)
     if "seed" in given and values["perturbation"] == "none":
         raise ParameterError(
@@ -92,14 +102,19 @@ def _plan_lines(run: Run) -> list[str]:
     mesh = run.parameters.mesh
     element = run.parameters.geometry.length / mesh.n_x
     theory = f"critical length {run.theory_length:.4g} m, {run.theory_length / element:.4g}"
+    patch = stability_length_of(run.parameters, run.theory_length)
     if math.isnan(run.theory_length):
         theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
     stepping = run.parameters.stepping
     until = f"time: until {stepping.end_time:g} s"
     if stepping.time_after_event < stepping.end_time:
         until += f", or {stepping.time_after_event:g} s after the event's onset"
+    creeping = (
+        [] if math.isnan(patch) else [f"theory: a creeping patch turns unstable at {patch:.4g} m"]
+    )
     return [
         f"theory: {theory} elements of {element:.4g} m",
+        *creeping,
         until,
         f"memory: about {estimated_megabytes(run.parameters):.0f} MB",
     ]
@@ -107,16 +122,19 @@ def _plan_lines(run: Run) -> list[str]:
 
 def _command(output: Path, run: Run) -> str:
     """A command line that makes the dataset again: what differs from the defaults."""
-    values, usual = flat(run.parameters), flat(Parameters(second_body=SecondBody("deformable")))
+    values, usual = flat(run.parameters), flat(Parameters())
     changed = {k: v for k, v in values.items() if k == "length" or v != usual.get(k)}
     words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
-    return shlex.join(["nucleation", "simulate", str(output), *words])
+    return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
 
 
 def _planned(run: Run) -> dict[str, Any]:
     """What JSON says of a run before it runs."""
     return {
-        "theory": {"critical_length": run.theory_length},
+        "theory": {
+            "critical_length": run.theory_length,
+            "stability_length": stability_length_of(run.parameters, run.theory_length),
+        },
         "parameters": run.parameters.to_dict(),
     }
 

@@ -7,7 +7,7 @@ import click
 from ..answers.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
 from ..theory.fault import QUANTITIES, Fault
 from . import DONE, EXIT_CODES, STABLE
-from .fault_options import doubts_told, fault_options, fault_values, said_of
+from .fault_options import doubts_told, fault_options, fault_values, plane_in_words, said_of
 from .options import option
 from .text import to_json
 
@@ -38,14 +38,14 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
       nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa --poisson 0.35 \\
           --a 0.0068 --zeta 0.016 --slip-distance 0.5um --plane stress
     """
-    given = fault_values(**options, optional=unknown)
+    given, _, papers = fault_values(**options, optional=unknown)
     own = given.pop(unknown, None)
     with doubts_told():
         fit = specimen_fit(unknown, length, criterion, **given)
         now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))
         fault = Fault(**given, **{unknown: fit.searched[0] if own is None else own})
     looked_for = own is None and unknown == "shear_modulus"
-    said = said_of(fault, given, known=not looked_for)
+    said = said_of(fault, given, known=not looked_for) + papers
     if as_json:
         judged = None if now is None else {"value": own, "length": now}
         found = {
@@ -70,7 +70,7 @@ def _as_text(
             lines += [f"{at} {long}, {now / length:.3g} times the specimen: it does not nucleate."]
         else:
             lines += [f"{at} there is no {name}: it does not nucleate."]
-    lines.append(f"{name} fits into {length:.4g} m, in plane {plane}, if")
+    lines.append(f"{name} fits into {length:.4g} m, in {plane_in_words(plane)}, if")
     low, high = fit.searched
     for first, last in fit.intervals:
         if last == high and first > low:

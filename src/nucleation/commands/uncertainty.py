@@ -68,7 +68,7 @@ def print_quantiles(
         found = length_quantiles(**known)
     said = said_of(middle, given, options["loading"])
     click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
-    return STABLE if np.isnan(found["value"][0]).all() else DONE
+    return DONE if found["share"][0] > 0.0 else STABLE
 
 
 def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
@@ -77,9 +77,10 @@ def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
         {
             "key": key,
             "quantiles": {f"{q:g}": x for q, x in zip(QUANTILES, values, strict=True)},
+            "errors": {f"{q:g}": x for q, x in zip(QUANTILES, errors, strict=True)},
             "share": share, **words.get(key, {"units": "m"}),
         }
-        for key, _, values, share in _rows(found)
+        for key, _, values, errors, share in _rows(found)
     ]  # fmt: skip
     return to_json(
         {
@@ -100,18 +101,44 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     for system in systems_of_lengths(middle, uncertain):
         rows = [row for row in _rows(found) if systems.get(row[0], THIS_FAULT) == system]
         two = " (two materials)" if system == TWO_MATERIALS else ""
-        nowhere += [f"{title}{two}" for _, title, _, share in rows if share == 0.0]
-        if there := [row[1:] for row in rows if row[3] > 0.0]:
+        nowhere += [f"{title}{two}" for _, title, _, _, share in rows if share == 0.0]
+        if there := [row[1:] for row in rows if row[-1] > 0.0]:
             lines.append(f"for {system}:")
-        for title, values, share in there:
-            row = "".join(f"{value:>10.4g}" for value in values)
+        for title, values, errors, share in there:
+            pairs = zip(values, errors, strict=True)
+            row = "".join(f"{as_sure(value, error):>10}" for value, error in pairs)
             lines.append(f"  {title:<30}{row}{share:>8.1%}")
     if nowhere:
         lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
-    lines += ["", "share: of the draws in which the length exists; all are full lengths"]
+    lines += [
+        "",
+        "stable: no patch nucleates, which counts as an infinite length; digits as far as the",
+        "number of draws tells. share: of the draws in which the length exists; full lengths",
+    ]
     return "\n".join(lines)
 
 
-def _rows(found: Any) -> Iterable[tuple[str, str, list[float], float]]:
-    """Key, title, quantiles (m) and share of each length."""
-    return zip(*(found[x].values.tolist() for x in ("key", "title", "value", "share")), strict=True)
+def as_sure(value: float, error: float) -> str:
+    """A quantile with the digits that its standard error leaves, at most four.
+
+    >>> as_sure(2.8083, 0.04), as_sure(8.09, 0.6), as_sure(4.89012, 1e-5), as_sure(12.3, 20.0)
+    ('2.81', '8.1', '4.890', '10')
+    """
+    if math.isinf(value):
+        return "stable"
+    if not (value > 0.0 and math.isfinite(error)):
+        return f"{value:.1g}"
+    size = math.floor(math.log10(value))
+    digits = 4
+    if error > 0.0:
+        digits = min(max(size - math.floor(math.log10(error)) + 1, 1), 4)
+    decimals = digits - 1 - size
+    if abs(size) > 4:
+        return f"{value:.{digits - 1}e}"
+    return f"{round(value, decimals):.{max(decimals, 0)}f}"
+
+
+def _rows(found: Any) -> Iterable[tuple[str, str, list[float], list[float], float]]:
+    """Key, title, quantiles (m), their errors (m) and share of each length."""
+    names = ("key", "title", "value", "error", "share")
+    return zip(*(found[name].values.tolist() for name in names), strict=True)

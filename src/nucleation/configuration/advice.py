@@ -126,10 +126,13 @@ def changing_friction(run: Run) -> Iterator[Advice]:
     change = max(abs(a_near / a - 1.0), abs(b_near - b) / max(a, abs(b)))
     if change < CHANGE_OF_FRICTION:
         return
-    from ..theory.creep.lengths import effect_of_scales  # with SciPy, which takes a while
+    from ..theory.creep.lengths import stability_length_of  # with SciPy, which takes a while
 
-    own, constant = effect_of_scales(run.parameters, run.theory_length)
-    lengths = [f"{length / run.theory_length:.2g} L_c" for length in (own, constant)]
+    ratios = [
+        stability_length_of(run.parameters, run.theory_length, constant) / run.theory_length
+        for constant in (False, True)
+    ]
+    lengths = [f"{ratio:.2g} L_c" for ratio in ratios]
     lengths = [text if "nan" not in text else "none up to 3 L_c" for text in lengths]
     scales = ", ".join(
         f"{name} = {getattr(friction, name):g} m/s"

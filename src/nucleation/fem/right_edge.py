@@ -101,7 +101,7 @@ class RightEdge(EdgeValues):
         # rows of the edge values: against w_x (two weights), against u_y, and among themselves
         self._rows = (
             body.derivative.transposed.scaled(lame),
-            body.derivative.scaled(shear),
+            body.derivative.scaled(material.coupling_modulus),
             body.stiffness.scaled(p_modulus * dx / 6.0)
             + body.mass.scaled(rho_s * dx / 6.0 - shear / dx),
             body.stiffness.scaled(p_modulus * dx / 3.0)

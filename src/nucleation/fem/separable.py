@@ -202,7 +202,8 @@ class SeparableOperator:
             p_modulus * body.x_stiffness + rho_s * body.x_mass, shear * body.x_mass,
             shear * body.x_stiffness + rho_s * body.x_mass, p_modulus * body.x_mass,
             body.sine, body.stacked.mass, body.stacked.stiffness, body.stacked.derivative,
-            lame, shear, HELD[body.far_side], self.pivot, self._inverse, self._lower,
+            lame, material.coupling_modulus, HELD[body.far_side], self.pivot, self._inverse,
+            self._lower,
         )  # fmt: skip
 
     def solve(self, load: Field, w_amplitudes: Array, edge: Array) -> tuple[Array, Array]:

@@ -7,7 +7,8 @@ from typing import Any
 from .checked import Checked
 from .quantities import quantity
 
-PLANES = ("strain", "stress")
+PLANES = ("strain", "stress", "antiplane")
+ANTIPLANE = "antiplane"
 
 
 def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
@@ -17,19 +18,23 @@ def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
     ----------
     poisson_ratio : float or array_like
         nu of the material.
-    plane : {"strain", "stress"}
-        Plane strain holds bodies that are thick along z, plane stress thin plates.
+    plane : {"strain", "stress", "antiplane"}
+        Plane strain holds bodies that are thick along z, plane stress thin plates; in antiplane
+        shear slip is along z.
 
     Returns
     -------
     float or array_like
-        nu itself in plane strain, ``nu/(1 + nu)`` in plane stress; mu is the same.
+        nu itself in plane strain, ``nu/(1 + nu)`` in plane stress; mu is the same. Zero in
+        antiplane shear, where nu does not matter and mu takes the place of ``mu/(1 - nu)``.
 
     Notes
     -----
     In-plane elasticity has two moduli, mu and ``kappa``: ``3 - 4 nu`` in plane strain and
     ``(3 - nu)/(1 + nu)`` in plane stress (Muskhelishvili, 1953), which is ``3 - 4 nu/(1 + nu)``.
     """
+    if plane == ANTIPLANE:
+        return 0.0 * poisson_ratio
     return poisson_ratio if plane == "strain" else poisson_ratio / (1.0 + poisson_ratio)
 
 
@@ -49,7 +54,7 @@ class Material(Checked):
     )  # fmt: skip
     plane: str = quantity(
         "plane of deformation, of all bodies: strain if they are thick along z, stress for plates "
-        "that are thin against all lengths in the plane",
+        "that are thin against all lengths in the plane, antiplane for slip along z",
         choices=PLANES, default="strain",
     )  # fmt: skip
 
@@ -60,14 +65,30 @@ class Material(Checked):
 
     @property
     def lame_modulus(self) -> float:
-        """Lame's first parameter ``2 mu nu / (1 - 2 nu)`` (Pa), in plane stress the plate's."""
+        """Lame's first parameter ``2 mu nu / (1 - 2 nu)`` (Pa), in plane stress the plate's.
+
+        Zero in antiplane shear, where slip makes no pressure.
+        """
         ratio = self.in_plane_ratio
         return 2.0 * self.shear_modulus * ratio / (1.0 - 2.0 * ratio)
 
     @property
     def p_wave_modulus(self) -> float:
-        """Modulus ``lambda + 2 mu`` (Pa) of P waves, in plane stress ``E/(1 - nu^2)``."""
+        """Modulus ``lambda + 2 mu`` (Pa) of P waves, in plane stress ``E/(1 - nu^2)``.
+
+        In antiplane shear, where gradients along x and y both shear the body, mu.
+        """
+        if self.plane == ANTIPLANE:
+            return self.shear_modulus
         return self.lame_modulus + 2.0 * self.shear_modulus
+
+    @property
+    def coupling_modulus(self) -> float:
+        """Shear stress (Pa) on planes of constant x that gradients of slip along y make: mu.
+
+        Zero in antiplane shear, where slip is along z: it does not strain the x-y plane.
+        """
+        return 0.0 if self.plane == ANTIPLANE else self.shear_modulus
 
     @property
     def shear_wave_speed(self) -> float:

@@ -51,9 +51,13 @@ class Drop(NamedTuple):
 
 
 class ClosedForm(NamedTuple):
-    """The drop in one line: L_s (m), and median length (m) from the three numbers of the line."""
+    """The drop in one line: median length (m) from three numbers, and where growth begins.
 
-    stability_length: float  # m
+    With its advancing front the patch begins to grow its mode at ``front_length``, within a few
+    per cent of L_s, which is that of steady creep.
+    """
+
+    front_length: float  # m
     length: float  # m
     front_speed: float  # dL/dt, m/s
     growth_slope: float  # d Re Lambda/dL, 1/(m s)

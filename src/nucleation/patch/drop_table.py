@@ -69,7 +69,7 @@ def law_of(history: ModeHistory) -> Callable[[Row], Row]:
         row = dict.fromkeys(PREDICTED, float("nan"))
         if run["kind"] == "none":
             closed = known("normal_load", 0.0).closed_form(history, 1e-5)
-            row["stability_length"] = closed.stability_length
+            row["stability_length"] = closed.front_length
             for kind in ("normal_load", "state"):
                 row[f"floor_{kind}"] = known(kind, 0.0).strength_at(run["length"])
             return row
@@ -77,7 +77,7 @@ def law_of(history: ModeHistory) -> Callable[[Row], Row]:
         law = known(kind, scale)
         drop, closed = law.drop(strength), law.closed_form(history, strength)
         return row | {
-            "stability_length": closed.stability_length,
+            "stability_length": closed.front_length,
             "predicted_length": drop.length,
             "predicted_low": drop.low,
             "predicted_high": drop.high,

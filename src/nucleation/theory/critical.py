@@ -71,7 +71,7 @@ def systems_of(cases: Sequence[_Case]) -> Systems:
         if not present:
             return None
         modulus, ratio, height = np.array([body[:3] for body in present], dtype=float).T
-        return Layers(modulus, ratio, height, present[0].far_side)
+        return Layers(modulus, ratio, height, present[0].far_side, present[0].antiplane)
 
     pair = Pair(stacked(s.pair.upper for s in single), stacked(s.pair.lower for s in single))
     return Systems(pair, *np.array([s[1:] for s in single], dtype=float).T)
@@ -84,15 +84,22 @@ def theory_lengths(cases: Iterable[_Case]) -> Array:
     where sliding is stable (:func:`critical_wavenumber` says why).
     """
     cases = list(cases)
-    groups: dict[tuple[str, str], dict[_Case, None]] = {}
+    groups: dict[tuple[str, ...], dict[_Case, None]] = {}
     for case in cases:
-        kind = tuple(getattr(body, "far_side", "rigid") for body in case[:2])
+        kind = tuple(_kind(body) for body in case[:2])
         groups.setdefault(kind, {})[case] = None
     lengths: dict[_Case, float] = {}
     for group in groups.values():
         k = largest_crossings(systems_of(list(group)))
         lengths |= zip(group, (2.0 * math.pi / k).tolist(), strict=True)
     return np.array([lengths[case] for case in cases], dtype=float)
+
+
+def _kind(body: Body | RigidBody) -> str:
+    """What bodies that are computed together have in common."""
+    if isinstance(body, RigidBody):
+        return "rigid"
+    return f"{body.far_side}, {body.material.plane}"
 
 
 def stability_reason(one: Systems) -> str:

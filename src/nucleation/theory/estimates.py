@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..model.linearised import linearised
+from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
 from .stiffness import SATURATION, Pair
 from .transfer import bodies_of
@@ -16,7 +17,8 @@ THIN = 1e-3  # layer number k H at which a body is thin
 class Stiffness(NamedTuple):
     """How bodies resist slip of wavenumber k: ``thick k`` if they are thick, ``thin k^2`` if thin.
 
-    For a block on a rigid base the customary ``mu/(1 - nu)`` (Pa) and ``2 mu H/(1 - nu)`` (Pa m);
+    For a block on a rigid base the customary ``mu/(1 - nu)`` (Pa) and ``2 mu H/(1 - nu)`` (Pa m),
+    in antiplane shear ``mu`` and ``mu H``;
     for two blocks ``mu k G1`` of the theory in both limits, the softer one's in the main. Thin
     blocks that slip on one another bend as well, which makes them four times as soft.
     """
@@ -30,7 +32,8 @@ def stiffness_of(parameters: Parameters) -> Stiffness:
     if parameters.below is None:
         material = parameters.material
         thick = material.shear_modulus / (1.0 - material.in_plane_ratio)
-        return Stiffness(thick, 2.0 * parameters.geometry.height * thick)
+        sides = 1.0 if material.plane == ANTIPLANE else 2.0
+        return Stiffness(thick, sides * parameters.geometry.height * thick)
     pair = Pair(*(body.layers for body in bodies_of(parameters)))
     heights = parameters.geometry.height, parameters.below.geometry.height
     short, long = SATURATION / min(heights), THIN / max(heights)

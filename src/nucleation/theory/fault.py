@@ -19,12 +19,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
-from ..model.material import Material, in_plane_ratio
+from ..model.material import ANTIPLANE, Material, in_plane_ratio
 from ..model.plausible import warn_of_implausible
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
 from ..model.units import is_quantity, magnitude
 from .spectrum import Systems
-from .stiffness import FAR_SIDES, Array, Layers, Pair
+from .stiffness import FAR_SIDES, Array, Layers, Pair, require_far_side
 from .transfer import Body
 
 if TYPE_CHECKING:
@@ -119,8 +119,9 @@ class Fault:
         two words for it), u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy.
     second_far_side : str, optional
         The same of the second body; that of the first one by default.
-    plane : {"strain", "stress"}
-        Plane strain, or plane stress of thin plates, in which nu stands for ``nu/(1 + nu)``.
+    plane : {"strain", "stress", "antiplane"}
+        Plane strain, or plane stress of thin plates, in which nu stands for ``nu/(1 + nu)``, or
+        antiplane shear (mode III), in which nu and f do not matter.
 
     Attributes
     ----------
@@ -173,6 +174,8 @@ class Fault:
         for name in _WORDS:
             if getattr(self, name) not in QUANTITIES[name].choices:
                 raise ParameterError(refusal(name, getattr(self, name), QUANTITIES[name]))
+        for name in ("far_side", "second_far_side"):
+            require_far_side(name, getattr(self, name), self.plane)
         if self.zeta is None:
             object.__setattr__(self, "zeta", self.b - self.a)
         else:
@@ -183,7 +186,8 @@ class Fault:
         arrays = [getattr(self, name) for name in self._given()]
         if any(map(labelled, arrays)) and any(x.ndim and not labelled(x) for x in arrays):
             raise ParameterError("arrays with and without named dimensions can't be combined")
-        if self.friction is None and np.any(self.bodies_differ):
+        coupled = self.plane != ANTIPLANE and np.any(self.bodies_differ)
+        if self.friction is None and coupled:
             raise ParameterError(
                 "friction is missing: where the bodies differ, slip changes the normal stress, "
                 "and the friction coefficient matters"
@@ -196,7 +200,7 @@ class Fault:
 
     @property
     def in_plane_ratios(self) -> tuple[Any, Any]:
-        """nu of both bodies in plane strain, ``nu/(1 + nu)`` in plane stress."""
+        """nu of both bodies in plane strain, ``nu/(1 + nu)`` in plane stress, 0 in antiplane."""
         ratios = self.poisson_ratio, self.second_poisson_ratio
         return in_plane_ratio(ratios[0], self.plane), in_plane_ratio(ratios[1], self.plane)
 
@@ -265,9 +269,11 @@ class Fault:
         slip_distance: Array, velocity: Array, normal_stress: Array,
     ) -> Systems:  # fmt: skip
         """Faults as systems, all or none of them with a rigid second body."""
-        upper, lower = Layers(modulus, ratio, height, self.far_side), None
+        antiplane = self.plane == ANTIPLANE
+        upper, lower = Layers(modulus, ratio, height, self.far_side, antiplane), None
         if np.all(np.isfinite(second_modulus)):
-            lower = Layers(second_modulus, second_ratio, second_height, self.second_far_side)
+            second = (second_modulus, second_ratio, second_height, self.second_far_side)
+            lower = Layers(*second, antiplane)
         softness = modulus * slip_distance / normal_stress
         return Systems(Pair(upper, lower), friction, a, zeta, softness, velocity / slip_distance)
 

@@ -12,6 +12,10 @@ What vanishes on the far side ``y = H`` (as a perturbation: the stress or the ve
 - ``clamped``: u_x and u_y, a layer glued to a rigid base;
 - ``roller``: u_y and sigma_xy, a layer on rollers, or half of one that is loaded from both faces.
 
+In antiplane shear slip and displacement are along z, and one number takes the place of A:
+``tanh q`` if the far side is free of traction, ``coth q`` if it is held. Normal stress does not
+change.
+
 Every entry is a quotient of sums of terms that increase with ``q = |k| H``: nothing is lost for
 ``q -> 0``, for incompressible layers or when ``cosh(2q)`` overflows (a factor ``exp(-2q)`` is taken
 out). Only ``A_xy`` of clamped and roller layers is a difference, and changes sign: under a thin
@@ -26,6 +30,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..model.material import ANTIPLANE
+from ..model.quantities import ParameterError
 from .waves import Array, Waves
 
 SATURATION = 25.0
@@ -131,6 +137,36 @@ FAR_SIDES: dict[str, Callable[[Waves, ArrayLike, bool], StiffnessTerms]] = {
 """The conditions on the far side, by name; ``free`` is another word for ``traction``."""
 
 
+def _antiplane_free_terms(w: Waves, nu: ArrayLike, whole: bool) -> StiffnessTerms:
+    """``sigma_yz = 0``: ``tanh q = sinh 2q/(2 cosh^2 q)``; the other entry of A is 1."""
+    below = 2.0 * w.cosh_squared
+    return StiffnessTerms(below, w.sinh_2q, 0.0 * below, 0.0, below, w.sinh_2q)
+
+
+def _antiplane_held_terms(w: Waves, nu: ArrayLike, whole: bool) -> StiffnessTerms:
+    """``u_z = 0``: ``coth q = sinh 2q/(2 sinh^2 q)``."""
+    below = 2.0 * w.sinh_squared
+    return StiffnessTerms(below, w.sinh_2q, 0.0 * below, 0.0, below, w.sinh_2q)
+
+
+OF_ANTIPLANE: dict[str, Callable[[Waves, ArrayLike, bool], StiffnessTerms]] = {
+    "velocity": _antiplane_held_terms,
+    "traction": _antiplane_free_terms,
+    "free": _antiplane_free_terms,
+    "clamped": _antiplane_held_terms,
+}
+"""The same in antiplane shear. Rollers, which let a layer slide along x alone, are not known."""
+
+
+def require_far_side(name: str, far_side: str, plane: str) -> None:
+    """Raise ParameterError if a far side is not one of a plane of deformation."""
+    if plane == ANTIPLANE and far_side not in OF_ANTIPLANE:
+        raise ParameterError(
+            f"{name} = {far_side!r} is not allowed with plane = {plane}: it must be one of "
+            f"{', '.join(OF_ANTIPLANE)}"
+        )
+
+
 class Layers(NamedTuple):
     """Elastic layers: one, or as many as the arrays have entries; they broadcast with k."""
 
@@ -138,11 +174,15 @@ class Layers(NamedTuple):
     poisson_ratio: Array
     height: Array  # H (m), inf for a half-space
     far_side: str  # one of FAR_SIDES, of all of them
+    antiplane: bool = False  # slip is along z; Poisson's ratio does not matter
 
     def at(self, index: NDArray) -> Layers:
         """The layers of an index; the fields have to be arrays."""
-        modulus, ratio, height, far_side = self
-        return Layers(modulus[index], ratio[index], height[index], far_side)
+        return self._replace(
+            shear_modulus=self.shear_modulus[index],
+            poisson_ratio=self.poisson_ratio[index],
+            height=self.height[index],
+        )
 
     def layer_number(self, wavenumber: ArrayLike) -> Array:
         """``q = |k| H``, cut at :data:`SATURATION`, beyond which nothing depends on it."""
@@ -150,7 +190,8 @@ class Layers(NamedTuple):
 
     def terms(self, waves: Waves, whole: bool = True) -> StiffnessTerms:
         """Scaled numerators and denominator of the stiffness; `whole`: with yy and det."""
-        return FAR_SIDES[self.far_side](waves, self.poisson_ratio, whole)
+        known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
+        return known[self.far_side](waves, self.poisson_ratio, whole)
 
     def stiffness(self, wavenumber: ArrayLike, whole: bool = True) -> Stiffness:
         """Dimensionless stiffness A at a wavenumber (1/m)."""

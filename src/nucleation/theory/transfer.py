@@ -23,10 +23,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..model.checked import Checked
-from ..model.material import Material
+from ..model.material import ANTIPLANE, Material
 from ..model.parameters import Parameters
 from ..model.quantities import quantity
-from .stiffness import FAR_SIDES, Array, Layers, Pair
+from .stiffness import FAR_SIDES, Array, Layers, Pair, require_far_side
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,11 +45,21 @@ class Body(Checked):
         choices=tuple(FAR_SIDES), default="velocity",
     )  # fmt: skip
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require_far_side("far_side", self.far_side, self.material.plane)
+
     @property
     def layers(self) -> Layers:
         """The body as one layer."""
         material = self.material
-        return Layers(material.shear_modulus, material.in_plane_ratio, self.height, self.far_side)
+        return Layers(
+            material.shear_modulus,
+            material.in_plane_ratio,
+            self.height,
+            self.far_side,
+            material.plane == ANTIPLANE,
+        )
 
 
 @dataclasses.dataclass(frozen=True)

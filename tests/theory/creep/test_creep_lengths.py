@@ -21,7 +21,7 @@ from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep.lengths import (
     NoPatch,
     Patches,
-    effect_of_scales,
+    stability_length_of,
     stability_point,
     stability_values,
 )
@@ -116,12 +116,12 @@ def test_scales_of_friction_near_the_velocity():
     law = Friction().with_expansion(1e-6, 0.65, 0.008, 0.004)
     run = Parameters(friction=law, geometry=Geometry(height=1.0))
     run = run.replaced({"loading.velocity": 1e-6, "material.shear_modulus": 3e10})
-    own, constant = effect_of_scales(run, length_of(run))
+    own, constant = (stability_length_of(run, length_of(run), x) for x in (False, True))
     assert own / constant < 0.85
     far = dataclasses.replace(run, friction=dataclasses.replace(
         law, slip_rate_scale=1e-12, regularisation_slip_rate=1e-14
     ).with_expansion(1e-6, 0.65, 0.008, 0.004))  # fmt: skip
-    own, constant = effect_of_scales(far, length_of(far))
+    own, constant = (stability_length_of(far, length_of(far), x) for x in (False, True))
     assert own / constant > 0.99
 
 

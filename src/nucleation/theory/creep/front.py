@@ -30,7 +30,8 @@ ROUNDS = 4  # of the three equations: each takes off more than nine tenths of th
 FINE = 400  # angles at which the state behind the front is followed,
 AT_REST = 100  # and times of the interface ahead
 STEP = 0.01  # of log L, in derivatives by L
-FLOOR = 1e-3  # slip rate over V with which the front sets in
+FLOOR = 1e-3  # slip rate over V with which the front sets in, or the law's v0 if that is more:
+# friction falls to zero below it, and contacts there are as if at rest
 SHORTEST, TRIED = 0.3, 14  # patches that are tried for L_s: from which part of L_c on, how many,
 NEAR = np.array([-0.05, 0.0, 0.05])  # and those through which Re Lambda is laid, log(L/L_s)
 CLOSE = 2e-3  # relative, within which the parabola's L_s has to have decay and growth,
@@ -75,6 +76,7 @@ def advance(
     distance, length = law.characteristic_slip_distance, np.atleast_1d(np.asarray(lengths, float))
     around = length * np.exp(STEP * np.array([-1.0, 0.0, 1.0]))[:, None]
     held = [[response(patches.one, one, number) for one in row] for row in around]
+    floor = max(FLOOR, law.regularisation_slip_rate / velocity)
     friction = np.full((length.size, number), law.expansion(velocity).f0)
     psi = np.zeros_like(friction)
     rates = np.zeros((length.size, number + 1))
@@ -88,10 +90,12 @@ def advance(
         else:
             rates = _rates(own, length, slips, by_length)
         if turn < ROUNDS:
-            psi, friction = _behind(law, velocity, own, length, time, speed, rates, initial_state)
+            psi, friction = _behind(
+                law, velocity, own, length, time, speed, rates, floor, initial_state
+            )
     creeps, frozen = [], []
     for i, slip in enumerate(slips[1]):
-        rate = np.maximum(own.values @ rates[i], FLOOR)
+        rate = np.maximum(own.values @ rates[i], floor)
         creep = Creep(held[1][i], rate, 1.0 + held[1][i].normal @ slip.slip, slip.loaded)
         if creep.normal_stress.min() <= 0.0:
             raise NoPatch(f"the creep opens the fault at a patch length of {length[i]:.4g} m")
@@ -116,12 +120,19 @@ def _rates(own: Half, length: Array, slips: list[list[EdgeSlip]], by_length: Arr
 
 
 def _behind(
-    law: Friction, velocity: float, own: Half, length: Array, time: Array, speed: Array,
-    rates: Array, initial_state: float,
-) -> tuple[Array, Array]:  # fmt: skip
+    law: Friction,
+    velocity: float,
+    own: Half,
+    length: Array,
+    time: Array,
+    speed: Array,
+    rates: Array,
+    floor: float,
+    initial_state: float,
+) -> tuple[Array, Array]:
     """log(phi) and friction behind the front, at the modes' angles, (n, N)."""
     theta = np.linspace(0.0, 0.5 * np.pi, FINE + 1)
-    v = velocity * np.maximum(rates @ own.at(theta).T, FLOOR)
+    v = velocity * np.maximum(rates @ own.at(theta).T, floor)
     speeds = law.slip_speed(v) / law.characteristic_slip_distance
     psi = np.full(length.size, np.log(initial_state))
     # at rest, in steps that grow as the state does
@@ -135,7 +146,7 @@ def _behind(
         psi = _stepped(law, psi, steps[:, j], 0.5 * (speeds[:, j] + speeds[:, j + 1]))
         along.append(psi)
     states = np.array([np.interp(own.theta, theta, one) for one in np.transpose(along)])
-    rate = velocity * np.maximum(rates @ own.values.T, FLOOR)
+    rate = velocity * np.maximum(rates @ own.values.T, floor)
     return states, law.coefficient_and_slopes(rate, states)[0]
 
 

@@ -242,18 +242,19 @@ def stability_values(
     return tuple(fault.evaluate(points, 1.0 if fault.velocity is None else fault.velocity, rows=3))
 
 
-def effect_of_scales(parameters: Parameters, critical: float) -> tuple[float, float]:
-    """L_s (m) of a run's fault with its own friction law, and with constant a and b; or NaN.
+def stability_length_of(parameters: Parameters, critical: float, constant: bool = False) -> float:
+    """L_s (m) of a run's fault whose L_c (m) is `critical`; NaN without one.
 
-    A law's scales, such as v* and v0 of the paper's, make a(v) and b(v) change along the patch.
+    With its own friction law, whose scales make a(v) and b(v) change along the patch, or with the
+    `constant` a and b that it has at V.
     """
-    own, lengths = Patches.of(parameters), []
-    for patches in (own, dataclasses.replace(own, law=None)):
-        try:
-            lengths.append(stability_point(patches, critical).length)
-        except NoPatch:
-            lengths.append(math.nan)
-    return lengths[0], lengths[1]
+    patches = Patches.of(parameters)
+    if constant:
+        patches = dataclasses.replace(patches, law=None)
+    try:
+        return stability_point(patches, critical).length
+    except NoPatch:
+        return math.nan
 
 
 def _own_law(law: Friction, one: Systems, velocity: float) -> Friction:
