@@ -13,7 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..answers.formulas import LOCALISED_LIMIT
+from ..answers.formulas import (
+    CRACK_LIMIT,
+    LOCALISED_FACTOR,
+    LOCALISED_LIMIT,
+    between_localised_and_crack,
+)
 from ..answers.in_use import LENGTHS, TWO_MATERIALS, expanding_length, values_of
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
@@ -38,12 +43,21 @@ DEFINITIONS = {
     "rubin_ampuero_localised": Definition(
         0.5, 0.7434 / 1.3774, "width at half the largest slip rate, times 1.3774/0.7434"
     ),
-    "rubin_ampuero_crack": Definition(0.1, 1.0, "width at a tenth of the largest slip rate"),
+    "rubin_ampuero_crack": Definition(
+        0.1, 1.0, "distance of the outermost points at a tenth of the largest slip rate"
+    ),
     "thin_layer": Definition(0.5, 0.5, "twice the width at half the largest slip rate"),
     "state_evolution": Definition(0.5, 1.0, "width at half the largest slip rate"),
 }
 """Of Rubin and Ampuero's solution 0.7434 L_b either side are faster than half its maximum; of
 Viesca's, ``1 + cos(x/L)``, one half."""
+
+IN_THE_GAP = (
+    "width at half the largest slip rate, times 1.3774/0.7434; "
+    f"formula beyond its limit a/b = {LOCALISED_LIMIT}"
+)
+OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
+"""Of the largest slip rate: how much the definition matters."""
 
 SPRING_BLOCK = "an estimate by a spring block, which has no setting of its own"
 ELSEWHERE = {
@@ -52,7 +66,8 @@ ELSEWHERE = {
     "rice_ruina": SPRING_BLOCK,
     "dieterich_shortest": SPRING_BLOCK,
     "dieterich_longest": SPRING_BLOCK,
-    "uenishi_rice": "strength without direct effect, which no friction law here has",
+    "uenishi_rice": "the limit a -> 0 of the pinned patch; every law here has a direct effect, with "
+    "which an accelerating zone widens beyond it to the fixed length",
     "creeping_asperity": "not simulated: it needs velocity strengthening around the patch",
     "loaded_patch": "pinned ends; equal to the theory of the creeping patch under remote",
     "thin_limit": "the limit of homogeneous sliding in low blocks",
@@ -71,6 +86,8 @@ COLUMNS = {
     "formula_length": Variable("m", "length by the formula"),
     "simulated_length": Variable("m", "length in the simulation"),
     "difference": Variable("1", "simulated length over that of the formula, less 1"),
+    "width_at_half": Variable("m", "width of the zone at half the largest slip rate"),
+    "width_at_hundredth": Variable("m", "width of the zone at a hundredth of the largest slip rate"),
     "far_slip_rate": Variable("m/s", "slip rate half a period from the fastest point"),
     "far_state_ratio": Variable("1", "v phi/D there, 1 in steady sliding"),
     "finite_speed_length": Variable("m", "Rubin and Ampuero's expanding length at that slip rate"),
@@ -81,17 +98,18 @@ COLUMNS = {
 }
 
 
-def length_of(parameters: Parameters) -> str | None:
-    """The length of the literature whose setting a run is; None between those of the aging law."""
+def length_of(parameters: Parameters) -> str:
+    """The length of the literature whose setting a run is.
+
+    Between both lengths of the aging law it is the fixed one, beyond its limit.
+    """
     _, a, zeta = parameters.friction.expansion(parameters.loading.velocity)
-    ratio = a / (a + zeta)
     if parameters.friction.evolution == "slip":
         return "state_evolution"
     if parameters.second_body.kind == "rigid":
         return "thin_layer"
-    if ratio < LOCALISED_LIMIT:
-        return "rubin_ampuero_localised"
-    return "rubin_ampuero_crack" if ratio > 0.5 else None
+    expands = a > CRACK_LIMIT * (a + zeta)
+    return "rubin_ampuero_crack" if expands else "rubin_ampuero_localised"
 
 
 def zone_length(simulation: xr.Dataset, slip_rate: float, definition: Definition) -> float:
@@ -100,12 +118,22 @@ def zone_length(simulation: xr.Dataset, slip_rate: float, definition: Definition
     Between recorded times it is linear in the logarithm of the largest slip rate. NaN if that is
     not reached.
     """
+    width = _width_when_passing(simulation, slip_rate, definition.share)
+    return width / definition.part
+
+
+def _width_when_passing(simulation: xr.Dataset, slip_rate: float, share: float) -> float:
+    """Distance (m) of the outermost points at a share of the largest slip rate."""
     x = simulation["x"].values
 
     def width(rates: Array, states: Array) -> float:
-        threshold = definition.share * float(rates.max())
-        begin, end = slipping_zone(x, rates, threshold, periodic=True)
-        return (end - begin) / definition.part
+        around = np.roll(rates[:-1], -_opposite(rates))
+        from_left = np.maximum.accumulate(around)
+        from_right = np.maximum.accumulate(around[::-1])[::-1]
+        # within a crack slip is slower than at its tips
+        filled = np.minimum(from_left, from_right)
+        begin, end = slipping_zone(x[:-1], filled, share * float(rates.max()))
+        return end - begin
 
     return _when_passing(simulation, slip_rate, width)
 
@@ -188,8 +216,6 @@ def literature_table(
 def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[Row]:
     """A run's rows, one for each slip rate."""
     name = length_of(parameters)
-    if name is None:
-        return
     friction, load, material = parameters.friction, parameters.loading, parameters.material
     _, a, zeta = friction.expansion(load.velocity)
     fault = Fault(
@@ -197,12 +223,21 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
         plane=material.plane, normal_stress=load.normal_stress, a=a, zeta=zeta,
         slip_distance=friction.characteristic_slip_distance, height=parameters.geometry.height,
     )  # fmt: skip
-    formula = float(values_of(fault)[name])
+    values = values_of(fault)
+    formula = float(values[name])
+    words = DEFINITIONS[name].words
+    if name == "rubin_ampuero_localised" and between_localised_and_crack(a, a + zeta):
+        formula = LOCALISED_FACTOR * float(values["state_evolution"])
+        words = IN_THE_GAP
     for slip_rate in SLIP_RATES:
         found = zone_length(simulation, slip_rate, DEFINITIONS[name])
         far_slip_rate, far_state_ratio = far_ahead(simulation, slip_rate, fault.slip_distance)
         at_this_rate = expanding_length(fault, slip_rate, far_slip_rate, far_state_ratio)
         expands = name == "rubin_ampuero_crack"
+        widths = {
+            column: _width_when_passing(simulation, slip_rate, share)
+            for column, share in OTHER_SHARES.items()
+        }
         yield {
             "id": id,
             "name": name,
@@ -210,11 +245,12 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
             "a": a,
             "b": a + zeta,
             "a_over_b": a / (a + zeta),
-            "definition": DEFINITIONS[name].words,
+            "definition": words,
             "read_at": slip_rate,
             "formula_length": formula,
             "simulated_length": found,
             "difference": found / formula - 1.0,
+            **widths,
             "far_slip_rate": far_slip_rate,
             "far_state_ratio": far_state_ratio,
             "finite_speed_length": float(at_this_rate) if expands else math.nan,
