@@ -75,7 +75,7 @@ def test_every_length_in_use_has_a_row_and_those_without_a_run_a_reason():
 
 
 def test_asymptotes_are_met_where_their_source_claims_them():
-    """Within 3 %; of the expanding length where the zone is long beside its tips, a/b = 0.7, 0.9."""
+    """Within 3 %; the expanding length where a zone is long beside its tips, a/b = 0.7 and 0.9."""
     late = FRAME[np.isclose(FRAME["read_at"], 1e3)]
     fixed = late[(late["name"] == "rubin_ampuero_localised") & (late["a_over_b"] < LOCALISED_LIMIT)]
     assert len(fixed) >= 10 and fixed["difference"].abs().max() < 0.03
@@ -95,7 +95,7 @@ def test_a_zone_that_expands_before_steady_state_is_nearer_to_the_length_of_its_
 
 
 def test_by_the_slip_law_a_zone_shrinks_as_the_logarithm_of_its_slip_rate_grows():
-    """``width log(v/v_far)/L_b`` does not depend on v where six elements or more are in the zone."""
+    """``width log(v/v_far)/L_b`` does not depend on v where a zone has six elements or more."""
     slip = FRAME[(FRAME["evolution"] == "slip") & np.isclose(FRAME["a_over_b"], 0.3)]
     fine = slip[slip["n_x"] == slip["n_x"].max()]
     product = (1.0 + fine["difference"]) * np.log(fine["read_at"] / fine["far_slip_rate"])

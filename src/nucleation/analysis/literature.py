@@ -37,6 +37,7 @@ class Definition(NamedTuple):
     share: float
     part: float  # the zone's part of the whole length in the source's own solution
     words: str
+    between_tips: bool = False  # slip may be slower within the zone, as in a crack
 
 
 DEFINITIONS = {
@@ -44,7 +45,10 @@ DEFINITIONS = {
         0.5, 0.7434 / 1.3774, "width at half the largest slip rate, times 1.3774/0.7434"
     ),
     "rubin_ampuero_crack": Definition(
-        0.1, 1.0, "distance of the outermost points at a tenth of the largest slip rate"
+        0.1,
+        1.0,
+        "distance of the outermost points at a tenth of the largest slip rate",
+        between_tips=True,
     ),
     "thin_layer": Definition(0.5, 0.5, "twice the width at half the largest slip rate"),
     "state_evolution": Definition(0.5, 1.0, "width at half the largest slip rate"),
@@ -66,8 +70,8 @@ ELSEWHERE = {
     "rice_ruina": SPRING_BLOCK,
     "dieterich_shortest": SPRING_BLOCK,
     "dieterich_longest": SPRING_BLOCK,
-    "uenishi_rice": "the limit a -> 0 of the pinned patch; every law here has a direct effect, with "
-    "which an accelerating zone widens beyond it to the fixed length",
+    "uenishi_rice": "the limit a -> 0 of the pinned patch; with a direct effect, which every law "
+    "here has, an accelerating zone widens beyond it to the fixed length",
     "creeping_asperity": "not simulated: it needs velocity strengthening around the patch",
     "loaded_patch": "pinned ends; equal to the theory of the creeping patch under remote",
     "thin_limit": "the limit of homogeneous sliding in low blocks",
@@ -87,7 +91,9 @@ COLUMNS = {
     "simulated_length": Variable("m", "length in the simulation"),
     "difference": Variable("1", "simulated length over that of the formula, less 1"),
     "width_at_half": Variable("m", "width of the zone at half the largest slip rate"),
-    "width_at_hundredth": Variable("m", "width of the zone at a hundredth of the largest slip rate"),
+    "width_at_hundredth": Variable(
+        "m", "width of the zone at a hundredth of the largest slip rate"
+    ),
     "far_slip_rate": Variable("m/s", "slip rate half a period from the fastest point"),
     "far_state_ratio": Variable("1", "v phi/D there, 1 in steady sliding"),
     "finite_speed_length": Variable("m", "Rubin and Ampuero's expanding length at that slip rate"),
@@ -118,24 +124,26 @@ def zone_length(simulation: xr.Dataset, slip_rate: float, definition: Definition
     Between recorded times it is linear in the logarithm of the largest slip rate. NaN if that is
     not reached.
     """
-    width = _width_when_passing(simulation, slip_rate, definition.share)
-    return width / definition.part
-
-
-def _width_when_passing(simulation: xr.Dataset, slip_rate: float, share: float) -> float:
-    """Distance (m) of the outermost points at a share of the largest slip rate."""
     x = simulation["x"].values
 
     def width(rates: Array, states: Array) -> float:
-        around = np.roll(rates[:-1], -_opposite(rates))
-        from_left = np.maximum.accumulate(around)
-        from_right = np.maximum.accumulate(around[::-1])[::-1]
-        # within a crack slip is slower than at its tips
-        filled = np.minimum(from_left, from_right)
-        begin, end = slipping_zone(x[:-1], filled, share * float(rates.max()))
-        return end - begin
+        threshold = definition.share * float(rates.max())
+        if definition.between_tips:
+            rates = _filled_between_tips(rates)
+        begin, end = slipping_zone(x, rates, threshold, periodic=True)
+        return (end - begin) / definition.part
 
     return _when_passing(simulation, slip_rate, width)
+
+
+def _filled_between_tips(rates: Array) -> Array:
+    """Slip rates of a period, nowhere slower than both on the left and on the right of there."""
+    first = _opposite(rates)
+    around = np.roll(rates[:-1], -first)
+    from_left = np.maximum.accumulate(around)
+    from_right = np.maximum.accumulate(around[::-1])[::-1]
+    filled = np.roll(np.minimum(from_left, from_right), first)
+    return np.append(filled, filled[0])
 
 
 def far_ahead(
@@ -225,17 +233,18 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
     )  # fmt: skip
     values = values_of(fault)
     formula = float(values[name])
-    words = DEFINITIONS[name].words
+    definition = DEFINITIONS[name]
     if name == "rubin_ampuero_localised" and between_localised_and_crack(a, a + zeta):
         formula = LOCALISED_FACTOR * float(values["state_evolution"])
-        words = IN_THE_GAP
+        definition = definition._replace(words=IN_THE_GAP)
     for slip_rate in SLIP_RATES:
-        found = zone_length(simulation, slip_rate, DEFINITIONS[name])
+        found = zone_length(simulation, slip_rate, definition)
         far_slip_rate, far_state_ratio = far_ahead(simulation, slip_rate, fault.slip_distance)
         at_this_rate = expanding_length(fault, slip_rate, far_slip_rate, far_state_ratio)
         expands = name == "rubin_ampuero_crack"
+        whole = definition._replace(part=1.0)
         widths = {
-            column: _width_when_passing(simulation, slip_rate, share)
+            column: zone_length(simulation, slip_rate, whole._replace(share=share))
             for column, share in OTHER_SHARES.items()
         }
         yield {
@@ -245,7 +254,7 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
             "a": a,
             "b": a + zeta,
             "a_over_b": a / (a + zeta),
-            "definition": words,
+            "definition": definition.words,
             "read_at": slip_rate,
             "formula_length": formula,
             "simulated_length": found,

@@ -111,7 +111,8 @@ def _loaded_patch(s: Setting) -> Any:
 
 _GAP = (
     f"between {formulas.LOCALISED_LIMIT} and 1/2 neither length of Rubin and Ampuero holds: "
-    "simulated zones are longer than their fixed length there, by 5 % for a/b = 0.4 and 17 % for 0.45"
+    "simulated zones are longer than their fixed length there, by 5 % for a/b = 0.4 and 17 % for "
+    "0.45"
 )
 _STEADY = "velocity weakening, near steady sliding, either law"
 
@@ -263,9 +264,9 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
     -------
     Dataset
         One variable (m) for each, NaN outside its validity, with ``formula``, ``source``,
-        ``validity``, ``system``, ``needs`` and ``beyond`` as attributes. Arrays without named dimensions
-        have the dimensions ``axis_0``, ``axis_1``, ... Its unit is each variable's attribute
-        ``units``, also where pint quantities were given.
+        ``validity``, ``system``, ``needs`` and ``beyond`` as attributes. Arrays without named
+        dimensions have the dimensions ``axis_0``, ``axis_1``, ... Its unit is each variable's
+        attribute ``units``, also where pint quantities were given.
 
     Raises
     ------
