@@ -207,7 +207,7 @@ def test_numbers_about_the_literature_s_lengths_are_those_of_the_reference():
     layer = ANY | {"poisson_ratio": 1 / 3, "shear_modulus": 3.1e9, "slip_distance": 5e-7}
     layer |= {"b": 0.029, "height": 0.005}  # b - a = 0.02
     own = critical_length(**layer, second_shear_modulus=np.inf, friction=0.4)
-    assert lengths_in_use(**layer)["thin_limit"] / own - 1.0 == pytest.approx(0.02, abs=1e-3)
+    assert lengths_in_use(**layer)["thin_limit"] / own - 1.0 == pytest.approx(0.02, abs=5e-3)
     for_55 = literature("expanding", 0.55)
     assert for_55["difference"].round(2).isin([0.08, 0.09]).all()
     for column, expected in (("width_at_half", 0.82), ("width_at_hundredth", 1.19)):
