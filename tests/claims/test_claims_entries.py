@@ -14,6 +14,7 @@ import pytest
 import xarray as xr
 from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from nucleation.analysis.measures import BY_DEFINITION, MEASURES
 from nucleation.claims import table
@@ -154,9 +155,35 @@ def test_agreement_says_how_many_heights_are_within_a_quarter(rows):
 
 
 def test_the_whole_wavelength_is_right_for_weaker_weakening(rows):
-    """By the eigenproblem of a thin layer, shot from its front: docs/patch_theory.md."""
+    """By finite differences of the thin layer's equation (T) of docs/patch_theory.md."""
     reason = rows["stability-lost-at-length"]["reason"]
-    assert "1.00, 0.87, 0.80 for $\\zeta/a$ = 0.2, 0.3, 0.4" in reason
+    stated = re.search(r"gives ([\d., ]+) for \$\\zeta/a\$ = ([\d., ]+)\. So", reason)
+    lengths, weakenings = ([float(x) for x in part.split(", ")] for part in stated.groups())
+    assert weakenings == [0.1, 0.2, 0.3, 0.4, 0.5]
+    for length, weakening in zip(lengths, weakenings, strict=True):
+        assert length == pytest.approx(thin_length(weakening), abs=0.006)
+        assert (abs(length - 1.0) < 0.25) == (0.2 <= weakening <= 0.4)
+
+
+def thin_length(weakening, points=60):
+    """L_s/L_c of a thin layer where a zeta/a makes its patch unstable, by the growth of all modes.
+
+    Slip and log phi at the inner points, with v = V y; in units of the patch, D/V and sigma0.
+    """
+    a, b = 1.0 / weakening, 1.0 + 1.0 / weakening
+    y = np.arange(1, points) / points
+    stiffness = points**2 * (
+        2.0 * np.eye(points - 1) - np.eye(points - 1, k=1) - np.eye(points - 1, k=-1)
+    )
+
+    def growth(ratio):
+        load = stiffness / (ratio * 2.0 * np.pi) ** 2
+        elastic = -(y / a)[:, None] * load
+        healing = np.diag(-y * b / a)
+        state = -np.diag(y) - healing
+        return np.linalg.eigvals(np.block([[elastic, healing], [-elastic, state]])).real.max()
+
+    return brentq(growth, 0.4, 1.6, xtol=1e-4)
 
 
 def test_healing_by_v0_alone_follows_from_the_slip_law(rows):

@@ -102,7 +102,7 @@ rule figure_drop:
 
 
 rule figure_map:
-    """Where the theory is right: a map over height and weakening"""
+    """Lengths over height and weakening: a map"""
     input:
         rules.draw_figure_map.output,
 
