@@ -113,6 +113,7 @@ def test_agreement_with_the_theory():
         f"within {100 * (apart['d'] - 1):.0f} % under the declared load (any two heights), within "
         f"{100 * (apart['p'] - 1):.0f} % on the paper's mesh",
     )
+    says("article.md.in", f"a length {100.0 * (1.0 - own):.0f} % below it")
     says(
         "README.md",
         f"L/L_c is {span(paper)} on the paper's mesh, and {span(declared)} under a load that "
@@ -135,7 +136,7 @@ def test_lengths_without_a_declared_perturbation():
         f"without a declared perturbation L/L_c is {span(quiet['ratio'])} there (single runs, "
         "H = 0.005 to 0.1 m)",
     )
-    says("README.md", f"{span(quiet['ratio'])} with nothing but the noise of a fine mesh")
+    says("README.md", f"With nothing but the noise of a fine mesh it is {span(quiet['ratio'])}")
 
 
 def test_lengths_over_the_strength_of_the_noise():
@@ -156,7 +157,7 @@ def test_lengths_over_the_strength_of_the_noise():
     weaker = [drops("normal_load", eps).groupby("height")["ratio"].mean() for eps in (1e-3, 1e-5)]
     says(
         "README.md",
-        f"L is {span(pd.concat(weaker))} L_c with a load that fluctuates by 1e-3 to 1e-5, "
+        f"law L is {span(pd.concat(weaker))} L_c with a load that fluctuates by 1e-3 to 1e-5, and "
         f"{strong['ratio'].mean():.2f} with 1e-2",
     )
 
@@ -355,6 +356,5 @@ def test_the_laws_spread_is_that_of_sixteen_seeds():
             found[kind, strength] = (high - low) / law
             assert len(own) == 16
     wide = found.pop(("normal_load", 1e-3))
-    assert 1.7 < wide < 2.0
     assert max(max(width, 1.0 / width) for width in found.values()) < 1.3
-    says("drop.md", "within a factor of 1.3, and for a load at 1e-3 nearly twice as wide")
+    says("drop.md", f"within a factor of 1.3, and for a load at 1e-3 {wide:.1f} times as wide")
