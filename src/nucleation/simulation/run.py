@@ -103,7 +103,8 @@ def simulate(
 
     It has the interface's fields on (time, x), the driving force and the step sizes on (step), some
     fields of the bulk on (snapshot, y, x), of :data:`nucleation.simulation.recorded.RECORDED`, and
-    the outcome as attributes. A run that fails has what it recorded, with ``status`` telling so.
+    the outcome as attributes. ``status`` says how the run ended and, after semicolons, what makes
+    its event doubtful (:mod:`.remarks`). A run that fails has what it recorded.
 
     Parameters
     ----------
@@ -144,7 +145,7 @@ def simulate(
     if not all(np.isfinite(values).all() for values in dataset.variables.values()):
         outcome = Outcome.NOT_FINITE
     dataset.attrs |= {
-        "status": outcome.value,
+        "status": "; ".join([outcome.value, *recorder.remarks()]),
         "completed": int(outcome.completed),
         "steps": recorder.steps,
         "rejected_steps": control.rejected,
