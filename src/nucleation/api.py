@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from .patch.expected_drop import NoDrop, expected_drop
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
+    from .theory.creep.runaway import runaway_length
 
 __all__ = [
     "CriticalMode",
@@ -87,6 +88,7 @@ __all__ = [
     "read",
     "read_samples",
     "run",
+    "runaway_length",
     "simulate",
     "specimen_fit",
     "spectrum",
@@ -108,12 +110,19 @@ _LATER = {
     ".patch.expected_drop": ("NoDrop", "expected_drop"),
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
+    ".theory.creep.runaway": ("runaway_length",),
     ".answers.specimen": ("specimen_fit",),
     ".answers.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
-_LIGHT = {"length_quantiles", "read_samples", "specimen_fit", "stability_length"}
+_LIGHT = {
+    "length_quantiles",
+    "read_samples",
+    "runaway_length",
+    "specimen_fit",
+    "stability_length",
+}
 """Those that need no extra."""
 
 

@@ -1,10 +1,24 @@
 """Datasets follow the CF conventions: each variable says what it is, in units of UDUNITS."""
 
+import json
+import math
+
+import netCDF4
+import numpy as np
 import pytest
+import xarray as xr
 from cf_units import Unit
 from declared import VARIABLES
 
+from nucleation.datasets import netcdf
+from nucleation.datasets.provenance import attributes
+from nucleation.datasets.variables import Variable, annotate, table, to_csv
 from nucleation.model import units
+from nucleation.model.linearised import InterfaceState
+from nucleation.model.material import Material
+from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation.run import simulate
+from nucleation.theory.curves import CURVES, length_curve
 
 NUMBERS = {name: entry for name, entry in VARIABLES.items() if entry.units}
 
@@ -22,3 +36,60 @@ def test_units_are_those_of_udunits(written):
 def test_a_unit_of_our_own_would_be_refused():
     with pytest.raises(ValueError, match="Failed to parse unit"):
         Unit("D/V squared")
+
+
+FILES = {
+    "table": lambda: table([{"id": "a", "length": 0.1}, {"id": "b", "length": math.nan}], COLUMNS),
+    "curve": lambda: annotate(
+        length_curve(Material(), InterfaceState(), np.array([0.01, 0.1])), CURVES
+    ).assign_coords(height=("height", [0.01, 0.1], CURVES["height"].attributes)),
+    "simulation": lambda: simulate(SHORT),
+}
+COLUMNS = {
+    "id": Variable("", "name of the run"),
+    "length": Variable("m", "length at the drop", "L"),
+}
+SHORT = Parameters(geometry=Geometry(0.02, 0.4), mesh=Mesh(16, 4), stepping=Stepping(end_time=1e-3))
+NAMED_BY_CLIMATE = (
+    "Coordinate variable 'time' should have standard_name='time'",
+    "Coordinate variable 'height' should have standard_name='height'",
+)
+"""Simulated time has no date, and the height of a block is no coordinate of the atmosphere."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("make", FILES.values(), ids=FILES)
+def test_files_follow_the_conventions(make, tmp_path):
+    """By the checker of the conventions: no error, and title and history are there."""
+    from compliance_checker.runner import CheckSuite, ComplianceChecker
+
+    path = tmp_path / "result.nc"
+    netcdf.write(make(), path, **attributes({}, "0" * 64, "snakemake result.nc"))
+    CheckSuite.load_all_available_checkers()
+    report = tmp_path / "report.json"
+    ComplianceChecker.run_checker(
+        str(path), ["cf:1.11"], 0, "normal", output_filename=str(report), output_format="json"
+    )
+    (found,) = json.loads(report.read_text()).values()
+    messages = [text for part in ("high_priorities", "medium_priorities") for check in found[part]
+                for text in check["msgs"]]  # fmt: skip
+    assert [text for text in messages if not text.startswith(NAMED_BY_CLIMATE)] == []
+
+
+def test_rows_have_a_coordinate_in_the_file_and_columns_keep_their_order(tmp_path):
+    path = tmp_path / "table.nc"
+    columns = {"length": COLUMNS["length"], "id": COLUMNS["id"]}
+    netcdf.write(table([{"id": "a", "length": 0.1}], columns), path)
+    assert list(xr.open_dataset(path).coords) == ["id"]
+    found = netcdf.read(path)
+    assert list(found.data_vars) == ["length", "id"] and not found.coords
+    assert to_csv(found) == "length,id\n0.1,a\n"
+
+
+def test_coordinates_have_no_fill_value(tmp_path):
+    path = tmp_path / "result.nc"
+    netcdf.write(simulate(SHORT), path)
+    with netCDF4.Dataset(path) as file:
+        for name in ("time", "x", "y"):
+            assert "_FillValue" not in file[name].ncattrs()
+        assert file.title

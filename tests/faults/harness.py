@@ -53,8 +53,8 @@ OTHER = {**CONFIG, "friction": {"aging_coefficient": 0.08}}
 COSTS = {"wall_seconds", "peak_megabytes"}
 """Variables and attributes that tell of the machine: they differ between any two runs."""
 
-OF_THE_MOMENT = COSTS | {"created", "content", "command"}
-"""Attributes that do: the digest of the content covers the others."""
+OF_THE_MOMENT = COSTS | {"created", "content", "command", "history"}
+"""Attributes that differ between any two runs; the digest of the content covers the others."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -31,7 +31,7 @@ DIAGNOSTICS = {
     "status": Variable("", "how the simulation ended"),
     "steps": Variable("1", "number of time steps"),
     "wall_seconds": Variable("s", "wall time of the simulation"),
-    "peak_megabytes": Variable("1", "largest memory of the simulation (megabytes)"),
+    "peak_megabytes": Variable("Mbyte", "largest memory of the simulation"),
 }
 """Attributes of a simulation's dataset that go into the table."""
 

@@ -21,7 +21,11 @@ TEXTS = {*STRUCTURES, "code_digest", "command", "content", "created"}
 """Attributes that say where a dataset is from: texts, some of them in JSON."""
 
 CONVENTIONS = "CF-1.11"
-"""What units and names of variables follow: those of the climate and forecast community."""
+"""What units, names and attributes follow: those of the climate and forecast community."""
+
+TITLE = "Nucleation length of accelerating frictional slip"
+OF_ROWS = "id"
+"""The column of a table that names its rows; in a file it is their coordinate."""
 
 NOISY = ("slip_rate", "shear_stress")
 """Not compressed: their last digits are noise, which takes long and saves a quarter."""
@@ -43,13 +47,20 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
     # an encoding left from reading may fit less: texts were cut to the length they had in a file
     complete = dataset.drop_encoding().assign_attrs(attributes)
     complete.attrs["Conventions"] = CONVENTIONS
+    complete.attrs.setdefault("title", TITLE)
+    if {"created", "command"} <= complete.attrs.keys():
+        complete.attrs["history"] = f"{complete.attrs['created']}: {complete.attrs['command']}"
     complete.attrs["content"] = _content(complete)
     stored = {"zlib": True, "complevel": 1, "shuffle": True}
-    encoding = {
-        name: stored
+    encoding: dict[Any, dict[str, Any]] = {
+        name: dict(stored)
         for name, variable in complete.variables.items()
         if variable.dtype.kind in "fiu" and variable.ndim and name not in NOISY
     }
+    for name in complete.coords:
+        encoding.setdefault(name, {})["_FillValue"] = None
+    if OF_ROWS in complete and complete[OF_ROWS].ndim == 1:
+        complete = complete.set_coords(OF_ROWS)
     with replacing(path) as temporary:
         try:
             complete.to_netcdf(temporary, engine="netcdf4", encoding=encoding)
@@ -76,9 +87,12 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
     with _refusing(path):
         sealed = seal.verified(path)  # before HDF5 is given a byte of it
         _require_texts(sealed)
-        with xr.open_dataset(path, engine="netcdf4", decode_times=False) as stored:
+        # as in the file, where xarray would move the coordinate of rows behind all columns
+        with xr.open_dataset(
+            path, engine="netcdf4", decode_times=False, decode_coords=False
+        ) as stored:
             _require_memory(stored)
-            dataset = stored.load()
+            dataset = _with_coordinates(stored.load())
         content = _content(dataset)
         if content != sealed.get("content") or _text(dataset.attrs) != _text(sealed):
             raise ValueError("its digest does not fit")
@@ -100,6 +114,14 @@ def attributes(path: str | os.PathLike[str]) -> dict[str, Any]:
         sealed = seal.attributes(path)
         _require_texts(sealed)
     return sealed
+
+
+def _with_coordinates(dataset: xr.Dataset) -> xr.Dataset:
+    """The dataset with what the file declares as coordinates, but for that of a table's rows."""
+    declared = dataset.attrs.pop("coordinates", "").split()
+    for variable in dataset.variables.values():
+        declared += variable.attrs.pop("coordinates", "").split()
+    return dataset.set_coords(sorted(set(declared) - {OF_ROWS}))
 
 
 @contextlib.contextmanager

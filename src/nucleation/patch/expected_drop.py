@@ -1,5 +1,7 @@
 """The drop that a user's fault is to be expected to have, by theory alone."""
 
+import dataclasses
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -7,7 +9,8 @@ import numpy as np
 
 from ..model.linearised import interface_state
 from ..model.parameters import Geometry, Parameters
-from ..theory.creep.lengths import NoPatch, stability_length_of
+from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
+from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
@@ -15,6 +18,8 @@ from .mode_history import ModeHistory, mode_history
 
 LATEST_GROWTH = 0.85  # of the longest patch followed, up to which L_s leaves something to trend
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
+WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
+CONSTANT = 0.05  # relative change of L_s by friction's scales up to which L_run is used
 SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
 NEAR_END = 0.6  # part of the block's length up to which its far end is not felt in a thin block
 THICK = 0.5  # height over the patch's length from which a block is thick
@@ -31,7 +36,18 @@ class ExpectedDrop(NamedTuple):
     stability_length: float  # L_s
     drop: Drop
     closed_form: ClosedForm
-    doubt: str  # why the law should not be relied upon here, empty if it should
+    doubt: str  # why the answer should not be relied upon, empty if it should
+    runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
+
+    @property
+    def length(self) -> float:
+        """The length (m) at the drop: the law's median, or L_run if slow slip lasts until then."""
+        return float(np.fmax(self.drop.length, self.runaway_length))
+
+    @property
+    def slips_slowly(self) -> bool:
+        """Whether the patch slips in a limit cycle before the drop, which comes at L_run."""
+        return bool(self.runaway_length > self.drop.length)
 
     @property
     def trusted(self) -> bool:
@@ -64,12 +80,54 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     drop = found.drop(declared.strength)
     closed = found.closed_form(history, declared.strength)
     stable = stability_length_of(parameters, critical)
-    return ExpectedDrop(stable, drop, closed, "; ".join(_doubts(history, drop, closed, critical)))
+    runaway = _runaway_length(parameters, critical)
+    known = ExpectedDrop(stable, drop, closed, "", runaway)
+    return known._replace(doubt="; ".join(_doubts(history, known, critical)))
 
 
-def _doubts(history: ModeHistory, drop: Drop, closed: ClosedForm, critical: float) -> Iterator[str]:
-    """Why the law should not be relied upon, a text for each reason."""
-    geometry, longest = history.parameters.geometry, history.length[-1]
+def _runaway_length(parameters: Parameters, critical: float) -> float:
+    """L_run (m) of a fault that weakens little; NaN of others, and where no patch runs away."""
+    interface = interface_state(parameters)
+    if interface.zeta >= WEAK * interface.a:
+        return math.nan
+    patches = dataclasses.replace(Patches.of(parameters), law=None)
+    try:
+        return runaway_point(patches, critical, parameters.friction.evolution)
+    except NoPatch:
+        return math.nan
+
+
+def _doubts(history: ModeHistory, known: ExpectedDrop, critical: float) -> Iterator[str]:
+    """Why the answer should not be relied upon, a text for each reason."""
+    if known.slips_slowly:
+        yield from _doubts_of_runaway(history, known, critical)
+    else:
+        yield from _doubts_of_law(history, known.drop, known.closed_form, critical)
+    yield from _doubts_of_block(history, known)
+
+
+def _doubts_of_runaway(history: ModeHistory, known: ExpectedDrop, critical: float) -> Iterator[str]:
+    """Why L_run should not be relied upon: it is that of constant a and b, and of few bodies."""
+    own, below = history.parameters, history.parameters.below
+    if below is not None and (below.material, below.geometry) != (own.material, own.geometry):
+        yield (
+            "L_run was compared with simulations on a rigid base and between bodies alike, and not "
+            "between unlike ones"
+        )
+    constant = stability_length_of(own, critical, constant=True)
+    if not abs(known.stability_length / constant - 1.0) < CONSTANT:
+        yield (
+            "friction's own scales change a and b along the patch (L_s is "
+            f"{known.stability_length:.3g} m, with constant a and b {constant:.3g} m), and L_run "
+            "is that of constant a and b"
+        )
+
+
+def _doubts_of_law(
+    history: ModeHistory, drop: Drop, closed: ClosedForm, critical: float
+) -> Iterator[str]:
+    """Why the law of the drop should not be relied upon."""
+    longest = history.length[-1]
     if closed.effective >= STRONGEST:
         yield (
             f"the perturbation is strong (eps_eff = {closed.effective:.2g}, the law holds below "
@@ -95,13 +153,19 @@ def _doubts(history: ModeHistory, drop: Drop, closed: ClosedForm, critical: floa
             "the drop lies beyond the patches whose mode could be followed, "
             f"{longest / critical:.2g} L_c"
         )
-    if drop.high > NEAR_END * geometry.length:
+
+
+def _doubts_of_block(history: ModeHistory, known: ExpectedDrop) -> Iterator[str]:
+    """Whether the patch feels the far end of its block when it drops."""
+    geometry = history.parameters.geometry
+    highest = np.fmax(known.drop.high, known.runaway_length)
+    if highest > NEAR_END * geometry.length:
         yield (
-            f"the patch would be {drop.high / geometry.length:.2g} of the block long, whose far "
+            f"the patch would be {highest / geometry.length:.2g} of the block long, whose far "
             "end it feels"
         )
-    elif feels_far_end(drop.length, geometry):
-        reach = (drop.length + geometry.height) / geometry.length
+    elif feels_far_end(known.length, geometry):
+        reach = (known.length + geometry.height) / geometry.length
         yield (
             f"the block is thick: its height and the patch together are {reach:.2g} of its length "
             f"(the law was compared up to {THICK_REACH:g}), so that the patch feels the far end; "

@@ -37,7 +37,7 @@ EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
 LENGTHS = "lengths/"
 """Directory of the tables of studies, whose runs without an event are warned of."""
 
-OF_MACHINE = ("wall_seconds", "peak_megabytes", "created", "versions", "command")
+OF_MACHINE = ("wall_seconds", "peak_megabytes", "created", "versions", "command", "history")
 """What differs between two results of one recipe."""
 
 

@@ -1,0 +1,106 @@
+"""The table of eight faults in the theory's page, computed again from its own columns."""
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+from nucleation.api import (
+    Friction,
+    Geometry,
+    Loading,
+    Material,
+    Parameters,
+    Perturbation,
+    SecondBody,
+    critical_length,
+    expected_drop,
+    stability_length,
+)
+from nucleation.model.friction.constants import full_law
+
+PAGE = Path(__file__).parents[2] / "docs" / "theory.md"
+
+
+def rows():
+    part = PAGE.read_text().partition("## Eight faults")[2].partition("## ")[0]
+    lines = [line for line in part.splitlines() if line.startswith("| ")][1:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+
+
+def second_body(text, height):
+    """Of the theory, and of blocks: four times as high where it is a half-space."""
+    if text == "rigid":
+        return {"second_shear_modulus": math.inf}, SecondBody()
+    if text == "same":
+        return {}, SecondBody("deformable")
+    modulus, ratio, own = (float(part) for part in text.split(","))
+    theory = {
+        "second_shear_modulus": modulus * 1e9,
+        "second_poisson_ratio": ratio,
+        "second_height": own,
+    }
+    high = own if math.isfinite(own) else 4.0 * height
+    block = SecondBody("deformable", shear_modulus=modulus * 1e9, poisson_ratio=ratio, height=high)
+    return theory, block
+
+
+def computed(row):
+    """L_c, L_s, L with its range, and how sure that is, in the words of the table."""
+    modulus, nu, stress, a, b, distance, f, velocity, height = map(float, row[1:10])
+    modulus, stress, distance, velocity = (
+        modulus * 1e9,
+        stress * 1e6,
+        distance * 1e-6,
+        velocity * 1e-6,
+    )
+    theory, block = second_body(row[10], height)
+    fault = theory | {
+        "shear_modulus": modulus, "poisson_ratio": nu, "normal_stress": stress, "a": a, "b": b,
+        "slip_distance": distance, "friction": f, "height": height, "plane": row[11],
+    }  # fmt: skip
+    critical = float(critical_length(**fault))
+    law = Friction(
+        law="dieterich_ruina",
+        characteristic_slip_distance=distance,
+        reference_slip_rate=velocity,
+        regularisation_slip_rate=1e-4 * velocity,
+    )
+    run = Parameters(
+        material=Material(modulus, nu, plane=row[11]),
+        friction=full_law(law, velocity, f, a, b - a),
+        loading=Loading(stress, velocity, initial_state=20.0 * distance / velocity),
+        geometry=Geometry(height, 6.0 * critical),
+        second_body=block,
+        perturbation=Perturbation("normal_load", 1e-5),
+    )
+    found = expected_drop(run)
+    length = f"{found.drop.length:.3g} ({found.drop.low:.3g} to {found.drop.high:.3g})"
+    if found.slips_slowly:
+        length = f"{found.length:.0f}" if found.length > 100.0 else f"{found.length:.2g}"
+    sure = ["slow"] if found.slips_slowly else ["law"]
+    sure += ["unlike"] if "between unlike ones" in found.doubt else []
+    sure += ["far end"] if "far end" in found.doubt else []
+    assert not found.doubt or len(sure) > 1
+    return [
+        f"{critical:.4g}",
+        f"{float(stability_length(**fault)):.4g}",
+        length,
+        ", ".join(sure),
+    ]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", rows(), ids=lambda row: re.sub("[^a-z]+", "-", row[0].lower()))
+def test_a_row_is_what_the_library_says(row):
+    critical, stable, length, sure = computed(row)
+    assert [row[12], row[13], row[15]] == [critical, stable, sure]
+    if "slow" in sure:  # L_run is within 3 %, and so is that of another machine
+        assert float(row[14]) == pytest.approx(float(length), rel=0.05)
+    else:
+        assert row[14] == length
+
+
+def test_there_are_eight():
+    assert len(rows()) == 8

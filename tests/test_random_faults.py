@@ -1,0 +1,163 @@
+"""Random faults over the declared ranges: each question has an answer, or says why it has none."""
+
+import math
+import time
+import warnings
+
+import numpy as np
+import pytest
+
+from nucleation.api import (
+    Friction,
+    Geometry,
+    Loading,
+    Material,
+    NoDrop,
+    ParameterError,
+    Parameters,
+    Perturbation,
+    SecondBody,
+    critical_length,
+    critical_mode,
+    expected_drop,
+    lengths_in_use,
+    specimen_fit,
+    stability_length,
+)
+from nucleation.model.friction.constants import full_law
+from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
+from nucleation.theory.arrays import reason_of_stability
+from nucleation.theory.creep.lengths import LONGEST, stability_length_of
+from nucleation.theory.fault import Fault
+
+SEED, NUMBER, QUICK = 34, 200, 12
+LONGEST_SPECIMEN = 1e7  # m
+SECONDS = 15.0
+"""Longest wait for one question, beside other tests; alone 2 s, and 6 s where L_run is needed."""
+
+
+def log_uniform(random, low, high):
+    return float(np.exp(random.uniform(np.log(low), np.log(high))))
+
+
+def random_fault(number):
+    """A fault of the theory, and the loading of its patch."""
+    random = np.random.default_rng([SEED, number])
+    fault = {
+        "shear_modulus": log_uniform(random, 1e7, 1e12),
+        "poisson_ratio": random.uniform(-0.2, 0.49),
+        "normal_stress": log_uniform(random, 1e3, 1e9),
+        "a": log_uniform(random, 1e-4, 0.05),
+        "slip_distance": log_uniform(random, 1e-8, 0.1),
+        "friction": random.uniform(0.15, 0.9),
+        "velocity": log_uniform(random, 1e-12, 1e-2),
+        "plane": str(random.choice(["strain", "stress", "antiplane"])),
+    }
+    fault["zeta"] = fault["a"] * log_uniform(random, 0.01, 1000.0)
+    if fault["a"] + fault["zeta"] > 1.0:
+        fault["zeta"] = 1.0 - fault["a"]
+    elastic = fault["shear_modulus"] * fault["slip_distance"]
+    elastic /= fault["zeta"] * fault["normal_stress"]
+    height = elastic * log_uniform(random, 1e-4, 1e2)
+    fault["height"] = math.inf if random.random() < 0.2 else height
+    body = random.choice(["same", "rigid", "other"])
+    if body == "rigid":
+        fault["second_shear_modulus"] = math.inf
+    if body == "other":
+        fault["second_shear_modulus"] = fault["shear_modulus"] * log_uniform(random, 0.03, 30.0)
+        fault["second_poisson_ratio"] = random.uniform(0.0, 0.49)
+        fault["second_height"] = fault["height"] * log_uniform(random, 0.1, 10.0)
+    return fault, str(random.choice(["edge", "top", "remote"]))
+
+
+def in_time(question):
+    """What a question is answered, within the time that it may take."""
+    started = time.monotonic()
+    answer = question()
+    assert time.monotonic() - started < SECONDS
+    return answer
+
+
+def quick(numbers):
+    return [n if n < QUICK else pytest.param(n, marks=pytest.mark.slow) for n in numbers]
+
+
+@pytest.mark.parametrize("number", quick(range(NUMBER)))
+def test_theory_answers(number):
+    fault, loading = random_fault(number)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        warnings.simplefilter("ignore", UserWarning)
+        critical = in_time(lambda: float(critical_length(**fault)))
+        assert critical > 0.0 or (math.isnan(critical) and reason_of_stability(Fault(**fault)))
+        mode = critical_mode(**fault)
+        assert float(mode.length) == pytest.approx(critical, nan_ok=True)
+        stable = in_time(lambda: float(stability_length(**fault, loading=loading)))
+        assert math.isnan(stable) or 0.05 * critical < stable < 1.2 * LONGEST * critical
+        found = in_time(lambda: lengths_in_use(**fault))
+        assert float(found["homogeneous_sliding"]) > 0.0
+        if critical < LONGEST_SPECIMEN:
+            others = {k: v for k, v in fault.items() if k != "slip_distance"}
+            fit = in_time(lambda: specimen_fit("slip_distance", critical, **others))
+            ends = np.array(fit.intervals).ravel()
+            assert np.isclose(ends, fault["slip_distance"], rtol=1e-5).any() or not ends.size
+
+
+def run_of(fault, law, evolution):
+    """The same fault as `drop` has it: blocks, and the full law with its constants."""
+    velocity, distance = fault["velocity"], fault["slip_distance"]
+    scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY[law].items()}
+    if law == "product":
+        scales["state_scale"] = STATE_SCALE * distance / velocity
+    base = Friction(law=law, evolution=evolution, characteristic_slip_distance=distance, **scales)
+    friction = full_law(base, velocity, *(fault[name] for name in ("friction", "a", "zeta")))
+    second = SecondBody()
+    if fault.get("second_shear_modulus") != math.inf:
+        second = SecondBody(
+            kind="deformable",
+            shear_modulus=fault.get("second_shear_modulus"),
+            poisson_ratio=fault.get("second_poisson_ratio"),
+            height=fault.get("second_height"),
+        )
+    length = 6.0 * float(critical_length(**fault))
+    return Parameters(
+        material=Material(fault["shear_modulus"], fault["poisson_ratio"], plane=fault["plane"]),
+        friction=friction,
+        loading=Loading(fault["normal_stress"], velocity, initial_state=20.0 * distance / velocity),
+        geometry=Geometry(fault["height"], length),
+        second_body=second,
+        perturbation=Perturbation("normal_load", 1e-5),
+    )
+
+
+@pytest.mark.parametrize("number", quick(range(NUMBER)))
+def test_the_drop_answers(number):
+    """With the law's L_s, which is that of constant a and b where v0 is far below V."""
+    fault, _ = random_fault(number)
+    law = ("dieterich_ruina", "product")[number % 2]
+    evolution = ("aging", "slip")[number // 2 % 2]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        critical = float(critical_length(**fault))
+        if not (math.isfinite(critical) and math.isfinite(fault["height"])):
+            return
+        try:
+            run = run_of(fault, law, evolution)
+        except ParameterError as refused:
+            assert any(word in str(refused) for word in ("friction law", "is not allowed"))
+            return
+        try:
+            found = in_time(lambda: expected_drop(run))
+        except NoDrop as none:
+            assert str(none)
+            return
+    assert found.stability_length == pytest.approx(
+        stability_length_of(run, critical), rel=1e-6, nan_ok=True
+    )
+    assert np.isfinite(found.drop.length) or found.doubt
+    if law == "dieterich_ruina" and math.isfinite(found.stability_length):
+        constant = float(stability_length(**fault))
+        # where slip changes the normal stress, the law's f counts, which changes along the patch
+        coupled = fault["plane"] != "antiplane" and "second_shear_modulus" in fault
+        expected = pytest.approx(constant, rel=2e-2 if coupled else 2e-3)
+        assert found.stability_length == expected
