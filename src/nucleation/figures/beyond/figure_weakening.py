@@ -17,6 +17,7 @@ LINES = {
 
 SIMULATED = "simulated drop: mean and range of realisations"
 BASES = {"rigid": "rigid base", "deformable": "identical blocks"}
+FEWEST = 3  # zeta/a of a base and height that are drawn as curves
 TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)  # of zeta/a
 
 
@@ -29,7 +30,11 @@ def draw(table: xr.Dataset) -> Figure:
     table : Dataset
         From :func:`nucleation.patch.weakening_table.gather`.
     """
-    systems = list(laws.groups(table, "below", "height"))
+    systems = [
+        system
+        for system in laws.groups(table, "study", "below", "height")
+        if np.unique(system["zeta_over_a"]).size >= FEWEST
+    ]
     figure, panels = style.panels(1, len(systems), 7.5)
     for axes, letter, system in zip(np.ravel(panels), "abcdefgh", systems, strict=False):
         _draw_system(axes, system)
