@@ -57,8 +57,8 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
         ratios = [float(fault[name][0] / fault["theory_length"][0]) for fault in faults]
         axes.plot(weakening, ratios, dashes, color=colour, label=label)
     for at, fault in zip(weakening, faults, strict=True):
-        ratios = (fault["length"] / fault["theory_length"]).values
-        dropped = ratios[np.isfinite(ratios)]
+        simulated = (fault["length"] / fault["theory_length"]).values
+        dropped = simulated[np.isfinite(simulated)]
         if dropped.size:
             mean = dropped.mean()
             bars = [[mean - dropped.min()], [dropped.max() - mean]]
