@@ -236,9 +236,9 @@ class _FreeOperator(Operator):
         """D and N between all nodes, a column for each node that moves."""
         units = np.eye(self.body.free_nodes)
         columns = [self.apply(unit) for unit in units]
-        stiffness = np.array([tangential for tangential, _ in columns])
-        coupling = np.array([normal for _, normal in columns])
-        return stiffness.T, coupling.T
+        stiffness = np.column_stack([tangential for tangential, _ in columns])
+        coupling = np.column_stack([normal for _, normal in columns])
+        return stiffness, coupling
 
     @property
     def diagonal(self) -> Array:
