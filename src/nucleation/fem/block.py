@@ -45,7 +45,7 @@ class BlockOperator(SeparableOperator, CondensedOnNodes):
         Parameters
         ----------
         load, edge
-            As in :meth:`.CondensedOnNodes.swept_down`.
+            As in :meth:`.condensed_nodes.CondensedOnNodes.swept_down`.
         """
         return self.swept(load, edge)
 
@@ -64,7 +64,7 @@ class BlockOperator(SeparableOperator, CondensedOnNodes):
         Parameters
         ----------
         swept, amplitudes, start
-            As in :meth:`.CondensedOnNodes.substitute_up`.
+            As in :meth:`.condensed_nodes.CondensedOnNodes.substitute_up`.
         """
         swept[0, 0] = amplitudes
         swept[0, 1] = 0.0
@@ -83,7 +83,7 @@ class BlockOperator(SeparableOperator, CondensedOnNodes):
         Parameters
         ----------
         load, swept, edge, amplitudes, start
-            As in :meth:`.CondensedOnNodes.corner_reaction`.
+            As in :meth:`.condensed_nodes.CondensedOnNodes.corner_reaction`.
         """
         lowest = swept[:2].copy()
         self.substitute_up(lowest, amplitudes, start)

@@ -151,7 +151,7 @@ class CondensedOnNodes(Operator):
         Parameters
         ----------
         load, w : Field, ndarray
-            As in :meth:`.Operator.respond`.
+            As in :meth:`.condensed.Operator.respond`.
         edge : ndarray, optional
             Edge values (m) that are assumed to be in balance; this saves half of the work.
 
@@ -205,7 +205,7 @@ class CondensedOnNodes(Operator):
         Parameters
         ----------
         load, w, expected
-            As in :meth:`.Operator.responses`.
+            As in :meth:`.condensed.Operator.responses`.
         """
         last_error = float(expected.memory)
         if last_error < self.edge.round_off:
@@ -226,7 +226,7 @@ class CondensedOnNodes(Operator):
         Parameters
         ----------
         response, w, expected
-            As in :meth:`.Operator.balance`.
+            As in :meth:`.condensed.Operator.balance`.
         """
         assert isinstance(response, _EdgedResponse)
         edge = response.edge
@@ -321,7 +321,7 @@ class CondensedOnNodes(Operator):
         Parameters
         ----------
         nodes, dtype
-            As in :meth:`.Operator.tangent`.
+            As in :meth:`.condensed.Operator.tangent`.
         """
         asked = (nodes.tobytes(), dtype)
         if asked != self._last_asked:

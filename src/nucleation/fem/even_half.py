@@ -77,7 +77,7 @@ class EvenHalf(Block):
         Parameters
         ----------
         stiffness, amplitudes, reduced
-            As in :meth:`.BlockModes.forces`.
+            As in :meth:`.block_modes.BlockModes.forces`.
         """
         tangential, normal = self.interface_forces(stiffness * amplitudes - reduced)
         return tangential, np.append(normal, 0.0)

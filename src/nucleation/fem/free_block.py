@@ -62,7 +62,7 @@ class FreeBlock(ElasticBody):
         Parameters
         ----------
         values, driven
-            As in :meth:`.ElasticBody.on_all_nodes`.
+            As in :meth:`.condensed.ElasticBody.on_all_nodes`.
         """
         return values
 
@@ -125,7 +125,7 @@ class FreeBlock(ElasticBody):
         Parameters
         ----------
         displacement, velocity
-            As in :meth:`.ElasticBody.at_rest`.
+            As in :meth:`.condensed.ElasticBody.at_rest`.
         """
         _, even = self.parts(displacement)
         motion = self.even.at_rest(even, velocity)
@@ -154,7 +154,7 @@ class FreeBlock(ElasticBody):
         Parameters
         ----------
         s, terms, load
-            As in :meth:`.ElasticBody.inertia_load`.
+            As in :meth:`.condensed.ElasticBody.inertia_load`.
         """
         odd_terms = []
         even_terms = []
@@ -252,7 +252,7 @@ class _FreeOperator(Operator):
         Parameters
         ----------
         nodes, dtype
-            As in :meth:`.Operator.tangent`.
+            As in :meth:`.condensed.Operator.tangent`.
         """
         return between(nodes, self._dense, dtype)
 
@@ -262,7 +262,7 @@ class _FreeOperator(Operator):
         Parameters
         ----------
         load, w
-            As in :meth:`.Operator.respond`.
+            As in :meth:`.condensed.Operator.respond`.
         """
         odd_load, even_load = self.body.parts(load)
         odd_w, even_w = self.body.halved(w)
@@ -285,7 +285,7 @@ class _FreeOperator(Operator):
         Parameters
         ----------
         response, w, expected
-            As in :meth:`.Operator.balance`.
+            As in :meth:`.condensed.Operator.balance`.
         """
         assert isinstance(response, _FreeResponse)
         odd_w, even_w = self.body.halved(w)

@@ -70,7 +70,7 @@ class BlockPair(TwoBodies[Block]):
         Parameters
         ----------
         motions, step, slid
-            As in :meth:`.ElasticBody.settled`.
+            As in :meth:`.condensed.ElasticBody.settled`.
         """
         rise = float(motions[0].displacement.edge[0])
         rate = float(motions[0].velocity.edge[0])
@@ -123,7 +123,7 @@ class _PairOperator(CondensedOnNodes):
         Parameters
         ----------
         load, edge
-            As in :meth:`.CondensedOnNodes.swept_down`.
+            As in :meth:`.condensed_nodes.CondensedOnNodes.swept_down`.
         """
         modes = np.empty_like(load.modes)
         above, below = self.body.parts(load)
@@ -147,7 +147,7 @@ class _PairOperator(CondensedOnNodes):
         Parameters
         ----------
         swept, amplitudes, start
-            As in :meth:`.CondensedOnNodes.substitute_up`.
+            As in :meth:`.condensed_nodes.CondensedOnNodes.substitute_up`.
         """
         assert start is not None
         above = swept[: self.levels_above]
@@ -169,7 +169,7 @@ class _PairOperator(CondensedOnNodes):
         Parameters
         ----------
         load, swept, edge, amplitudes, start
-            As in :meth:`.CondensedOnNodes.corner_reaction`.
+            As in :meth:`.condensed_nodes.CondensedOnNodes.corner_reaction`.
         """
         assert start is not None
         lowest = swept[:2].copy()
@@ -210,7 +210,7 @@ class _PairEdge(EdgeValues):
         Parameters
         ----------
         load, modes, edge
-            As in :meth:`.EdgeValues.residual`.
+            As in :meth:`.right_edge.EdgeValues.residual`.
         """
         body = self._operator.body
         load_above, load_below = body.parts(load)

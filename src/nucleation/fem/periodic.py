@@ -77,7 +77,7 @@ class PeriodicBlock(SeparableBody):
         Parameters
         ----------
         values, driven
-            As in :meth:`.ElasticBody.on_all_nodes`.
+            As in :meth:`.condensed.ElasticBody.on_all_nodes`.
         """
         return with_entry_zero(values)
 
@@ -213,7 +213,7 @@ class Circulant(Operator):
         Parameters
         ----------
         nodes, dtype
-            As in :meth:`.Operator.tangent`.
+            As in :meth:`.condensed.Operator.tangent`.
         """
         return between(nodes, self._dense, dtype)
 
@@ -234,7 +234,7 @@ class PeriodicOperator(SeparableOperator, Circulant):
         Parameters
         ----------
         load, w
-            As in :meth:`.Operator.respond`.
+            As in :meth:`.condensed.Operator.respond`.
         """
         amplitudes = self.body.sine_amplitudes(w)
         _, reduced = self.solve(
@@ -256,7 +256,7 @@ class PeriodicOperator(SeparableOperator, Circulant):
         Parameters
         ----------
         response, w, expected
-            As in :meth:`.Operator.balance`.
+            As in :meth:`.condensed.Operator.balance`.
         """
         edge = np.zeros_like(response.load.edge)
         amplitudes = self.body.sine_amplitudes(w)

@@ -88,7 +88,7 @@ class _PeriodicPairOperator(Circulant):
         Parameters
         ----------
         load, w
-            As in :meth:`.Operator.respond`.
+            As in :meth:`.condensed.Operator.respond`.
         """
         modes = np.empty_like(load.modes)
         no_edge = np.zeros_like(load.edge)
@@ -119,7 +119,7 @@ class _PeriodicPairOperator(Circulant):
         Parameters
         ----------
         response, w, expected
-            As in :meth:`.Operator.balance`.
+            As in :meth:`.condensed.Operator.balance`.
         """
         assert isinstance(response, _SweptResponse)
         field = Field(response.swept, np.zeros_like(response.load.edge))

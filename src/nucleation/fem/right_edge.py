@@ -168,7 +168,7 @@ class RightEdge(EdgeValues):
         Parameters
         ----------
         load, modes, edge
-            As in :meth:`.EdgeValues.residual`.
+            As in :meth:`.right_edge.EdgeValues.residual`.
         """
         return self._residual(load, modes, edge, edge.size)
 

@@ -104,7 +104,7 @@ class SeparableBody(ElasticBody):
         Parameters
         ----------
         values, driven
-            As in :meth:`.ElasticBody.on_all_nodes`.
+            As in :meth:`.condensed.ElasticBody.on_all_nodes`.
         """
         nodal = np.empty(values.size + 1)
         nodal[0] = driven
@@ -135,7 +135,7 @@ class SeparableBody(ElasticBody):
         Parameters
         ----------
         s, terms, load
-            As in :meth:`.ElasticBody.inertia_load`.
+            As in :meth:`.condensed.ElasticBody.inertia_load`.
         """
         if load is None:
             load = self.zero_field()
@@ -167,7 +167,7 @@ class SeparableBody(ElasticBody):
         Parameters
         ----------
         displacement, velocity
-            As in :meth:`.ElasticBody.at_rest`.
+            As in :meth:`.condensed.ElasticBody.at_rest`.
         """
         rates = self.zero_field()
         rates.modes[:, 0] = -velocity * self.sine_amplitudes(np.ones(self.modes))

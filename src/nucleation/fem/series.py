@@ -69,7 +69,7 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         Parameters
         ----------
         values, driven
-            As in :meth:`.ElasticBody.on_all_nodes`.
+            As in :meth:`.condensed.ElasticBody.on_all_nodes`.
         """
         return self.upper.on_all_nodes(values, driven)
 
@@ -117,7 +117,7 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         Parameters
         ----------
         s, terms, load
-            As in :meth:`.ElasticBody.inertia_load`.
+            As in :meth:`.condensed.ElasticBody.inertia_load`.
         """
         above = []
         below = []
@@ -137,7 +137,7 @@ class TwoBodies(ElasticBody, Generic[Layer]):
         Parameters
         ----------
         displacement, velocity
-            As in :meth:`.ElasticBody.at_rest`.
+            As in :meth:`.condensed.ElasticBody.at_rest`.
         """
         above, _ = self.parts(displacement)
         own = self.upper.at_rest(above, velocity)
