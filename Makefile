@@ -90,7 +90,7 @@ bench: $(STAMP) ## Measure on one core: PARTS="solver workflow", the first by it
 
 REFERENCE := patch_stability.csv patch_theory.csv patch_convergence.csv verification.csv pairs.csv \
 	pair_modes.csv drop.csv map.csv floors.csv dispersion.csv convergence.csv sensitivity.csv \
-	literature.csv \
+	literature.csv weakening.csv \
 	figures/*.png figures/animation.gif tables/claims.csv tables/claims.md \
 	tables/claims_pairs.csv tables/claims_pairs.md
 
