@@ -30,9 +30,11 @@ def _element_matrices(
     area = 0.25 * dx * dy
     for xi in (-point, point):
         for eta in (-point, point):
-            shape = 0.25 * (1 + side_x * xi) * (1 + side_y * eta)
-            by_x = 0.25 * side_x * (1 + side_y * eta) * 2 / dx
-            by_y = 0.25 * side_y * (1 + side_x * xi) * 2 / dy
+            along_x = 1 + side_x * xi
+            along_y = 1 + side_y * eta
+            shape = 0.25 * along_x * along_y
+            by_x = 0.25 * side_x * along_y * 2 / dx
+            by_y = 0.25 * side_y * along_x * 2 / dy
             values = np.zeros((2, 8))
             values[0, 0::2] = shape
             values[1, 1::2] = shape
@@ -98,7 +100,8 @@ def unknown(
     ndarray of int
         Number of the unknown of each node.
     """
-    node = np.asarray(j) * (grid.n_x + 1) + np.asarray(i)
+    in_row = grid.n_x + 1
+    node = np.asarray(j) * in_row + np.asarray(i)
     return 2 * node + component
 
 

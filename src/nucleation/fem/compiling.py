@@ -17,7 +17,7 @@ from numba.core.caching import FunctionCache
 
 Result = TypeVar("Result")
 
-LOCK_ATTEMPTS = 1000  # ten seconds: a stopped process may hold the lock for ever
+LOCK_ATTEMPTS = 1000  # ten seconds: a process that is stopped keeps its lock
 LOCK_INTERVAL = 0.01  # s
 
 

@@ -1,4 +1,4 @@
-"""What a simulation needs from an elastic body: the interface's equations, and the next motion.
+"""The interface of elastic bodies to a simulation: their condensed equations and their motion.
 
 A further elastic body, one block or a pair, has the methods of :class:`ElasticBody`; its operator
 has those of :class:`Operator`. Through the operator, the interface sees how the forces of the body

@@ -58,7 +58,7 @@ class CondensedOnNodes(Operator):
     along_x: BlockModes
     modal: Array
     edge: EdgeValues
-    _last_asked: tuple[bytes, type] | None = None
+    _last_key: tuple[bytes, type] | None = None
     _last_blocks: Blocks
 
     @abstractmethod
@@ -323,9 +323,9 @@ class CondensedOnNodes(Operator):
         nodes, dtype
             As in :meth:`.condensed.Operator.tangent`.
         """
-        asked = (nodes.tobytes(), dtype)
-        if asked != self._last_asked:
-            self._last_asked = asked
+        key = (nodes.tobytes(), dtype)
+        if key != self._last_key:
+            self._last_key = key
             self._last_blocks = self._between(nodes, dtype)
         return self._last_blocks
 

@@ -41,28 +41,34 @@ class EvenHalf(Block):
         self._ends[[0, -1]] = 0.5**0.5
         theta = mode * np.pi / n
         signs = (-1.0) ** mode
-        x_integral = np.append(grid.length * self._ends[0], np.zeros(n))
+        x_integral = np.zeros(n + 1)
+        x_integral[0] = grid.length * self._ends[0]
         self._set_modes(theta, x_integral, signs * self._ends * edge_forces(theta))
 
     def sine_amplitudes(self, nodal: Array) -> Array:
         """Return the amplitudes of nodal values of u_x at i = 0..n_x (last axis)."""
-        scaled = (2.0 / self.grid.n_x) ** 0.5 * self._ends * nodal
+        scale = (2.0 / self.grid.n_x) ** 0.5
+        scaled = scale * self._ends * nodal
         return fft.dct(scaled, type=1, norm="ortho")
 
     def sine_values(self, amplitudes: Array) -> Array:
         """Return the nodal values of u_x at i = 0..n_x (last axis)."""
         values = fft.dct(amplitudes, type=1, norm="ortho")
-        return values * (self.grid.n_x / 2.0) ** 0.5 / self._ends
+        scale = (self.grid.n_x / 2.0) ** 0.5
+        return values * scale / self._ends
 
     def cosine_values(self, amplitudes: Array) -> Array:
         """Return the nodal values of u_y at i = -1..n_x - 1 (last axis)."""
-        inner = -0.5 * fft.dst(amplitudes[..., 1:-1], type=1)
+        waves = amplitudes[..., 1:-1]
+        inner = -0.5 * fft.dst(waves, type=1)
         first = inner[..., :1]
-        return np.concatenate((-first, np.zeros_like(first), inner), axis=-1)
+        middle = np.zeros_like(first)
+        return np.concatenate((-first, middle, inner), axis=-1)
 
     def interface_forces(self, modal: Array) -> Components:
         """Return the nodal forces along x at i = 0..n_x and along y at i = -1..n_x - 1."""
-        tangential = self._ends**2 * self.sine_values(modal[0])
+        along_x = self.sine_values(modal[0])
+        tangential = self._ends**2 * along_x
         normal = self.cosine_values(modal[1])
         return tangential, normal
 
@@ -91,4 +97,5 @@ class EvenHalf(Block):
         x = self.sine_values(field.modes[:, 0])
         y = self.cosine_values(field.modes[:, 1])
         right = field.edge[:, None]
-        return x, np.hstack((y[:, 1:], right))
+        y = np.hstack((y[:, 1:], right))
+        return x, y

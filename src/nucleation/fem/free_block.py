@@ -73,9 +73,12 @@ class FreeBlock(ElasticBody):
     def parts(self, field: Field) -> tuple[Field, Field]:
         """Return the odd and the even half of a field."""
         levels = field.modes.shape[0]
-        odd = np.ascontiguousarray(field.modes[..., : self._middle])
-        even = np.ascontiguousarray(field.modes[..., self._middle :])
-        return Field(odd, field.edge[:levels]), Field(even, field.edge[levels:])
+        odd = field.modes[..., : self._middle]
+        even = field.modes[..., self._middle :]
+        return (
+            Field(np.ascontiguousarray(odd), field.edge[:levels]),
+            Field(np.ascontiguousarray(even), field.edge[levels:]),
+        )
 
     def joined(self, odd: Field, even: Field) -> Field:
         """Join the fields of both halves.
@@ -115,9 +118,10 @@ class FreeBlock(ElasticBody):
         ndarray
             Values at the nodes 0..n_x (last axis).
         """
-        left = even - odd
         right = even + odd
-        return np.concatenate((left[..., :0:-1], right), axis=-1)
+        left = even - odd
+        left = left[..., :0:-1]
+        return np.concatenate((left, right), axis=-1)
 
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
         """Return the motion of the block at rest, seen from its top.
@@ -217,19 +221,21 @@ class _FreeOperator(Operator):
         """Tangential and normal forces at all nodes from those on the halves."""
         odd_x, even_y = odd
         even_x, odd_y = even
-        odd_x = np.insert(odd_x, 0, 0.0, axis=-1)
-        odd_y = odd_y[..., 1:]
+        odd_x = np.append(0.0, odd_x)
         x = self.body.whole(odd_x, even_x)
-        y = self.body.whole(odd_y, even_y)
+        y = self.body.whole(odd_y[1:], even_y)
         middle = self.body.grid.n_x // 2  # it belongs to both halves of the block
-        x[..., middle] *= 2.0
-        y[..., middle] *= 2.0
+        x[middle] *= 2.0
+        y[middle] *= 2.0
         return x, y
 
     def apply(self, w: Array) -> Components:
         """Return ``D w`` and ``N w`` (N/m) at all nodes, for w (m) there."""
         odd, even = self.body.halved(w)
-        return self._forces(self._odd.apply(odd), self._even.apply(even))
+        return self._forces(
+            self._odd.apply(odd),
+            self._even.apply(even),
+        )
 
     @cached_property
     def _dense(self) -> Components:

@@ -96,7 +96,8 @@ class PeriodicBlock(SeparableBody):
     def _values(self, mean: Array, coefficients: ComplexArray) -> Array:
         """``mean + Re sum_m c_m exp(i theta_m i)`` at all nodes."""
         n = self.grid.n_x
-        spectrum = np.concatenate((n * mean, 0.5 * n * coefficients), axis=-1)
+        waves = 0.5 * n * coefficients
+        spectrum = np.concatenate((n * mean, waves), axis=-1)
         return fft.irfft(spectrum, n)
 
     def sine_amplitudes(self, nodal: Array) -> Array:
@@ -104,7 +105,9 @@ class PeriodicBlock(SeparableBody):
         spectrum = fft.rfft(nodal) / self.grid.n_x
         mean = spectrum[..., :1].real
         waves = spectrum[..., 1:]
-        return np.concatenate((mean, -2 * waves.imag, 2 * waves.real), axis=-1)
+        a = -2 * waves.imag
+        b = 2 * waves.real
+        return np.concatenate((mean, a, b), axis=-1)
 
     def sine_values(self, amplitudes: Array) -> Array:
         """Return the nodal values (last axis) of amplitudes in the basis of u_x."""
@@ -118,7 +121,8 @@ class PeriodicBlock(SeparableBody):
 
     def interface_forces(self, modal: Array) -> Components:
         """Return the nodal forces along x and y of modal ones, (2, n_x)."""
-        return self.sine_values(modal[0]), self.cosine_values(modal[1])
+        along_x, along_y = modal
+        return self.sine_values(along_x), self.cosine_values(along_y)
 
     def top_load(self, normal_stress: float, shear_stress: float = 0.0) -> Field:
         """Return the nodal forces of stresses on the top.
@@ -136,8 +140,9 @@ class PeriodicBlock(SeparableBody):
             The load (N/m).
         """
         load = self.zero_field()
-        load.modes[-1, 0, 0] = shear_stress * self.grid.dx
-        load.modes[-1, 1, 0] = -normal_stress * self.grid.dx
+        dx = self.grid.dx
+        load.modes[-1, 0, 0] = shear_stress * dx
+        load.modes[-1, 1, 0] = -normal_stress * dx
         return load
 
     def nodal_values(self, field: Field) -> Components:
@@ -184,7 +189,8 @@ class Circulant(Operator):
 
     def apply(self, w: Array) -> Components:
         """Return ``D w``, (n_x,), and ``N w``, (n_x + 1,) with entry 0 (N/m)."""
-        tangential, normal = self.interface_forces(self.along_x.sine_amplitudes(w))
+        amplitudes = self.along_x.sine_amplitudes(w)
+        tangential, normal = self.interface_forces(amplitudes)
         return tangential, with_entry_zero(normal)
 
     @cached_property
@@ -266,4 +272,5 @@ class PeriodicOperator(SeparableOperator, Circulant):
 
 def with_entry_zero(nodal: Array) -> Array:
     """Prepend the last value (last axis) to values at the period's nodes."""
-    return np.concatenate((nodal[..., -1:], nodal), axis=-1)
+    last = nodal[..., -1:]
+    return np.concatenate((last, nodal), axis=-1)

@@ -255,7 +255,7 @@ class SeparableOperator(Operator):
         return modes, reduced
 
     def substitute(self, modes: Array) -> None:
-        """Sweep back from the interface, whose displacement is known, in place.
+        """Sweep back from the interface, where the displacement is known, in place.
 
         Parameters
         ----------

@@ -192,7 +192,14 @@ class SeriesStiffness:
         stiffness = det2 * a1 + det1 * a2
         coupling = det2 * b1 + det1 * b2
         self.modal = np.array([stiffness, coupling]) / det
-        self.compliance = np.array([c1 + c2, -(b1 + b2), a1 + a2]) / det
+        adjugate = np.array(
+            [
+                c1 + c2,
+                -(b1 + b2),
+                a1 + a2,
+            ]
+        )
+        self.compliance = adjugate / det
         xx, xy, yy = self.compliance
         self.forces = np.array(
             [
@@ -206,7 +213,12 @@ class SeriesStiffness:
                 b2 * xy + c2 * yy,
             ]
         )
-        self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
+        self.by_slip = np.array(
+            [
+                xx * a2 + xy * b2,
+                xy * a2 + yy * b2,
+            ]
+        )
 
     def loaded(
         self,

@@ -63,7 +63,8 @@ def compare(
     parameters = record.parameters
     found = extract(own, settings)
     found_freefem = extract(theirs, settings)
-    end = BEFORE_ONSET * np.min([found["onset_time"], found_freefem["onset_time"]])
+    onsets = [found["onset_time"], found_freefem["onset_time"]]
+    end = BEFORE_ONSET * np.min(onsets)
     instants = np.linspace(SETTLED * parameters.memory_time, end, INSTANTS)
     patch = np.interp(instants, record.time, record.lengths)
     patch_freefem = np.interp(instants, record_freefem.time, record_freefem.lengths)
@@ -101,11 +102,16 @@ def _driving_force(run: xr.Dataset, instants: Array) -> Array:
 
 
 def _root_mean_square(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else np.nan
+    if values.size == 0:
+        return np.nan
+    mean_square = np.mean(values**2)
+    return float(np.sqrt(mean_square))
 
 
 def _largest(values: Array) -> float:
-    return float(np.abs(values).max()) if values.size else np.nan
+    if values.size == 0:
+        return np.nan
+    return float(np.abs(values).max())
 
 
 def compared(
