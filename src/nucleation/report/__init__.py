@@ -5,6 +5,6 @@ are computed in the page, by ``theory.js``, ``stability.js`` and ``lengths.js``,
 :mod:`.calculator`, which has nothing else.
 """
 
-from ..datasets.installed import require
+from ..installed import require
 
 require("report")
