@@ -84,7 +84,7 @@ def attributes(
     sources : mapping of role to keys
         Keys of the results that it was made from.
     key : str
-        Key of the dataset in the workflow (:func:`nucleation.pipeline.store.key`); empty if the
+        Key of the dataset in the workflow (:func:`nucleation.pipeline.keys.key`); empty if the
         workflow did not make it.
 
     Returns

@@ -190,7 +190,7 @@ def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[P
     """Write a figure as ``stem.pdf`` and ``stem.png``, then drop its contents.
 
     The same figure gives the same bytes: the files carry no date and no program version, only the
-    `key` of what it was made from (:func:`nucleation.pipeline.store.key`). Each is written under a
+    `key` of what it was made from (:func:`nucleation.pipeline.keys.key`). Each is written under a
     temporary name beside its place and moved there whole; missing directories are made.
     """
     stem = Path(stem)
