@@ -27,7 +27,7 @@ LEFTOVERS = {
     "*.failed.nc": "the record of a run that failed",
 }
 OWN = {"store", "logs", "reference"}  # directories that show no results
-_UNUSED = "unused"  # state of a result of other parameters or other code, which is no finding
+UNUSED = "unused"  # state of a result of other parameters or other code, which is no finding
 
 Expected = Mapping[str, str]
 """For each file its target in the store, or its text if it is the list of a batch."""
@@ -63,7 +63,7 @@ def check_results(results: Path, expected: Expected) -> list[Finding]:
     store = Store(results / "store")
     findings = [*_entries(store), *_shown(results, expected)]
     for key in unused(results, expected):
-        findings.append(Finding(store.entry(key), _UNUSED, "make prune removes it"))
+        findings.append(Finding(store.entry(key), UNUSED, "make prune removes it"))
     return findings
 
 
@@ -195,7 +195,7 @@ def main(command: str, results: str, expected_file: str) -> None:
         findings = check_results(Path(results), expected)
     except (StoreError, OSError) as error:
         sys.exit(str(error))
-    wrong = sum(found.state != _UNUSED for found in findings)
+    wrong = sum(found.state != UNUSED for found in findings)
     end = f"{wrong} findings: these results are not current" if wrong else "All is current"
     print(*findings, end, sep="\n")
     if wrong:
