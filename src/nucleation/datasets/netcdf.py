@@ -80,7 +80,11 @@ def _encoding(dataset: xr.Dataset) -> dict[Hashable, dict[str, Any]]:
     for name, variable in dataset.variables.items():
         has_numbers = variable.dtype.kind in "fiu" and variable.ndim > 0
         if has_numbers and name not in _NOISY:
-            encoding[name] = {"zlib": True, "complevel": 1, "shuffle": True}
+            encoding[name] = {
+                "zlib": True,
+                "complevel": 1,
+                "shuffle": True,
+            }
     for name in dataset.coords:
         encoding.setdefault(name, {})["_FillValue"] = None
     return encoding

@@ -13,12 +13,23 @@ from typing import Any
 from .. import __version__
 from .variables import DatasetError
 
-_LIBRARIES = ("numpy", "scipy", "numba", "xarray", "netCDF4", "matplotlib", "snakemake")
+_LIBRARIES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "xarray",
+    "netCDF4",
+    "matplotlib",
+    "snakemake",
+)
 
 
 def versions() -> dict[str, str]:
     """Versions of Python, of this package and of the installed libraries it depends on."""
-    found = {"nucleation": __version__, "python": platform.python_version()}
+    found = {
+        "nucleation": __version__,
+        "python": platform.python_version(),
+    }
     for library in _LIBRARIES:
         with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             found[library] = importlib.metadata.version(library)

@@ -45,12 +45,20 @@ FIGURES: dict[str, Entry] = {
         "Figure 3: critical length against height",
         PAPER,
         roles=("paper",),
-        data=(Data("theory", ("critical_length", "thin_limit_length")), _LENGTHS),
+        data=(
+            Data("theory", ("critical_length", "thin_limit_length")),
+            _LENGTHS,
+        ),
     ),
     "figure_s1": Entry(
         "Figure S1: steady-state friction",
         PAPER,
-        data=(Data("theory", ("steady_friction", "steady_friction_logarithmic")),),
+        data=(
+            Data(
+                "theory",
+                ("steady_friction", "steady_friction_logarithmic"),
+            ),
+        ),
     ),
     "figure_s2": Entry(
         "Figure S2: stress in space and time",
@@ -136,7 +144,10 @@ FIGURES: dict[str, Entry] = {
                     "theory_frequency",
                 ),
             ),
-            Data("dispersion", ("curve_wavenumber", "curve_growth", "curve_frequency")),
+            Data(
+                "dispersion",
+                ("curve_wavenumber", "curve_growth", "curve_frequency"),
+            ),
         ),
     ),
     "figure_verification": Entry(

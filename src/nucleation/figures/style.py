@@ -51,7 +51,17 @@ LOWER_BODY = ORANGE
 RIGID_BODY = "#8C8C8C"
 
 MARKERS = "osD^vP*X"
-COLOURS = (VERMILLION, BLUE, BLACK, GREEN, PURPLE, ORANGE, SKY_BLUE, OLD_AGE, FULL_LAW)
+COLOURS = (
+    VERMILLION,
+    BLUE,
+    BLACK,
+    GREEN,
+    PURPLE,
+    ORANGE,
+    SKY_BLUE,
+    OLD_AGE,
+    FULL_LAW,
+)
 
 SEQUENCE = "viridis"  # ordered families of curves and images: monotonic in lightness
 SMALL = 7.5  # points: legends with many entries, panels inside panels
@@ -215,7 +225,15 @@ def key(
     Line2D
         A handle for the legend.
     """
-    return Line2D([], [], marker=marker, linestyle=line, color=colour, label=label, **options)
+    return Line2D(
+        [],
+        [],
+        marker=marker,
+        linestyle=line,
+        color=colour,
+        label=label,
+        **options,
+    )
 
 
 def letters(*panels: Axes, minor: bool = False, **options: Any) -> None:
@@ -245,7 +263,13 @@ def entries(*panels: Axes) -> dict[str, Artist]:
     return found
 
 
-def level(axes: Axes, y: float, line: Any = "-", width: float = 0.7, **options: Any) -> None:
+def level(
+    axes: Axes,
+    y: float,
+    line: Any = "-",
+    width: float = 0.7,
+    **options: Any,
+) -> None:
     """Draw a horizontal line that marks a value.
 
     Parameters
@@ -359,7 +383,10 @@ def save(figure: Figure, stem: str | os.PathLike[str], key: str = "") -> tuple[P
     png: Options = {"Software": None}
     if key:
         png[KEY] = key
-    paths = stem.with_name(f"{stem.name}.pdf"), stem.with_name(f"{stem.name}.png")
+    paths = (
+        stem.with_name(f"{stem.name}.pdf"),
+        stem.with_name(f"{stem.name}.png"),
+    )
     with mpl.rc_context(STYLE):
         for path, metadata in zip(paths, (pdf, png), strict=True):
             with replacing(path) as temporary:

@@ -87,7 +87,10 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
     _refuse_foreign(members.values())
     lines = [f"{digest_of_file(path)}  {name}\n" for name, path in packed.items()]
     checksums = "".join(lines).encode()
-    with replacing(archive) as temporary, tarfile.open(temporary, "w") as tar:
+    with (
+        replacing(archive) as temporary,
+        tarfile.open(temporary, "w") as tar,
+    ):
         tar.addfile(_member(CHECKSUMS, len(checksums)), io.BytesIO(checksums))
         for name, path in packed.items():
             with path.open("rb") as stream:

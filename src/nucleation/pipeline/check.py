@@ -95,11 +95,19 @@ def _entries(store: Store) -> Iterator[Finding]:
             read_note(entry, whole=True)
         except StoreError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
-            yield Finding(entry, state, f"{error}: make it again, and it is moved aside")
+            yield Finding(
+                entry,
+                state,
+                f"{error}: make it again, and it is moved aside",
+            )
     for path in sorted(store.directory.glob(".*.tmp")):
         yield Finding(path, "incomplete", _HALF)
     for path in sorted((store.directory / ASIDE).glob("*/*")):
-        yield Finding(path, "damaged", "it was moved aside, since it is not what it should be")
+        yield Finding(
+            path,
+            "damaged",
+            "it was moved aside, since it is not what it should be",
+        )
 
 
 def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
@@ -116,9 +124,17 @@ def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
         elif wanted is None:
             yield Finding(path, "foreign", "nothing in the configuration makes it")
         elif path.is_symlink() and not path.exists():
-            yield Finding(path, "damaged", "its result is not in the store: make it again")
+            yield Finding(
+                path,
+                "damaged",
+                "its result is not in the store: make it again",
+            )
         elif not _is_as_wanted(path, wanted):
-            yield Finding(path, "stale", "it is of other parameters or other code: make it again")
+            yield Finding(
+                path,
+                "stale",
+                "it is of other parameters or other code: make it again",
+            )
 
 
 def _is_of_other_results(path: Path, results: Path) -> bool:
@@ -190,7 +206,13 @@ def main(command: str, results: str, expected_file: str) -> None:
     try:
         expected = json.loads(Path(expected_file).read_text("utf-8"))
         if command == "prune":
-            print(prune(Path(results), expected, os.environ.get("PRUNE") == "yes"))
+            print(
+                prune(
+                    Path(results),
+                    expected,
+                    os.environ.get("PRUNE") == "yes",
+                )
+            )
             return
         findings = check_results(Path(results), expected)
     except (StoreError, OSError) as error:

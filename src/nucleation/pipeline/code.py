@@ -26,7 +26,11 @@ _ROOT = Path(__file__).resolve().parents[1]
 # the wing around the computations can't change their results: it is in no digest
 _NEUTRAL = f"{PACKAGE}.pipeline"
 # libraries whose distribution has another name than the module
-_DISTRIBUTIONS = {"PIL": "pillow", "yaml": "pyyaml", "pypandoc": "pypandoc_binary"}
+_DISTRIBUTIONS = {
+    "PIL": "pillow",
+    "yaml": "pyyaml",
+    "pypandoc": "pypandoc_binary",
+}
 # libraries that do the work of others and are not imported here
 _COMPANIONS = {
     "numba": ("llvmlite",),
@@ -67,7 +71,10 @@ def digest(*roots: str) -> str:
     parts += [f"{name} {_version(name)}" for name in sorted(libraries(*roots))]
     parsed = _parsed()
     if parsed.pop("changed", False):
-        with contextlib.suppress(OSError), replacing(_PARSED) as temporary:
+        with (
+            contextlib.suppress(OSError),
+            replacing(_PARSED) as temporary,
+        ):
             temporary.write_text(json.dumps(parsed))
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 

@@ -7,7 +7,14 @@ from numpy.typing import NDArray
 
 from ..datasets import netcdf
 
-_OF_MACHINE = {"wall_seconds", "peak_megabytes", "created", "versions", "command", "history"}
+_OF_MACHINE = {
+    "wall_seconds",
+    "peak_megabytes",
+    "created",
+    "versions",
+    "command",
+    "history",
+}
 """Variables that differ between any two results of one recipe."""
 
 

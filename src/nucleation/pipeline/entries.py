@@ -29,7 +29,14 @@ class StoreError(ValueError):
     """A store can't be used, or an entry is damaged or foreign."""
 
 
-BAD = (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError)
+BAD = (
+    OSError,
+    ValueError,
+    KeyError,
+    TypeError,
+    AttributeError,
+    RecursionError,
+)
 """Errors that reading a note can raise, since anybody may have written it."""
 
 

@@ -20,7 +20,11 @@ from .views import show
 FORCED = "NUCLEATION_FORCED"
 """Environment variable with the rules and files that Snakemake must make again; ``*`` for all."""
 
-_ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_ONE_CORE = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+)
 """Environment variables that keep a result on one core: on several, sums have another order.
 
 Snakemake sets the first to the threads of the rule."""

@@ -14,7 +14,11 @@ _IN_NAME = re.compile(rf"\.({PATTERN})\.\w+$")
 _IN_STORE = re.compile(rf"/({PATTERN})/[^/]+$")
 
 
-def key(code: str, parameters: Mapping[str, Any], sources: Mapping[str, Sequence[str]]) -> str:
+def key(
+    code: str,
+    parameters: Mapping[str, Any],
+    sources: Mapping[str, Sequence[str]],
+) -> str:
     """The key of a result.
 
     Parameters

@@ -16,11 +16,19 @@ from ..configuration.load import load
 from ..model.quantities import ParameterError
 
 
-def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
+def options(
+    arguments: Sequence[str] | None = None,
+) -> argparse.Namespace:
     """Cores and configuration files in Snakemake's arguments, by default those of this process."""
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--cores", "-c", nargs="?")
-    parser.add_argument("--configfile", "--configfiles", nargs="*", action="extend", default=[])
+    parser.add_argument(
+        "--configfile",
+        "--configfiles",
+        nargs="*",
+        action="extend",
+        default=[],
+    )
     known, _ = parser.parse_known_args(arguments)
     return known
 

@@ -31,7 +31,13 @@ from .messages import LOGGER
 from .recipes import Recipe
 from .store import Store, give_all, others
 
-_EXPECTED = (DatasetError, ParameterError, StoreError, code.CodeError, OSError)
+_EXPECTED = (
+    DatasetError,
+    ParameterError,
+    StoreError,
+    code.CodeError,
+    OSError,
+)
 """Errors that are reported in one line: their cause is not in the code."""
 
 _LENGTHS = "lengths/"
@@ -250,6 +256,7 @@ def _write_one(content: Any, path: Path, origin: Mapping[str, str]) -> None:
     elif callable(content):
         content(path)
     else:
-        from ..figures import style  # the code that drew the figure has loaded matplotlib
+        # the code that drew the figure has loaded matplotlib
+        from ..figures import style
 
         style.save(content, path, origin["key"])

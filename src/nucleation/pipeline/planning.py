@@ -25,10 +25,24 @@ from .entries import NOTE
 from .job import FORCED
 from .keys import as_json
 from .messages import LOGGER
-from .recipe_files import RECIPES, WORKING, expected_of, key_of, marks_shown
+from .recipe_files import (
+    RECIPES,
+    WORKING,
+    expected_of,
+    key_of,
+    marks_shown,
+)
 from .recipes import Recipe, listed
 from .store import Store, others
-from .views import can_link, is_broken, is_linked, is_shown, show, withdraw, write
+from .views import (
+    can_link,
+    is_broken,
+    is_linked,
+    is_shown,
+    show,
+    withdraw,
+    write,
+)
 
 _LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
 
@@ -247,7 +261,10 @@ class Plan:
         if self._workflow.is_main_process:  # a job takes its recipe as it is
             try:
                 if not os.path.exists(f"{self._place}/{WORKING}"):
-                    write(Path(self._place, WORKING), self._from_store("."))
+                    write(
+                        Path(self._place, WORKING),
+                        self._from_store("."),
+                    )
                 self._write(rule, self._of_rule(rule, wildcards), Path(file))
             except Exception as error:  # else Snakemake would use an outdated file of the result
                 raise SystemExit(f"{rule} can't be planned: {error}") from None

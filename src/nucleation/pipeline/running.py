@@ -114,7 +114,12 @@ def run_to_file(
     Stopped
         If a signal stops the run.
     """
-    dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
+    dataset = simulate(
+        parameters,
+        progress=progress,
+        start=checkpoint.load(),
+        keep=checkpoint.keep,
+    )
     failed = output.with_suffix(".failed.nc")
     path = output if dataset.attrs["completed"] else failed
     write(dataset, path)

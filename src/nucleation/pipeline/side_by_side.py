@@ -103,7 +103,11 @@ def _send(connection: Connection, number: int | None, workers: _Workers) -> None
         workers.pop(connection).join()
 
 
-def _serve(work: Callable[[int], Any], connection: Connection, foreign: list[Connection]) -> None:
+def _serve(
+    work: Callable[[int], Any],
+    connection: Connection,
+    foreign: list[Connection],
+) -> None:
     """In a process: work on each number that arrives, until None arrives or the job has ended."""
     for other in foreign:
         other.close()

@@ -15,7 +15,14 @@ from pathlib import Path
 from typing import Any
 
 from ..datasets.files import flush
-from .entries import NOTE, Note, StoreError, mark_as_checked, may_have_changed, read_note
+from .entries import (
+    NOTE,
+    Note,
+    StoreError,
+    mark_as_checked,
+    may_have_changed,
+    read_note,
+)
 from .keys import LENGTH, digest_of_file
 from .messages import LOGGER
 
@@ -63,7 +70,12 @@ class Store:
         """Keys of all entries, right or wrong."""
         return [path.name for path in sorted(self.directory.glob("[0-9a-f]" * LENGTH))]
 
-    def put(self, key: str, make: Callable[[Path], None], about: Mapping[str, Any]) -> Note:
+    def put(
+        self,
+        key: str,
+        make: Callable[[Path], None],
+        about: Mapping[str, Any],
+    ) -> Note:
         """Make an entry; after a crash it is complete or missing.
 
         Parameters
@@ -86,7 +98,10 @@ class Store:
             for path in sorted(place.iterdir()):
                 if path.name != NOTE:
                     size = path.stat().st_size
-                    files[path.name] = {"size": size, "sha256": digest_of_file(path)}
+                    files[path.name] = {
+                        "size": size,
+                        "sha256": digest_of_file(path),
+                    }
             note = {"key": key, "files": files, **about}
             (place / NOTE).write_text(json.dumps(note, indent=1, sort_keys=True) + "\n")
             self._publish(place, key)

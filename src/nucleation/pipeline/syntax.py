@@ -11,7 +11,13 @@ PACKAGE = "nucleation"
 
 _Import = tuple[int, str, str]  # level, module, name
 
-_IGNORED_FIELDS = ("ctx", "kind", "type_comment", "type_ignores", "type_params")
+_IGNORED_FIELDS = (
+    "ctx",
+    "kind",
+    "type_comment",
+    "type_ignores",
+    "type_params",
+)
 """Fields of syntax trees without meaning here, or unknown to some Python versions."""
 
 
@@ -53,12 +59,20 @@ def _imports(tree: ast.Module) -> tuple[dict[str, _Import], set[str]]:
             for alias in node.names:
                 root = alias.name.split(".")[0]
                 if root == PACKAGE:
-                    own[alias.asname or alias.name] = (0, alias.name, "")
+                    own[alias.asname or alias.name] = (
+                        0,
+                        alias.name,
+                        "",
+                    )
                 else:
                     libraries.add(root)
         elif isinstance(node, ast.ImportFrom) and _is_own(node):
             for alias in node.names:
-                own[alias.asname or alias.name] = (node.level, node.module or "", alias.name)
+                own[alias.asname or alias.name] = (
+                    node.level,
+                    node.module or "",
+                    alias.name,
+                )
         elif isinstance(node, ast.ImportFrom):
             libraries.add(str(node.module).split(".")[0])
         elif not _is_ignored(node):

@@ -13,12 +13,23 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..answers import finite_patch, formulas
-from ..answers.in_use import HALF_SPACES, LENGTHS, THIS_FAULT, TWO_MATERIALS
+from ..answers.in_use import (
+    HALF_SPACES,
+    LENGTHS,
+    THIS_FAULT,
+    TWO_MATERIALS,
+)
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES
 from . import encode, stability
 
-SCRIPTS = ("page.js", "theory.js", "stability.js", "lengths.js", "calculator.js")
+SCRIPTS = (
+    "page.js",
+    "theory.js",
+    "stability.js",
+    "lengths.js",
+    "calculator.js",
+)
 """Scripts of this page and of the report, in this order."""
 
 
@@ -49,7 +60,14 @@ _INTERFACE = (
     _Input("a", "Direct effect, natural log", "a", "0.01"),
     _Input("b", "Effect of the state, natural log", "b", "0.015"),
     _Input("slip_distance", "Slip distance", "D", "5", _DISTANCES),
-    _Input("friction", "Friction coefficient", "f", "0.6", (), "if bodies are alike"),
+    _Input(
+        "friction",
+        "Friction coefficient",
+        "f",
+        "0.6",
+        (),
+        "if bodies are alike",
+    ),
     _Input("velocity", "Sliding velocity", "V", "", _VELOCITIES, "optional"),
 )
 _SECOND_BODY = (

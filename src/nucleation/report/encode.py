@@ -8,7 +8,12 @@ from typing import Any
 
 import numpy as np
 from docutils.core import publish_parts
-from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
+from jinja2 import (
+    Environment,
+    FileSystemLoader,
+    StrictUndefined,
+    Template,
+)
 from markupsafe import Markup
 from numpy.typing import ArrayLike
 

@@ -102,7 +102,15 @@ def write(
     for name, path, caption in zip(names, figures, captions, strict=True):
         files = [file for file in (path, path.with_suffix(".pdf")) if file.is_file()]
         text = caption.read_text("utf-8")
-        pictures.append(Picture(name, entries[name], files, text, caption_values.get(name, {})))
+        pictures.append(
+            Picture(
+                name,
+                entries[name],
+                files,
+                text,
+                caption_values.get(name, {}),
+            )
+        )
     content = Content(
         fault=fault,
         friction=friction,

@@ -20,7 +20,8 @@ from ..types import Array
 from .encode import float32
 
 HEIGHTS = (1e-3, 1e3)  # h
-CENTRE, POWER = 2.0, 0.7  # h where the ratio changes most, and how fast t changes with h
+CENTRE = 2.0  # h where the ratio changes most
+POWER = 0.7  # how fast t changes with h
 PRECISION = 0.01
 """Relative error of L_s in the page, against
 :func:`~nucleation.theory.creep.lengths.stability_length`; tested for random faults."""

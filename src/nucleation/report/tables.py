@@ -22,7 +22,13 @@ _QUANTITIES = {
 """Columns that distinguish faults for the theory, together with :data:`_SECOND_BODY`: their titles
 and units. Runs that differ only in height, law or initial state are of the same fault."""
 
-_SECOND_BODY = ("below", "far_side", "second_shear_modulus", "second_poisson_ratio", "plane")
+_SECOND_BODY = (
+    "below",
+    "far_side",
+    "second_shear_modulus",
+    "second_poisson_ratio",
+    "plane",
+)
 
 LENGTH_COLUMNS = (
     "Simulation",
@@ -64,7 +70,13 @@ def faults(lengths: xr.Dataset) -> list[_Fault]:
     found = []
     for number, (mark, own) in enumerate(runs.items(), start=1):
         numbers = [float(value) for value in mark[: len(_QUANTITIES)]]
-        found.append(_Fault(number, dict(zip(_QUANTITIES, numbers, strict=True)), own))
+        found.append(
+            _Fault(
+                number,
+                dict(zip(_QUANTITIES, numbers, strict=True)),
+                own,
+            )
+        )
     return found
 
 

@@ -61,7 +61,14 @@ def verdict_counts(claims: list[Claim]) -> list[dict[str, Any]]:
     for verdict, (sign, kind) in VERDICTS.items():
         if counts[verdict]:
             count = counts[verdict]
-            rows.append({"verdict": verdict, "sign": sign, "kind": kind, "count": count})
+            rows.append(
+                {
+                    "verdict": verdict,
+                    "sign": sign,
+                    "kind": kind,
+                    "count": count,
+                }
+            )
     return rows
 
 

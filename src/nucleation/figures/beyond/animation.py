@@ -170,7 +170,10 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Updat
     bar.ax.set_yticklabels([f"{level:.2f}" for level in ticks])
     bar.set_label(r"$\sigma_{xy}/\sigma_0$")
     below = parameters.below
-    axes.set_ylim(-below.geometry.height if below else 0.0, parameters.geometry.height)
+    axes.set_ylim(
+        -below.geometry.height if below else 0.0,
+        parameters.geometry.height,
+    )
     if below:
         axes.axhline(0.0, color="white", linewidth=1.2)
     axes.set_xlabel("$x$ (m)", labelpad=1.0)

@@ -40,7 +40,10 @@ def draw(table: xr.Dataset) -> Figure:
         axes.set_title(title, loc="left")
         axes.set_xlabel(r"Bimaterial contrast $f\beta$")
         axes.axvline(0.0, color=style.GUIDE, linewidth=0.6, linestyle=":")
-        for place, side, which in ((0.02, "left", "above"), (0.98, "right", "below")):
+        for place, side, which in (
+            (0.02, "left", "above"),
+            (0.98, "right", "below"),
+        ):
             axes.text(
                 place,
                 0.03,
@@ -72,7 +75,10 @@ def _draw_lengths(axes: Axes, rows: xr.Dataset, name: str) -> None:
         curve = bimaterial_length_ratio(np.abs(_CONTRAST), ratio)
         label = rf"Eq. (9), $\zeta/a={ratio:.3g}$"
         axes.plot(_CONTRAST, curve, color=shade, linewidth=1.1, label=label)
-        own = laws.where(rows, np.abs(rows["zeta_over_a"].values - ratio) < 1e-2 * ratio)
+        own = laws.where(
+            rows,
+            np.abs(rows["zeta_over_a"].values - ratio) < 1e-2 * ratio,
+        )
         # the theory's length for blocks of this height without contrast
         unit = 1.0 / own["half_space_ratio"].values
         laws.draw(

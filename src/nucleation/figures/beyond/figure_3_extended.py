@@ -33,7 +33,12 @@ class _Series(NamedTuple):
         """Marker, size and colours of one kind of simulation."""
         colour = self.colour or kind.colour
         face = colour if self.filled else "white"
-        return {"marker": kind.marker, "ms": self.size, "color": colour, "mfc": face}
+        return {
+            "marker": kind.marker,
+            "ms": self.size,
+            "color": colour,
+            "mfc": face,
+        }
 
 
 _PAPERS = _Series(
@@ -118,7 +123,13 @@ def _draw_theory(axes: Axes, theory: xr.Dataset, relative: bool) -> None:
     length = theory["critical_length"].values
     for part, dashes in ((1.0, "-"), (0.5, "--")):
         values = np.full(length.shape, part) if relative else part * length
-        axes.plot(theory["height"], values, dashes, color=style.THEORY, linewidth=1.2)
+        axes.plot(
+            theory["height"],
+            values,
+            dashes,
+            color=style.THEORY,
+            linewidth=1.2,
+        )
 
 
 def _means(table: xr.Dataset) -> xr.Dataset:
@@ -133,7 +144,10 @@ def _with_more(lengths: xr.Dataset, noisy: xr.Dataset) -> tuple[xr.Dataset, xr.D
     more = np.isin(noisy["strength"].values, judged["strength"].values)
     own = laws.where(noisy, more)
     for name in ("study", "role"):
-        own[name] = "run", np.resize(judged[name].values, own.sizes["run"])
+        own[name] = (
+            "run",
+            np.resize(judged[name].values, own.sizes["run"]),
+        )
     return laws.where(noisy, ~more), join([lengths, own])
 
 
@@ -147,13 +161,24 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
         scale = runs["theory_length"].values[order] if relative else 1.0
         ends.append(runs["length"].values[order] / scale)
-    axes.fill_between(heights, ends[0], ends[1], color=style.AGING, alpha=0.2, linewidth=0.0)
+    axes.fill_between(
+        heights,
+        ends[0],
+        ends[1],
+        color=style.AGING,
+        alpha=0.2,
+        linewidth=0.0,
+    )
 
 
 def _draw_series(axes: Axes, table: xr.Dataset, series: _Series, relative: bool) -> None:
     """One set of lengths, a marker for each law and initial state; quiet runs have no bars."""
     for (_, old), kind, runs in laws.kinds(table):
-        runs = laws.where(runs, np.isfinite(runs[series.column].values), role=series.role)
+        runs = laws.where(
+            runs,
+            np.isfinite(runs[series.column].values),
+            role=series.role,
+        )
         if not runs.sizes["run"]:
             continue
         if series is _PAPERS:
@@ -162,7 +187,14 @@ def _draw_series(axes: Axes, table: xr.Dataset, series: _Series, relative: bool)
         look = series.look(kind)
         look["elinewidth"] = 0.8
         look["label"] = f"{series.label}, {_state(kind, old)}"
-        laws.draw(axes, runs["height"].values, runs, series.column, scale, **look)
+        laws.draw(
+            axes,
+            runs["height"].values,
+            runs,
+            series.column,
+            scale,
+            **look,
+        )
 
 
 def _state(kind: laws.Look, old: bool) -> str:
@@ -171,8 +203,16 @@ def _state(kind: laws.Look, old: bool) -> str:
 
 def _finish_lengths(axes: Axes, theory: xr.Dataset, lengths: xr.Dataset, band: bool) -> None:
     highest = _ABOVE * float(lengths["height"].max())
-    top = np.interp(highest, theory["height"].values, theory["critical_length"].values)
-    axes.set(xlim=(0.0, highest), ylim=(0.0, 1.6 * float(top)), ylabel="Length $L$ (m)")
+    top = np.interp(
+        highest,
+        theory["height"].values,
+        theory["critical_length"].values,
+    )
+    axes.set(
+        xlim=(0.0, highest),
+        ylim=(0.0, 1.6 * float(top)),
+        ylabel="Length $L$ (m)",
+    )
     shown = laws.usual_law(lengths)
     usual = laws.looks([shown])[shown, False]
     handles: list[Artist] = [

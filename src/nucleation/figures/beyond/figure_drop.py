@@ -9,7 +9,10 @@ from ...figures import laws, style
 from ...model.friction.registry import USUAL_EVOLUTION
 
 # the fault in the panels over the strength; height in m
-_SHOWN: dict[str, str | float] = {"evolution": USUAL_EVOLUTION, "height": 0.02}
+_SHOWN: dict[str, str | float] = {
+    "evolution": USUAL_EVOLUTION,
+    "height": 0.02,
+}
 _KINDS = {
     "normal_load": ("o", style.VERMILLION, "load"),
     "state": ("s", style.BLUE, "state"),
@@ -20,13 +23,24 @@ _STRENGTHS = (3e-13, 3e-1)
 _RATIOS = (0.45, 0.87)
 _MEAN = "simulated: mean and range of realisations"
 PREDICTED = ("predicted_low", "predicted_length", "predicted_high")
-ENSEMBLE = ("fault", "kind", "correlation_length", "strength", "n_x", "longest_step")
+ENSEMBLE = (
+    "fault",
+    "kind",
+    "correlation_length",
+    "strength",
+    "n_x",
+    "longest_step",
+)
 FEWEST = 8  # realisations for a distribution
 _GOAL = 0.03  # relative error of the law's mean
 _CLOSE = 30.0  # strengths with a smaller ratio share one label
 _ROOM = 0.6  # part of the panel of distributions for its legend
-_ASIDE = {"normal_load": 0.75, "state": 1.33}  # factors that separate kinds of the same strength
-_SMALL: style.Options = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
+# factors that separate kinds of the same strength
+_ASIDE = {"normal_load": 0.75, "state": 1.33}
+_SMALL: style.Options = {
+    "fontsize": style.SMALL,
+    "title_fontsize": style.SMALL,
+}
 
 
 @style.styled
@@ -80,7 +94,15 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
         _draw_law(axes, own, theory)
         ratio = own["length"].values / theory
         strength = own["strength"].values
-        axes.plot(strength, ratio, ".", color=colour, alpha=0.35, ms=3.0, mew=0.0)
+        axes.plot(
+            strength,
+            ratio,
+            ".",
+            color=colour,
+            alpha=0.35,
+            ms=3.0,
+            mew=0.0,
+        )
     for runs in ensembles(own):
         lengths = runs["length"].values / theory
         mean = lengths.mean()
@@ -100,7 +122,12 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     stability = float(fault["stability_length"].values[0]) / theory
     style.level(axes, stability, ":", 1.0, label="patch turns unstable, $L_s$")
     axes.set_title(f"fluctuating {label}")
-    axes.set(xscale="log", xlim=_STRENGTHS, ylim=_RATIOS, xlabel=r"Relative strength $\epsilon$")
+    axes.set(
+        xscale="log",
+        xlim=_STRENGTHS,
+        ylim=_RATIOS,
+        xlabel=r"Relative strength $\epsilon$",
+    )
 
 
 def _shown_fault(table: xr.Dataset) -> xr.Dataset:
@@ -115,8 +142,20 @@ def _draw_law(axes: Axes, own: xr.Dataset, theory: float) -> None:
     """The law's median and range, and its closed form."""
     strength = own["strength"].values
     low, middle, high = (own[name].values / theory for name in PREDICTED)
-    axes.fill_between(strength, low, high, color=style.GUIDE, alpha=0.35, linewidth=0.0)
-    axes.plot(strength, middle, color=style.THEORY, label="law: median, 16 to 84 %")
+    axes.fill_between(
+        strength,
+        low,
+        high,
+        color=style.GUIDE,
+        alpha=0.35,
+        linewidth=0.0,
+    )
+    axes.plot(
+        strength,
+        middle,
+        color=style.THEORY,
+        label="law: median, 16 to 84 %",
+    )
     closed_form = own["closed_form_length"].values / theory
     axes.plot(
         strength,
@@ -152,7 +191,13 @@ def _draw_floors(axes: Axes, fault: xr.Dataset, kind: str, theory: float) -> Non
         end = int(np.searchsorted(strength, _CLOSE * strength[first]))
         names = ", ".join(map(str, np.unique(elements[first:end])))
         place = (strength[end - 1], ratio[end - 1])
-        axes.annotate(names, place, (4, 3), textcoords="offset points", fontsize=style.SMALL)
+        axes.annotate(
+            names,
+            place,
+            (4, 3),
+            textcoords="offset points",
+            fontsize=style.SMALL,
+        )
         first = end
 
 
@@ -181,7 +226,11 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
     entries = style.entries(axes)
     if has_slip_law:
         entries["open: slip law"] = style.key("", "o", markersize=4.0, **style.OPEN)
-    axes.set(xscale="log", xlim=_STRENGTHS, xlabel=r"Relative strength $\epsilon$")
+    axes.set(
+        xscale="log",
+        xlim=_STRENGTHS,
+        xlabel=r"Relative strength $\epsilon$",
+    )
     axes.set_ylabel("Simulated mean over the law")
     axes.legend(entries.values(), entries, loc="upper left", **style.BOXED)
 
@@ -207,7 +256,14 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
             linewidth=1.1,
         )
         law = [float(first[name]) / theory for name in PREDICTED]
-        axes.plot(law, [0.16, 0.5, 0.84], "o", color=colour, ms=3.5, **style.OPEN)
+        axes.plot(
+            law,
+            [0.16, 0.5, 0.84],
+            "o",
+            color=colour,
+            ms=3.5,
+            **style.OPEN,
+        )
     axes.set_ylim(0.0, 1.0)
     axes.set_xlabel("Length over theory $L/L_c$")
     axes.set_ylabel("Part that has dropped")

@@ -38,10 +38,24 @@ def draw(table: xr.Dataset) -> Figure:
     for name, (label, marker, colour) in KINDS.items():
         rows = laws.where(table, name=name)
         at = laws.where(rows, np.isclose(rows["read_at"], _SHOWN_AT))
-        look: style.Options = {"marker": marker, "color": colour, "mfc": "none"}
-        left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
+        look: style.Options = {
+            "marker": marker,
+            "color": colour,
+            "mfc": "none",
+        }
+        left.plot(
+            at["a_over_b"],
+            at["difference"] + 1.0,
+            linestyle="none",
+            label=label,
+            **look,
+        )
         _draw_growth(right, rows, look)
-    left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
+    left.set(
+        xlabel="$a/b$",
+        ylabel="Simulated length / formula",
+        xlim=(0.0, 1.0),
+    )
     left.set_title(f"(a) read at {_SHOWN_AT:g} m/s", loc="left")
     right.set(xscale="log", xlabel="Largest slip rate (m/s)")
     right.set_title("(b) as slip accelerates; labels: $a/b$", loc="left")

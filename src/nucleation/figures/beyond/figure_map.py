@@ -6,7 +6,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+from matplotlib.ticker import (
+    LogLocator,
+    NullFormatter,
+    StrMethodFormatter,
+)
 
 from ...figures import style
 from ...patch.map_table import mean_over_seeds
@@ -14,7 +18,11 @@ from ...patch.map_table import mean_over_seeds
 _RATIOS = (0.45, 1.0)  # range of the colours
 _CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2)
 _NOTHING = "#D9D9D9"
-_SLICES = (("o", style.VERMILLION), ("s", style.BLUE), ("^", style.GREEN))
+_SLICES = (
+    ("o", style.VERMILLION),
+    ("s", style.BLUE),
+    ("^", style.GREEN),
+)
 """Marks of the weakenings in the panel over height."""
 
 
@@ -88,7 +96,12 @@ def _draw_ratio(axes: Axes, ratio: xr.DataArray) -> QuadMesh:
     return image
 
 
-def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr.DataArray) -> None:
+def _draw_slices(
+    axes: Axes,
+    grid: xr.Dataset,
+    stability: xr.DataArray,
+    drop: xr.DataArray,
+) -> None:
     """Theory, stability and drop over height for a few weakenings."""
     weakenings = grid["zeta_over_a"].values
     height = grid["height"].values
@@ -96,16 +109,38 @@ def _draw_slices(axes: Axes, grid: xr.Dataset, stability: xr.DataArray, drop: xr
     shown = np.unique(places.round().astype(int))
     for i, (marker, colour) in zip(shown, _SLICES, strict=False):
         theory = grid["theory_length"].values[:, i]
-        axes.plot(height, theory, color=colour, label=rf"$\zeta/a = {weakenings[i]:.2g}$")
+        axes.plot(
+            height,
+            theory,
+            color=colour,
+            label=rf"$\zeta/a = {weakenings[i]:.2g}$",
+        )
         for ratio, face in ((drop, colour), (stability, "white")):
             length = ratio.isel(zeta_over_a=i).values * theory
-            axes.plot(height, length, marker, color=colour, markerfacecolor=face, markersize=3.5)
+            axes.plot(
+                height,
+                length,
+                marker,
+                color=colour,
+                markerfacecolor=face,
+                markersize=3.5,
+            )
     handles = [
         *style.entries(axes).values(),
         style.key("theory $L_c$", "", "-"),
         style.key("drop", "o", markersize=3.5),
         style.key("patch unstable", "o", markersize=3.5, **style.OPEN),
     ]
-    axes.set(xscale="log", yscale="log", xlabel="Block height $H$ (m)", ylabel="Length (m)")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="Block height $H$ (m)",
+        ylabel="Length (m)",
+    )
     axes.set_ylim(bottom=axes.get_ylim()[0] / 2.0)  # for the legend
-    axes.legend(handles=handles, fontsize=style.SMALL, loc="lower right", ncols=2)
+    axes.legend(
+        handles=handles,
+        fontsize=style.SMALL,
+        loc="lower right",
+        ncols=2,
+    )

@@ -50,8 +50,19 @@ def draw(table: xr.Dataset) -> Figure:
 def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
     height = rows["height"].values
     theory = rows["theory_length"].values
-    axes.plot(height, theory, color=style.THEORY, label="theory $L_c$, free far sides")
-    axes.plot(height, rows["length"].values, "o", color=style.VERMILLION, label="at the drop")
+    axes.plot(
+        height,
+        theory,
+        color=style.THEORY,
+        label="theory $L_c$, free far sides",
+    )
+    axes.plot(
+        height,
+        rows["length"].values,
+        "o",
+        color=style.VERMILLION,
+        label="at the drop",
+    )
     low = theory * rows["length_ratio_low"].values
     high = theory * rows["length_ratio_high"].values
     axes.vlines(height, low, high, color=style.VERMILLION)
@@ -67,7 +78,12 @@ def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
     if height.size:
         for part, line, label in _HALF_SPACES:
             style.level(axes, part * theory[-1], line, 0.8, label=label)
-    axes.set(xscale="log", yscale="log", xlabel="Height of each block $H$ (m)", ylabel="Length (m)")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="Height of each block $H$ (m)",
+        ylabel="Length (m)",
+    )
     axes.set_title("(a) identical blocks", loc="left")
     axes.legend(fontsize=style.SMALL, loc="lower right")
 
@@ -86,7 +102,11 @@ def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
         axes.vlines(thickness, low, high, color=colour, linewidth=0.9)
     style.level(axes, 0.5, ":", 0.8, label="half of it")
     style.level(axes, 1.0, "--", 0.8, label="theory")
-    axes.set(xscale="log", ylim=(0.4, 1.1), xlabel="Second height over theory $H_2/L_c$")
+    axes.set(
+        xscale="log",
+        ylim=(0.4, 1.1),
+        xlabel="Second height over theory $H_2/L_c$",
+    )
     axes.set_ylabel("Length / theory for the same pair")
     axes.set_title("(b) all pairs: drop (filled), $L_s$ (open)", loc="left")
     axes.legend(loc="upper left", bbox_to_anchor=(0.0, 0.85), **style.BOXED)

@@ -12,12 +12,21 @@ from matplotlib.figure import Figure
 from ...figures import laws, style
 from ...types import Array
 
-_SHOWN = ("converged", "paper")  # roles of the shown patches: the first that exists
+# roles of the shown patches: the first that exists
+_SHOWN = ("converged", "paper")
 _LEGEND_HEIGHTS = 3  # heights in the legend
 _DARKEST = 0.9  # used part of the sequence of colours: its end is too light for lines
 _PANELS = (
-    ("growth", (-6.0, 4.5), r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)"),
-    ("frequency", (4.0, 20.0), r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)"),
+    (
+        "growth",
+        (-6.0, 4.5),
+        r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)",
+    ),
+    (
+        "frequency",
+        (4.0, 20.0),
+        r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)",
+    ),
 )
 """Property of the oscillating mode, range (1/s), name."""
 
@@ -57,11 +66,24 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
         axes.set_xlabel("Patch length over theory $L/L_c$")
     style.level(growth, 0.0)
     growth.axvline(0.5, color=style.THEORY, linewidth=1.0, linestyle="--")
-    growth.text(0.49, 3.4, "$L_c/2$", color=style.THEORY, fontsize=style.SMALL, ha="right")
+    growth.text(
+        0.49,
+        3.4,
+        "$L_c/2$",
+        color=style.THEORY,
+        fontsize=style.SMALL,
+        ha="right",
+    )
     number = min(_LEGEND_HEIGHTS, heights.size)
     named = np.linspace(0, heights.size - 1, number).round().astype(int)
     for height in heights[named]:
-        frequency.plot([], [], "-", color=colours[float(height)], label=f"$H={height:g}$ m")
+        frequency.plot(
+            [],
+            [],
+            "-",
+            color=colours[float(height)],
+            label=f"$H={height:g}$ m",
+        )
     frequency.legend(loc="lower left", labelspacing=0.3)
     _finish_mode(shape)
     style.letters(growth, frequency, shape, minor=True)
@@ -104,17 +126,36 @@ def _draw_mode(axes: Axes, patch: xr.Dataset, row: xr.Dataset, colour: _Colour) 
     length = float(row["stability_length"])
     if np.isfinite(length):
         modulus = np.hypot(patch["mode_real"].values, patch["mode_imaginary"].values)
-        axes.plot(patch["x"].values / length, modulus, linewidth=1.0, color=colour)
+        axes.plot(
+            patch["x"].values / length,
+            modulus,
+            linewidth=1.0,
+            color=colour,
+        )
 
 
 def _finish_mode(axes: Axes) -> None:
     """The homogeneous mode of the theory, a whole wave of constant modulus, and texts."""
     x = np.linspace(0.0, 1.0, 201)
-    axes.plot(x, np.sin(2.0 * np.pi * x), "--", color=style.THEORY, linewidth=1.1)
+    axes.plot(
+        x,
+        np.sin(2.0 * np.pi * x),
+        "--",
+        color=style.THEORY,
+        linewidth=1.1,
+    )
     style.level(axes, 0.0)
     text: style.Options = {"fontsize": style.SMALL, "va": "top"}
-    axes.text(0.05, -0.15, "patch, $L=L_s$:\nhalf a wavelength\n(modulus)", **text)
+    axes.text(
+        0.05,
+        -0.15,
+        "patch, $L=L_s$:\nhalf a wavelength\n(modulus)",
+        **text,
+    )
     theory = "theory, $L=L_c$: one wavelength"
     axes.text(0.95, -1.08, theory, color=style.THEORY, ha="right", **text)
     axes.set(xlim=(0.0, 1.0), ylim=(-1.35, 1.15))
-    axes.set(xlabel="Position over patch length $x/L$", ylabel="Slip in the mode")
+    axes.set(
+        xlabel="Position over patch length $x/L$",
+        ylabel="Slip in the mode",
+    )

@@ -73,7 +73,13 @@ def draw(
     figure = style.new_figure(style.SINGLE_COLUMN, 0.85 * style.SINGLE_COLUMN)
     if len(numbers) == 1:
         kinds = _kinds(varied, words, entries, table.sizes["run"])
-        _draw_curves(figure, table, np.asarray(varied[numbers[0]], dtype=float), kinds, theory)
+        _draw_curves(
+            figure,
+            table,
+            np.asarray(varied[numbers[0]], dtype=float),
+            kinds,
+            theory,
+        )
         label = label_of(numbers[0], entries[numbers[0]])
     else:
         words = [*words, *_distinguishing(varied, words, numbers)]
@@ -111,14 +117,26 @@ def _draw_equality(
 ) -> None:
     """Simulated lengths over the theory's."""
     axes, strip = _axes(figure, table)
-    _draw_runs(axes, strip, table, np.asarray(table["theory_length"], dtype=float), kinds)
+    _draw_runs(
+        axes,
+        strip,
+        table,
+        np.asarray(table["theory_length"], dtype=float),
+        kinds,
+    )
     lengths = _lengths(table)
     if varied:
         title = textwrap.fill(f"varied: {', '.join(map(named, varied))}", 48)
         axes.set_title(title, loc="left", fontsize=style.SMALL)
     if lengths.size:
         ends = [0.95 * lengths.min(), 1.05 * lengths.max()]
-        axes.plot(ends, ends, color=style.GUIDE, linewidth=0.8, label="equality")
+        axes.plot(
+            ends,
+            ends,
+            color=style.GUIDE,
+            linewidth=0.8,
+            label="equality",
+        )
     set_scale(axes, "x", lengths)
 
 
@@ -164,7 +182,13 @@ def _draw_runs(
             )
         if strip is not None:
             lost = x[runs[quiet[runs]]]
-            strip.plot(lost, np.zeros(lost.size), marker, color=colour, **style.OPEN)
+            strip.plot(
+                lost,
+                np.zeros(lost.size),
+                marker,
+                color=colour,
+                **style.OPEN,
+            )
 
 
 def _distinguishing(varied: Values, words: list[str], numbers: list[str]) -> list[str]:
@@ -224,7 +248,10 @@ def _lengths(table: xr.Dataset) -> Array:
 def _between(table: xr.Dataset, x: Array, runs: _Runs) -> Mapping[str, Array]:
     """The theory's lengths of some runs, in the order of a number."""
     order = runs[np.argsort(x[runs], kind="stable")]
-    return {"x": x[order], "length": table["theory_length"].values[order]}
+    return {
+        "x": x[order],
+        "length": table["theory_length"].values[order],
+    }
 
 
 def _draw_theory(axes: Axes, curves: Curves) -> None:

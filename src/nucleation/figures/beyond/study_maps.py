@@ -48,7 +48,12 @@ def draw_maps(
     lost = ~np.isfinite(length)
     label = f"no event ({lost.sum()} of {lost.size})"
     for axes, values, title, colours in (
-        (left, length, "(a) Critical length of simulations (m)", style.SEQUENCE),
+        (
+            left,
+            length,
+            "(a) Critical length of simulations (m)",
+            style.SEQUENCE,
+        ),
         (right, ratio, "(b) Simulations over theory", _RATIO_MAP),
     ):
         image = np.full((grid[up].size, grid[along].size), np.nan)

@@ -32,7 +32,15 @@ _ALONG = {
     "n_x": "Elements $N$ within the theory's $L_c$",
     "longest_step": r"Longest step $\times V/D$",
 }
-_FAULT = ("kind", "evolution", "phi0", "height", "strength", "seed", "fault")
+_FAULT = (
+    "kind",
+    "evolution",
+    "phi0",
+    "height",
+    "strength",
+    "seed",
+    "fault",
+)
 _EVERY_FAULT = "normal_load"  # the kind with a place for each fault
 _SIZE: style.Options = {"markersize": 3.8}
 
@@ -110,7 +118,11 @@ def _name(key: _Place, usual_age: object) -> str:
 
 
 def _draw_differences(
-    axes: Axes, perturbed: xr.Dataset, name: str, label: str, goal: float
+    axes: Axes,
+    perturbed: xr.Dataset,
+    name: str,
+    label: str,
+    goal: float,
 ) -> None:
     """Difference of each run from the finest of its sequence."""
     found = places(perturbed)
@@ -125,13 +137,30 @@ def _draw_differences(
                 shown = np.maximum(differences, LEAST)
                 at = np.full(shown.size, place + 0.17 * (i - 1.5))
                 coarse = shown.size - 1 if refined == "n_x" else 0
-                axes.plot(at[:coarse], shown[:coarse], marker, **style.OPEN, **look)
+                axes.plot(
+                    at[:coarse],
+                    shown[:coarse],
+                    marker,
+                    **style.OPEN,
+                    **look,
+                )
                 axes.plot(at[coarse:], shown[coarse:], marker, **look)
         axes.plot([], [], marker, label=meaning, **look)
-    axes.set(yscale="log", ylim=(LEAST / 2.0, 30.0), xlim=(-0.6, len(found) - 0.4), ylabel=label)
+    axes.set(
+        yscale="log",
+        ylim=(LEAST / 2.0, 30.0),
+        xlim=(-0.6, len(found) - 0.4),
+        ylabel=label,
+    )
     axes.set_yticks([LEAST, 0.1, 10.0], [r"$\leq 10^{-3}$", "$0.1$", "$10$"])
     names = [_name(key, usual_age) for key in found]
-    axes.set_xticks(range(len(found)), names, rotation=40.0, ha="right", rotation_mode="anchor")
+    axes.set_xticks(
+        range(len(found)),
+        names,
+        rotation=40.0,
+        ha="right",
+        rotation_mode="anchor",
+    )
     axes.xaxis.set_minor_locator(NullLocator())
     axes.tick_params(axis="x", length=0)
 
@@ -183,19 +212,38 @@ def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:
             axes.annotate(mesh, (size[0], ratio[0]), xytext=(3, -10), **text)
         elif is_quiet and height == heights[-1]:
             step = f"{float(sequence['longest_step'][0]):g} $D/V$"
-            axes.annotate(step, (size[-1], ratio[-1]), xytext=(-3, -9), ha="right", **text)
+            axes.annotate(
+                step,
+                (size[-1], ratio[-1]),
+                xytext=(-3, -9),
+                ha="right",
+                **text,
+            )
     axes.margins(y=0.16)  # room for labels below the lowest curve
     axes.set(xscale="log", xlabel=_ALONG[refined])
     axes.set_xticks(sorted(sizes), [f"{size:g}" for size in sorted(sizes)])
     axes.xaxis.set_minor_locator(NullLocator())
     if refined == "n_x":
-        axes.legend(handles=_keys(heights), loc="upper left", fontsize=style.SMALL)
+        axes.legend(
+            handles=_keys(heights),
+            loc="upper left",
+            fontsize=style.SMALL,
+        )
 
 
 def _keys(heights: list[float]) -> list[Line2D]:
     keys = []
     for i, height in enumerate(heights):
         marker, colour = style.look(i)
-        keys.append(style.key(f"$H={height:g}$ m", marker, "-", colour, **_SIZE, lw=1.0))
+        keys.append(
+            style.key(
+                f"$H={height:g}$ m",
+                marker,
+                "-",
+                colour,
+                **_SIZE,
+                lw=1.0,
+            )
+        )
     keys.append(style.key("quiet", "o", "--", linewidth=1.0, **_SIZE, **style.OPEN))
     return keys

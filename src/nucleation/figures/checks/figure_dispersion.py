@@ -79,7 +79,13 @@ def _draw_height(axes: Axes, one: xr.Dataset, name: str, shade: tuple[float, ...
     theory = (one[f"curve_{name}"] * memory_time).transpose("curve", "branch").values
     measured = (one[f"measured_{name}"] * memory_time).transpose("mode", "branch").values
     for branch, (_, marker, line) in enumerate(_BRANCHES):
-        axes.plot(curve, theory[:, branch], color=shade, linestyle=line, linewidth=1.0)
+        axes.plot(
+            curve,
+            theory[:, branch],
+            color=shade,
+            linestyle=line,
+            linewidth=1.0,
+        )
         axes.plot(
             modes,
             measured[:, branch],

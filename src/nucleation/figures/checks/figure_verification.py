@@ -11,7 +11,12 @@ from ...figures import style
 from ...types import Array
 
 _AGING: style.Options = {"marker": "o", "color": style.AGING, "ms": 3.8}
-_SLIP: style.Options = {"marker": "^", "color": style.SLIP, "mfc": "none", "ms": 6.5}
+_SLIP: style.Options = {
+    "marker": "^",
+    "color": style.SLIP,
+    "mfc": "none",
+    "ms": 6.5,
+}
 _BODY: style.Options = {"marker": "D", "color": style.BLUE, "ms": 3.8}
 
 
@@ -23,11 +28,36 @@ class _Series(NamedTuple):
 
 
 _SERIES = (
-    _Series("aging", "slip_rate_error", "aging law, slip rate", _AGING | {"ls": "-"}),
-    _Series("aging", "log_state_error", "aging law, state", _AGING | {"ls": "--"}),
-    _Series("slip", "slip_rate_error", "slip law, slip rate", _SLIP | {"ls": "-"}),
-    _Series("slip", "log_state_error", "slip law, state", _SLIP | {"ls": "--"}),
-    _Series("elastodynamics", "displacement_error", "elastodynamics, displacement", _BODY),
+    _Series(
+        "aging",
+        "slip_rate_error",
+        "aging law, slip rate",
+        _AGING | {"ls": "-"},
+    ),
+    _Series(
+        "aging",
+        "log_state_error",
+        "aging law, state",
+        _AGING | {"ls": "--"},
+    ),
+    _Series(
+        "slip",
+        "slip_rate_error",
+        "slip law, slip rate",
+        _SLIP | {"ls": "-"},
+    ),
+    _Series(
+        "slip",
+        "log_state_error",
+        "slip law, state",
+        _SLIP | {"ls": "--"},
+    ),
+    _Series(
+        "elastodynamics",
+        "displacement_error",
+        "elastodynamics, displacement",
+        _BODY,
+    ),
 )
 
 

@@ -37,12 +37,23 @@ def draw(theory: xr.Dataset) -> Figure:
     f_beta = ratio["f_beta"]
     for shade, dashes, value in zip(shades, cycle(DASHES), values, strict=False):
         curve = ratio.sel(zeta_over_a=value).transpose("f_beta").values
-        axes.plot(f_beta, curve, color=shade, linestyle=dashes, label=f"${value:.3g}$")
+        axes.plot(
+            f_beta,
+            curve,
+            color=shade,
+            linestyle=dashes,
+            label=f"${value:.3g}$",
+        )
     axes.set_xlabel(r"Bimaterial contrast $f\beta$")
     axes.set_ylabel(r"Critical length $L_c/L_c^{\mathcal{M}}$")
     axes.set_xlim(float(f_beta.min()), float(f_beta.max()))
     axes.set_ylim(0.0, 1.04)
     axes.minorticks_on()
     # the curves decrease from one, the highest zeta/a on top: the legend has their order
-    axes.legend(title=r"$\zeta/a$", loc="lower left", title_fontsize=9.0, labelspacing=0.3)
+    axes.legend(
+        title=r"$\zeta/a$",
+        loc="lower left",
+        title_fontsize=9.0,
+        labelspacing=0.3,
+    )
     return figure

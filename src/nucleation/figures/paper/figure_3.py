@@ -25,7 +25,8 @@ _STUDIES = (
 )
 
 CREEP_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the onset time
-EVENT_FRACTIONS = (0.4, 0.8)  # of the way, in log slip rate, from the onset to the peak
+# of the way, in log slip rate, from the onset to the peak
+EVENT_FRACTIONS = (0.4, 0.8)
 _EVENT_LOOKS = ((style.ORANGE, "--"), (style.VERMILLION, "-."))
 LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
 _SHOWN_LENGTHS = 1.4  # width of the inset in critical lengths
@@ -68,12 +69,24 @@ def draw(
     # from zero to slightly more than the highest simulated block
     simulated = drawn if drawn.sizes["run"] else theory
     highest = 1.12 * float(simulated["height"].max())
-    longest = np.interp(highest, theory["height"].values, theory["thin_limit_length"].values)
+    longest = np.interp(
+        highest,
+        theory["height"].values,
+        theory["thin_limit_length"].values,
+    )
     axes.set(xlim=(0.0, highest), ylim=(0.0, 1.04 * float(longest)))
     axes.minorticks_on()
-    axes.set(xlabel="Height $H$ (m)", ylabel="Critical nucleation length $L_c$ (m)")
+    axes.set(
+        xlabel="Height $H$ (m)",
+        ylabel="Critical nucleation length $L_c$ (m)",
+    )
     axes.legend(loc="upper left", labelspacing=0.35)
-    place = (_INSET_LEFT, _INSET_BOTTOM, _INSET_WIDTH, _inset_height(axes, drawn))
+    place = (
+        _INSET_LEFT,
+        _INSET_BOTTOM,
+        _INSET_WIDTH,
+        _inset_height(axes, drawn),
+    )
     _draw_snapshots(axes.inset_axes(place), inset_simulation, inset_row)
     return figure
 
@@ -81,7 +94,12 @@ def draw(
 def _draw_theory(axes: Axes, theory: xr.Dataset) -> None:
     """The prediction, solid, and its limit for thin blocks, dashed."""
     height = theory["height"].values
-    axes.plot(height, theory["critical_length"].values, color=style.THEORY, label="theory")
+    axes.plot(
+        height,
+        theory["critical_length"].values,
+        color=style.THEORY,
+        label="theory",
+    )
     axes.plot(
         height,
         theory["thin_limit_length"].values,
@@ -118,7 +136,14 @@ def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
                 age = _number(float(same["phi0"][0]))
                 state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
                 label = f"FEM, {kind.label}{state}{suffix}"
-                laws.draw(axes, same["height"].values, same, "length", label=label, **look)
+                laws.draw(
+                    axes,
+                    same["height"].values,
+                    same,
+                    "length",
+                    label=label,
+                    **look,
+                )
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
@@ -163,7 +188,10 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     labels = [f"{time[i]:.{decimals}f} s" for i in creep[:-1]]
     labels += [f"$t_c={start:.{decimals}f}$ s"]
     labels += [f"$t_c+{1e3 * (time[i] - start):#.3g}$ ms" for i in event]
-    looks = [*((shade, "-") for shade in style.shades(creep.size)), *_EVENT_LOOKS]
+    looks = [
+        *((shade, "-") for shade in style.shades(creep.size)),
+        *_EVENT_LOOKS,
+    ]
     shown = np.concatenate([creep, event])
     for i, (colour, dashes), label in zip(shown, looks, labels, strict=False):
         rate = simulation["slip_rate"].values[i]
@@ -191,11 +219,31 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
 
 def _mark_length(axes: Axes, length: float) -> None:
     """A dashed line at the length, and an arrow from x = 0 to it."""
-    axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9, zorder=1.0)
+    axes.axvline(
+        length,
+        color=style.GUIDE,
+        linestyle="--",
+        linewidth=0.9,
+        zorder=1.0,
+    )
     up = axes.get_xaxis_transform()
-    style.arrow(axes, (0.0, 0.12), (length, 0.12), kind="<->", xycoords=up, textcoords=up)
+    style.arrow(
+        axes,
+        (0.0, 0.12),
+        (length, 0.12),
+        kind="<->",
+        xycoords=up,
+        textcoords=up,
+    )
     # the first snapshots of the patch end right of this text
-    axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
+    axes.text(
+        0.2 * length,
+        0.15,
+        "$L_c$",
+        transform=up,
+        ha="center",
+        fontsize=8.5,
+    )
 
 
 def _number(value: float) -> str:
@@ -206,7 +254,12 @@ def _number(value: float) -> str:
     return f"{value:g}"
 
 
-def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
+def draw_run(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> Figure:
     """Draw the figure with one run in the inset (rule ``draw_figure_3``).
 
     Parameters

@@ -26,7 +26,13 @@ def draw(theory: xr.Dataset) -> Figure:
     full = theory["steady_friction"].values
     logarithmic = theory["steady_friction_logarithmic"].values
     velocity = float(theory["velocity"])
-    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
+    axes.semilogx(
+        rate,
+        full,
+        color=style.FULL_LAW,
+        linewidth=2.2,
+        label="full law",
+    )
     axes.semilogx(
         rate,
         logarithmic,

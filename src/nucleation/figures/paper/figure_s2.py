@@ -59,7 +59,10 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     panels[0, 1].sharey(panels[0, 0])
     ratio = simulation["shear_stress"] / parameters_of(simulation).loading.normal_stress
     ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
-    norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
+    norm = Normalize(
+        min(0.0, float(ratio.quantile(0.001))),
+        float(ratio.quantile(0.999)),
+    )
     time = simulation["time"].values
     start, peak, end = event_window(simulation, float(row["onset_time"]))
     record = Window(time[0], time[-1], 0.0, 1.0)  # seconds
@@ -69,7 +72,13 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
         least = 0.0 if window.origin == 0.0 else np.inf
         draw_force(force, simulation, window, least)
         _mark(image, force, row, window)
-    figure.colorbar(mesh, ax=panels[0, :], label=r"$\tau/\sigma_0$", pad=0.01, extend="both")
+    figure.colorbar(
+        mesh,
+        ax=panels[0, :],
+        label=r"$\tau/\sigma_0$",
+        pad=0.01,
+        extend="both",
+    )
     _label(panels, row)
     return figure
 
@@ -157,7 +166,12 @@ def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)
 
 
-def draw_force(axes: Axes, record: xr.Dataset, window: Window, least: float = np.inf) -> None:
+def draw_force(
+    axes: Axes,
+    record: xr.Dataset,
+    window: Window,
+    least: float = np.inf,
+) -> None:
     """Draw the driving force (kN/m), positive in compression, with limits for a window.
 
     Parameters
@@ -216,7 +230,10 @@ def _label(panels: NDArray[np.object_], row: xr.Dataset) -> None:
     for axes in (image, zoom):  # ticks inside are invisible on the dark image
         axes.tick_params(direction="out", top=False, right=False)
     style.letters(*panels.flat, pad=3.0)
-    beside: style.Options = {"textcoords": "offset points", "va": "bottom"}
+    beside: style.Options = {
+        "textcoords": "offset points",
+        "va": "bottom",
+    }
     if np.isfinite(row["length"]):
         place = (0.0, float(row["length"]))
         across = image.get_yaxis_transform()
@@ -224,7 +241,11 @@ def _label(panels: NDArray[np.object_], row: xr.Dataset) -> None:
     if np.isfinite(row["onset_time"]):
         place = (float(row["onset_time"]), 0.0)
         up = force.get_xaxis_transform()
-        look: style.Options = {"color": style.GUIDE, "ha": "right", **beside}
+        look: style.Options = {
+            "color": style.GUIDE,
+            "ha": "right",
+            **beside,
+        }
         force.annotate("onset", place, (-4.0, 5.0), up, **look)
 
 

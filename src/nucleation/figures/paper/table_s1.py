@@ -18,7 +18,13 @@ _ORDER = (
     "rate_coefficient",
 )
 
-_PRINTED = {"theta": "θ", "phi*": "φ*", "v0": "v₀", "xi": "ξ"}  # declared in ASCII
+# symbols that are declared in ASCII
+_PRINTED = {
+    "theta": "θ",
+    "phi*": "φ*",
+    "v0": "v₀",
+    "xi": "ξ",
+}
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -62,7 +68,10 @@ def value_text(value: float) -> str:
 
 def to_markdown(table: list[Parameter]) -> str:
     """The table as Markdown, ending in a newline."""
-    lines = ["| Parameter | Value | Units | Description |", "|---|---|---|---|"]
+    lines = [
+        "| Parameter | Value | Units | Description |",
+        "|---|---|---|---|",
+    ]
     for row in table:
         symbol = row.symbol.replace("*", r"\*")
         lines.append(f"| {symbol} | {value_text(row.value)} | {row.unit} | {row.description} |")
