@@ -82,8 +82,14 @@ FIGURES: dict[str, Entry] = {
         roles=("drop",),
         data=(Data("drop"),),
     ),
+    "figure_weakening": Entry(
+        "Where slow slip ends: lengths over the weakening",
+        BEYOND,
+        roles=("weakening",),
+        data=(Data("weakening"),),
+    ),
     "figure_map": Entry(
-        "Where the theory is right: a map over height and weakening",
+        "Lengths over height and weakening: a map",
         BEYOND,
         roles=("map",),
         data=(Data("map"),),

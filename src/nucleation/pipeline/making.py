@@ -17,7 +17,7 @@ from typing import Any
 
 import xarray as xr
 
-from ..analysis.rows import rows_of, without_event
+from ..analysis.rows import remarked, rows_of, without_event
 from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError, is_table, to_csv
 from ..model.quantities import ParameterError
@@ -41,7 +41,7 @@ _EXPECTED = (
 """Errors that are reported in one line: their cause is not in the code."""
 
 _LENGTHS = "lengths/"
-"""Directory of the tables of studies; a run without an event causes a warning."""
+"""Directory of the tables of studies; a run without an event, or with a remark, is reported."""
 
 
 def make(recipe: Recipe, rule: str, threads: int, forced: bool) -> None:
@@ -143,7 +143,7 @@ class _Maker:
         made = self._called(recipe)
         self._put(recipe, made)
         if recipe.name.startswith(_LENGTHS):
-            _warn_of_missing_events(recipe, made)
+            _warn_of_unusual_runs(recipe, made)
         return made
 
     def _called(self, recipe: Recipe, **more: Any) -> Any:
@@ -225,10 +225,11 @@ class _Maker:
         )
 
 
-def _warn_of_missing_events(recipe: Recipe, made: Any) -> None:
+def _warn_of_unusual_runs(recipe: Recipe, made: Any) -> None:
     if isinstance(made, xr.Dataset) and "onset_time" in made:
         study = recipe.name.removeprefix(_LENGTHS)
-        for line in without_event(rows_of(made)):
+        rows = rows_of(made)
+        for line in (*without_event(rows), *remarked(rows)):
             LOGGER.warning(f"Warning: study {study}: {line}")
 
 

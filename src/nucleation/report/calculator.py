@@ -152,6 +152,7 @@ def data() -> dict[str, Any]:
         "stability": stability.in_page(),
         "limits": {
             "localised": formulas.LOCALISED_LIMIT,
+            "crack": formulas.CRACK_LIMIT,
             "thin": formulas.THIN,
             "patch": formulas.FINITE_PATCH,
             "negligible": formulas.NEGLIGIBLE,

@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...answers.formulas import CRACK_LIMIT, LOCALISED_LIMIT
 from ...figures import laws, style
 
 KINDS = {
@@ -15,8 +16,8 @@ KINDS = {
 }
 """Label, marker and colour of each simulated length."""
 
-_SHOWN_AT = 1e-2  # m/s, in the panel over a/b
-_TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
+_SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
+_TICKS = (0.1, 0.2, 0.5, 1.0, 2.0)
 
 
 @style.styled
@@ -51,6 +52,13 @@ def draw(table: xr.Dataset) -> Figure:
             **look,
         )
         _draw_growth(right, rows, look)
+    left.axvspan(
+        LOCALISED_LIMIT,
+        CRACK_LIMIT,
+        color="0.9",
+        lw=0,
+        label="neither formula holds",
+    )
     left.set(
         xlabel="$a/b$",
         ylabel="Simulated length / formula",
@@ -59,31 +67,33 @@ def draw(table: xr.Dataset) -> Figure:
     left.set_title(f"(a) read at {_SHOWN_AT:g} m/s", loc="left")
     right.set(xscale="log", xlabel="Largest slip rate (m/s)")
     right.set_title("(b) as slip accelerates; labels: $a/b$", loc="left")
-    right.set_xlim(right=0.4)
+    right.set_xlim(right=5e4)  # with room for the labels
     for axes in (left, right):
         axes.set_yscale("log")
         style.level(axes, 1.0)
     left.set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
     left.minorticks_off()
-    left.legend(loc="lower left")
+    left.legend(loc="center left")
     return figure
 
 
 def _draw_growth(axes: Axes, rows: xr.Dataset, look: style.Options) -> None:
-    """One line for each a/b, of its first run."""
+    """One line for each a/b, of its first run; dashed: the formula at that slip rate."""
     rows = rows.assign(ratio=rows["a_over_b"].round(6)).sortby("ratio")
     for same in laws.groups(rows, "ratio"):
         first = next(laws.groups(same, "id"))
         x = first["read_at"].values
         y = first["difference"].values + 1.0
         axes.plot(x, y, **look)
-        if abs(y[-1] - 1.0) > 0.15:  # near 1 the lines coincide
+        at_this_rate = first["finite_speed_length"].values / first["formula_length"].values
+        axes.plot(x, at_this_rate, color=look["color"], linestyle="--", lw=0.8)
+        if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
             axes.annotate(
                 f"{float(same['ratio'][0]):.2g}",
                 (x[-1], y[-1]),
                 (5, 0),
                 textcoords="offset points",
-                va="center",
+                va="bottom" if float(same["ratio"][0]) < 0.5 else "top",
                 color=look["color"],
                 fontsize=style.SMALL,
             )
