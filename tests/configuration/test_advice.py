@@ -5,8 +5,9 @@ import math
 import pytest
 from configurations import messages, papers, study
 
-from nucleation.configuration.advice import advise, element_sizes
+from nucleation.configuration.advice import advise
 from nucleation.configuration.load import configure
+from nucleation.configuration.mesh_advice import element_sizes
 from nucleation.fem.grid import Grid
 from nucleation.model.parameters import Geometry, Mesh, Parameters
 from nucleation.theory.estimates import growth_time, process_zone

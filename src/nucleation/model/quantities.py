@@ -42,6 +42,11 @@ class Quantity:
         return self.kind.startswith("tuple")
 
     @property
+    def element(self) -> "Quantity":
+        """The declaration of one number of a tuple; of a single value, the declaration itself."""
+        return dataclasses.replace(self, kind="float") if self.many else self
+
+    @property
     def includes_low(self) -> bool:
         """Whether the lower end belongs to the range."""
         return self.closed in ("low", "both")
