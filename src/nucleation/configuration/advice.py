@@ -7,7 +7,7 @@ the linear theory and the thin block's statics; docs/studies.md gives their accu
 import math
 from collections.abc import Iterable, Iterator
 
-from ..model.linearised import InterfaceState, linearised
+from ..model.linearised import InterfaceState, interface_state
 from ..theory.estimates import growth_time
 from .mesh_advice import UNSTABLE, Advice, noise, resolution, roughness
 from .roles import REFINEMENTS
@@ -30,22 +30,28 @@ _MOST_NAMED = 100
 """Most runs that a warning names beside the worst; maps have thousands."""
 
 
+_Case = tuple[float, str, str]
+"""Badness and text of a warning, and the run's identifier."""
+
+
 def advise(runs: Iterable[Run]) -> list[str]:
     """The warnings about some runs: one for each study and topic, with the runs, the worst first.
 
     The numbers are those of the worst.
     """
-    found: dict[tuple[str, str], list[tuple[float, str, str]]] = {}
+    found: dict[str, list[_Case]] = {}
     for run in runs:
         for topic, badness, text in _about(run):
-            cases = found.setdefault((run.study, topic), [])
-            cases.append((badness, text, run.id))
+            heading = f"studies.{run.study}: {topic}"
+            found.setdefault(heading, [])
+            found[heading].append((badness, text, run.id))
     texts = []
-    for (study, topic), cases in found.items():
-        cases.sort(key=lambda case: -case[0])
-        text = cases[0][1]
-        ids = list(dict.fromkeys(case[2] for case in cases))  # a run of two blocks may be repeated
-        texts.append(f"studies.{study}: {topic} ({_worst(ids)}): {text}{_others(ids)}")
+    for heading, cases in found.items():
+        cases.sort(key=lambda case: case[0], reverse=True)
+        _, text, _ = cases[0]
+        ids = [identifier for _, _, identifier in cases]
+        ids = list(dict.fromkeys(ids))  # a run of two blocks may be repeated
+        texts.append(f"{heading} ({_worst(ids)}): {text}{_others(ids)}")
     return texts
 
 
@@ -59,15 +65,16 @@ def _others(ids: list[str]) -> str:
     others = ids[1:]
     if not others:
         return ""
+    named = ", ".join(others[:_MOST_NAMED])
     unnamed = len(others) - _MOST_NAMED
     rest = f" and {unnamed} more" if unnamed > 0 else ""
-    return f" [also {', '.join(others[:_MOST_NAMED])}{rest}]"
+    return f" [also {named}{rest}]"
 
 
 def _about(run: Run) -> Iterator[Advice]:
     """All warnings about a run."""
     yield from resolution(run)
-    interface = linearised(run.parameters.friction, run.parameters.loading)
+    interface = interface_state(run.parameters)
     if math.isnan(run.theory_length) or interface.zeta <= 0.0:
         yield _no_nucleation(run, interface)
         return
@@ -111,7 +118,8 @@ def changing_friction(run: Run) -> Iterator[Advice]:
     b = a + zeta
     b_near = a_near + zeta_near
     change_of_a = abs(a_near / a - 1.0)
-    change_of_b = abs(b_near - b) / max(a, abs(b))
+    scale = max(a, abs(b))
+    change_of_b = abs(b_near - b) / scale
     change = max(change_of_a, change_of_b)
     if change < _CHANGE_OF_FRICTION:
         return
@@ -142,7 +150,8 @@ def _stability_length(run: Run, constant: bool) -> str:
 
 def _steps(run: Run, interface: InterfaceState) -> Iterator[Advice]:
     longest = run.parameters.stepping.longest_step
-    period = 2.0 * math.pi * math.sqrt(interface.a / interface.zeta)  # in units of D/V
+    ratio = interface.a / interface.zeta
+    period = 2.0 * math.pi * math.sqrt(ratio)  # in units of D/V
     if longest > period / _STEPS_PER_PERIOD:
         yield (
             "time steps too long",
@@ -180,7 +189,8 @@ def _block(run: Run) -> Iterator[Advice]:
 
 def _start(run: Run) -> Iterator[Advice]:
     loading = run.parameters.loading
-    coefficient = run.parameters.friction.coefficient(loading.velocity, loading.initial_state)
+    friction = run.parameters.friction
+    coefficient = friction.coefficient(loading.velocity, loading.initial_state)
     strength = float(coefficient) * loading.normal_stress
     initial = loading.initial_shear_stress
     if initial >= strength:

@@ -14,6 +14,7 @@ from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import run_problems
 from .refusals import stop_on
 from .role_problems import problems_of_runs
+from .roles import PAPERS
 from .runs import Run, shown
 from .settings import FigureSettings, Limits, StudySettings
 from .studies import study_runs
@@ -62,13 +63,14 @@ class Configuration:
     @property
     def runs(self) -> tuple[Run, ...]:
         """The runs of all studies, in the configuration's order."""
-        return tuple(run for study in self.studies for run in self.runs_of(study))
+        return tuple(self._runs_of_all(self.studies))
 
     def runs_of(self, study: str) -> list[Run]:
         """The runs of one study, none if there is no such study."""
         if study not in self.studies:
             return []
-        return list(self._checked(study).runs.values())
+        expanded = self._checked(study)
+        return list(expanded.runs.values())
 
     def studies_for(self, *roles: str) -> list[str]:
         """The names of the studies with some roles, in the configuration's order."""
@@ -76,7 +78,14 @@ class Configuration:
 
     def runs_for(self, *roles: str) -> list[Run]:
         """The runs of the studies with some roles."""
-        return [run for study in self.studies_for(*roles) for run in self.runs_of(study)]
+        studies = self.studies_for(*roles)
+        return self._runs_of_all(studies)
+
+    def _runs_of_all(self, studies: Iterable[str]) -> list[Run]:
+        runs = []
+        for study in studies:
+            runs += self.runs_of(study)
+        return runs
 
     def run(self, identifier: str) -> Run:
         """The run with an identifier such as ``paper-aging-H0.005-phi1``.
@@ -110,7 +119,8 @@ class Configuration:
         ParameterError
             If there is none.
         """
-        run = shown(self.runs_for("paper"), height, self.base)
+        runs = self.runs_for(PAPERS)
+        run = shown(runs, height, self.base)
         if run is None:
             raise ParameterError(f"no study with role: paper has a run with height {height:g} m")
         return run
@@ -130,28 +140,39 @@ class Configuration:
         return self._kept[study]
 
     def _expand(self, study: str) -> _Expanded:
-        found = list(
-            study_runs(
-                study,
-                self.sections[study],
-                self.base,
-                self.main_text_interface,
-                self.stepping,
-            )
-        )
-        runs = [run for _, run in found if isinstance(run, Run)]
+        runs = []
+        found = []
+        for place, run in study_runs(
+            study,
+            self.sections[study],
+            self.base,
+            self.main_text_interface,
+            self.stepping,
+        ):
+            found.append((place, run))
+            if isinstance(run, Run):
+                runs.append(run)
         problems = list(self._run_problems(found))
         if not problems:
-            settings = self.studies[study]
-            problems += problems_of_runs(study, settings, runs, self.figures, self.base)
+            problems += problems_of_runs(
+                study,
+                self.studies[study],
+                runs,
+                self.figures,
+                self.base,
+            )
         batches: dict[str, list[Run]] = {}
         for run in runs:
             if run.batch:
-                batches.setdefault(run.batch, []).append(run)
+                batches.setdefault(run.batch, [])
+                batches[run.batch].append(run)
         by_id = {run.id: run for run in runs}
         return _Expanded(by_id, batches, problems)
 
-    def _run_problems(self, found: Iterable[tuple[str, Run | str]]) -> Iterator[str]:
+    def _run_problems(
+        self,
+        found: Iterable[tuple[str, Run | str]],
+    ) -> Iterator[str]:
         """Runs that are invalid, repeated or contradictory."""
         seen: dict[Hashable, str] = {}
         for key, run in found:
@@ -170,11 +191,17 @@ class Configuration:
         if study in self.studies:
             return study
         close = difflib.get_close_matches(study, self.studies, n=1)
-        hint = f"did you mean {close[0]}?" if close else f"studies: {', '.join(self.studies)}"
+        listed = ", ".join(self.studies)
+        hint = f"did you mean {close[0]}?" if close else f"studies: {listed}"
         raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
 
 
-def _found(kind: str, name: str, known: Mapping[str, _Named], study: str) -> _Named:
+def _found(
+    kind: str,
+    name: str,
+    known: Mapping[str, _Named],
+    study: str,
+) -> _Named:
     """The run or the batch of a study with a name."""
     if name in known:
         return known[name]

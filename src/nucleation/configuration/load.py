@@ -4,6 +4,7 @@ All problems of a configuration are reported together, each with key, value, uni
 """
 
 import dataclasses
+import functools
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -31,7 +32,10 @@ DEFAULTS = (
 """The default configuration: the paper's, and the studies beyond it."""
 
 
-def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
+def load(
+    *paths: str | os.PathLike[str],
+    lazy: bool = False,
+) -> Configuration:
     """The configuration in YAML files, or the default one.
 
     Parameters
@@ -51,22 +55,26 @@ def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
     ParameterError
         With one line for each problem found.
     """
-    values = _merged(map(read_yaml, paths)) if paths else {}
+    values = {}
+    if paths:
+        layers = map(read_yaml, paths)
+        values = _merged(layers)
     return configure(values, lazy=lazy)
 
 
 def _merged(layers: Iterable[Any]) -> Any:
     """Configurations as one, merged as Snakemake merges its files: later values replace earlier."""
-    first, *others = layers
-    for other in others:
-        if not isinstance(first, dict) or not isinstance(other, dict):
-            first = other
-            continue
-        both = {}
-        for key in first.keys() & other.keys():
-            both[key] = _merged((first[key], other[key]))
-        first = {**first, **other, **both}
-    return first
+    return functools.reduce(_replaced, layers)
+
+
+def _replaced(first: Any, later: Any) -> Any:
+    """A value with a later one in its place; of two mappings key by key."""
+    if not isinstance(first, dict) or not isinstance(later, dict):
+        return later
+    merged = {**first, **later}
+    for key in first.keys() & later.keys():
+        merged[key] = _replaced(first[key], later[key])
+    return merged
 
 
 def completed(values: Any) -> Any:
@@ -79,18 +87,24 @@ def completed(values: Any) -> Any:
     """
     if not isinstance(values, dict) or "studies" in values:
         return values
-    if not all(path.is_file() for path in DEFAULTS):
+    in_checkout = all(path.is_file() for path in DEFAULTS)
+    if not in_checkout:
         raise ParameterError(
             "the configuration lacks the key studies: only a checkout of the project has the "
             "paper's, in config/config.yaml"
         )
-    default = _merged(map(read_yaml, DEFAULTS))
+    layers = map(read_yaml, DEFAULTS)
+    default = _merged(layers)
     if "friction" in values or "loading" in values:
         del default["main_text_interface"]  # the rounded values of the paper's own friction law
     return _merged((default, values))
 
 
-def configure(values: Any, *, lazy: bool = False) -> Configuration:
+def configure(
+    values: Any,
+    *,
+    lazy: bool = False,
+) -> Configuration:
     """Check a configuration and convert it to settings and runs.
 
     Parameters
@@ -110,32 +124,15 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     ParameterError
         With one line for each problem found.
     """
-    values = _with_numbers(completed(values))
+    values = completed(values)
+    values = _with_numbers(values)
     stop_on(value_problems(values))
-    results = results_directory(values)
-    stop_on([*range_problems(values), *results_problems(results)])
-    try:
-        groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
-    except ParameterError as error:  # a parameter that the chosen friction law does not have
-        stop_on([str(error)])
-    names = [field.name for field in dataclasses.fields(Parameters)]
-    own = {name: groups.pop(name) for name in names if name in groups}
-    base = _recording_the_drop(Parameters(**own), groups["extraction"].drop)
-    main_text = loaded(groups.pop("main_text_interface"), base.loading)
-    if not values.get("main_text_interface"):
-        main_text = _own_unless_rounded(main_text, base)
-    sections = values["studies"]
-    settings = Configuration(
-        results=results,
-        base=base,
-        main_text_interface=main_text,
-        studies={name: StudySettings.of(section) for name, section in sections.items()},
-        sections=sections,
-        stepping=tuple(values.get("stepping", {})),
-        **groups,
-    )
+    problems = list(range_problems(values))
+    problems += results_problems(results_directory(values))
+    stop_on(problems)
+    settings = _settings(values)
     stop_on(rounding_problems(settings))
-    problems: list[str] = []
+    problems = []
     if not lazy:
         for study in settings.studies:
             problems += settings.problems_of(study)
@@ -143,6 +140,39 @@ def configure(values: Any, *, lazy: bool = False) -> Configuration:
     problems += setting_problems(settings)
     stop_on(problems)
     return settings
+
+
+def _settings(values: Mapping[str, Any]) -> Configuration:
+    """The settings in a configuration with allowed values."""
+    groups = {}
+    for name in schema.GROUPS:
+        section = values.get(name, {})
+        try:
+            groups[name] = _group(name, section)
+        except ParameterError as error:  # a parameter that the chosen friction law does not have
+            stop_on([str(error)])
+    own = {}
+    for field in dataclasses.fields(Parameters):
+        if field.name in groups:
+            own[field.name] = groups.pop(field.name)
+    drop = groups["extraction"].drop
+    base = _recording_the_drop(Parameters(**own), drop)
+    main_text = groups.pop("main_text_interface")
+    main_text = loaded(main_text, base.loading)
+    if not values.get("main_text_interface"):
+        main_text = _own_unless_rounded(main_text, base)
+    studies = {}
+    for name, section in values["studies"].items():
+        studies[name] = StudySettings.of(section)
+    return Configuration(
+        results=results_directory(values),
+        base=base,
+        main_text_interface=main_text,
+        studies=studies,
+        sections=values["studies"],
+        stepping=tuple(values.get("stepping", ())),
+        **groups,
+    )
 
 
 def _recording_the_drop(base: Parameters, drop: float) -> Parameters:
@@ -164,9 +194,12 @@ def _own_unless_rounded(rounded: InterfaceState, base: Parameters) -> InterfaceS
 
 def _group(name: str, values: Mapping[str, Any]) -> Any:
     """The dataclass of a section, with numbers in their declared type."""
+    cls = schema.GROUPS[name]
     entries = schema.group_entries(name)
-    typed = {key: in_type(entries[key], value) for key, value in values.items()}
-    return schema.GROUPS[name](**typed)
+    typed = {}
+    for key, value in values.items():
+        typed[key] = in_type(entries[key], value)
+    return cls(**typed)
 
 
 def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:

@@ -27,6 +27,9 @@ _Place = tuple[Any, ...]
 _Check = Callable[[_Place, Any], Iterator[str]]
 """A function that yields the problems with a value at a place of the configuration."""
 
+_Problems = Iterator[str]
+"""Messages, one for each problem."""
+
 _LONGEST_QUOTE = 80
 """Characters of a value in a message; longer values are cut."""
 
@@ -40,9 +43,10 @@ def stop_on(problems: Iterable[str]) -> None:
         raise ParameterError(f"the configuration has {count}:{listing}")
 
 
-def value_problems(values: object) -> Iterator[str]:
+def value_problems(values: object) -> _Problems:
     """Unknown keys, missing keys and values that are not allowed, in a whole configuration."""
-    checks: dict[str, _Check] = {"results": partial(_single, RESULTS)}
+    checks: dict[str, _Check] = {}
+    checks["results"] = partial(_single, RESULTS)
     for group in GROUPS:
         keys: dict[str, _Check] = {}
         for key, entry in group_entries(group).items():
@@ -53,7 +57,7 @@ def value_problems(values: object) -> Iterator[str]:
     yield from _mapping(checks, (), values)
 
 
-def _studies(place: _Place, given: Any) -> Iterator[str]:
+def _studies(place: _Place, given: Any) -> _Problems:
     """Problems with the section ``studies``."""
     if not isinstance(given, dict):
         yield _no_mapping(place, given)
@@ -101,7 +105,7 @@ def _mapping(
     *,
     needed: Iterable[str] = (),
     filled: bool = False,
-) -> Iterator[str]:
+) -> _Problems:
     """Problems with a mapping; `checks` are those of its keys."""
     if not isinstance(given, dict):
         yield _no_mapping(place, given)
@@ -116,10 +120,15 @@ def _mapping(
             yield _unknown_key((*place, key), given[key], checks)
     for key, value in given.items():
         if key in checks:
-            yield from checks[key]((*place, key), value)
+            check = checks[key]
+            yield from check((*place, key), value)
 
 
-def _list(check: _Check, place: _Place, given: Any) -> Iterator[str]:
+def _list(
+    check: _Check,
+    place: _Place,
+    given: Any,
+) -> _Problems:
     """Problems with a list; `check` is that of its items."""
     if not isinstance(given, list):
         yield f"{_key_text(place)} = {_quoted(given)} must be a list"
@@ -130,7 +139,11 @@ def _list(check: _Check, place: _Place, given: Any) -> Iterator[str]:
         yield from check((*place, number), value)
 
 
-def _single(entry: Quantity, place: _Place, value: Any) -> Iterator[str]:
+def _single(
+    entry: Quantity,
+    place: _Place,
+    value: Any,
+) -> _Problems:
     """Problems with one value."""
     if _allowed(value, entry):
         return
@@ -141,20 +154,35 @@ def _single(entry: Quantity, place: _Place, value: Any) -> Iterator[str]:
     yield text
 
 
-def _several(entry: Quantity, place: _Place, value: Any) -> Iterator[str]:
+def _several(
+    entry: Quantity,
+    place: _Place,
+    value: Any,
+) -> _Problems:
     """Problems with a value, a list of different values or a range."""
     check = partial(_single, entry.element)
     if isinstance(value, list):
         yield from _list(check, place, value)
-        if any(value[i] in value[:i] for i in range(len(value))):
+        if _has_repeats(value):
             yield f"{_key_text(place)} = {_quoted(value)} has a value twice"
     elif isinstance(value, dict) and has_range(entry):
-        keys: dict[str, _Check] = {"start": check, "stop": check}
+        ends = ("start", "stop")
+        keys: dict[str, _Check] = dict.fromkeys(ends, check)
         for name, declared in RANGE.items():
             keys[name] = partial(_single, declared)
-        yield from _mapping(keys, place, value, needed=["start", "stop", "num"])
+        yield from _mapping(keys, place, value, needed=[*ends, "num"])
     else:
         yield from check(place, value)
+
+
+def _has_repeats(values: list[Any]) -> bool:
+    """Whether a list, possibly of lists and mappings, has a value twice."""
+    seen: list[Any] = []
+    for value in values:
+        if value in seen:
+            return True
+        seen.append(value)
+    return False
 
 
 def _allowed(value: Any, entry: Quantity) -> bool:
@@ -189,22 +217,29 @@ def _empty(place: _Place, value: Any) -> str:
     return f"{_key_text(place)} = {value!r} is empty: it needs at least one entry"
 
 
-def _unknown_key(place: _Place, value: Any, known: Collection[str]) -> str:
-    in_study = place[0] == "studies"
-    close = difflib.get_close_matches(str(place[-1]), known, n=1)
+def _unknown_key(
+    place: _Place,
+    value: Any,
+    known: Collection[str],
+) -> str:
+    key = str(place[-1])
+    close = difflib.get_close_matches(key, known, n=1)
     if close:
         hint = f"did you mean {close[0]}?"
     else:
-        short = [key for key in known if not (in_study and "." in key)]
-        hint = f"known keys: {', '.join(short)}"
+        listed = list(known)
+        if place[0] == "studies":  # without full names, which repeat the short ones
+            listed = [name for name in known if "." not in name]
+        hint = f"known keys: {', '.join(listed)}"
     return f"{_key_text(place)} = {_quoted(value)} is not allowed: unknown key; {hint}"
 
 
 def _key_text(place: _Place) -> str:
     """A place in the configuration as text, ``studies.paper.runs[0].height``."""
-    parts = [f"[{part}]" if isinstance(part, int) else f".{part}" for part in place]
-    text = "".join(parts).lstrip(".")
-    return text or "the configuration"
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return text.lstrip(".") or "the configuration"
 
 
 def _quoted(value: Any) -> str:
@@ -214,10 +249,11 @@ def _quoted(value: Any) -> str:
     return f"{text[: _LONGEST_QUOTE - 4]} ..."
 
 
-def range_problems(values: Mapping[str, Any]) -> Iterator[str]:
+def range_problems(values: Mapping[str, Any]) -> _Problems:
     """Ranges that can't be expanded, and entries of studies with too many simulations."""
     for group in GROUPS:
-        yield from _ranges_in((group,), values.get(group, {}))
+        section = values.get(group, {})
+        yield from _ranges_in((group,), section)
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
             place = ("studies", name, "runs", number)
@@ -227,7 +263,10 @@ def range_problems(values: Mapping[str, Any]) -> Iterator[str]:
             yield from _ranges_in(place, entry)
 
 
-def _ranges_in(place: _Place, section: Mapping[str, Any]) -> Iterator[str]:
+def _ranges_in(
+    place: _Place,
+    section: Mapping[str, Any],
+) -> _Problems:
     for key, value in section.items():
         if key == "defaults":  # single values, no ranges
             continue

@@ -7,8 +7,10 @@ from .roles import ROLES
 from .runs import Run, shown
 from .settings import FigureSettings, StudySettings
 
+_Problems = Iterator[str]
 
-def problems_of_studies(studies: Mapping[str, StudySettings]) -> Iterator[str]:
+
+def problems_of_studies(studies: Mapping[str, StudySettings]) -> _Problems:
     """Settings of studies that contradict their roles, a line for each.
 
     Parameters
@@ -38,7 +40,7 @@ def problems_of_runs(
     runs: Sequence[Run],
     figures: FigureSettings,
     base: Parameters,
-) -> Iterator[str]:
+) -> _Problems:
     """Runs of a study that contradict its role, and missing ones, a line for each.
 
     Parameters
@@ -64,7 +66,8 @@ def problems_of_runs(
                 break  # the first run shows the problem
     law = base.friction.evolution
     age = base.loading.initial_state
-    for key in ROLES[role].heights:
+    keys = ROLES[role].heights
+    for key in keys:
         height = getattr(figures, key)
         if shown(runs, height, base) is None:
             yield (

@@ -7,8 +7,6 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
@@ -16,9 +14,9 @@ from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, run_length, theory_lengths
 from ..theory.estimates import growth_time
 from ..theory.transfer import bodies_of
-from .runs import Run, varied
+from .runs import Run
 from .settings import StudySettings
-from .study_names import by_study_name, expand, identifier, study_parameters
+from .study_names import by_study_name, expand, identifier
 
 _LATEST_END = 1.5
 """Default end of a run over the estimated time until the critical length."""
@@ -26,8 +24,15 @@ _LATEST_END = 1.5
 _AFTER_EVENT = 10.0
 """Default time after the event over D/V."""
 
-_CURVE_POINTS = 81
-"""Values of a varied number in the theory's curve of a study's figure."""
+
+_Section = Mapping[str, Any]
+"""The section of a study in the configuration."""
+
+_Place = str
+"""Place of a run in the configuration, such as ``studies.paper.runs[0]``."""
+
+_Parts = tuple[dict[str, Any], ...]
+"""Values of the study, of the entry and of the run itself."""
 
 
 class _Prepared(NamedTuple):
@@ -39,66 +44,13 @@ class _Prepared(NamedTuple):
     values: dict[str, Any]  # all values that the study gives
 
 
-def theory_curves(
-    runs: list[Run],
-    settings: StudySettings,
-    base: Parameters,
-    main_text: InterfaceState,
-) -> dict[str, dict[str, list[float]]]:
-    """The theory's length over the one number that a study varies, closely spaced.
-
-    Parameters
-    ----------
-    runs : list of Run
-        The study's runs.
-    settings : StudySettings
-        The study's settings.
-    base, main_text
-        As in :func:`study_runs`.
-
-    Returns
-    -------
-    dict
-        By the words that differ among the runs (``"slip"``, or ``""``): the number (``x``) and
-        the lengths (``length``, m; NaN where sliding is stable), to eight digits. Empty if the
-        study varies several numbers or none, or an integer.
-    """
-    declared = study_parameters()
-    found = varied(runs)
-    numbers = [name for name in found if not declared[name].choices]
-    words = [name for name in found if declared[name].choices]
-    if len(numbers) != 1 or declared[numbers[0]].kind != "float":
-        return {}
-    (name,) = numbers
-    kinds = [", ".join(str(found[word][i]) for word in words) for i in range(len(runs))]
-    curves = {}
-    for run, kind in zip(runs, kinds, strict=True):
-        ends = [x for x, other in zip(found[name], kinds, strict=True) if other == kind]
-        if kind in curves or name not in run.given or len(ends) < 2:
-            continue
-        low = min(ends)
-        high = max(ends)
-        spaced = np.geomspace if low > 0.0 else np.linspace
-        x = spaced(low, high, _CURVE_POINTS).tolist()
-        faults = [_fault(settings, run.given | {name: value}, base, main_text) for value in x]
-        curves[kind] = {
-            "x": _rounded(x),
-            "length": _rounded(_theory_lengths(faults)),
-        }
-    return curves
-
-
-def _rounded(numbers: Iterable[float]) -> list[float]:
-    return [float(f"{number:.8g}") for number in numbers]
-
-
 def study_runs(
     name: str,
-    study: Mapping[str, Any],
+    study: _Section,
     base: Parameters,
     main_text: InterfaceState,
     stepping: Collection[str] = (),
-) -> Iterator[tuple[str, Run | str]]:
+) -> Iterator[tuple[_Place, Run | str]]:
     """The runs of a study.
 
     Parameters
@@ -130,29 +82,40 @@ def study_runs(
             prepared.append(_prepared(settings, parts, base, main_text))
         except ParameterError as error:
             prepared.append(error)
-    good = [run[:2] for run in prepared if isinstance(run, _Prepared)]
-    lengths = iter(_theory_lengths(good))
+    faults = []
+    for run in prepared:
+        if isinstance(run, _Prepared):
+            faults.append((run.parameters, run.interface))
+    lengths = iter(lengths_of(faults))
     batches = _batches(name, len(given), settings.runs_per_job)
-    for (key, _), batch, run in zip(given, batches, prepared, strict=True):
+    for i, run in enumerate(prepared):
+        key, _ = given[i]
         if isinstance(run, ParameterError):
             yield key, str(run)
             continue
         critical = next(lengths)
         try:
-            yield key, _run(name, settings, run, critical, batch, stepping)
+            yield key, _run(name, settings, run, critical, batches[i], stepping)
         except ParameterError as error:
             yield key, str(error)
 
 
-def _given(name: str, study: Mapping[str, Any]) -> Iterator[tuple[str, tuple[dict[str, Any], ...]]]:
-    """Place of each run, with the values of the study, of the entry and of the run itself."""
+def _given(
+    name: str,
+    study: _Section,
+) -> Iterator[tuple[_Place, _Parts]]:
+    """Place of each run, with its values."""
     of_study = study.get("defaults", {})
     for number, entry in enumerate(study["runs"]):
         of_entry = entry.get("defaults", {})
-        lists = {key: expand(value) for key, value in entry.items() if key != "defaults"}
+        lists = {}
+        for key, value in entry.items():
+            if key != "defaults":
+                lists[key] = expand(value)
+        place = f"studies.{name}.runs[{number}]"
         for chosen in itertools.product(*lists.values()):
             own = dict(zip(lists, chosen, strict=True))
-            yield f"studies.{name}.runs[{number}]", (of_study, of_entry, own)
+            yield place, (of_study, of_entry, own)
 
 
 def _batches(study: str, runs: int, per_job: int) -> list[str]:
@@ -165,38 +128,62 @@ def _batches(study: str, runs: int, per_job: int) -> list[str]:
         return [""] * runs
     number = math.ceil(runs / per_job)
     digits = len(str(number - 1))
-    draw = random.Random(runs).random  # the same numbers in every Python version
-    drawn = sorted((draw(), run) for run in range(runs))
+    generator = random.Random(runs)
+    draws = [generator.random() for _ in range(runs)]  # equal in every Python version
+    shuffled = sorted(range(runs), key=draws.__getitem__)
     batches = [""] * runs
-    for rank, (_, run) in enumerate(drawn):
-        batches[run] = f"{study}-{rank % number:0{digits}d}"
+    for rank, run in enumerate(shuffled):
+        batch = rank % number
+        batches[run] = f"{study}-{batch:0{digits}d}"
     return batches
 
 
 def _prepared(
     settings: StudySettings,
-    parts: Iterable[dict[str, Any]],
+    parts: _Parts,
     base: Parameters,
     main_text: InterfaceState,
 ) -> _Prepared:
-    """A run from the values of the study, of the entry and of the run itself."""
+    """A run from its values."""
     of_study, of_entry, own = map(by_study_name, parts)
     values = of_study | of_entry | own
-    parameters, interface = _fault(settings, values, base, main_text)
+    parameters, interface = fault_of(settings, values, base, main_text)
     return _Prepared(parameters, interface, own, values)
 
 
-def _fault(
+def fault_of(
     settings: StudySettings,
     values: dict[str, Any],
     base: Parameters,
     main_text: InterfaceState,
 ) -> tuple[Parameters, InterfaceState]:
-    """Parameters with values of a study, by standard name, and the theory's interface."""
+    """The fault with values of a study.
+
+    Parameters
+    ----------
+    settings : StudySettings
+        The study's settings.
+    values : dict
+        Values by the standard names of parameters.
+    base, main_text
+        As in :func:`study_runs`.
+
+    Returns
+    -------
+    parameters : Parameters
+        The run's parameters, with the block length of `base` unless it is given.
+    interface : InterfaceState
+        The linearised friction for the theory.
+
+    Raises
+    ------
+    ParameterError
+        If the height is missing or the values contradict each other.
+    """
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
-    without_constants = {name: value for name, value in values.items() if name not in CONSTANTS}
-    parameters = base.replaced(without_constants)
+    others = [name for name in values if name not in CONSTANTS]
+    parameters = base.replaced({name: values[name] for name in others})
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = replace(parameters, friction=friction)
@@ -213,9 +200,14 @@ def _fault(
     return parameters, loaded(main_text, loading)
 
 
-def _theory_lengths(faults: Iterable[tuple[Any, ...]]) -> list[float]:
+def lengths_of(
+    faults: Iterable[tuple[Parameters, InterfaceState]],
+) -> list[float]:
     """The theory's lengths (m) of all faults in one call, NaN where sliding is stable."""
-    cases = [(*bodies_of(parameters), interface) for parameters, interface in faults]
+    cases = []
+    for parameters, interface in faults:
+        upper, lower = bodies_of(parameters)
+        cases.append((upper, lower, interface))
     return theory_lengths(cases).tolist() if cases else []
 
 
@@ -282,6 +274,9 @@ def _with_late_end(
     """
     end = float(f"{_LATEST_END * growth_time(parameters, critical):.2g}")
     after = min(_AFTER_EVENT * parameters.memory_time, end)
-    found = {"end_time": end, "time_after_event": after}
-    own = {name: value for name, value in found.items() if name not in given}
-    return replace(parameters, stepping=replace(parameters.stepping, **own))
+    stepping = parameters.stepping
+    if "end_time" not in given:
+        stepping = replace(stepping, end_time=end)
+    if "time_after_event" not in given:
+        stepping = replace(stepping, time_after_event=after)
+    return replace(parameters, stepping=stepping)

@@ -66,7 +66,9 @@ def range_problem(value: Any) -> str | None:
     """The reason why a range can't be expanded, or None."""
     if not isinstance(value, dict):
         return None
-    start, stop, number = value["start"], value["stop"], value["num"]
+    start = value["start"]
+    stop = value["stop"]
+    number = value["num"]
     if not start < stop:
         return f"start {start!r} must be less than stop {stop!r}"
     if value.get("scale") == "log" and not start > 0.0:
@@ -80,7 +82,10 @@ def range_problem(value: Any) -> str | None:
 def study_parameters() -> Mapping[str, Quantity]:
     """The parameters that a study may vary, by standard name: those of runs, and constants."""
     known = names()
-    found = {known.short(full): entry for full, entry in known.items()}
+    found = {}
+    for full, entry in known.items():
+        name = known.short(full)
+        found[name] = entry
     return MappingProxyType(found)
 
 
@@ -137,7 +142,11 @@ def in_type(entry: Quantity, value: Any) -> Any:
     return value
 
 
-def identifier(study: str, parameters: Parameters, varied: Mapping[str, Any]) -> str:
+def identifier(
+    study: str,
+    parameters: Parameters,
+    varied: Mapping[str, Any],
+) -> str:
     """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``.
 
     Parameters
@@ -165,7 +174,8 @@ def identifier(study: str, parameters: Parameters, varied: Mapping[str, Any]) ->
     known = names()
 
     def position(name: str) -> tuple[int, bool, str]:
-        group, _, field = known.full(name).rpartition(".")
+        full = known.full(name)
+        group, _, field = full.rpartition(".")
         if not group:
             return len(groups), True, name
         number = not declared[name].choices

@@ -72,5 +72,6 @@ def wright_omega(z: ArrayLike) -> Array:
         t = near * (near + r * (2 / 3))
         correction = (t - 0.5 * r) / (t - r)
         w = w * (1.0 + r / near * correction)
-        if not np.any(np.abs(r) > 1e-3):  # so that NaN ends it too; an error of 1e-3^4 is left
+        large = np.abs(r) > 1e-3  # false for NaN; after this step 1e-3 becomes 1e-3^4
+        if not np.any(large):
             return w
