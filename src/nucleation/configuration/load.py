@@ -202,7 +202,7 @@ def _group(name: str, values: Mapping[str, Any]) -> Any:
     return cls(**typed)
 
 
-def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:
+def _with_numbers(value: Any, path: tuple[object, ...] = ()) -> Any:
     """A copy of a configuration as read from YAML, with texts such as ``30 GPa`` as numbers.
 
     YAML reads ``30 GPa``, ``1/3`` and ``1e-8`` as text. A text that is not an allowed number is

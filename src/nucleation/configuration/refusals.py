@@ -5,7 +5,7 @@ import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from functools import cache, partial
-from typing import Any
+from typing import Any, cast
 
 from ..model.friction.registry import EVOLUTIONS
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
@@ -21,10 +21,10 @@ from .study_names import (
     study_parameters,
 )
 
-_Place = tuple[Any, ...]
+_Place = tuple[object, ...]
 """Keys and numbers of items from the top of the configuration to a value."""
 
-_Check = Callable[[_Place, Any], Iterator[str]]
+_Check = Callable[[_Place, object], Iterator[str]]
 """A function that yields the problems with a value at a place of the configuration."""
 
 _Problems = Iterator[str]
@@ -57,7 +57,7 @@ def value_problems(values: object) -> _Problems:
     yield from _mapping(checks, (), values)
 
 
-def _studies(place: _Place, given: Any) -> _Problems:
+def _studies(place: _Place, given: object) -> _Problems:
     """Problems with the section ``studies``."""
     if not isinstance(given, dict):
         yield _no_mapping(place, given)
@@ -101,7 +101,7 @@ def _check_of_study() -> _Check:
 def _mapping(
     checks: Mapping[str, _Check],
     place: _Place,
-    given: Any,
+    given: object,
     *,
     needed: Iterable[str] = (),
     filled: bool = False,
@@ -127,7 +127,7 @@ def _mapping(
 def _list(
     check: _Check,
     place: _Place,
-    given: Any,
+    given: object,
 ) -> _Problems:
     """Problems with a list; `check` is that of its items."""
     if not isinstance(given, list):
@@ -142,7 +142,7 @@ def _list(
 def _single(
     entry: Quantity,
     place: _Place,
-    value: Any,
+    value: object,
 ) -> _Problems:
     """Problems with one value."""
     if _allowed(value, entry):
@@ -157,7 +157,7 @@ def _single(
 def _several(
     entry: Quantity,
     place: _Place,
-    value: Any,
+    value: object,
 ) -> _Problems:
     """Problems with a value, a list of different values or a range."""
     check = partial(_single, entry.element)
@@ -175,9 +175,9 @@ def _several(
         yield from check(place, value)
 
 
-def _has_repeats(values: list[Any]) -> bool:
+def _has_repeats(values: list[object]) -> bool:
     """Whether a list, possibly of lists and mappings, has a value twice."""
-    seen: list[Any] = []
+    seen: list[object] = []
     for value in values:
         if value in seen:
             return True
@@ -185,7 +185,7 @@ def _has_repeats(values: list[Any]) -> bool:
     return False
 
 
-def _allowed(value: Any, entry: Quantity) -> bool:
+def _allowed(value: object, entry: Quantity) -> bool:
     """Whether a configuration may have a value; no value may be infinite."""
     if not entry.allows(value):
         return False
@@ -194,12 +194,12 @@ def _allowed(value: Any, entry: Quantity) -> bool:
     if entry.worded:
         return isinstance(value, str)
     try:
-        return math.isfinite(value)
+        return math.isfinite(cast(float, value))
     except OverflowError:  # an integer beyond the largest float
         return False
 
 
-def _refusal(key: str, value: Any, entry: Quantity) -> str:
+def _refusal(key: str, value: object, entry: Quantity) -> str:
     """The reason why a value or its unit is not allowed."""
     try:
         if isinstance(value, str):
@@ -209,17 +209,17 @@ def _refusal(key: str, value: Any, entry: Quantity) -> str:
     return refusal(key, value, entry)
 
 
-def _no_mapping(place: _Place, value: Any) -> str:
+def _no_mapping(place: _Place, value: object) -> str:
     return f"{_key_text(place)} = {_quoted(value)} must be a mapping (lines of key: value)"
 
 
-def _empty(place: _Place, value: Any) -> str:
+def _empty(place: _Place, value: object) -> str:
     return f"{_key_text(place)} = {value!r} is empty: it needs at least one entry"
 
 
 def _unknown_key(
     place: _Place,
-    value: Any,
+    value: object,
     known: Collection[str],
 ) -> str:
     key = str(place[-1])
@@ -242,7 +242,7 @@ def _key_text(place: _Place) -> str:
     return text.lstrip(".") or "the configuration"
 
 
-def _quoted(value: Any) -> str:
+def _quoted(value: object) -> str:
     text = repr(value)
     if len(text) <= _LONGEST_QUOTE:
         return text

@@ -57,7 +57,7 @@ def group_entries(group: str) -> dict[str, Quantity]:
     return entries
 
 
-def entry_at(path: tuple[Any, ...]) -> Quantity | None:
+def entry_at(path: tuple[object, ...]) -> Quantity | None:
     """The declaration of one value of the configuration, by its place there; None if unknown."""
     if path == ("results",):
         return RESULTS

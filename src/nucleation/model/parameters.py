@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from functools import cache
-from typing import Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 from .block import Geometry, Mesh
 from .checked import Checked
@@ -77,6 +77,9 @@ class Stepping(Checked):
     )
 
 
+_Part = TypeVar("_Part", Material, Geometry, Mesh)
+
+
 class _SecondBlock(NamedTuple):
     """A second deformable block, with the first one's values where it has none of its own."""
 
@@ -146,12 +149,12 @@ class Parameters:
                     f"[{low:.3g}, {length:.3g}] m, {limits}"
                 )
 
-    def require_edge(self, what: str) -> None:
+    def require_edge(self, computation: str) -> None:
         """Check that the fault is uniform and pushed at its edge.
 
         Parameters
         ----------
-        what : str
+        computation : str
             The computation that needs such a fault, for the message.
 
         Raises
@@ -165,8 +168,8 @@ class Parameters:
         ):
             if value != needed:
                 raise ParameterError(
-                    f"{key} = {value} is not allowed with {what}, which applies only to a uniform "
-                    f"fault that is pushed at its edge: it must be {needed}; measure = "
+                    f"{key} = {value} is not allowed with {computation}, which applies only to a "
+                    f"uniform fault that is pushed at its edge: it must be {needed}; measure = "
                     "stability gives L_s of other faults, docs/loading.md"
                 )
 
@@ -177,9 +180,12 @@ class Parameters:
         if not second.deformable:
             return None
 
-        def like_the_first(own: Any) -> Any:
-            given = {f.name: getattr(second, f.name, None) for f in dataclasses.fields(own)}
-            changes = {name: value for name, value in given.items() if value is not None}
+        def like_the_first(own: _Part) -> _Part:
+            changes = {}
+            for field in dataclasses.fields(own):
+                value = getattr(second, field.name, None)
+                if value is not None:
+                    changes[field.name] = value
             return dataclasses.replace(own, **changes)
 
         return _SecondBlock(
