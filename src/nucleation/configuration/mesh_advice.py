@@ -67,10 +67,19 @@ def element_sizes(mesh: Mesh, geometry: Geometry) -> tuple[float, float]:
     return geometry.length / mesh.n_x, geometry.height / rows
 
 
+def _zone(run: Run) -> float:
+    """Length (m) of the process zone when the patch has the theory's critical length."""
+    critical = run.theory_length
+    if math.isnan(critical):
+        return process_zone(run.parameters)
+    rest = growth_time(run.parameters, critical)
+    return process_zone(run.parameters, rest)
+
+
 def resolution(run: Run) -> Iterator[Advice]:
     """Meshes that do not resolve the process zone at the front."""
     parameters = run.parameters
-    zone = process_zone(parameters)
+    zone = _zone(run)
     mesh = parameters.mesh
     along, _ = element_sizes(mesh, parameters.geometry)
     if along > zone / _ELEMENTS_PER_ZONE:
@@ -128,7 +137,7 @@ def noise(run: Run) -> Iterator[Advice]:
 def _noise_of_mesh(run: Run) -> Iterator[Advice]:
     mesh = run.parameters.mesh
     strength = run.parameters.perturbation.strength
-    zone = process_zone(run.parameters)
+    zone = _zone(run)
     along, _ = element_sizes(mesh, run.parameters.geometry)
     fewer = _COARSE_ELEMENTS - zone / along
     lost = _COARSE_NOISE * 10.0 ** min(_DECADES_PER_ELEMENT * fewer, 0.0)

@@ -93,6 +93,11 @@ ROLES = {
         several=True,
         one_by_one=False,
     ),
+    "weakening": _Role(
+        "weak to strong weakening, for `figure_weakening`",
+        several=True,
+        one_by_one=False,
+    ),
     "map": _Role(
         "heights and weakenings, for `figure_map`",
         one_by_one=False,

@@ -56,8 +56,12 @@ FIGURES: dict[str, Entry] = {
         "Where the force drops under a declared perturbation", BEYOND, ("drop",),
         (Data("drop"),),
     ),
+    "figure_weakening": Entry(
+        "Where slow slip ends: lengths over the weakening", BEYOND, ("weakening",),
+        (Data("weakening"),),
+    ),
     "figure_map": Entry(
-        "Where the theory is right: a map over height and weakening", BEYOND, ("map",),
+        "Lengths over height and weakening: a map", BEYOND, ("map",),
         (Data("map"),),
     ),
     "figure_patch_stability": Entry(
