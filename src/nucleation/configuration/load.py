@@ -6,7 +6,7 @@ All problems of a configuration are reported together, each with key, value, uni
 import dataclasses
 import functools
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -55,25 +55,18 @@ def load(
     ParameterError
         With one line for each problem found.
     """
-    values = {}
-    if paths:
-        layers = map(read_yaml, paths)
-        values = _merged(layers)
+    layers = map(read_yaml, paths)
+    values = functools.reduce(_merged, layers) if paths else {}
     return configure(values, lazy=lazy)
 
 
-def _merged(layers: Iterable[Any]) -> Any:
-    """Configurations as one, merged as Snakemake merges its files: later values replace earlier."""
-    return functools.reduce(_replaced, layers)
-
-
-def _replaced(first: Any, later: Any) -> Any:
-    """A value with a later one in its place; of two mappings key by key."""
+def _merged(first: Any, later: Any) -> Any:
+    """Two configurations as one, as Snakemake merges its files: later values replace earlier."""
     if not isinstance(first, dict) or not isinstance(later, dict):
         return later
     merged = {**first, **later}
     for key in first.keys() & later.keys():
-        merged[key] = _replaced(first[key], later[key])
+        merged[key] = _merged(first[key], later[key])
     return merged
 
 
@@ -93,11 +86,10 @@ def completed(values: Any) -> Any:
             "the configuration lacks the key studies: only a checkout of the project has the "
             "paper's, in config/config.yaml"
         )
-    layers = map(read_yaml, DEFAULTS)
-    default = _merged(layers)
+    default = functools.reduce(_merged, map(read_yaml, DEFAULTS))
     if "friction" in values or "loading" in values:
         del default["main_text_interface"]  # the rounded values of the paper's own friction law
-    return _merged((default, values))
+    return _merged(default, values)
 
 
 def configure(
