@@ -105,7 +105,7 @@ def _no_nucleation(run: Run, interface: InterfaceState) -> Advice:
         -interface.zeta,
         f"zeta = {interface.zeta:.3g} at V = {velocity:g} m/s; the "
         f"theory's critical length, {run.theory_length:.3g} m, is due to the normal stress "
-        "alone, which slip changes: it takes long to grow",
+        "alone, which slip changes: the patch grows slowly",
     )
 
 
@@ -135,7 +135,8 @@ def changing_friction(run: Run) -> Iterator[Advice]:
         change,
         f"{scales} beside V = {velocity:g} m/s: a = {a:.3g}, b = {b:.3g} at V, "
         f"{a_near:.3g}, {b_near:.3g} at V/10. L_s is {length}, with constant a and b "
-        f"{length_if_constant}; give smaller scales unless they are meant (docs/patch_theory.md)",
+        f"{length_if_constant}; give smaller scales unless these are intended "
+        "(docs/patch_theory.md)",
     )
 
 

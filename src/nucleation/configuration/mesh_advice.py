@@ -121,7 +121,7 @@ def roughness(run: Run) -> Iterator[Advice]:
             "roughness not resolved",
             along / scale,
             f"correlation_length = {scale:g} m has {scale / along:.2g} elements of {along:.3g} m, "
-            f"which sample some other roughness; recommended is n_x = {least} or more",
+            f"which represent another roughness; recommended is n_x = {least} or more",
         )
 
 
@@ -147,8 +147,8 @@ def _noise_of_mesh(run: Run) -> Iterator[Advice]:
             "perturbation lost in the mesh's noise",
             along / zone,
             f"strength = {strength:g} with {zone / along:.2g} elements to a process zone: "
-            "the front's hops from node to node shake the patch, and move onsets by 1 % up to "
-            f"strengths of about {lost:.0e}; recommended is n_x = {best} or more",
+            "the front's hops from node to node perturb the patch, and change onset times by 1 % "
+            f"up to strengths of about {lost:.0e}; recommended is n_x = {best} or more",
         )
 
 
@@ -163,7 +163,7 @@ def _noise_of_steps(run: Run) -> Iterator[Advice]:
             "perturbation lost in the steps' noise",
             passed,
             f"strength = {strength:g} while the front passes {100 * passed:.2g} % of an "
-            "element in the longest step, which shakes the patch as much; recommended is "
+            "element in the longest step, which perturbs the patch as much; recommended is "
             f"longest_step = {shorter:.1g} or less",
         )
 
