@@ -44,7 +44,7 @@ def draw(table: xr.Dataset) -> Figure:
     first = np.ravel(panels)[0]
     first.set_ylabel("Length over theory $L/L_c$")
     entries = style.entries(first)
-    entries[SIMULATED] = style.key(SIMULATED, "o", color=style.BLACK)
+    entries[SIMULATED] = style.key(SIMULATED, "o", colour=style.BLACK)
     figure.legend(entries.values(), entries, loc="outside upper center", ncols=2)
     return figure
 
