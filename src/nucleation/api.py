@@ -16,17 +16,19 @@ What carries a unit is converted to SI units: a DataArray by its attribute ``uni
 quantities, of which the results are quantities too. A text is read as the command line reads it,
 ``slip_distance="0.5um"``, in simulations as in the theory.
 
-Simulations, extraction and datasets are imported when first used, since that takes a while; they
-need the extra ``solver``, pictures and films (``plot_...``, ``film``) the extra ``figures``.
+Simulations, extraction and datasets are imported when first used, since that takes a while. They
+need the extra ``solver``, pictures and films (``plot_...``, ``film``) also the extra ``figures``:
+without it a call raises an ImportError that names the extra.
 """
 
 from __future__ import annotations
 
 import importlib
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
-from .datasets.installed import require, require_own
+from .datasets.installed import MissingExtra, require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material
@@ -116,24 +118,33 @@ _LATER = {
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
-_LIGHT = {
-    "length_quantiles",
-    "read_samples",
-    "runaway_length",
-    "specimen_fit",
-    "stability_length",
+_EXTRAS = {
+    **dict.fromkeys(("extract", "read", "run", "simulate", "write"), ("solver",)),
+    **dict.fromkeys(("film", "plot_length", "plot_run", "plot_spectrum"), ("solver", "figures")),
 }
-"""Those that need no extra."""
+"""The extras that some of them need."""
 
 
 def __getattr__(name: str) -> Any:
-    if name in _MODULES:
-        if name not in _LIGHT:
-            require("solver")
-        if _MODULES[name].startswith(".figures"):
-            require("figures")
-        return getattr(importlib.import_module(_MODULES[name], __package__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
+        for extra in _EXTRAS.get(name, ()):
+            require(extra)
+    except MissingExtra as missing:
+        return _without_extra(name, str(missing))
+    return getattr(importlib.import_module(_MODULES[name], __package__), name)
+
+
+def _without_extra(name: str, message: str) -> Callable[..., Any]:
+    """A function in place of one whose extra is not installed: a call names the extra."""
+
+    def unavailable(*_: Any, **__: Any) -> Any:
+        raise MissingExtra(message)
+
+    unavailable.__name__ = unavailable.__qualname__ = name
+    unavailable.__doc__ = f"Not installed: {message}."
+    return unavailable
 
 
 def __dir__() -> list[str]:

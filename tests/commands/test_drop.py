@@ -95,3 +95,9 @@ def test_a_fault_that_the_law_does_not_reach(nucleation, law, words):
     ended = nucleation(*WORDS, *words)
     assert ended.code == 4
     assert "no mode grows" in ended.out
+
+
+def test_it_answers_in_any_directory(nucleation, law, monkeypatch):
+    """Nothing is written, so it does not matter whether a run could write its results there."""
+    monkeypatch.chdir("/")
+    assert nucleation(*WORDS).code == 0

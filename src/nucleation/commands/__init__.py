@@ -14,7 +14,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..datasets.installed import MissingExtra, require
+from ..datasets.installed import MissingExtra
+from ..datasets.pages import with_addresses
 
 DONE = 0
 FAILED = 1
@@ -48,9 +49,6 @@ COMMANDS = {
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""
 
-LIGHT = {"length", "specimen"}
-"""Commands that need no extra; the others need ``solver``."""
-
 
 class LazyGroup(click.Group):
     """Commands of this package, each imported when it is used: help and completion stay quick."""
@@ -63,8 +61,6 @@ class LazyGroup(click.Group):
             close = difflib.get_close_matches(name, COMMANDS, n=1)
             hint = f"; did you mean {close[0]}?" if close else ""
             ctx.fail(f"there is no command {name!r}{hint}")
-        if name not in LIGHT:
-            require("solver")
         return importlib.import_module(f".{name}", __package__).command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -99,6 +95,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
             moment()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
+        error.message = with_addresses(error.message)
         error.show()
         return error.exit_code
     except click.Abort:
@@ -112,5 +109,5 @@ def run(arguments: Sequence[str] | None = None) -> int:
         message = place + (error.strerror or str(error))
     except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
         message = str(error) or "not enough memory"
-    click.echo(f"Error: {message}", err=True)
+    click.echo(f"Error: {with_addresses(message)}", err=True)
     return REFUSED

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ import click
 
 from ..configuration.advice import changing_friction
 from ..configuration.study_names import study_parameters
+from ..datasets.pages import with_addresses
 from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
 from ..model.perturbation import KINDS, Perturbation
@@ -83,7 +83,7 @@ def command(
     if math.isnan(critical):
         code, reason = STABLE, reason_of_stability(Fault(**fault)) + _cure(parameters)
     else:
-        run = planned(values, {}, results=os.getcwd())
+        run = planned(values, {}, results="results")  # not used
         critical = run.theory_length
         # with the solver, which takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
@@ -93,7 +93,7 @@ def command(
         except NoDrop as error:
             code, reason = UNKNOWN, str(error)
         for topic, _, text in changing_friction(run):
-            click.echo(f"Warning: {topic}: {text}", err=True)
+            click.echo(f"Warning: {topic}: {with_addresses(text)}", err=True)
     said = told(parameters, base, given)
     if as_json:
         known = {
@@ -103,7 +103,8 @@ def command(
         }
         click.echo(to_json(known | (_described(found) if found else {"unknown": reason})))
     else:
-        click.echo("\n".join([*said, *_lines(parameters, critical, found, reason)]))
+        lines = [*said, *_lines(parameters, critical, found, reason)]
+        click.echo(with_addresses("\n".join(lines)))
     return code
 
 

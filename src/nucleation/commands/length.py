@@ -17,6 +17,7 @@ from ..answers.in_use import (
     values_of,
 )
 from ..answers.uncertainty import Range, parse_range
+from ..datasets.pages import with_addresses
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS
 from ..model.material import Material
@@ -108,7 +109,7 @@ def command(
         }
         click.echo(to_json(found))
     else:
-        click.echo(_as_text(said, fault, theory, lengths, law))
+        click.echo(with_addresses(_as_text(said, fault, theory, lengths, law)))
     return DONE if math.isfinite(theory["critical_length"]) else STABLE
 
 

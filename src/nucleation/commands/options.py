@@ -13,6 +13,7 @@ from ..configuration.load import configure, load
 from ..configuration.runs import Run
 from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
+from ..datasets.installed import require
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
@@ -181,6 +182,7 @@ def _of_run(config: str | None, run_id: str) -> Parameters:
 
 def _of_dataset(path: Path) -> Parameters:
     # with the libraries of arrays on disk, which takes a second
+    require("solver")
     from ..analysis.record import parameters_of
     from ..datasets import netcdf
 
