@@ -72,13 +72,14 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     parts = _RANGE.fullmatch(text)
     if parts is None:
         return parse(key, text, entry)
+    value = parse(key, parts[1].strip(), entry)
     first = NUMBER.fullmatch(parts[1])
     unit = first[3] if first else ""
     ends = []
     for end in parts.groups()[1:]:
         number = NUMBER.fullmatch(end)
         ends.append(f"{end} {unit}" if number and not number[3] else end)
-    low, value, high = (parse(key, one, entry) for one in (ends[0], parts[1], ends[1]))
+    low, high = (parse(key, end, entry) for end in ends)
     if not (low <= value <= high and low < high and np.isfinite([low, high]).all()):
         raise ParameterError(
             f"{key} = {text!r} is not allowed: it must be VALUE (LOW to HIGH), the median between "

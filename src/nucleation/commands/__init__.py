@@ -5,6 +5,7 @@
 
 import difflib
 import importlib
+import io
 import os
 import signal
 import sys
@@ -95,8 +96,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
             moment()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
-        error.message = with_addresses(error.message)
-        error.show()
+        shown = io.StringIO()
+        error.show(shown)
+        click.echo(with_addresses(shown.getvalue()), err=True, nl=False)
         return error.exit_code
     except click.Abort:
         click.echo("Interrupted", err=True)

@@ -252,7 +252,13 @@ def _with_second_body(given: dict[str, Any]) -> dict[str, Any]:
             f"in {bounds(entries[keys[0]])}, Poisson's ratio in {bounds(entries[keys[1]])} and "
             "perhaps a height, with commas between"
         )
-    own = {k: parse(k, part, entries[k]) for k, part in zip(keys, parts, strict=False)}
+    try:
+        own = {k: parse(k, part, entries[k]) for k, part in zip(keys, parts, strict=False)}
+    except ParameterError as error:
+        raise ParameterError(
+            f"second_body = {text!r} is not allowed: commas separate its values, which have a "
+            f"decimal point; {error}"
+        ) from None
     return given | {"second_body": "deformable", **own}
 
 

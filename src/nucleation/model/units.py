@@ -11,7 +11,7 @@ from .quantities import ParameterError, Quantity, check
 
 _DIGITS = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBER = re.compile(rf"\s*([+-]?(?:{_DIGITS}|inf(?:inity)?))\s*(?:/\s*({_DIGITS}))?\s*(.*?)\s*")
-DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)")
+WITH_COMMA = re.compile(r"[+-]?[\d.]*,[\d.,]*\d")
 UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅]{1,60}")
 COMMON_UNITS = (
     *("Pa", "kPa", "MPa", "GPa", "m", "km", "cm", "mm", "um", "nm", "s", "ms", "min", "h", "yr"),
@@ -64,9 +64,13 @@ def parse(key: str, text: str, entry: Quantity) -> Any:
 
 def _number(text: str, entry: Quantity) -> float:
     """The number that a text means: a decimal or a fraction, with or without a unit."""
-    comma = DECIMAL_COMMA.match(text)
+    comma = WITH_COMMA.match(text.strip())
     if comma:
-        raise ValueError(f"write a decimal point, {comma[1]}.{comma[2]} in place of {comma[0]}")
+        written = comma[0]
+        if "." in written or written.count(",") > 1:
+            raise ValueError("write it without separators of thousands")
+        point = re.sub(r"^([+-]?),", r"\g<1>0.", written).replace(",", ".")
+        raise ValueError(f"write a decimal point, {point} in place of {written}")
     parts = NUMBER.fullmatch(text)
     if not parts or (parts[2] and not float(parts[2])):
         raise ValueError("it is no number with a unit")
