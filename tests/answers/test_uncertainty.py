@@ -191,7 +191,7 @@ def test_files_of_other_programs(tmp_path, text, encoding):
         ("slip_distance (um),a\n5,.01\n\n6,\n", "line 4, column 'a': the cell is empty"),
         (
             "slip_distance (um)\n5 um\n",
-            "line 2, column 'slip_distance .um.': '5 um' no num.*uni",
+            "line 2, column 'slip_distance .um.': '5 um' is.*uni",
         ),
         ("a,b\n1,2,3\n", "line 2: 3 cells, but the header has 2"),
         ("f,friction\n1,2\n", "line 1: column friction is there twice"),
