@@ -10,7 +10,8 @@ array([2.51327412, 1.25663706])
 Plain numbers are in SI units. Functions of the linear theory take the parameters of
 :class:`~nucleation.theory.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
 broadcast as NumPy's do, DataArrays by the names of their dimensions, and what comes in as
-DataArray goes out as one. Where homogeneous sliding is stable, lengths are NaN.
+DataArray goes out as one. Where there is no length it is NaN, and ``length_statuses`` has the
+reason: sliding is stable, the length is longer than searched, or a formula does not apply.
 
 What carries a unit is converted to SI units: a DataArray by its attribute ``units``, and pint
 quantities, of which the results are quantities too. A text is read as the command line reads it,
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from .analysis.extraction import extract
     from .analysis.progress import simulate
     from .answers.specimen import specimen_fit
+    from .answers.status import length_statuses
     from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
     from .datasets.netcdf import read, write
@@ -83,6 +85,7 @@ __all__ = [
     "extract",
     "film",
     "length_quantiles",
+    "length_statuses",
     "lengths_in_use",
     "plot_length",
     "plot_run",
@@ -114,6 +117,7 @@ _LATER = {
     ".theory.creep.lengths": ("stability_length",),
     ".theory.creep.runaway": ("runaway_length",),
     ".answers.specimen": ("specimen_fit",),
+    ".answers.status": ("length_statuses",),
     ".answers.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}

@@ -73,6 +73,7 @@ def test_text(nucleation, law):
 def test_json(nucleation, law):
     found = json.loads(nucleation(*WORDS, "--json").out)
     assert found["stability_length"] == 0.25
+    assert (found["status"], found["reason"]) == ("value", "")
     assert found["drop"]["length"] == 0.32 and found["closed_form"]["effective"] == 1e-5
     assert found["trusted"] is True and found["doubt"] == ""
     assert found["perturbation"]["kind"] == "normal_load"
@@ -86,15 +87,17 @@ def test_a_stable_fault_is_told_with_its_system(nucleation, law):
     ended = nucleation(*WORDS, "--zeta", "-0.001", "--json")
     found = json.loads(ended.out)
     assert ended.code == 3 and found["theory"]["critical_length"] is None
-    assert "sliding is stable" in found["unknown"] and "v0" not in found["unknown"]
+    assert "sliding is stable" in found["reason"] and "v0" not in found["reason"]
+    assert found["status"] == "stable"
 
 
 @pytest.mark.parametrize("words", [(), ("--json",)])
 def test_a_fault_that_the_law_does_not_reach(nucleation, law, words):
-    law.answer = NoDrop("no mode grows")
+    law.answer = NoDrop("no patch up to 3 L_c has a growing mode", "beyond")
     ended = nucleation(*WORDS, *words)
     assert ended.code == 4
-    assert "no mode grows" in ended.out
+    assert "no patch up to 3 L_c has a growing mode" in ended.out
+    assert ('"status": "beyond"' in ended.out) == bool(words)
 
 
 def test_it_answers_in_any_directory(nucleation, law, monkeypatch):

@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import ndtri
 
 from ..model.quantities import ParameterError, Quantity, check
 from ..model.units import NUMBER, magnitude, parse
-from ..theory.arrays import critical_length, fault_of, without_aliases
-from ..theory.creep.lengths import stability_values
+from ..theory.arrays import fault_of, without_aliases
 from ..theory.fault import QUANTITIES, Values, checked, inside, takes_fault
+from ..theory.status import BEYOND, STABLE
 from ..types import Array
-from .in_use import LENGTHS, THIS_FAULT, WEAKENING_RATE, values_of
+from .in_use import WEAKENING_RATE
+from .status import LITERATURE, TITLES, answers_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,7 +27,6 @@ SEED = Quantity("seed", low=0, high=2**32, closed="both", kind="int")
 SAMPLED = {k: x for k, x in QUANTITIES.items() if not x.worded} | {"weakening_rate": WEAKENING_RATE}
 """Declarations of the parameters that may be uncertain."""
 _RANGE = re.compile(r"(.+)\((.+?)\s+(?:to|-|–)\s+(.+)\)\s*")
-_TITLES = {"critical_length": "critical length L_c", "stability_length": "stability length L_s"}
 
 
 class Range(float):
@@ -164,18 +163,20 @@ def _sorted(
     return fixed, ranges, samples
 
 
-def _stable_draws(key: str, there: NDArray[np.bool_], stable: NDArray[np.bool_]) -> Any:
-    """The draws in which no patch nucleates by a length: for those of the theory, all without it.
+def quantiles(values: Array, shares: Array = np.array(QUANTILES)) -> Array:
+    """Quantiles by Hazen's rule, which is exact for the draws of one range.
 
-    A formula of the literature has none where friction does not weaken; elsewhere it does not hold.
-    """
-    return ~there if key in _TITLES else ~there & stable
+    Parameters
+    ----------
+    values : ndarray
+        Of the draws, shape (n,); some may be infinite.
+    shares : ndarray
+        From 0 to 1, shape (m,).
 
-
-def _quantiles(values: Array, shares: Array) -> Array:
-    """Quantiles by Hazen's rule, which is exact for the draws of one range; values may be infinite.
-
-    NaN of no values.
+    Returns
+    -------
+    ndarray
+        Of shape (m,); NaN of no values.
     """
     if not values.size:
         return np.full(shares.size, np.nan)
@@ -190,15 +191,25 @@ def _quantiles(values: Array, shares: Array) -> Array:
     return found
 
 
-def _errors(values: Array) -> Array:
+def errors_of(values: Array) -> Array:
     """Standard errors of the quantiles, from the binomial scatter of their shares.
 
     Half the distance of the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``; infinite
     if one of these is.
+
+    Parameters
+    ----------
+    values : ndarray
+        Of the draws, shape (n,); some may be infinite.
+
+    Returns
+    -------
+    ndarray
+        Of the shape of :data:`QUANTILES`.
     """
     shares = np.array(QUANTILES)
     scatter = np.sqrt(shares * (1.0 - shares) / max(values.size, 1))
-    low, high = (_quantiles(values, shares + sign * scatter) for sign in (-1.0, 1.0))
+    low, high = (quantiles(values, shares + sign * scatter) for sign in (-1.0, 1.0))
     with np.errstate(invalid="ignore"):
         return np.where(np.isinf(high), np.inf, 0.5 * (high - low))
 
@@ -226,13 +237,14 @@ def length_quantiles(
     Returns
     -------
     Dataset
-        ``value(key, quantile)`` (m), infinite where so many draws are stable, which no patch of
-        any length nucleates; its standard ``error(key, quantile)`` (m) by the finite number of
-        draws; and the ``share(key)`` of the valid draws that have the length. Draws for which a
-        formula of the literature does not hold are left out of its quantiles. Keys:
-        ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
-        :data:`~nucleation.answers.in_use.LENGTHS`. Attributes: ``draws``; ``invalid``,
-        no valid faults, with parameters that were ``outside``; ``stable``, without L_c.
+        ``value(key, quantile)`` (m), infinite where so many draws are stable, in which no patch of
+        any length nucleates, or have an L_s beyond the longest that is searched; its standard
+        ``error(key, quantile)`` (m) by the finite number of draws; and the ``share(key)`` of the
+        valid draws that have the length. Draws for which a theory or formula does not apply are
+        left out of its quantiles. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and
+        those of :data:`~nucleation.answers.in_use.LENGTHS`. Attributes: ``draws``; ``invalid``,
+        no valid faults, with parameters that were ``outside``; ``stable``, without L_c;
+        ``beyond``, with L_c and an L_s that is longer than searched.
 
     Raises
     ------
@@ -245,24 +257,19 @@ def length_quantiles(
     values = dict(drawn.values)
     rate = values.pop("weakening_rate", None)
     own = fault_of(values)
-    others = [length for length in LENGTHS if length.system != THIS_FAULT]
-    lengths = {
-        "critical_length": critical_length(**values),
-        "stability_length": stability_values(own, None, loading)[0],
-        **values_of(own, rate, others),
-    }
+    answers = answers_of(own, rate, loading)
     size = next(np.size(x) for x in drawn.values.values() if np.ndim(x))
-    arrays = np.array([np.broadcast_to(x, (size,)) for x in lengths.values()])
-    there = np.isfinite(arrays)
-    stable = np.broadcast_to(own.zeta <= 0.0, (size,))
-    never = [_stable_draws(key, there, stable) for key, there in zip(lengths, there, strict=True)]
+    lengths = np.array([np.broadcast_to(x.length, (size,)) for x in answers.values()])
+    statuses = np.array([np.broadcast_to(x.status, (size,)) for x in answers.values()])
+    there = np.isfinite(lengths)
+    never = np.isin(statuses, [STABLE, BEYOND])
     counted = [
-        np.append(x[has], np.full(np.sum(none), np.inf))
-        for x, has, none in zip(arrays, there, never, strict=True)
+        np.where(none, np.inf, length)[has | none]
+        for length, has, none in zip(lengths, there, never, strict=True)
     ]
-    found = [_quantiles(x, np.array(QUANTILES)) for x in counted]
-    errors = [_errors(x) for x in counted]
-    titles = _TITLES | {length.key: length.title for length in others}
+    found = [quantiles(x) for x in counted]
+    errors = [errors_of(x) for x in counted]
+    titles = TITLES | {length.key: length.title for length in LITERATURE}
     return xr.Dataset(
         {
             "value": (("key", "quantile"), found, {"units": "m", "long_name": "length"}),
@@ -274,11 +281,12 @@ def length_quantiles(
             "share": ("key", there.mean(axis=1), {"units": "1", "long_name": "share of draws"}),
         },
         coords={
-            "key": list(lengths), "title": ("key", [titles[key] for key in lengths]),
+            "key": list(answers), "title": ("key", [titles[key] for key in answers]),
             "quantile": list(QUANTILES),
         },
         attrs={
             "draws": drawn.total, "invalid": drawn.total - size,
             "outside": ", ".join(drawn.invalid), "stable": int(np.sum(~there[0])), "seed": seed,
+            "beyond": int(np.sum(statuses == BEYOND)),
         },
     )  # fmt: skip

@@ -16,6 +16,7 @@ from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
 from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
+from ..theory import status as status_words
 from ..theory.arrays import critical_length, reason_of_stability
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
@@ -78,10 +79,11 @@ def command(
             f"must be one of {', '.join(KINDS[1:])}"
         )
     parameters = merged_parameters(None, values)
-    fault, found, reason = of_parameters(parameters), None, ""
+    fault, found, status, reason = of_parameters(parameters), None, status_words.VALUE, ""
     critical = float(critical_length(**fault))
     if math.isnan(critical):
-        code, reason = STABLE, reason_of_stability(Fault(**fault)) + _cure(parameters)
+        code, status = STABLE, status_words.STABLE
+        reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
     else:
         run = planned(values, {}, results="results")  # not used
         critical = run.theory_length
@@ -91,17 +93,19 @@ def command(
         try:
             found, code = expected_drop(run.parameters), DONE
         except NoDrop as error:
-            code, reason = UNKNOWN, str(error)
+            code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
             click.echo(f"Warning: {topic}: {with_addresses(text)}", err=True)
     said = told(parameters, base, given)
     if as_json:
         known = {
             "system": said,
+            "status": status,
+            "reason": reason,
             "theory": {"critical_length": critical, "plane": parameters.material.plane},
             "perturbation": dataclasses.asdict(parameters.perturbation),
         }
-        click.echo(to_json(known | (_described(found) if found else {"unknown": reason})))
+        click.echo(to_json(known | (_described(found) if found else {})))
     else:
         lines = [*said, *_lines(parameters, critical, found, reason)]
         click.echo(with_addresses("\n".join(lines)))

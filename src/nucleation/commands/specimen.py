@@ -4,14 +4,14 @@ from typing import Any
 
 import click
 
-from ..answers.specimen import CRITERIA, SPECIMEN, UNKNOWNS, Fit, specimen_fit
+from ..answers.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, specimen_fit
+from ..answers.status import Answers, answers_of_theory
 from ..theory.fault import QUANTITIES, Fault
+from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import doubts_told, fault_options, fault_values, plane_in_words, said_of
 from .options import option
-from .text import to_json
-
-NAMES = {"critical": "L_c", "stability": "L_s"}
+from .text import as_plain, to_json
 
 
 @click.command("specimen", epilog=EXIT_CODES)
@@ -42,12 +42,12 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
     own = given.pop(unknown, None)
     with doubts_told():
         fit = specimen_fit(unknown, length, criterion, **given)
-        now = None if own is None else float(CRITERIA[criterion](**given, **{unknown: own}))
         fault = Fault(**given, **{unknown: fit.searched[0] if own is None else own})
+        now = None if own is None else answers_of_theory(fault)[criterion]
     looked_for = own is None and unknown == "shear_modulus"
     said = said_of(fault, given, known=not looked_for) + papers
     if as_json:
-        judged = None if now is None else {"value": own, "length": now}
+        judged = None if now is None else {"value": own, **as_plain(now)}
         found = {
             "system": said, "specimen": length, "criterion": criterion, **fit._asdict(),
             "given": judged, "plane": fault.plane,
@@ -59,17 +59,20 @@ def command(length: float, unknown: str, criterion: str, as_json: bool, **option
 
 
 def _as_text(
-    length: float, criterion: str, fit: Fit, own: float | None, now: float | None, plane: str
+    length: float, criterion: str, fit: Fit, own: float | None, judged: Answers | None, plane: str
 ) -> str:
     name, unit, lines = NAMES[criterion], fit.unit, []
-    if own is not None and now is not None:
+    if own is not None and judged is not None:
+        now = float(judged.length)
         at, long = f"At {fit.unknown} = {own:.4g} {unit}", f"{name} is {now:.4g} m"
         if now <= length:
             lines += [f"{at} {long}, {now / length:.3g} of the specimen: it can nucleate."]
         elif now > length:
             lines += [f"{at} {long}, {now / length:.3g} times the specimen: it does not nucleate."]
         else:
-            lines += [f"{at} there is no {name}: it does not nucleate."]
+            stable = judged.status == STABLE_SLIDING
+            verdict = "it does not nucleate" if stable else "whether it nucleates is not known"
+            lines += [f"{at} there is no {name}: {verdict}.", f"  {judged.reason}"]
     lines.append(f"{name} fits into {length:.4g} m, in {plane_in_words(plane)}, if")
     low, high = fit.searched
     for first, last in fit.intervals:
@@ -81,6 +84,6 @@ def _as_text(
             lines.append(f"  {first:.4g} {unit} < {fit.unknown} < {last:.4g} {unit}")
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
-        lines.append(f"  never: {why} at all values")
+        lines.append(f"  never: {why} at all values; {fit.reason}")
     sought = QUANTITIES[fit.unknown].description
     return "\n".join([*lines, f"looked for: {sought}, {low:g} to {high:g} {unit}"])

@@ -95,6 +95,7 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     drawn = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
     drawn += f" ({count['outside']} not allowed)" if count["invalid"] else ""
     drawn += f", {count['stable']} of the others stable, without L_c"
+    drawn += f", {count['beyond']} with an L_s beyond 3 L_c" if count["beyond"] else ""
     head = "".join(f"{share:>10.0%}" for share in QUANTILES)
     lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
     systems, nowhere = {length.key: length.system for length in LENGTHS}, []
@@ -112,8 +113,9 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
         lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
     lines += [
         "",
-        "stable: no patch nucleates, which counts as an infinite length; digits as far as the",
-        "number of draws tells. share: of the draws in which the length exists; full lengths",
+        "stable: no patch nucleates, or none that was searched, which counts as an infinite",
+        "length; digits as far as the number of draws tells. share: of the draws that have the",
+        "length; full lengths",
     ]
     return "\n".join(lines)
 
