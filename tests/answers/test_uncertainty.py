@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.stats import norm
 
-from nucleation.answers.uncertainty import QUANTILES, draw
+from nucleation.answers.draws import draw
+from nucleation.answers.uncertainty import QUANTILES
 from nucleation.api import (
     critical_length,
     length_quantiles,

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from ..answers import formulas
+from ..answers.draws import Range, parse_range
 from ..answers.in_use import (
     HALF_SPACES,
     LENGTHS,
@@ -18,7 +19,6 @@ from ..answers.in_use import (
     of_two_materials,
 )
 from ..answers.status import Answers, answers_of
-from ..answers.uncertainty import Range, parse_range
 from ..datasets.pages import with_addresses
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from ..answers.uncertainty import Range, parse_range
+from ..answers.draws import Range, parse_range
 from ..configuration.load import configure, load
 from ..configuration.runs import Run
 from ..configuration.strict_yaml import read_yaml

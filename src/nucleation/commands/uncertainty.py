@@ -9,8 +9,9 @@ from typing import Any
 import click
 import numpy as np
 
+from ..answers.draws import Range
 from ..answers.in_use import LENGTHS, THIS_FAULT, TWO_MATERIALS
-from ..answers.uncertainty import QUANTILES, Range, length_quantiles
+from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
 from ..theory.fault import Fault

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..answers.uncertainty import SAMPLED
+from ..answers.draws import SAMPLED
 from ..model.quantities import ParameterError
 from ..model.units import rescaled
 from ..theory.arrays import aliases
