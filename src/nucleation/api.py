@@ -52,11 +52,13 @@ if TYPE_CHECKING:
     from .analysis.extraction import extract
     from .analysis.progress import simulate
     from .answers.specimen import specimen_fit
+    from .answers.specimen_quantiles import specimen_quantiles
     from .answers.status import length_statuses
     from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
     from .datasets.netcdf import read, write
     from .figures.overview import film, plot_length, plot_run, plot_spectrum
+    from .patch.drop_quantiles import drop_quantiles
     from .patch.expected_drop import NoDrop, expected_drop
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
@@ -81,6 +83,7 @@ __all__ = [
     "Stepping",
     "critical_length",
     "critical_mode",
+    "drop_quantiles",
     "expected_drop",
     "extract",
     "film",
@@ -96,6 +99,7 @@ __all__ = [
     "runaway_length",
     "simulate",
     "specimen_fit",
+    "specimen_quantiles",
     "spectrum",
     "stability_length",
     "transfer_functions",
@@ -112,11 +116,13 @@ _LATER = {
     ".configuration.samples": ("read_samples",),
     ".datasets.netcdf": ("read", "write"),
     ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
+    ".patch.drop_quantiles": ("drop_quantiles",),
     ".patch.expected_drop": ("NoDrop", "expected_drop"),
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
     ".theory.creep.runaway": ("runaway_length",),
     ".answers.specimen": ("specimen_fit",),
+    ".answers.specimen_quantiles": ("specimen_quantiles",),
     ".answers.status": ("length_statuses",),
     ".answers.uncertainty": ("length_quantiles",),
 }

@@ -104,3 +104,33 @@ def test_it_answers_in_any_directory(nucleation, law, monkeypatch):
     """Nothing is written, so it does not matter whether a run could write its results there."""
     monkeypatch.chdir("/")
     assert nucleation(*WORDS).code == 0
+
+
+@pytest.mark.slow
+def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_path):
+    """Each draw is a fault of its own, with a block of its own length."""
+    from nucleation.patch import drop_quantiles
+
+    seen = []
+
+    def expected(parameters):
+        seen.append(parameters)
+        return law.answer
+
+    monkeypatch.setattr(drop_quantiles, "expected_drop", expected)
+    own = ("drop", "--strength", "1e-4", "--second-body", "rigid", "--draws", "20")
+    ended = nucleation(*own, "--height", "2cm (1 to 4)", "--json")
+    found = json.loads(ended.out)
+    heights = [parameters.geometry.height for parameters in seen]
+    assert ended.code == 0 and len(set(heights)) == 20 and 0.019 < sorted(heights)[10] < 0.022
+    lengths = [p.geometry.length / run_length(p, interface_state(p)) for p in seen]
+    assert lengths == pytest.approx([6.0] * 20, rel=1e-3)  # lengths are rounded
+    assert (found["draws"], found["invalid"], found["uncertain"]) == (20, 0, ["height"])
+    assert [one["key"] for one in found["lengths"]][-1] == "drop_length"
+    path = tmp_path / "heights.csv"
+    path.write_text("height (cm)\n1\n2\n4\n")
+    text = nucleation(*own, "--samples", path).out
+    assert "3 draws of height: 0 left out, 0 of the others stable" in text
+    assert "length at the drop L" in text
+    twice = nucleation(*WORDS, "--samples", path)
+    assert twice.code == 2 and "height is given twice" in twice.err

@@ -86,13 +86,14 @@ def length_quantiles(
     loading : {"edge", "top", "remote"}
         Where the creeping patch of L_s begins.
     draws, seed : int
-        Number of faults, and where the random numbers start: see :func:`.draws.draw`.
+        Number of faults, and where the random numbers start: see
+        :func:`~nucleation.answers.draws.draw`.
     progress : callable, optional
         Called now and then with the number of draws that are done and that of all.
     **fault
         The parameters of :class:`~nucleation.theory.fault.Fault`. A text such as
-        ``"0.5um (0.3 to 1)"`` is a :class:`.Range`: median, 5 and 95 % quantiles. Arrays of shape
-        (n,) are joint samples.
+        ``"0.5um (0.3 to 1)"`` is a :class:`~nucleation.answers.draws.Range`: median, 5 and 95 %
+        quantiles. Arrays of shape (n,) are joint samples.
 
     Returns
     -------

@@ -23,6 +23,8 @@ from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .fault_options import of_parameters, plane_in_words, told
 from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
 from .text import to_json
+from .uncertain_drop import print_drop_quantiles, uncertain_of
+from .uncertainty import draws_option, samples_option
 
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
@@ -50,8 +52,10 @@ def _counts(name: str) -> bool:
 
 
 @click.command("drop", epilog=EXIT_CODES)
-@parameter_options(list(filter(_counts, study_parameters())), USUAL)
+@parameter_options(list(filter(_counts, study_parameters())), USUAL, ranges=True)
 @source_options
+@samples_option
+@draws_option(50)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
     as_json: bool,
@@ -59,25 +63,31 @@ def command(
     run_id: str | None,
     config: str | None,
     paper: bool,
+    samples: Path | None,
+    draws: int,
     **options: Any,
 ) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 
     A block is pushed from its side, as by `simulate`. Its creeping patch becomes unstable at L_s.
     The force drops once the unstable mode has grown to the size of the loading, so the weaker the
-    perturbation, the later. The growth follows from the theory of the patch.
+    perturbation, the later. The growth follows from the theory of the patch. A range "5um (3 to
+    10)", the median and the quantiles of 5 and 95 %, or --samples give quantiles of the length.
 
     \b
     Example:
       nucleation drop --height 2cm --perturbation normal_load --strength 1e-4
     """
-    base, given = sourced(file, run_id, config, paper, options)
+    base, given = sourced(file, run_id, config, paper, options, ranges=True)
     values = merged(base, USUAL | given if base is None else given)
     if values["perturbation"] == "none":
         raise ParameterError(
             "perturbation = 'none' is not allowed: without one the drop depends on round-off; it "
             f"must be one of {', '.join(KINDS[1:])}"
         )
+    uncertain = uncertain_of(given, samples)
+    if uncertain:
+        return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
     parameters = merged_parameters(None, values)
     fault, found, status, reason = of_parameters(parameters), None, status_words.VALUE, ""
     critical = float(critical_length(**fault))

@@ -44,7 +44,7 @@ from .fault_options import (
 )
 from .options import option
 from .text import as_plain, to_json, wrapped
-from .uncertainty import print_quantiles, samples_option, take_uncertain
+from .uncertainty import draws_option, print_quantiles, samples_option, take_uncertain
 
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the friction law from which on it is told."""
@@ -75,9 +75,10 @@ DENSITY = declarations(Material)["density"]
     "or interior; a top that moves has --far-side velocity",
 )  # fmt: skip
 @samples_option
+@draws_option(1000)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    density: float | None, loading: str, as_json: bool, samples: Path | None,
+    density: float | None, loading: str, as_json: bool, samples: Path | None, draws: int,
     **options: Any,
 ) -> int:  # fmt: skip
     """Critical nucleation length of a fault: the theory's, and others in use.
@@ -99,7 +100,7 @@ def command(
     if uncertain:
         if density is not None:
             raise ParameterError("density is not allowed beside ranges and samples")
-        usual = {"weakening_rate": weakening_rate, "loading": loading}
+        usual = {"weakening_rate": weakening_rate, "loading": loading, "draws": draws}
         return print_quantiles(given, uncertain, options | usual, as_json)
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")

@@ -101,8 +101,13 @@ def flat(parameters: Parameters) -> dict[str, Any]:
     return {known.short(full): value for full, value in given if value is not None}
 
 
-def parameter_options(chosen: Collection[str], changed: Mapping[str, Any] = {}) -> Decorator:
-    """Options for parameters by their names in studies, some with `changed` defaults."""
+def parameter_options(
+    chosen: Collection[str], changed: Mapping[str, Any] = {}, ranges: bool = False
+) -> Decorator:
+    """Options for parameters by their names in studies, some with `changed` defaults.
+
+    Their values may be ranges if `ranges` says so.
+    """
     usual: dict[str, Any] = {}
     for law in (*LAWS, Friction().law):
         usual |= flat(Parameters(friction=Friction(law=law)))
@@ -114,7 +119,13 @@ def parameter_options(chosen: Collection[str], changed: Mapping[str, Any] = {}) 
     entries = {name: entry for name, entry in study_parameters().items() if name in chosen}
     return together(*(
         second_body_option if name == "second_body"
-        else option(*words(name), key=name, entry=entry, note=notes.get(name, ""))
+        else option(
+            *words(name),
+            key=name,
+            entry=entry,
+            note=notes.get(name, ""),
+            read=parse_range if ranges and not entry.worded else parse,
+        )
         for name, entry in entries.items()
     ))  # fmt: skip
 
@@ -166,7 +177,10 @@ def sourced(
     found |= _with_second_body(given_of(options))
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]
     if uncertain and not ranges:
-        raise ParameterError(f"{uncertain[0]}: only `nucleation length` takes a range")
+        raise ParameterError(
+            f"{uncertain[0]}: a range is not allowed here, a simulation has one value of each "
+            "parameter; `nucleation drop`, `length` and `specimen` take ranges"
+        )
     if base is None and not paper and not uncertain:
         found |= follows_from(found)
     return base, found

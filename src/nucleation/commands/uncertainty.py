@@ -1,4 +1,4 @@
-"""What ``nucleation length`` does with parameters that are ranges or samples."""
+"""Parameters that are ranges or samples, and the quantiles of lengths that follow from them."""
 
 import math
 import textwrap
@@ -9,7 +9,7 @@ from typing import Any
 import click
 import numpy as np
 
-from ..answers.draws import Range
+from ..answers.draws import DRAWS, Range
 from ..answers.in_use import LENGTHS, THIS_FAULT, TWO_MATERIALS
 from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
@@ -17,12 +17,21 @@ from ..model.quantities import ParameterError
 from ..theory.fault import Fault
 from . import DONE, STABLE
 from .fault_options import doubts_told, parameters_of, said_of, systems_of_lengths
+from .options import Decorator, option
+from .progress import Progress
 from .text import to_json, wrapped
 
 samples_option = click.option(
-    "--samples", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--samples",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
-)  # fmt: skip
+)
+
+
+def draws_option(usual: int) -> Decorator:
+    """The option for the number of draws, with a command's usual number."""
+    note = f"of uncertain parameters, and most rows of --samples; default {usual}"
+    return option("--draws", key="draws", entry=DRAWS, note=note, default=str(usual))
 
 
 def take_uncertain(
@@ -52,21 +61,34 @@ def take_uncertain(
     return medians, uncertain
 
 
+def varying(
+    given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any]
+) -> dict[str, Any]:
+    """The parameters of a median fault with those that are uncertain in their place.
+
+    If b was given it stays when a varies, and a second body like the first varies with it.
+    """
+    known = dict(given)
+    if options["b"] is not None and "zeta" in known:
+        known["b"] = known["a"] + known.pop("zeta")
+    if options["second_body"] in (None, "same"):
+        for name in ("shear_modulus", "poisson_ratio", "height"):
+            if known.get(f"second_{name}") == known.get(name):
+                known.pop(f"second_{name}", None)
+    return known | uncertain
+
+
 def print_quantiles(
     given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any], as_json: bool
 ) -> int:
     """Print the quantiles of all lengths, and return the exit code; `given` is the median fault."""
-    known = dict(given)
-    if options["b"] is not None and "zeta" in known:
-        known["b"] = known["a"] + known.pop("zeta")  # b is what stays when a varies
-    if options["second_body"] in (None, "same"):
-        for name in ("shear_modulus", "poisson_ratio", "height"):
-            if known.get(f"second_{name}") == known.get(name):
-                known.pop(f"second_{name}", None)  # it varies with the first body's
-    known |= {name: options[name] for name in ("weakening_rate", "loading")} | uncertain
+    known = varying(given, uncertain, options)
+    known |= {name: options[name] for name in ("weakening_rate", "loading", "draws")}
+    if "weakening_rate" in uncertain:
+        known["weakening_rate"] = uncertain["weakening_rate"]
     with doubts_told():
         middle = Fault(**given)
-        found = length_quantiles(**known)
+        found = length_quantiles(progress=Progress("draws"), **known)
     said = said_of(middle, given, options["loading"])
     click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
     return DONE if found["share"][0] > 0.0 else STABLE
