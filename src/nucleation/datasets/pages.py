@@ -18,8 +18,10 @@ _CHECKOUT = Path(__file__).parents[3] / "docs"
 def with_addresses(text: str) -> str:
     """The text, each page that it cites by an address at which the user finds it.
 
-    >>> with_addresses("see docs/no_such_page.md")
-    'see docs/no_such_page.md'
+    Parameters
+    ----------
+    text : str
+        A message that may name pages as ``docs/drop.md``.
     """
     return _CITED.sub(lambda cited: address(cited[1]), text)
 
