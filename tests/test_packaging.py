@@ -212,7 +212,7 @@ except ImportError as error:
     print(error)
 """
 
-COMMANDS = ("length", "specimen", "drop", "simulate", "show")
+COMMANDS = ("length", "specimen", "drop", "plot", "simulate", "show")
 COMPLETED = """
 from click.shell_completion import ShellComplete
 from nucleation.commands import COMMANDS, main

@@ -51,8 +51,12 @@ def _counts(name: str) -> bool:
     return known and name not in OWN
 
 
+COUNTING = tuple(filter(_counts, study_parameters()))
+"""The parameters that decide on the drop, by their names in studies."""
+
+
 @click.command("drop", epilog=EXIT_CODES)
-@parameter_options(list(filter(_counts, study_parameters())), USUAL, ranges=True)
+@parameter_options(COUNTING, USUAL, ranges=True)
 @source_options
 @samples_option
 @draws_option(50)

@@ -222,6 +222,11 @@ def _of_file(path: Path) -> dict[str, Any]:
     return given
 
 
+def name_in_studies(name: str) -> str:
+    """The name in studies of a parameter by any of its names."""
+    return _name_in_file(name, name, "...")
+
+
 def _name_in_file(full: str, field: str, value: Any) -> str:
     """The name in studies of a parameter by its full name or its field's."""
     known, declared = names(), study_parameters()

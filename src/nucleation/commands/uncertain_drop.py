@@ -8,7 +8,7 @@ from typing import Any
 import click
 import numpy as np
 
-from ..answers.draws import Range, draw
+from ..answers.draws import Draws, Range, draw
 from ..answers.uncertainty import QUANTILES
 from ..configuration.samples import read_samples
 from ..configuration.study_names import study_parameters
@@ -57,22 +57,13 @@ def print_drop_quantiles(
     """Print the quantiles of L_c, L_s and the length at the drop, and return the exit code."""
     from ..patch.drop_quantiles import drop_quantiles  # with SciPy, which takes a while
 
-    complete = base is not None or paper
-    known = study_parameters()
-    drawn = draw(uncertain, draws, known={k: x for k, x in known.items() if not x.worded})
     fixed = {name: value for name, value in given.items() if name not in uncertain}
+    drawn = draw_in_studies(uncertain, draws)
+    cases = cases_of(base, usual, fixed, drawn, paper)
     middle = {name: float(np.median(value)) for name, value in uncertain.items()}
-    cases, refusals = [], []
-    for i in range(drawn.size):
-        try:
-            cases.append(_case(base, usual, fixed | drawn.at(i), complete))
-        except ParameterError as refusal:
-            refusals.append(refusal)
-    if not cases:
-        raise refusals[0]
     invalid = drawn.total - len(cases)
     found = drop_quantiles(cases, progress=Progress("draws"))
-    own = _completed(fixed | middle, complete)
+    own = completed(fixed | middle, base is not None or paper)
     said = told(merged_parameters(base, (usual if base is None else {}) | own), base, own)
     if as_json:
         click.echo(to_json(_described(said, found, uncertain, invalid)))
@@ -81,18 +72,63 @@ def print_drop_quantiles(
     return DONE if found["share"][0] > 0.0 else STABLE
 
 
-def _completed(values: dict[str, Any], complete: bool) -> dict[str, Any]:
+def draw_in_studies(uncertain: Mapping[str, Any], draws: int) -> Draws:
+    """Draws of uncertain parameters by their names in studies."""
+    declared = study_parameters()
+    return draw(uncertain, draws, known={k: x for k, x in declared.items() if not x.worded})
+
+
+def cases_of(
+    base: Parameters | None,
+    usual: Mapping[str, Any],
+    fixed: Mapping[str, Any],
+    drawn: Draws,
+    paper: bool,
+) -> list[Parameters]:
+    """The runs of all draws that are valid.
+
+    Parameters
+    ----------
+    base : Parameters or None
+        The run or dataset from which parameters are taken.
+    usual : mapping
+        Values of a command that belong to no option, by their names in studies.
+    fixed : mapping
+        Values that are given and certain, by their names in studies.
+    drawn : Draws
+        The draws of the others.
+    paper : bool
+        Whether parameters that are not given are the paper's.
+
+    Raises
+    ------
+    ParameterError
+        If no draw is a valid fault.
+    """
+    complete = base is not None or paper
+    cases, refusals = [], []
+    for i in range(drawn.size):
+        try:
+            cases.append(case_of(base, usual, {**fixed, **drawn.at(i)}, complete))
+        except ParameterError as refusal:
+            refusals.append(refusal)
+    if not cases:
+        raise refusals[0]
+    return cases
+
+
+def completed(values: dict[str, Any], complete: bool) -> dict[str, Any]:
     """Values with those that follow from them, unless a base has all."""
     return values if complete else values | follows_from(values)
 
 
-def _case(
+def case_of(
     base: Parameters | None, usual: Mapping[str, Any], given: dict[str, Any], complete: bool
 ) -> Parameters:
     """The run of one draw; its block is as long as the theory of its own fault makes it."""
     plain = {k: float(v) if isinstance(v, np.floating) else v for k, v in given.items()}
-    own = _completed(plain, complete)
-    values = merged(base, usual | own if base is None else own)
+    own = completed(plain, complete)
+    values = merged(base, {**usual, **own} if base is None else own)
     parameters = merged_parameters(None, values)
     if math.isnan(float(critical_length(**of_parameters(parameters)))):
         return parameters  # a block of a stable fault has no length that follows from the theory
@@ -114,6 +150,7 @@ def _described(
                 "quantiles": _by_quantile(one["value"]),
                 "errors": _by_quantile(one["error"]),
                 "share": float(one["share"]),
+                "why_not": str(one["why_not"].values),
             }
         )
     counts = found.attrs | {"draws": found.attrs["draws"] + invalid, "invalid": invalid}
@@ -126,8 +163,9 @@ def _by_quantile(row: Any) -> dict[str, float]:
 
 def _lines(said: list[str], found: Any, uncertain: Mapping[str, Any], invalid: int) -> list[str]:
     count = found.attrs
+    stable = round(count["draws"] * (1.0 - float(found["share"][0])))
     drawn = f"{count['draws'] + invalid} draws of {', '.join(uncertain)}: {invalid} left out, "
-    drawn += f"{count['stable']} of the others stable, without L_c"
+    drawn += f"{stable} of the others stable, without L_c"
     head = "".join(f"{share:>10.0%}" for share in QUANTILES)
     lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
     for key in found["key"].values:
@@ -135,6 +173,8 @@ def _lines(said: list[str], found: Any, uncertain: Mapping[str, Any], invalid: i
         pairs = zip(one["value"].values, one["error"].values, strict=True)
         row = "".join(f"{as_sure(value, error):>10}" for value, error in pairs)
         lines.append(f"  {one['title'].item():<30}{row}{float(one['share']):>8.1%}")
+        if one["share"] < 1.0:
+            lines += wrapped(f"      in the other draws: {one['why_not'].item()}")
     if count["doubtful"]:
         doubtful = f"DO NOT RELY ON {count['doubtful']} of the draws: {count['doubts']}"
         lines += ["", *wrapped(doubtful)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -24,18 +24,21 @@ TITLES = {
     "stability_length": "stability length L_s",
     "drop_length": "length at the drop L",
 }
+REASONS = 3  # that are named of those why draws lack a length
 REALISATION = 1  # of the random numbers that choose a realisation in each draw
 
 
 class _Answer(NamedTuple):
     length: float
     status: str
+    reason: str = ""
 
 
 def drop_quantiles(
     cases: Sequence[Parameters],
     seed: int = 0,
     progress: Callable[[int, int], None] | None = None,
+    lengths: Collection[str] = tuple(TITLES),
 ) -> xr.Dataset:
     """Quantiles of L_c, L_s and the length at the drop over many runs that differ.
 
@@ -47,6 +50,8 @@ def drop_quantiles(
         Where the random numbers start that choose one realisation of the perturbation in each draw.
     progress : callable, optional
         Called with the number of draws that are done and that of all. A draw takes about 2 s.
+    lengths : collection of str
+        Keys of the lengths to compute; without ``drop_length`` a draw takes 0.05 s.
 
     Returns
     -------
@@ -55,7 +60,7 @@ def drop_quantiles(
         :func:`~nucleation.answers.uncertainty.length_quantiles`, for ``critical_length``,
         ``stability_length`` and ``drop_length``. The last scatters by the realisation too. Its
         attribute ``doubtful`` is the number of draws whose drop should not be relied upon, and
-        ``doubts`` has their reasons.
+        ``doubts`` has their reasons. ``why_not(key)`` is why some draws lack the length.
 
     Raises
     ------
@@ -64,33 +69,49 @@ def drop_quantiles(
     """
     random = np.random.default_rng([seed, REALISATION])
     shares = (random.permutation(len(cases)) + 0.5) / len(cases)
-    found: dict[str, list[_Answer]] = {key: [] for key in TITLES}
+    found: dict[str, list[_Answer]] = {key: [] for key in TITLES if key in lengths}
     doubts: list[str] = []
     for i, parameters in enumerate(cases):
         critical = _critical(parameters)
-        found["critical_length"].append(critical)
-        found["stability_length"].append(_stability(parameters, critical))
-        try:
-            drop = expected_drop(parameters)
-        except NoDrop as none:
-            found["drop_length"].append(_Answer(np.nan, none.status))
-        else:
-            found["drop_length"].append(_Answer(of_realisation(drop, shares[i]), VALUE))
-            doubts += [drop.doubt] if drop.doubt else []
+        if "critical_length" in found:
+            found["critical_length"].append(critical)
+        if "stability_length" in found:
+            found["stability_length"].append(_stability(parameters, critical))
+        if "drop_length" in found:
+            answer, doubt = _drop(parameters, shares[i])
+            found["drop_length"].append(answer)
+            doubts += [doubt] if doubt else []
         if progress is not None:
             progress(i + 1, len(cases))
-    lengths = {key: np.array([x.length for x in answers]) for key, answers in found.items()}
-    statuses = {key: np.array([x.status for x in answers]) for key, answers in found.items()}
-    counted = {key: with_never(lengths[key], statuses[key]) for key in TITLES}
-    share = [np.isfinite(lengths[key]).mean() for key in TITLES]
+    return _table(found, doubts, seed)
+
+
+def _table(found: dict[str, list[_Answer]], doubts: list[str], seed: int) -> xr.Dataset:
+    """The answers of all draws as quantiles."""
+    counted, share, reasons = {}, [], []
+    for key, answers in found.items():
+        lengths = np.array([answer.length for answer in answers])
+        counted[key] = with_never(lengths, np.array([answer.status for answer in answers]))
+        share.append(np.isfinite(lengths).mean())
+        known = dict.fromkeys(answer.reason for answer in answers if answer.reason)
+        reasons.append("; ".join(list(known)[:REASONS]))
     attributes = {
-        "draws": len(cases),
-        "stable": int(np.sum(~np.isfinite(lengths["critical_length"]))),
+        "draws": len(next(iter(found.values()))),
         "doubtful": len(doubts),
         "doubts": "; ".join(dict.fromkeys(doubts)),
         "seed": seed,
     }
-    return table_of_quantiles(counted, TITLES, share, attributes)
+    table = table_of_quantiles(counted, TITLES, share, attributes)
+    return table.assign(why_not=("key", reasons, {"long_name": "why draws lack the length"}))
+
+
+def _drop(parameters: Parameters, share: float) -> tuple[_Answer, str]:
+    """The length at the drop of one realisation, and why it should not be relied upon."""
+    try:
+        drop = expected_drop(parameters)
+    except NoDrop as none:
+        return _Answer(np.nan, none.status, str(none)), ""
+    return _Answer(of_realisation(drop, share), VALUE), drop.doubt
 
 
 def of_realisation(found: ExpectedDrop, share: float) -> float:
@@ -119,11 +140,11 @@ def _critical(parameters: Parameters) -> _Answer:
     try:
         return _Answer(run_length(parameters, interface_state(parameters)), VALUE)
     except NoInstability as none:
-        return _Answer(np.nan, none.status)
+        return _Answer(np.nan, none.status, str(none))
 
 
 def _stability(parameters: Parameters, critical: _Answer) -> _Answer:
     try:
         return _Answer(stability_point(Patches.of(parameters), critical.length).length, VALUE)
     except NoPatch as none:
-        return _Answer(np.nan, none.status)
+        return _Answer(np.nan, none.status, str(none))
