@@ -43,7 +43,8 @@ CORE = named(PROJECT["dependencies"])
 BEYOND = {
     "report": "report", "claims/article.py": "report", "claims/printing.py": "article",
     "pipeline": "workflow",
-    "figures": "figures", "commands/show.py": "figures", "analysis": "solver", "fem": "solver",
+    "figures": "figures", "commands/show.py": "figures", "commands/plot.py": "figures",
+    "analysis": "solver", "fem": "solver",
     "simulation": "solver", "verification": "solver", "claims/table.py": "solver",
 }  # fmt: skip
 """Parts of the package that need one of the extras as well."""
