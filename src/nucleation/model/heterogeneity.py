@@ -5,7 +5,9 @@
 
 So `width` is that of the step, or of the bump at half its height. The properties are the normal
 stress at the interface, beside what slip changes of it; D; and f, a, b and zeta = b - a of sliding
-at V, for which the friction law's own parameters are found at each node (``with_expansion``).
+at V, for which the friction law's own parameters are found at each node (``with_expansion``). With
+a change below -1 zeta has one sign within and the other one elsewhere: a patch that weakens among
+surroundings that strengthen.
 """
 
 import copy
@@ -26,7 +28,8 @@ class Heterogeneity(Checked):
     Raises
     ------
     ParameterError
-        Also if something is to vary by nothing, or nothing by something.
+        Also if something is to vary by nothing, or nothing by something, or if the change takes a
+        positive property below zero.
     """
 
     varies: str = quantity(
@@ -43,7 +46,11 @@ class Heterogeneity(Checked):
         default=0.1,
     )  # fmt: skip
     change: float = quantity(
-        "change of the property within, over its value elsewhere", low=-1.0, high=1e3, default=0.0
+        "change of the property within, over its value elsewhere; below -1 for zeta alone, which "
+        "changes its sign there",
+        low=-1e3,
+        high=1e3,
+        default=0.0,
     )
 
     def __post_init__(self) -> None:
@@ -53,6 +60,11 @@ class Heterogeneity(Checked):
             raise ParameterError(
                 f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
                 f"= {self.varies}: it must be {rule}"
+            )
+        if self.change <= -1.0 and self.varies != "zeta":
+            raise ParameterError(
+                f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
+                f"= {self.varies}, which is positive everywhere: it must lie in (-1, 1000)"
             )
 
     def factor(self, x: Array, length: float, periodic: bool) -> Array:
