@@ -57,6 +57,7 @@ if TYPE_CHECKING:
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.creep.runaway import runaway_length
+    from .theory.weakening_patch import weakening_patch_length
 
 __all__ = [
     "CriticalMode",
@@ -94,6 +95,7 @@ __all__ = [
     "spectrum",
     "stability_length",
     "transfer_functions",
+    "weakening_patch_length",
     "write",
 ]
 
@@ -111,6 +113,7 @@ _LATER = {
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
     ".theory.creep.runaway": ("runaway_length",),
+    ".theory.weakening_patch": ("weakening_patch_length",),
     ".answers.specimen": ("specimen_fit",),
     ".answers.uncertainty": ("length_quantiles",),
 }
@@ -122,6 +125,7 @@ _LIGHT = {
     "runaway_length",
     "specimen_fit",
     "stability_length",
+    "weakening_patch_length",
 }
 """Those that need no extra."""
 

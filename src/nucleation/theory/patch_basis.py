@@ -9,8 +9,10 @@ patch, the matrix
 
 with ``N_mn = sqrt((m + 1/2)(n + 1/2))``. The line beyond the patch is infinite: there is no period.
 
-F is smooth in log q, the Bessel functions oscillate. In each octave of q the polynomial through F at
-:data:`POINTS` is integrated with the Bessel functions exactly; these weights don't depend on F.
+F is smooth in log q, the Bessel functions oscillate. In each octave of q the polynomial through F
+at :data:`POINTS` is integrated with the Bessel functions exactly; its weights don't depend on F.
+Beyond the last octave, at Q, the products of Bessel functions are replaced by their mean over an
+oscillation, which falls as ``1/q^2``. Its size is that which makes F = 1 the identity.
 """
 
 from functools import lru_cache
@@ -21,7 +23,7 @@ from scipy.special import spherical_jn
 
 from ..types import Array, ComplexArray
 
-OCTAVES = -20, 12  # of q, as powers of 2; the rest changes a length by less than 3e-6
+OCTAVES = -24, 12  # of q, as powers of 2
 POINTS = 10  # in an octave, at which F is evaluated
 SPACING = 2.0  # of q, in which Bessel functions are integrated by GAUSS points
 GAUSS = 12
@@ -61,8 +63,13 @@ def patch_basis(number: int) -> PatchBasis:
     octaves = [_octave(number, power) for power in range(*OCTAVES)]
     wavenumber = np.concatenate([points for points, _ in octaves])
     weights = np.concatenate([own for _, own in octaves])
+    beyond, share = _beyond()
     n = np.arange(number)
     power = np.subtract.outer(n, n).T  # n - m
+    missing = 0.5 * np.eye(number).ravel() - weights.sum(axis=0)
+    missing[power.ravel() % 2 == 1] = 0.0  # the mean of a sine times a cosine
+    wavenumber = np.concatenate([wavenumber, beyond])
+    weights = np.concatenate([weights, share[:, None] * missing])
     # i^(n - m) is real where n - m is even, and i times a real number where it is odd
     even = np.where(power % 2 == 0, (-1.0) ** (power // 2), 0.0)
     odd = np.where(power % 2 == 1, (-1.0) ** (power // 2), 0.0)
@@ -89,6 +96,12 @@ def _octave(number: int, power: int) -> tuple[Array, Array]:
     products = bessel[:, None] * bessel[None]
     weights = products.reshape(-1, q.size) @ (weight[:, None] * interpolation)
     return 2.0 ** (power + 0.5 * (nodes + 1.0)), 2.0 / np.pi * weights.T
+
+
+def _beyond() -> tuple[Array, Array]:
+    """Points beyond the last octave, at Q, and their weights in ``Q integral_Q^inf F dq/q^2``."""
+    nodes, weights = np.polynomial.legendre.leggauss(POINTS)
+    return 2.0 ** OCTAVES[1] / (0.5 * (nodes + 1.0)), 0.5 * weights
 
 
 def _gauss(begin: float, end: float) -> tuple[Array, Array]:

@@ -35,7 +35,7 @@ from .spectrum import Systems
 WIDEST = 10.0  # patches up to this multiple of L_c are tried
 NARROWEST = 0.05  # multiple of L_c at which the search begins
 FACTOR = 1.25  # between the widths that are tried
-PRECISION = 1e-6  # relative, of the width
+PRECISION = 1e-5  # relative, of the width
 POLYNOMIALS = 16  # as many for each L_c of the width, at least
 SLOWEST = 1e-5  # of the frequencies, over V/D
 FASTEST = 1e3  # likewise, over 1 + zeta/a
@@ -61,8 +61,13 @@ class WeakeningPatch:
         turned += turned if mirrored else self._turn(width, number, -1.0)
         return round(turned / (2.0 * math.pi))
 
-    def determinants(self, width: float, number: int, frequency: Array) -> ComplexArray:
-        """The determinant for a patch of a width (m) at frequencies over V/D of either sign."""
+    def factors(self, width: float, number: int, frequency: Array) -> ComplexArray:
+        """Factors of the determinant for a patch of a width (m), (frequencies, number + 1).
+
+        Its diagonal entries, and the determinant of the matrix with rows divided by these: none of
+        them turns much between neighbouring frequencies, over V/D and of either sign, while the
+        product of many does.
+        """
         basis = patch_basis(number)
         load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
         rate = 1j * frequency[:, None]
@@ -70,7 +75,10 @@ class WeakeningPatch:
         forward = 1.0 / (load * (1.0 - 1j * coupling) + around)
         backward = 1.0 / (load * (1.0 + 1j * coupling) + around)
         response = basis.matrices(forward, backward)
-        return np.linalg.det(np.eye(number) - (around - within)[:, :, None] * response)
+        matrix = np.eye(number) - (around - within)[:, :, None] * response
+        diagonal = np.diagonal(matrix, axis1=1, axis2=2)
+        rest = np.linalg.det(matrix / diagonal[:, :, None])
+        return np.concatenate([diagonal, rest[:, None]], axis=1)
 
     @staticmethod
     def _friction(systems: Systems, rate: ComplexArray) -> ComplexArray:
@@ -82,16 +90,21 @@ class WeakeningPatch:
         weakening = float(np.max(np.abs(self.inside.zeta / self.inside.a)))
         weakening += float(np.max(np.abs(self.outside.zeta / self.outside.a)))
         frequency = np.geomspace(SLOWEST, FASTEST * (1.0 + weakening), FREQUENCIES)
-        found = self.determinants(width, number, sign * frequency)
+        found = self.factors(width, number, sign * frequency)
         for _ in range(HALVINGS):
-            coarse = np.flatnonzero(np.abs(np.angle(found[1:] / found[:-1])) > TURN)
+            coarse = np.flatnonzero(np.abs(_turns(found)).max(axis=1) > TURN)
             if not coarse.size:
                 break
             middle = np.sqrt(frequency[coarse] * frequency[coarse + 1])
-            between = self.determinants(width, number, sign * middle)
+            between = self.factors(width, number, sign * middle)
             frequency = np.insert(frequency, coarse + 1, middle)
-            found = np.insert(found, coarse + 1, between)
-        return -sign * float(np.angle(found[1:] / found[:-1]).sum())
+            found = np.insert(found, coarse + 1, between, axis=0)
+        return -sign * float(_turns(found).sum())
+
+
+def _turns(factors: ComplexArray) -> Array:
+    """By how much (rad) the phases of factors change from each frequency to the next."""
+    return np.angle(factors[1:] / factors[:-1])
 
 
 def smallest_width(patch: WeakeningPatch, critical: float) -> float:
@@ -147,7 +160,7 @@ def weakening_patch_length(
     Returns
     -------
     ndarray or DataArray
-        W_c (m), broadcast shape, within 1e-5; NaN where homogeneous sliding is stable with the
+        W_c (m), broadcast shape, within 1e-4; NaN where homogeneous sliding is stable with the
         friction of the patch or unstable with that of the surroundings, and where no patch up to
         ``10 L_c`` is unstable. A DataArray if there is one among the parameters, else a pint
         quantity if there is one. Takes about half a second for each fault.
@@ -159,8 +172,8 @@ def weakening_patch_length(
 
     Notes
     -----
-    For half-spaces W_c/L_c depends on ``zeta/a`` and ``-outside_zeta/zeta`` alone. With surroundings
-    that strengthen very much it is ``1.158/pi``, that of an asperity among rigid surroundings.
+    For half-spaces W_c/L_c depends on ``zeta/a`` and ``-outside_zeta/zeta`` alone. Surroundings
+    that strengthen very much don't slip: then it is ``1.158/pi``, that of a patch with pinned ends.
     """
     own = fault_of(fault)
     width = weakening_patch_values(own, outside_zeta, outside_a)
