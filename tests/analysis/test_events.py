@@ -2,7 +2,7 @@
 
 import pytest
 
-from nucleation.analysis.rows import why, without_event
+from nucleation.analysis.rows import remarked, why, without_event
 
 ROW = {
     "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),
@@ -31,3 +31,9 @@ def test_all_are_named_and_counted():
 )
 def test_reasons(changed, said):
     assert said in why(ROW | changed)
+
+
+def test_remarks_of_finished_runs_are_told():
+    doubtful = "completed: the end time was reached; not resolved: why; slip elsewhere: where"
+    rows = [ROW, ROW | {"id": "s", "status": doubtful}, ROW | {"status": "failed: tension; more"}]
+    assert remarked(rows) == ["s: not resolved: why; slip elsewhere: where"]

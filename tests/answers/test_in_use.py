@@ -13,6 +13,7 @@ from nucleation.answers import formulas
 from nucleation.answers.in_use import (
     LENGTHS,
     TWO_MATERIALS,
+    expanding_length,
     lengths_in_use,
 )
 from nucleation.model.linearised import InterfaceState
@@ -20,6 +21,7 @@ from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import closed_forms
 from nucleation.theory.arrays import critical_length
+from nucleation.theory.fault import Fault
 from nucleation.theory.transfer import Body, transfer_functions
 
 ROCK = {"shear_modulus": 3.1e9, "poisson_ratio": 1 / 3}
@@ -143,6 +145,48 @@ def test_rubin_ampuero_crack_length():
     fracture_energy = 0.025 * 1e6 * 5e-7 * log_ratio**2 / 2
     half = fracture_energy * 2 * PLANE_MODULUS / (math.pi * drop**2)
     assert one("rubin_ampuero_crack", **NEUTRAL) == pytest.approx(2 * half, rel=1e-12)
+
+
+def test_expanding_length_at_a_finite_slip_rate():
+    """Energy release rate against fracture energy, stresses by the friction law itself.
+
+    Far ahead v_far and phi; within, steady sliding at v; at the tip v with the state from ahead.
+    """
+    a, b, sigma, slip_distance = 0.02, 0.025, 1e6, 5e-7
+    rate, far_rate, far_ratio = 1e-2, 3e-9, 40.0
+    far_state = far_ratio * slip_distance / far_rate
+
+    def stress(v, phi):
+        return sigma * (a * math.log(v) + b * math.log(phi))
+
+    residual = stress(rate, slip_distance / rate)
+    drop = stress(far_rate, far_state) - residual
+    peak = stress(rate, far_state) - residual
+    fracture_energy = 0.5 * slip_distance / (b * sigma) * peak**2  # b sigma0 falls per slip D
+    half = fracture_energy * 2 * PLANE_MODULUS / (math.pi * drop**2)
+    found = expanding_length(Fault(**ROCK, **LOAD, **NEUTRAL), rate, far_rate, far_ratio)
+    assert float(found) == pytest.approx(2 * half, rel=1e-12)
+
+
+def test_limits_of_the_expanding_length_at_a_finite_slip_rate():
+    fault = Fault(**ROCK, **LOAD, **NEUTRAL)
+    asymptote = one("rubin_ampuero_crack", **NEUTRAL)
+    assert float(expanding_length(fault, 1e-3, 1e-8, 1.0)) == pytest.approx(asymptote, rel=1e-12)
+    # above steady state the zone is shorter, and reaches the asymptote from below
+    found = expanding_length(fault, np.array([1e-3, 1e3, 1e200]), 1e-8, 10.0)
+    assert (np.diff(found) > 0.0).all() and found[-1] == pytest.approx(asymptote, rel=0.05)
+    assert np.isnan(expanding_length(fault, 1e-9, 1e-8, 1.0))  # slower than far ahead
+    assert np.isnan(expanding_length(fault, 1e-7, 1e-8, 1e-3))  # no stress drop
+    localised = Fault(**ROCK, **LOAD, **WEAKENING)
+    assert np.isnan(expanding_length(localised, 1e-3, 1e-8, 1.0))
+
+
+def test_between_both_lengths_of_rubin_and_ampuero_it_is_said_what_holds():
+    found = lengths_in_use(**ROCK | LOAD, a=0.009, b=0.02)
+    for key in "rubin_ampuero_localised", "rubin_ampuero_crack":
+        assert np.isnan(found[key]) and "neither" in found[key].attrs["beyond"]
+    between = [formulas.between_localised_and_crack(ratio, 1.0) for ratio in (0.3, 0.4, 0.5, 0.6)]
+    assert between == [False, True, True, False]
 
 
 def test_thin_layer_length():

@@ -50,6 +50,13 @@ def test_text(nucleation):
     assert "in plane stress, with mu* = mu (1 + nu), b = a + zeta" in stress.out
 
 
+def test_between_both_lengths_of_rubin_and_ampuero_it_is_said_what_holds(nucleation):
+    where = [word if word != "0.010" else "0.00675" for word in WORDS]
+    said = " ".join(nucleation(*where).out.split())
+    assert said.count("neither length of Rubin and Ampuero holds") == 2
+    assert "neither length" not in nucleation(*WORDS).out
+
+
 def test_json_has_the_library_s_numbers(found):
     told = found("--velocity", "1 mm/yr", "--height", "2m")
     mode = arrays.critical_mode(**FAULT, velocity=1e-3 / (365.25 * 86400), height=2.0)

@@ -13,7 +13,9 @@ from docs.samples import DOCS, ROOT
 
 from nucleation.answers.finite_patch import loaded_patch_factor
 from nucleation.answers.formulas import FINITE_PATCH
+from nucleation.answers.in_use import lengths_in_use
 from nucleation.patch.pairs import over_realisations
+from nucleation.theory.arrays import critical_length
 
 FINDINGS = (DOCS / "findings.md").read_text(encoding="utf-8")
 CONTRASTS = (-0.38, -0.2, 0.0, 0.2, 0.38)
@@ -169,27 +171,82 @@ def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
 
 LITERATURE_ROWS = {
     "fixed": "rubin_ampuero_localised",
+    "fixed, beyond its limit": "rubin_ampuero_localised",
     "thin layer": "thin_layer",
     "expanding": "rubin_ampuero_crack",
     "slip law, over L_b": "state_evolution",
 }
 
 
-def test_lengths_of_the_literature_are_those_of_the_reference():
-    """Of each a/b the first run is in the table, and all of 0.3 are within what the text says."""
+def literature(length, ratio, late=True):
+    """Rows of the reference of one length and a/b, at the largest slip rate or at all."""
     table = reference("literature").dropna(subset=["difference"])
+    same = (table["name"] == LITERATURE_ROWS[length]) & np.isclose(table["a_over_b"], ratio)
+    return table[same & (np.isclose(table["read_at"], 1e3) if late else True)]
+
+
+def test_lengths_of_the_literature_are_those_of_the_reference():
+    """Of each a/b the first run is in the table."""
     page = (DOCS / "loading.md").read_text(encoding="utf-8")
     rows = re.findall(r"^\| ([a-z][^|]+) \| (0\.\d+) \| ([\d. |]+) \|$", page, re.MULTILINE)
-    assert len(rows) == 10
+    assert len(rows) == 13
     for length, ratio, values in rows:
-        same = table[
-            (table["name"] == LITERATURE_ROWS[length]) & np.isclose(table["a_over_b"], float(ratio))
-        ]
+        same = literature(length, float(ratio), late=False)
         first = same[same["id"] == same["id"].iloc[0]]["difference"] + 1.0
         assert [f"{value:.2f}" for value in first] == values.split(" | "), (length, ratio)
-    fixed = table[(table["name"] == "rubin_ampuero_localised") & np.isclose(table["a_over_b"], 0.3)]
-    late = fixed[fixed["read_at"] > 0.05]["difference"]
-    assert len(late) == 7 and late.min() > 0.005 and late.max() < 0.035
+
+
+def test_numbers_about_the_literature_s_lengths_are_those_of_the_reference():
+    """The sentences of docs/loading.md below the table."""
+    fixed = pd.concat([literature("fixed", ratio) for ratio in (0.1, 0.2, 0.3, 0.35)])
+    assert fixed["difference"].between(0.0, 0.02).all()
+    early = pd.concat([literature("fixed", ratio, late=False) for ratio in (0.1, 0.2, 0.3, 0.35)])
+    assert 0.14 < early["difference"].max() < 0.15
+    thin = pd.concat([literature("thin layer", ratio) for ratio in (0.1, 0.3)])
+    assert thin["difference"].between(-0.0185, -0.015).all()
+    layer = ANY | {"poisson_ratio": 1 / 3, "shear_modulus": 3.1e9, "slip_distance": 5e-7}
+    layer |= {"b": 0.029, "height": 0.005}  # b - a = 0.02
+    own = critical_length(**layer, second_shear_modulus=np.inf, friction=0.4)
+    assert lengths_in_use(**layer)["thin_limit"] / own - 1.0 == pytest.approx(0.02, abs=5e-3)
+    for_55 = literature("expanding", 0.55)
+    assert for_55["difference"].round(2).isin([0.08, 0.09]).all()
+    for column, expected in (("width_at_half", 0.82), ("width_at_hundredth", 1.19)):
+        assert (for_55[column] / for_55["formula_length"]).iloc[0] == pytest.approx(
+            expected, abs=5e-3
+        )
+    for_7, for_9 = literature("expanding", 0.7), literature("expanding", 0.9)
+    away = for_7["far_state_ratio"] > 5.0
+    steady = pd.concat([for_7[~away], for_9])
+    assert steady["difference"].abs().max() < 0.03
+    apart = 1.0 - steady["finite_speed_length"] / steady["formula_length"]
+    assert apart.iloc[:-1].between(0.015, 0.025).all() and apart.iloc[-1] == pytest.approx(
+        0.08, abs=5e-3
+    )
+    (from_above,) = for_7[away].to_dict("records")
+    assert from_above["far_state_ratio"] == pytest.approx(13.0, abs=1.0)
+    assert from_above["difference"] + 1.0 == pytest.approx(0.78, abs=5e-3)
+    ratio = from_above["simulated_length"] / from_above["finite_speed_length"]
+    assert ratio == pytest.approx(1.17, abs=5e-3)
+    for a_over_b, percent in ((0.4, 5), (0.45, 17)):
+        (difference,) = literature("fixed, beyond its limit", a_over_b)["difference"]
+        words = f"{percent} % for {'a/b = ' if a_over_b == 0.4 else ''}{a_over_b:g}"
+        assert round(100 * difference) == percent
+        assert words in lengths_in_use(**ANY)["rubin_ampuero_crack"].attrs["beyond"]
+    for a_over_b, low, high in ((0.3, 3.7, 3.8), (0.7, 3.35, 3.95)):
+        rows = literature("slip law, over L_b", a_over_b, late=False)
+        rows = rows[rows["n_x"] == rows["n_x"].max()]
+        factor = (1.0 + rows["difference"]) * np.log(rows["read_at"] / rows["far_slip_rate"])
+        assert factor.between(low, high + 0.005).all()
+
+
+ANY = {
+    "shear_modulus": 3e10,
+    "poisson_ratio": 0.25,
+    "normal_stress": 1e6,
+    "slip_distance": 1e-6,
+    "a": 0.009,
+    "b": 0.02,
+}
 
 
 STUDIES = {

@@ -7,7 +7,8 @@ import numpy as np
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation.drive import Steady
 from nucleation.simulation.interface import Interface
-from nucleation.simulation.run import at_rest, composed
+from nucleation.simulation.run import composed
+from nucleation.simulation.start import at_rest
 from nucleation.simulation.step import Dynamics
 
 PARAMETERS = Parameters(

@@ -12,7 +12,8 @@ from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
 from nucleation.simulation import interface
 from nucleation.simulation.interface import NewtonFailure
-from nucleation.simulation.run import at_rest, composed, run
+from nucleation.simulation.run import composed, run
+from nucleation.simulation.start import at_rest
 
 
 def small(law="aging", **mesh):

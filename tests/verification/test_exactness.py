@@ -13,7 +13,8 @@ from nucleation.fem.grid import Grid
 from nucleation.fem.periodic import PeriodicBlock, PeriodicOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation.run import at_rest, composed
+from nucleation.simulation.run import composed
+from nucleation.simulation.start import at_rest
 from nucleation.verification.orders import MATERIAL
 
 VELOCITY = 1e-3  # m/s; a patch forms within some steps

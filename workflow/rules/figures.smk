@@ -195,6 +195,29 @@ rule draw_figure_drop:
         JOB
 
 
+rule draw_figure_weakening:
+    """Where slow slip ends: lengths over the weakening"""
+    input:
+        table=f"{RESULTS}/weakening.nc",
+        recipe=recipe("draw_figure_weakening"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_weakening.png",
+            caption="../report/figure_weakening.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_weakening.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_weakening.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_weakening:draw",
+    message:
+        "Where slow slip ends: lengths over the weakening"
+    shell:
+        JOB
+
+
 rule draw_figure_map:
     """Where the theory is right: a map over height and weakening"""
     input:

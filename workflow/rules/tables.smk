@@ -20,6 +20,25 @@ rule gather_drop:
         JOB
 
 
+rule gather_weakening:
+    """Drops of faults that weaken little to much, beside theory"""
+    input:
+        drops=needed(lambda: lengths_of(*in_role("weakening")), "study with role: weakening"),
+        recipe=recipe("gather_weakening"),
+    output:
+        multiext(f"{RESULTS}/weakening", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/weakening.log",
+    params:
+        call="nucleation.patch.weakening_table:gather",
+        loads=lambda wildcards: laws_of(runs_for("weakening")),
+        runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
+    message:
+        "Drops of faults that weaken little to much, beside theory"
+    shell:
+        JOB
+
+
 rule gather_floors:
     """Noise of meshes and steps"""
     input:

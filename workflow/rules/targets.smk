@@ -101,6 +101,12 @@ rule figure_drop:
         rules.draw_figure_drop.output,
 
 
+rule figure_weakening:
+    """Where slow slip ends: lengths over the weakening"""
+    input:
+        rules.draw_figure_weakening.output,
+
+
 rule figure_map:
     """Where the theory is right: a map over height and weakening"""
     input:

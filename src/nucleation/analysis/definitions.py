@@ -50,17 +50,36 @@ class Onset:
 
 
 def find_onset(
-    time: Array, force: Array, window: float, drop: float, fast: NDArray[np.bool_] | None = None
+    time: Array,
+    force: Array,
+    window: float,
+    drop: float,
+    fast: NDArray[np.bool_] | None = None,
+    long_enough: NDArray[np.bool_] | None = None,
 ) -> Onset | None:
-    """The first abrupt drop of a force magnitude (N/m) over the times (s) of all steps, or None.
+    """The first abrupt drop of a force over the steps of a run, or None.
 
-    `window` (s) and `drop` (a fraction) are of :class:`~nucleation.simulation.event.DropWatch`;
-    `fast` is whether the patch slips fast at these times, always by default.
+    Parameters
+    ----------
+    time, force : ndarray, shape (steps,)
+        Times (s) and magnitudes of the force (N/m).
+    window, drop : float
+        Of :class:`~nucleation.simulation.event.DropWatch`: in seconds, and a fraction.
+    fast : ndarray of bool, shape (steps,), optional
+        Whether the patch slips fast at these times; always, if left out.
+    long_enough : ndarray of bool, shape (steps,), optional
+        Whether the patch has been longer than a few elements by then; always, if left out.
     """
     watch = DropWatch(window, drop)
-    fast = np.ones(time.size, dtype=bool) if fast is None else fast
-    steps = enumerate(zip(time, force, fast, strict=True))
-    end = next((i for i, at in steps if watch.dropped(*at)), None)
+    always = np.ones(time.size, dtype=bool)
+    fast = always if fast is None else fast
+    long_enough = always if long_enough is None else long_enough
+
+    def falls(step: int) -> bool:
+        dropped = watch.dropped(time[step], force[step], fast[step])
+        return dropped and bool(long_enough[np.searchsorted(time, watch.since)])
+
+    end = next(filter(falls, range(time.size)), None)
     if end is None:
         return None
     start = _last_maximum(force, end)

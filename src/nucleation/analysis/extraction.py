@@ -38,7 +38,8 @@ def extract(
     record = Record(simulation, settings)
     if record.onset is None:
         recorded = record.parameters.stepping.event_drop
-        if settings.drop > recorded and simulation.attrs.get("status") == AFTER_EVENT:
+        ended = str(simulation.attrs.get("status")).startswith(AFTER_EVENT)
+        if settings.drop > recorded and ended:
             warnings.warn(
                 f"the run ended after its event, a drop of the force by {recorded:g}, and before "
                 f"it fell by drop = {settings.drop:g}: simulate with a larger stepping.event_drop "

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
-from ..simulation.event import FAST, WINDOW, PatchBursts
+from ..simulation.event import WINDOW, PatchBursts, long_after
+from ..simulation.remarks import fastest_elsewhere
 from ..types import Array
 from .definitions import ExtractionSettings, Onset, find_onset, patch_lengths
 
@@ -78,7 +79,8 @@ class Record:
         """The first event, as indices into the steps; None if there is none."""
         window = WINDOW * self.parameters.memory_time
         force = np.abs(self.simulation["driving_force"].values)
-        return find_onset(self.step_time, force, window, self.settings.drop, self._fast)
+        drop = self.settings.drop
+        return find_onset(self.step_time, force, window, drop, self._fast, self._long_enough)
 
     @property
     def _fast(self) -> NDArray[np.bool_]:
@@ -99,18 +101,20 @@ class Record:
         return self.simulation["fastest_position"].values
 
     @property
+    def _long_enough(self) -> NDArray[np.bool_]:
+        """Whether the patch has been longer than a few elements by each step."""
+        rates = self.simulation["slip_rate"].values
+        return self.step_time > long_after(self.parameters, self.x, self.time, rates)
+
+    @property
     def fastest_elsewhere(self) -> tuple[float, float, float] | None:
         """Time (s), slip rate (m/s) and place (m) of the fastest burst that is not the patch's.
 
         None if all fast slip, up to the onset of an event, is the patch's.
         """
-        last = self.step_time.size if self.onset is None else self.onset.start
-        fast = self._largest_rate > FAST * self.velocity
-        rates = np.where(fast & ~self._fast, self._largest_rate, 0.0)[:last]
-        if not rates.any():
-            return None
-        at = int(rates.argmax())
-        return float(self.step_time[at]), float(rates[at]), float(self._fastest_position[at])
+        until = np.inf if self.onset is None else float(self.drop_times[0])
+        steps = self.step_time, self._largest_rate, self._fastest_position
+        return fastest_elsewhere(self.parameters, *steps, until)
 
     @property
     def drop_times(self) -> Array:

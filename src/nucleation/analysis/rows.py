@@ -62,6 +62,16 @@ def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
 
 
+def remarked(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """A line for each run whose status says what makes its event doubtful; rows as above."""
+    lines = []
+    for row in rows:
+        ended, *remarks = str(row["status"]).split("; ")
+        if ended.startswith("completed") and remarks:
+            lines.append(f"{row['id']}: {'; '.join(remarks)}")
+    return lines
+
+
 def in_table(path: Path) -> list[str]:
     """The same from the CSV of a study's table."""
     import pandas as pd  # which takes a while

@@ -20,6 +20,12 @@ CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 LOCALISED_LIMIT = 0.3781
 """Largest a/b at which a patch of fixed length accelerates (Rubin and Ampuero, 2005)."""
 
+LOCALISED_FACTOR = 2.0 * 1.3774
+"""That length over L_b."""
+
+CRACK_LIMIT = 0.5
+"""Least a/b at which a patch expands like a crack (Rubin and Ampuero, 2005)."""
+
 THIN = 0.3
 """Largest ``2 pi H/L`` at which a layer counts as thin: Eq. (11) is then 8 % above the theory."""
 
@@ -101,6 +107,11 @@ def bimaterial(
     total = (1.0 - nu) + (1.0 - nu2) * softness
     beta = 0.5 * ((1.0 - 2.0 * nu) - (1.0 - 2.0 * nu2) * softness) / total
     return 2.0 * shear_modulus / ((1.0 - beta**2) * total), beta
+
+
+def between_localised_and_crack(a: Values, b: Values) -> Any:
+    """Whether a/b is where neither of Rubin and Ampuero's lengths holds."""
+    return (a >= LOCALISED_LIMIT * b) & (a <= CRACK_LIMIT * b)
 
 
 def valid(condition: Any, values: Any) -> Any:

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from ..answers import formulas
 from ..answers.in_use import (
     HALF_SPACES,
     LENGTHS,
@@ -227,11 +228,14 @@ def _length_lines(length: Length, value: float, fault: Fault, critical: float) -
         lowest = min(float(fault.height), float(fault.second_height))
         if length.system in (HALF_SPACES, TWO_MATERIALS) and math.isfinite(lowest):
             valid = f"for half-spaces (here H = {lowest:g} m), {length.validity}"
-    return [
+    lines = [
         f"  {length.title:<28} {said:<11} {ratio:<10} {length.formula}",
         f"      {length.source}",
         f"      {valid}",
     ]
+    if length.beyond and formulas.between_localised_and_crack(fault.a, fault.b):
+        lines += textwrap.wrap(length.beyond, 94, initial_indent=6 * " ", subsequent_indent=6 * " ")
+    return lines
 
 
 def _why(length: Length, fault: Fault) -> str:

@@ -143,7 +143,6 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
     from ..analysis.extraction import extract
     from ..analysis.progress import Progress
-    from ..analysis.record import Record
     from ..datasets import netcdf, provenance
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
@@ -178,12 +177,5 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
         click.echo(attributes["status"])
         click.echo(f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s")
         click.echo("\n".join(event_lines(extract(dataset), run.theory_length)))
-        elsewhere = Record(dataset).fastest_elsewhere
-        if elsewhere is not None:
-            time, rate, place = elsewhere
-            click.echo(
-                f"Warning: at t = {time:.4g} s the interface slipped at {rate:.3g} m/s at x = "
-                f"{place:.4g} m, which is not the patch at the pushed edge: this is no event"
-            )
         click.echo(f"written to {output}")
     return DONE

@@ -147,8 +147,15 @@ def changing_friction(run: Run) -> Iterator[Advice]:
     )  # fmt: skip
 
 
+def _zone(run: Run) -> float:
+    """Length (m) of the process zone once the patch is as long as the theory's critical length."""
+    if math.isnan(run.theory_length):
+        return process_zone(run.parameters)
+    return process_zone(run.parameters, growth_time(run.parameters, run.theory_length))
+
+
 def _mesh(run: Run) -> Iterator[Advice]:
-    parameters, zone = run.parameters, process_zone(run.parameters)
+    parameters, zone = run.parameters, _zone(run)
     mesh, below = parameters.mesh, parameters.below
     along, _ = element_sizes(mesh, parameters.geometry)
     if along > zone / ELEMENTS_PER_ZONE:
@@ -234,7 +241,7 @@ def _roughness(run: Run) -> Iterator[Advice]:
 
 def _noise(run: Run) -> Iterator[Advice]:
     """What mesh and steps do to the patch by themselves, against what is declared."""
-    declared, zone = run.parameters.perturbation, process_zone(run.parameters)
+    declared, zone = run.parameters.perturbation, _zone(run)
     if not declared.acts or run.parameters.second_body.kind == "deformable":
         return  # the measures are those of one block
     along, _ = element_sizes(run.parameters.mesh, run.parameters.geometry)

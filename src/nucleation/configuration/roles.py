@@ -66,6 +66,7 @@ ROLES = {
     "noisy": Role("a stronger perturbation, for the band of `figure_3_extended`", False, False),
     "patch_convergence": Role("refined runs whose patches are followed", several=True),
     "drop": Role("declared perturbations, for `figure_drop`", True, False),
+    "weakening": Role("weak to strong weakening, for `figure_weakening`", True, False),
     "map": Role("heights and weakenings, for `figure_map`", False, False, (STABILITY, BATCHES)),
     "patch_theory": Role(
         "faults to hold the theory of the patch against, for `figure_patch_theory`", True, False,

@@ -56,6 +56,10 @@ FIGURES: dict[str, Entry] = {
         "Where the force drops under a declared perturbation", BEYOND, ("drop",),
         (Data("drop"),),
     ),
+    "figure_weakening": Entry(
+        "Where slow slip ends: lengths over the weakening", BEYOND, ("weakening",),
+        (Data("weakening"),),
+    ),
     "figure_map": Entry(
         "Where the theory is right: a map over height and weakening", BEYOND, ("map",),
         (Data("map"),),

@@ -19,6 +19,9 @@ from .mode_history import ModeHistory, mode_history
 LATEST_GROWTH = 0.85  # of the longest patch followed, up to which L_s leaves something to trend
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
 WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
+EARLIER, LATER = 0.03, 0.10
+"""Relative range about L_run, below and above, in which the force drops after slow slip: the error
+of L_run, and its delay where the front is fast. Simulated drops are 0 to 8 % above L_run."""
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which L_run is used
 SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
 NEAR_END = 0.6  # part of the block's length up to which its far end is not felt in a thin block
@@ -43,6 +46,16 @@ class ExpectedDrop(NamedTuple):
     def length(self) -> float:
         """The length (m) at the drop: the law's median, or L_run if slow slip lasts until then."""
         return float(np.fmax(self.drop.length, self.runaway_length))
+
+    @property
+    def low(self) -> float:
+        """The least length (m) that is expected at the drop."""
+        return float(np.fmax(self.drop.low, self.runaway_length * (1.0 - EARLIER)))
+
+    @property
+    def high(self) -> float:
+        """The largest length (m) that is expected at the drop."""
+        return float(np.fmax(self.drop.high, self.runaway_length * (1.0 + LATER)))
 
     @property
     def slips_slowly(self) -> bool:

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..analysis.rows import rows_of, without_event
+from ..analysis.rows import remarked, rows_of, without_event
 from ..datasets import netcdf, provenance
 from ..datasets.variables import DatasetError, is_table, to_csv
 from ..model.quantities import ParameterError
@@ -127,7 +127,8 @@ class Maker:
             and "onset_time" in made
             and recipe.name.startswith(LENGTHS)
         ):
-            for line in without_event(rows_of(made)):
+            rows = rows_of(made)
+            for line in (*without_event(rows), *remarked(rows)):
                 study = recipe.name.removeprefix(LENGTHS)
                 print(f"Warning: study {study}: {line}", file=sys.__stderr__)
         return made

@@ -86,13 +86,16 @@ function table(p, critical) {
   const spaces = [data.two_materials, data.half_spaces];
   const systems = new Set([...(two ? spaces : []), ...data.lengths.map(({ system }) => system)]);
   if (!two) systems.delete(data.two_materials);
+  const { localised, crack } = data.limits;
+  const ratio = p.a / (p.a + p.zeta);
+  const beyond = (length) => (length.beyond && ratio >= localised && ratio <= crack ? `; ${length.beyond}` : "");
   const cells = (length) => {
     const [value, known] = [found[length.key], Number.isFinite(found[length.key])];
     return {
       Length: length.title, Value: known ? metres(value) : "–",
       "Over L_c": known && critical > 0 ? (value / critical).toPrecision(3) : "–",
       Formula: length.formula, Source: length.source,
-      "Valid for": known ? length.validity : `not valid here: needs ${length.needs}`,
+      "Valid for": known ? length.validity : `not valid here: needs ${length.needs}${beyond(length)}`,
     };
   };
   return [...systems].map((system) => {

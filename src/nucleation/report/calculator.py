@@ -106,9 +106,13 @@ def data() -> dict[str, Any]:
         "two_materials": TWO_MATERIALS, "half_spaces": HALF_SPACES,
         "thick": THICK, "stability": stability.in_page(),
         "limits": {
-            "localised": formulas.LOCALISED_LIMIT, "thin": formulas.THIN,
-            "patch": formulas.FINITE_PATCH, "negligible": formulas.NEGLIGIBLE,
-            "nearest": finite_patch.NEAREST, "chebyshev": finite_patch.polynomial().tolist(),
+            "localised": formulas.LOCALISED_LIMIT,
+            "crack": formulas.CRACK_LIMIT,
+            "thin": formulas.THIN,
+            "patch": formulas.FINITE_PATCH,
+            "negligible": formulas.NEGLIGIBLE,
+            "nearest": finite_patch.NEAREST,
+            "chebyshev": finite_patch.polynomial().tolist(),
         },
     }  # fmt: skip
 

@@ -27,7 +27,7 @@ const Lengths = (() => {
       dieterich_longest: (4 / 3) * (1 - p.nu) * sliding,
       state_evolution: state,
       rubin_ampuero_localised: where(ratio < limits.localised, 2 * 1.3774 * state),
-      rubin_ampuero_crack: where(ratio > 0.5 && ratio < 1, ((2 / Math.PI) * state) / (1 - ratio) ** 2),
+      rubin_ampuero_crack: where(ratio > limits.crack && ratio < 1, ((2 / Math.PI) * state) / (1 - ratio) ** 2),
       uenishi_rice: where(ratio < limits.negligible, limits.patch * state),
       creeping_asperity: limits.patch * sliding,
       loaded_patch: where(ratio < limits.nearest, (loaded(ratio, limits) * state) / (1 - ratio)),

@@ -5,14 +5,15 @@ falls within milliseconds. The event is found when the force has fallen by a giv
 its largest value of a short time window, the memory time D/V of friction, while the interface slips
 fast somewhere: a slow decrease, as in an oscillation of the creeping patch that decays again, is no
 event, nor is a force that follows a fluctuating load. Where an edge is pushed the fast slip has to
-be the patch's: a free corner at the far end, whose shear stress the static start leaves above the
-strength, slips fast as well, and drives nothing.
+be the patch's: a free corner at the far end may slip fast as well, and drives nothing. And the
+patch has to be longer than a few elements: what a mesh can't resolve slips fast too.
 """
 
 import enum
 from collections import deque
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..model.parameters import EVENT_DROP, Parameters
 from ..types import Array
@@ -38,6 +39,42 @@ class Outcome(enum.Enum):
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach
 NEAR = 0.5  # part of the block, from a pushed edge, in which its patch is sought
+SLIPPING = 0.01  # slip rate over V above which an element's node is the patch's
+FEW = 4  # elements: a patch has more of them when its event begins
+
+
+def where_patch_is_sought(parameters: Parameters, x: Array) -> NDArray[np.bool_]:
+    """The nodes, at x (m), at which a run's patch may be: next to an edge that is pushed."""
+    if parameters.loading.kind != "edge":
+        return np.ones(x.size, dtype=bool)
+    return x <= NEAR * parameters.geometry.length
+
+
+def long_after(parameters: Parameters, x: Array, times: Array, slip_rates: Array) -> float:
+    """Time (s) after which the patch has been longer than :data:`FEW` elements.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the run.
+    x, times : ndarray, shape (n,) and (frames,)
+        Positions (m) of the nodes, and times (s) of the frames.
+    slip_rates : ndarray, shape (frames, n)
+        Slip rates (m/s). Between frames the nearest one counts, as for the patch's length.
+
+    Returns
+    -------
+    float
+        Minus infinity if it always was, infinity if it never was.
+    """
+    near = np.abs(slip_rates[:, where_patch_is_sought(parameters, x)])
+    nodes = np.count_nonzero(near > SLIPPING * parameters.loading.velocity, axis=1)
+    (long,) = np.nonzero(nodes > FEW + 1)
+    if not long.size:
+        return np.inf
+    if long[0] == 0:
+        return -np.inf
+    return float(times[long[0] - 1 : long[0] + 1].mean())
 
 
 class PatchBursts:
@@ -80,6 +117,11 @@ class DropWatch:
     @maxima.setter
     def maxima(self, values: Array) -> None:
         self._largest = deque((time, force) for time, force in values.tolist())
+
+    @property
+    def since(self) -> float:
+        """Time (s) of the window's largest force, from which a drop is counted."""
+        return self._largest[0][0]
 
     def dropped(self, time: float, force: float, fast: bool = True) -> bool:
         """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop.

@@ -11,8 +11,8 @@ from ..datasets.variables import annotate
 from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
 from ..types import Array
-from . import passes
-from .event import WINDOW, DropWatch, PatchBursts
+from . import passes, remarks
+from .event import WINDOW, DropWatch, PatchBursts, long_after
 from .recorded import RECORDED
 from .state import State
 from .step import Dynamics, StepReport
@@ -50,6 +50,8 @@ class Recorder:
         self._watch = DropWatch(WINDOW * parameters.memory_time, parameters.stepping.event_drop)
         self._bursts = PatchBursts(parameters)
         self._event_time = np.inf
+        self._onset_time = np.inf
+        self._short_drop_time = np.inf  # of the first drop whose patch was too short
         self._time = 0.0
 
     @property
@@ -71,10 +73,41 @@ class Recorder:
         force, step, iterations = report.driving_force, state.last_step, interface.iterations
         self._rows.append((state.time, force, fastest, position, step, iterations))
         fast = self._bursts.at(state.time, fastest, position)
-        if self._watch.dropped(state.time, abs(report.driving_force), fast):
-            self._event_time = min(self._event_time, self._time)
+        dropped = self._watch.dropped(state.time, abs(report.driving_force), fast)
+        if dropped and np.isinf(self._event_time):
+            self._take_in_drop()
         self._maybe_frame(state, report)
         self._maybe_snapshot(state, fastest)
+
+    def _take_in_drop(self) -> None:
+        """A drop of the force is the event if the patch was long enough when it began."""
+        onset = self._watch.since
+        times = np.array([time for time, _ in self._frames])
+        rates = np.array([fields[0] for _, fields in self._frames])
+        if onset > long_after(self.parameters, self.grid.x, times, rates):
+            self._event_time, self._onset_time = self._time, onset
+        else:
+            self._short_drop_time = min(self._short_drop_time, onset)
+
+    def remarks(self) -> list[str]:
+        """What makes the event, or that there is none, doubtful."""
+        times, _, rates, positions = np.array([row[:4] for row in self._rows]).T
+        elsewhere = remarks.fastest_elsewhere(
+            self.parameters, times, rates, positions, self._onset_time
+        )
+        return [
+            *remarks.of_front(self._front_width()),
+            *remarks.of_slip_elsewhere(elsewhere),
+            *remarks.of_short_patch(self._short_drop_time),
+        ]
+
+    def _front_width(self) -> float:
+        """Width of the front (elements) at the onset; infinite without an event."""
+        if np.isinf(self._onset_time):
+            return np.inf
+        times = np.array([time for time, _ in self._frames])
+        _, fields = self._frames[int(np.abs(times - self._onset_time).argmin())]
+        return remarks.front_width(self.parameters, self.grid.x, fields[1])
 
     def _maybe_frame(self, state: State, report: StepReport) -> None:
         rate = report.interface.slip_rate
@@ -131,7 +164,7 @@ class Recorder:
             "snapshots_below": np.array(self._snapshots_below),
             "next_snapshot_rate": np.array(self._next_snapshot_rate),
             "watched": self._watch.maxima,
-            "event_time": np.array(self._event_time),
+            "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
             "own_burst": np.array(self._bursts.own),
         }
 
@@ -146,7 +179,7 @@ class Recorder:
         self._snapshots_below = list(arrays["snapshots_below"])
         self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
         self._watch.maxima = arrays["watched"]
-        self._event_time = float(arrays["event_time"])
+        self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
         self._time = self._rows[-1][0]
 

@@ -16,15 +16,16 @@ from numpy.typing import NDArray
 
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
-from ..model.parameters import FIRST_STEP, Loading, Parameters
+from ..model.parameters import FIRST_STEP, Parameters
 from ..types import Array
 from .control import Control, Instant, SimulationFailure, accepted_step
 from .drive import drive_of
 from .event import Outcome
-from .interface import Interface, InterfaceSolution
+from .interface import Interface
 from .recording import Recorder
+from .start import at_rest
 from .state import State
-from .step import Dynamics, StepReport
+from .step import Dynamics
 from .stepping import BDF
 
 NEWTON = 1e-3
@@ -52,29 +53,6 @@ def interface_of(parameters: Parameters, grid: Grid) -> Interface:
         if varied.varies == "normal_stress":
             extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
     return Interface(friction, tolerance, extra_normal=extra)
-
-
-def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
-    """The static field under the load at rest, without slip or in uniform shear."""
-    body, grid, imposed = dynamics.body, dynamics.grid, dynamics.drive.at(0.0)
-    n, operator, load = body.free_nodes, body.operator(0.0), dynamics.load(imposed)
-    response = operator.respond(load, np.zeros(n))
-    if loading.initial_stress == "uniform_shear" and loading.kind != "remote":
-        forces = -loading.initial_shear_stress * grid.nodal_lengths[-n:]
-        stiffness, _ = operator.tangent(np.arange(1, n + 1))
-        slipped = np.linalg.solve(stiffness, forces - response.tangential)
-        response = operator.respond(load, slipped)
-    balance = operator.balance(response, response.w)
-    slip_rate = body.on_all_nodes(np.zeros(n), imposed.velocity)
-    log_state = np.full(grid.n_x + 1, float(np.log(loading.initial_state)))
-    motion = body.at_rest(balance.displacement, imposed.velocity)
-    state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
-    normal = response.normal + dynamics.interface.extra_normal
-    # at rest no friction acts on the driven edge's own node
-    tangential = body.on_all_nodes(response.tangential, 0.0)
-    interface = InterfaceSolution(slip_rate, log_state, tangential, normal, response.w, 0)
-    force = float(tangential[grid.own].sum()) - dynamics.frame_inertia(imposed)
-    return state, StepReport(interface, force, 0.0)
 
 
 Arrays = dict[str, NDArray]
@@ -125,7 +103,8 @@ def simulate(
 
     It has the interface's fields on (time, x), the driving force and the step sizes on (step), some
     fields of the bulk on (snapshot, y, x), of :data:`nucleation.simulation.recorded.RECORDED`, and
-    the outcome as attributes. A run that fails has what it recorded, with ``status`` telling so.
+    the outcome as attributes. ``status`` says how the run ended and, after semicolons, what makes
+    its event doubtful (:mod:`.remarks`). A run that fails has what it recorded.
 
     Parameters
     ----------
@@ -166,7 +145,7 @@ def simulate(
     if not all(np.isfinite(values).all() for values in dataset.variables.values()):
         outcome = Outcome.NOT_FINITE
     dataset.attrs |= {
-        "status": outcome.value,
+        "status": "; ".join([outcome.value, *recorder.remarks()]),
         "completed": int(outcome.completed),
         "steps": recorder.steps,
         "rejected_steps": control.rejected,

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..model.friction.law import Friction
 from ..model.linearised import linearised
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
@@ -12,6 +13,9 @@ from .stiffness import SATURATION, Pair
 from .transfer import bodies_of
 
 THIN = 1e-3  # layer number k H at which a body is thin
+
+FRESH = 1e-12  # Omega of an interface that has only just come to rest
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(64)  # on (-1, 1)
 
 
 class Stiffness(NamedTuple):
@@ -41,21 +45,69 @@ def stiffness_of(parameters: Parameters) -> Stiffness:
     return Stiffness(float(resistance[0]), float(resistance[1]) / long)
 
 
-def process_zone(parameters: Parameters) -> float:
-    """Length (m) over which friction at the front weakens.
+def steepness(friction: Friction, omega: float) -> float:
+    """How much faster friction weakens with slip at a front than it does by its linearisation.
+
+    Parameters
+    ----------
+    friction : Friction
+        Of which the state evolution ``g`` counts.
+    omega : float
+        ``phi V/D`` of the interface that the front reaches.
+
+    Returns
+    -------
+    float
+        At least 1; 1 for the aging law, whatever `omega` is.
 
     Notes
     -----
-    The wavelength over 2 pi at which the body's stiffness equals friction's fastest weakening
-    ``b sigma0/D``, ``b = a + zeta``: in a thick body ``L_b = mu D/((1 - nu) b sigma0)`` (Dieterich,
-    1992; Rubin and Ampuero, 2005), in a thin block ``sqrt(2 H L_b)``. The smaller of both; of two
-    blocks with the stiffness of both (:class:`Stiffness`).
+    Slip at a constant rate takes Omega from its first value down to 1, as ``D dOmega/d delta = g``,
+    and friction falls by ``b log(Omega)``. Over the drop's fracture energy, which is ``b D`` times
+    ``E = int u exp(u)/(-g(exp(u))) du`` from 0 to ``U = log(Omega)``, friction weakens on average
+    at ``(b/D) U^2/(2 E)``, and near steady sliding at ``b/D``. The larger of both counts. For the
+    slip law ``E = U``; for ``g = (1 - Omega^2)/2`` E is never above pi^2/4.
+    """
+    if omega <= 1.0:
+        return 1.0
+    drop = math.log(omega)
+    u = 0.5 * drop * (1.0 + POINTS)
+    rates = friction.evolution_law.growth(np.exp(u))
+    energy = 0.5 * drop * float(WEIGHTS @ (u * np.exp(u) / -rates))
+    return max(drop**2 / (2.0 * energy), 1.0)
+
+
+def process_zone(parameters: Parameters, rest: float = 0.0) -> float:
+    """Length (m) over which friction at the front weakens.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the run.
+    rest : float
+        Time (s) for which the interface has been at rest when the front reaches it: in many laws
+        it grows older meanwhile.
+
+    Returns
+    -------
+    float
+        Infinite if friction does not weaken.
+
+    Notes
+    -----
+    The wavelength over 2 pi at which the body's stiffness equals friction's weakening with slip,
+    ``s b sigma0/D``, with ``b = a + zeta`` and the :func:`steepness` s of the state evolution: in a
+    thick body ``L_b/s``, ``L_b = mu D/((1 - nu) b sigma0)`` (Dieterich, 1992; Rubin and Ampuero,
+    2005), in a thin block ``sqrt(2 H L_b/s)``. The smaller of both; of two blocks with the
+    stiffness of both (:class:`Stiffness`).
     """
     friction, loading = parameters.friction, parameters.loading
     interface = linearised(friction, loading)
     weakening = (interface.a + interface.zeta) * loading.normal_stress
     if weakening <= 0.0:
         return math.inf
+    age = loading.initial_state + rest * float(friction.evolution_law.growth(FRESH))
+    weakening *= steepness(friction, age / parameters.memory_time)
     stiffness = stiffness_of(parameters)
     scale = friction.characteristic_slip_distance / weakening
     return min(stiffness.thick * scale, math.sqrt(stiffness.thin * scale))

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from ...answers.formulas import CRACK_LIMIT, LOCALISED_LIMIT
 from ...figures import laws, style
 
 KINDS = {
@@ -17,7 +18,7 @@ KINDS = {
 }
 """Label, marker and colour of each simulated length."""
 
-SHOWN_AT = 1e-2  # m/s, in the panel over a/b
+SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
 
 
 @style.styled
@@ -34,29 +35,33 @@ def draw(table: xr.Dataset) -> Figure:
         look: Any = {"marker": marker, "color": colour, "mfc": "none"}
         left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
         _draw_growth(right, rows, look)
+    left.axvspan(LOCALISED_LIMIT, CRACK_LIMIT, color="0.9", lw=0, label="neither formula holds")
     left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
     left.set_title(f"(a) read at {SHOWN_AT:g} m/s", loc="left")
     right.set(xscale="log", xlabel="Largest slip rate (m/s)")
     right.set_title("(b) as slip accelerates; labels: $a/b$", loc="left")
-    right.set_xlim(right=0.4)
+    right.set_xlim(right=5e4)  # with room for the labels
     for axes in (left, right):
         axes.set_yscale("log")
         style.level(axes, 1.0)
-    ticks = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
+    ticks = (0.1, 0.2, 0.5, 1.0, 2.0)
     left.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     left.minorticks_off()
-    left.legend(loc="lower left")
+    left.legend(loc="center left")
     return figure
 
 
 def _draw_growth(axes: Axes, rows: xr.Dataset, look: Any) -> None:
-    """One line for each a/b, of its first run."""
+    """One line for each a/b, of its first run; dashed the formula at that slip rate."""
     rows = rows.assign(ratio=rows["a_over_b"].round(6)).sortby("ratio")
     for same in laws.groups(rows, "ratio"):
         first = next(laws.groups(same, "id"))
         x, y = first["read_at"].values, first["difference"].values + 1.0
         axes.plot(x, y, **look)
-        if abs(y[-1] - 1.0) > 0.15:  # near 1 they lie on one another
-            text: Any = {"va": "center", "color": look["color"], "fontsize": style.SMALL}
+        at_this_rate = first["finite_speed_length"].values / first["formula_length"].values
+        axes.plot(x, at_this_rate, color=look["color"], linestyle="--", lw=0.8)
+        if abs(y[-1] - 1.0) > 0.12:  # near 1 they lie on one another
+            side = "bottom" if float(same["ratio"][0]) < 0.5 else "top"
+            text: Any = {"va": side, "color": look["color"], "fontsize": style.SMALL}
             end, label = (x[-1], y[-1]), f"{float(same['ratio'][0]):.2g}"
             axes.annotate(label, end, (5, 0), textcoords="offset points", **text)
