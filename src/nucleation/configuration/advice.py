@@ -85,15 +85,23 @@ def advise(runs: Iterable[Run]) -> list[str]:
     return texts
 
 
+def _has_a_weakening_patch(run: Run, zeta: float) -> bool:
+    """Whether zeta, declared with a value elsewhere, is positive on a patch of the fault."""
+    own = run.parameters.heterogeneity
+    return own.varies == "zeta" and zeta * (1.0 + own.change) > 0.0
+
+
 def _about(run: Run) -> Iterator[Advice]:
     yield from _mesh(run)
     interface = linearised(run.parameters.friction, run.parameters.loading)
     if math.isnan(run.theory_length):
-        yield Advice(
-            "nothing will nucleate", -interface.zeta,
-            f"homogeneous sliding is stable at every wavelength, zeta = {interface.zeta:.3g} at V "
-            f"= {run.parameters.loading.velocity:g} m/s",
-        )  # fmt: skip
+        if not _has_a_weakening_patch(run, interface.zeta):
+            yield Advice(
+                "nothing will nucleate",
+                -interface.zeta,
+                f"homogeneous sliding is stable at every wavelength, zeta = {interface.zeta:.3g} "
+                f"at V = {run.parameters.loading.velocity:g} m/s",
+            )
         return
     if interface.zeta <= 0.0:
         yield Advice(

@@ -37,6 +37,7 @@ INTERFACE = Need("record", lambda level: level != "lengths", "interface or every
 QUIET = Need("perturbation", "none".__eq__, "none")
 PAIR = Need("second_body", "deformable".__eq__, "deformable")
 REMOTE = Need("loading", "remote".__eq__, "remote")
+ZETA_VARIES = Need("varies", "zeta".__eq__, "zeta")
 
 
 class Role(NamedTuple):
@@ -67,6 +68,10 @@ ROLES = {
     "patch_convergence": Role("refined runs whose patches are followed", several=True),
     "drop": Role("declared perturbations, for `figure_drop`", True, False),
     "weakening": Role("weak to strong weakening, for `figure_weakening`", True, False),
+    "weakening_patches": Role(
+        "patches that weaken in a fault that strengthens, for `figure_weakening_patches`",
+        runs=(REMOTE, ZETA_VARIES),
+    ),
     "map": Role("heights and weakenings, for `figure_map`", False, False, (STABILITY, BATCHES)),
     "patch_theory": Role(
         "faults to hold the theory of the patch against, for `figure_patch_theory`", True, False,

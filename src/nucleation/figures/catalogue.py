@@ -60,6 +60,10 @@ FIGURES: dict[str, Entry] = {
         "Where slow slip ends: lengths over the weakening", BEYOND, ("weakening",),
         (Data("weakening"),),
     ),
+    "figure_weakening_patches": Entry(
+        "Weakening patches among strengthening surroundings", BEYOND, ("weakening_patches",),
+        (Data("weakening_patches"),),
+    ),
     "figure_map": Entry(
         "Where the theory is right: a map over height and weakening", BEYOND, ("map",),
         (Data("map"),),
