@@ -41,6 +41,7 @@ from .fault_options import (
 from .options import option
 from .text import to_json, wrapped
 from .uncertainty import print_quantiles, samples_option, take_uncertain
+from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
 
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the friction law from which on it is told."""
@@ -63,6 +64,7 @@ DENSITY = declarations(Material)["density"]
     help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
     "or interior; a top that moves has --far-side velocity",
 )  # fmt: skip
+@patch_options
 @samples_option
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
@@ -83,11 +85,15 @@ def command(
     """
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
+    of_patch = {name: options.pop(name) for name in OPTIONS}
     given, law, papers = fault_values(**options, ranges=True)
     uncertain = {k: v for k, v in given.items() if isinstance(v, Range)} | uncertain
     if uncertain:
         if density is not None:
             raise ParameterError("density is not allowed beside ranges and samples")
+        for name in OPTIONS:
+            if of_patch[name] is not None:
+                raise ParameterError(f"{name} is not allowed beside ranges and samples")
         usual = {"weakening_rate": weakening_rate, "loading": loading}
         return print_quantiles(given, uncertain, options | usual, as_json)
     if density is not None and "velocity" not in given:
@@ -95,6 +101,7 @@ def command(
     with doubts_told():
         fault = Fault(**given)
         theory = _theory(given, fault, density, loading, law)
+        patch = patch_of(fault, of_patch)
     lengths = {key: float(value) for key, value in values_of(fault, weakening_rate).items()}
     said = said_of(fault, given, loading) + papers
     if as_json:
@@ -102,6 +109,7 @@ def command(
             "system": said,
             "parameters": parameters_of(fault),
             "theory": theory,
+            "weakening_patch": patch and patch._asdict(),
             "lengths": [
                 {"key": length.key, "length": lengths[length.key], **length.words()}
                 for length in LENGTHS
@@ -109,7 +117,8 @@ def command(
         }
         click.echo(to_json(found))
     else:
-        click.echo(_as_text(said, fault, theory, lengths, law))
+        more = patch_lines(patch, of_patch["width"], theory["critical_length"]) if patch else []
+        click.echo(_as_text(said, fault, theory, lengths, law, more))
     return DONE if math.isfinite(theory["critical_length"]) else STABLE
 
 
@@ -148,6 +157,7 @@ def _as_text(
     theory: dict[str, Any],
     lengths: dict[str, float],
     law: Friction | None,
+    patch: list[str],
 ) -> str:
     lines = [
         *wrapped(*said),
@@ -159,6 +169,7 @@ def _as_text(
     else:
         reason = textwrap.wrap(reason_of_stability(fault), 90)
         lines += ["  no critical length:", *(f"  {line}" for line in reason)]
+    lines += ["", *patch] if patch else []
     for system in systems_of_lengths(fault):
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
