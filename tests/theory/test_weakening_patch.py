@@ -1,6 +1,8 @@
 """W_c by theory: an independent route in a period, its limits, and what it must not depend on."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -211,3 +213,17 @@ def test_bad_parameters_are_refused():
         weakening_patch_length(outside_zeta=-0.005, outside_a=-1.0, **FAULT, zeta=0.005)
     with pytest.raises(ParameterError, match="outside_zeta"):
         weakening_patch_length(outside_zeta=[-0.1, -0.2], **FAULT, zeta=[0.1, 0.2, 0.3])
+
+
+@pytest.mark.slow
+def test_table_of_the_page():
+    """docs/patch_theory.md has W_c/L_c between half-spaces."""
+    page = Path(__file__).parents[2] / "docs" / "patch_theory.md"
+    _, head, table = page.read_text(encoding="utf-8").partition("| zeta/a | r = 0.1 |")
+    strengthening = [0.1, *map(float, re.findall(r"[\d.]+", table.partition("\n")[0]))]
+    rows = re.findall(r"^\| ([\d.]+) \| (.*) \|$", table.partition("\n\n")[0], re.MULTILINE)
+    assert head and len(rows) == 6
+    for ratio, cells in rows:
+        stated = [float(cell) for cell in cells.split(" | ")]
+        found = [over_critical(float(ratio), r) for r in strengthening]
+        assert found == pytest.approx(stated, abs=6e-4)

@@ -39,7 +39,7 @@ def draw(table: xr.Dataset) -> Figure:
     first.set_ylabel("Width of the patch $W/L_c$")
     entries = style.entries(first)
     for label, marker, colour in LOOKS.values():
-        entries[label] = style.key(label, marker, color=colour)
+        entries[label] = style.key(label, marker, colour=colour, mfc="none")
     figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
     return figure
 
