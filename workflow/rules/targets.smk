@@ -114,7 +114,7 @@ rule figure_weakening_patches:
 
 
 rule figure_map:
-    """Where the theory is right: a map over height and weakening"""
+    """Lengths over height and weakening: a map"""
     input:
         rules.draw_figure_map.output,
 

@@ -65,7 +65,7 @@ FIGURES: dict[str, Entry] = {
         (Data("weakening_patches"),),
     ),
     "figure_map": Entry(
-        "Where the theory is right: a map over height and weakening", BEYOND, ("map",),
+        "Lengths over height and weakening: a map", BEYOND, ("map",),
         (Data("map"),),
     ),
     "figure_patch_stability": Entry(

@@ -44,7 +44,7 @@ def draw(table: xr.Dataset) -> Figure:
     first = np.ravel(panels)[0]
     first.set_ylabel("Length over theory $L/L_c$")
     entries = style.entries(first)
-    entries[SIMULATED] = style.key(SIMULATED, "o", color=style.BLACK)
+    entries[SIMULATED] = style.key(SIMULATED, "o", colour=style.BLACK)
     figure.legend(entries.values(), entries, loc="outside upper center", ncols=2)
     return figure
 
@@ -57,8 +57,8 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
         ratios = [float(fault[name][0] / fault["theory_length"][0]) for fault in faults]
         axes.plot(weakening, ratios, dashes, color=colour, label=label)
     for at, fault in zip(weakening, faults, strict=True):
-        ratios = (fault["length"] / fault["theory_length"]).values
-        dropped = ratios[np.isfinite(ratios)]
+        simulated = (fault["length"] / fault["theory_length"]).values
+        dropped = simulated[np.isfinite(simulated)]
         if dropped.size:
             mean = dropped.mean()
             bars = [[mean - dropped.min()], [dropped.max() - mean]]
