@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.creep.runaway import runaway_length
+    from .theory.weakening_patch import weakening_patch_length
 
 __all__ = [
     "CriticalMode",
@@ -103,6 +104,7 @@ __all__ = [
     "spectrum",
     "stability_length",
     "transfer_functions",
+    "weakening_patch_length",
     "write",
 ]
 
@@ -121,6 +123,7 @@ _LATER = {
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
     ".theory.creep.runaway": ("runaway_length",),
+    ".theory.weakening_patch": ("weakening_patch_length",),
     ".answers.specimen": ("specimen_fit",),
     ".answers.specimen_quantiles": ("specimen_quantiles",),
     ".answers.status": ("length_statuses",),
