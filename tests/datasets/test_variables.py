@@ -24,7 +24,7 @@ CROSSCHECK = "nucleation.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
     "id", "study", "role", "evolution", "friction_law", "below", "far_side", "kind",
-    "initial_stress", "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
+    "initial_stress", "status", "problem", "refinement", "varied", "variation", "fault", "ensemble", "outcome",
     "plane", "loading", "name", "definition",
 }  # fmt: skip
 
