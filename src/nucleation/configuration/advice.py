@@ -28,7 +28,7 @@ COARSE_ELEMENTS, COARSE_NOISE, PER_ELEMENT = 9.5, 1e-3, 0.8
 """Elements per process zone of the paper's mesh, which moves onsets by a per cent up to strengths
 of 1e-3; and how many powers of ten less it is with each element more. With 11 to 17 elements nine
 of ten faults dropped within 0.1 % of the time on twice as many at 1e-4, and with 17 or more a mesh
-is as quiet as 1e-9 (docs/findings.md, docs/drop.md)."""
+is as quiet as 1e-9 (docs/verification.md, docs/drop.md)."""
 
 ELEMENT_PART = 0.04
 """Part of an element that the front may pass in a step without shaking the patch as much as ..."""
