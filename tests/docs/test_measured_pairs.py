@@ -28,7 +28,7 @@ def test_half_spaces_as_eta():
         "results.md",
         f"unstable at {high['stability_ratio']:.2f} of Eq. (6) and the force drops at "
         rf"{high['length_ratio']:.2f} of it. As $\eta$ of Eq. (3) these are {unstable:.1f} and "
-        f"{drop:.1f} ({low:.1f} to {most:.1f} over six realisations)",
+        f"{drop:.1f} ({low:.1f} to {most:.1f})",
     )
     says("README.md", f"unstable at {unstable:.1f} and the force drops at {drop:.1f} times")
 
@@ -58,8 +58,8 @@ def test_weak_weakening_between_blocks_depends_on_their_height():
     says(
         "results.md",
         f"from {span(unstable, 1)} $L_c^M$ on",
-        f"the force drops at {first:.1f} $L_c^M$ for $H = 1$ m ({ends[0]:.1f} to {ends[1]:.1f}, six "
-        f"realisations) and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f}, six).",
+        f"the force drops at {first:.1f} $L_c^M$ for $H = 1$ m ({ends[0]:.1f} to {ends[1]:.1f}) "
+        f"and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f}).",
     )
 
 
