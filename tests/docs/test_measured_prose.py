@@ -129,8 +129,8 @@ def test_lengths_over_the_strength_of_the_noise():
     weaker = [drops("normal_load", eps).groupby("height")["ratio"].mean() for eps in (1e-3, 1e-5)]
     says(
         "README.md",
-        f"law $L$ is {span(pd.concat(weaker))} $L_c$ with a load that fluctuates by 1e-3 to 1e-5, and "
-        f"{strong['ratio'].mean():.2f} with 1e-2",
+        f"law $L$ is {span(pd.concat(weaker))} $L_c$ with a load that fluctuates by 1e-3 to 1e-5, "
+        f"and {strong['ratio'].mean():.2f} with 1e-2",
     )
 
 
@@ -143,8 +143,8 @@ def test_where_the_patch_becomes_unstable():
     says(
         "results.md",
         f"$L_s$ = {span(both['converged'])} of $L_c$, for all heights",
-        f"change $L_s$ by {100 * finer:.1f} % or less on the fine mesh, by {100 * changes:.1f} % or "
-        "less on the paper's",
+        f"change $L_s$ by {100 * finer:.1f} % or less on the fine mesh, by {100 * changes:.1f} % "
+        "or less on the paper's",
         f"frequency, {frequency.min():.0f} to {frequency.max():.0f} 1/s",
     )
     says("README.md", f"$L_s$ = **{span(both['converged'])}** $L_c$")
@@ -158,8 +158,8 @@ def test_length_of_instability_over_the_weakening():
     says(
         "results.md",
         f"In a thin layer $L_s/L_c$ is {strong} for strong weakening, {papers} for the paper's, "
-        f"{half} for $\\zeta/a = 0.5$, {third} for 0.3, {fifth} for 0.2 and {tenth} for 0.1; between "
-        f"half-spaces it is {spaces[0]:.2f}, {spaces[1]:.2f}, {spaces[2]:.2f} and {spaces[3]:.2f} "
+        f"{half} for $\\zeta/a = 0.5$, {third} for 0.3, {fifth} for 0.2 and {tenth} for 0.1; "
+        f"between half-spaces it is {spaces[0]:.2f}, {spaces[1]:.2f}, {spaces[2]:.2f} and {spaces[3]:.2f} "
         "for the last four",
         r"within 25 % from $\zeta/a = 0.2$ to 0.45",
     )
