@@ -159,8 +159,8 @@ def test_length_of_instability_over_the_weakening():
         "results.md",
         f"In a thin layer $L_s/L_c$ is {strong} for strong weakening, {papers} for the paper's, "
         f"{half} for $\\zeta/a = 0.5$, {third} for 0.3, {fifth} for 0.2 and {tenth} for 0.1; "
-        f"between half-spaces it is {spaces[0]:.2f}, {spaces[1]:.2f}, {spaces[2]:.2f} and {spaces[3]:.2f} "
-        "for the last four",
+        f"between half-spaces it is {spaces[0]:.2f}, {spaces[1]:.2f}, {spaces[2]:.2f} and "
+        f"{spaces[3]:.2f} for the last four",
         r"within 25 % from $\zeta/a = 0.2$ to 0.45",
     )
     says("README.md", r"from $\zeta/a = 0.2$ to 0.45 the whole wavelength is right within 25 %")
