@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from nucleation.analysis.measures import BY_DEFINITION, MEASURES
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
-from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
+from nucleation.claims.expected import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
@@ -54,8 +54,8 @@ def test_claim_is_complete(claim):
     for text in (claim.where, claim.quotation, claim.method, claim.unit):
         assert text.strip() == text != ""
     assert "~" not in claim.where and r"\!" not in claim.quotation
-    if claim.said is not None and claim.said.kind == "number":
-        assert claim.said.text in claim.quotation, "a stated number stands in the quotation"
+    if claim.expected is not None and claim.expected.kind == "number":
+        assert claim.expected.text in claim.quotation, "a stated number stands in the quotation"
 
 
 def test_rows_are_valid_by_the_schema(rows):
@@ -128,11 +128,11 @@ def test_onset_and_length_of_figure_s2(rows):
         assert row["on_papers_mesh"] == papers[column].item()
         assert row["verdict"] == Verdict.REPLICATED
     onset = converged.onset_time.mean()
-    said = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
-    assert said in rows["onset-time"]["reason"]
+    stated = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
+    assert stated in rows["onset-time"]["reason"]
     lengths = converged["length"]
-    said = f"all 6 realisations are {lengths.min():.4f} to {lengths.max():.4f} m"
-    assert said in rows["length-shown"]["reason"] and lengths.min() > 0.155
+    stated = f"all 6 realisations are {lengths.min():.4f} to {lengths.max():.4f} m"
+    assert stated in rows["length-shown"]["reason"] and lengths.min() > 0.155
 
 
 def test_the_onset_depends_on_the_kind_of_noise(rows):
@@ -193,9 +193,11 @@ def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
     found, healed = [], []
     for run in runs.itertuples():
         states = solve_ivp(
-            lambda _, state: law.state_rate(0.0, state), (0.0, run.onset_time), [run.phi0],
+            lambda _, state: law.state_rate(0.0, state),
+            (0.0, run.onset_time),
+            [run.phi0],
             rtol=1e-9,
-        ).y[0]  # fmt: skip
+        ).y[0]
         strength = law.coefficient(1e-5, states[[0, -1]])
         found.append(strength[1] / strength[0] - 1.0)
         healed.append(states[-1])
@@ -302,9 +304,12 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     base = on.lengths[0].isel(run=[0, 0, 1]).copy(deep=True)
     ids = ["short", "long", "other"]
     longer = base.assign(
-        id=("run", ids), role=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
-        length=("run", [0.2, 0.203, 0.5]), ensemble=("run", ids),
-    )  # fmt: skip
+        id=("run", ids),
+        role=("run", [LONGER] * 3),
+        block_length=("run", [1.0, 2.0, 4.0]),
+        length=("run", [0.2, 0.203, 0.5]),
+        ensemble=("run", ids),
+    )
     longer = longer.assign(dict.fromkeys(BY_DEFINITION, longer["length"]))
     claim = BY_ID["length-plays-no-role"]
     row = claim.evaluate(evidence(lengths=(*on.lengths[:2], longer)))

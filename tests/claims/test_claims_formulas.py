@@ -46,14 +46,20 @@ WRONG = [
     ("block_transfer", lambda f: lambda q, nu: (f(q, nu)[0] * 1.001, f(q, nu)[1]), "block-g1"),
     ("block_transfer", lambda f: lambda q, nu: (f(q, nu)[0], f(q, nu)[1] * 0.999), "block-g2"),
     ("bimaterial_ratio", lambda f: lambda rho, z: f(rho, 1.001 * z), "bimaterial-length"),
-    ("strengthening_threshold", lambda f: lambda a, zeta: 0.999 * f(a, zeta),
-     "strengthening-threshold"),
-    ("bimaterial_contrast", lambda f: lambda psi, nu1, nu2: 1.001 * f(psi, nu1, nu2),
-     "bimaterial-g2"),
+    (
+        "strengthening_threshold",
+        lambda f: lambda a, zeta: 0.999 * f(a, zeta),
+        "strengthening-threshold",
+    ),
+    (
+        "bimaterial_contrast",
+        lambda f: lambda psi, nu1, nu2: 1.001 * f(psi, nu1, nu2),
+        "bimaterial-g2",
+    ),
     ("response_matrix", lambda f: lambda q, nu: f(q, 1.001 * nu), "response-matrix"),
     ("block_field", lambda f: lambda q, y, nu: f(q, y, 1.001 * nu), "block-field"),
     ("thin_length", lambda f: lambda *a: 1.02 * f(*a), "thin-length"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("name", "change", "id"), WRONG)

@@ -9,7 +9,7 @@ from reference_evidence import table as of_reference
 
 from nucleation.claims import table as table_of_claims
 from nucleation.claims.independent import printed
-from nucleation.claims.statements.two_bodies import PairEvidence
+from nucleation.claims.pair_evidence import PairEvidence
 
 CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
 FOUND = {claim.id: claim for claim in CLAIMS}
@@ -55,11 +55,19 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
     rates = np.array([np.roots([a, x - zeta, x]) for x in load]) * v / ell
     columns = {
-        "id": [name] * 2, "shear_modulus": [mu] * 2, "second_shear_modulus": psi * mu,
-        "poisson_ratio": [nu[0]] * 2, "second_poisson_ratio": [nu[1]] * 2, "friction": [f] * 2,
-        "direct_effect": [a] * 2, "velocity_weakening": [zeta] * 2, "slip_distance": [ell] * 2,
-        "velocity": [v] * 2, "applied_stress": [sigma0] * 2, "mode_wavenumber": [k] * 2,
-    }  # fmt: skip
+        "id": [name] * 2,
+        "shear_modulus": [mu] * 2,
+        "second_shear_modulus": psi * mu,
+        "poisson_ratio": [nu[0]] * 2,
+        "second_poisson_ratio": [nu[1]] * 2,
+        "friction": [f] * 2,
+        "direct_effect": [a] * 2,
+        "velocity_weakening": [zeta] * 2,
+        "slip_distance": [ell] * 2,
+        "velocity": [v] * 2,
+        "applied_stress": [sigma0] * 2,
+        "mode_wavenumber": [k] * 2,
+    }
     found = {name: ("run", np.array(values)) for name, values in columns.items()}
     found["measured_growth"] = ("run", "branch"), rates.real
     found["measured_frequency"] = ("run", "branch"), rates.imag
@@ -197,8 +205,8 @@ def test_without_runs_nothing_is_judged():
 def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     """On the committed tables; the reason says so where one can't be had."""
     rows = pd.read_csv(REFERENCE / "claims_pairs.csv").set_index("id")
-    said = " ".join(rows["where"])
-    assert all(name in said for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
+    places = " ".join(rows["where"])
+    assert all(name in places for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
     assert list(rows.index) == list(FOUND)
     modes = of_reference("pair_modes.csv")
     along, back = (modes.isel(run=modes["branch"].values == n) for n in (0, 1))
