@@ -98,7 +98,10 @@ def _paired(papers: list[Row], converged: list[Row]) -> list[tuple[Row, Row | No
     return [(row, others.get(row["fault"])) for row in papers]
 
 
-def digits(value: float | None, number: int) -> str:
+def digits(
+    value: float | None,
+    number: int,
+) -> str:
     """A number with some significant digits, or a dash for None.
 
     Parameters

@@ -181,7 +181,10 @@ class Claim:
         }
 
 
-def judge(expected: Expected, result: Result) -> tuple[Verdict, str]:
+def judge(
+    expected: Expected,
+    result: Result,
+) -> tuple[Verdict, str]:
     """The verdict and the reason for it.
 
     Parameters
@@ -223,7 +226,11 @@ def _why_undecided(ours: Estimate) -> str:
     return f"Our number is known to {width:.1g} only."
 
 
-def _comparison(expected: Expected, ours: Estimate, held: bool) -> str:
+def _comparison(
+    expected: Expected,
+    ours: Estimate,
+    held: bool,
+) -> str:
     """One sentence that compares our number with the paper's."""
     if expected.kind == "formula" and expected.value is not None:
         difference = abs(ours.value - expected.value) / (abs(expected.value) or 1.0)

@@ -80,7 +80,11 @@ def of_paper(
     return _files(rows) | {".json": table.to_json(rows)}
 
 
-def of_pairs(statements: Statements, pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
+def of_pairs(
+    statements: Statements,
+    pairs: xr.Dataset,
+    modes: xr.Dataset,
+) -> dict[str, str]:
     """The step ``claims_pairs``: verdicts on the theory of two bodies, by simulations.
 
     Parameters
@@ -102,7 +106,11 @@ def _files(rows: list[Row]) -> dict[str, str]:
     return {".csv": table.to_csv(rows), ".md": table.to_markdown(rows)}
 
 
-def write_article(template: Path, claims: Path, lengths: Iterable[xr.Dataset]) -> dict[str, str]:
+def write_article(
+    template: Path,
+    claims: Path,
+    lengths: Iterable[xr.Dataset],
+) -> dict[str, str]:
     """The step ``article``: its text with numbers from the claims and lengths.
 
     Parameters

@@ -86,7 +86,13 @@ class Evidence:
             raise Missing(f"The configuration has no such run: role {role}{which}")
         return sorted(found, key=lambda row: row["height"])
 
-    def row(self, role: str, law: str, height: float, phi0: float = 1.0) -> Row:
+    def row(
+        self,
+        role: str,
+        law: str,
+        height: float,
+        phi0: float = 1.0,
+    ) -> Row:
         """One fault of a study.
 
         Parameters
@@ -110,7 +116,13 @@ class Evidence:
         Missing
             If there is no such row.
         """
-        return self.rows(role, evolution=law, height=height, phi0=phi0)[0]
+        rows = self.rows(
+            role,
+            evolution=law,
+            height=height,
+            phi0=phi0,
+        )
+        return rows[0]
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""
@@ -146,11 +158,13 @@ class Evidence:
 
     def _is_own(self, row: Row) -> bool:
         """Whether a row has the configuration's material, friction and loads, on a rigid base."""
+        age = float(row["phi0"])
+        height = float(row["height"])
         own = Parameters(
             material=self.material,
             friction=self.friction.changed({"evolution": row["evolution"]}),
-            loading=dataclasses.replace(self.loading, initial_state=float(row["phi0"])),
-            geometry=Geometry(height=float(row["height"])),
+            loading=dataclasses.replace(self.loading, initial_state=age),
+            geometry=Geometry(height=height),
         )
         return bool(row["fault"] == fault(own))
 
@@ -203,7 +217,10 @@ def of_runs(
     """
 
     @on_both
-    def numbers(evidence: Evidence, role: str) -> list[float]:
+    def numbers(
+        evidence: Evidence,
+        role: str,
+    ) -> list[float]:
         runs = evidence.each(role)
         return [run[column] / unit(evidence) for run in runs]
 
@@ -220,8 +237,12 @@ class _LengthsRow(dict[str, Any]):
 def _faults(table: xr.Dataset) -> list[Row]:
     """The rows of a table of lengths, one for each fault, with the rows of its realisations."""
     runs = [_LengthsRow(row) for row in _records(table)]
-    faults = zip(_records(over_realisations(table)), realisations(table), strict=True)
-    return [_LengthsRow(row, members=[runs[i] for i in members]) for row, members in faults]
+    means = _records(over_realisations(table))
+    faults: list[Row] = []
+    for row, members in zip(means, realisations(table), strict=True):
+        own = [runs[i] for i in members]
+        faults.append(_LengthsRow(row, members=own))
+    return faults
 
 
 def _records(table: xr.Dataset) -> list[Row]:

@@ -72,7 +72,12 @@ class Estimate:
         return cls(float(value), float(value), float(value))
 
     @classmethod
-    def between(cls, value: float, low: float, high: float) -> Estimate:
+    def between(
+        cls,
+        value: float,
+        low: float,
+        high: float,
+    ) -> Estimate:
         """A number and two ends of its range.
 
         Parameters
@@ -89,7 +94,11 @@ class Estimate:
         )
 
     @classmethod
-    def within(cls, value: float, error: float) -> Estimate:
+    def within(
+        cls,
+        value: float,
+        error: float,
+    ) -> Estimate:
         """A number with a symmetric uncertainty.
 
         Parameters
@@ -176,7 +185,10 @@ def number(printed: str) -> Expected:
     )
 
 
-def formula(value: float, text: str = "") -> Expected:
+def formula(
+    value: float,
+    text: str = "",
+) -> Expected:
     """A formula's value, exact except for round-off.
 
     Parameters
@@ -234,7 +246,10 @@ def read(entry: Mapping[str, Any]) -> Expected:
     return _KINDS[kind](*arguments)
 
 
-def holds(expected: Expected, ours: Estimate) -> bool | None:
+def holds(
+    expected: Expected,
+    ours: Estimate,
+) -> bool | None:
     """Whether our number agrees with the statement.
 
     - A printed *number* holds if ours is within half a unit of its last digit. Our uncertainty

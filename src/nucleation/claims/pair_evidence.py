@@ -57,7 +57,10 @@ class Senses(NamedTuple):
     identical: float
 
 
-def required(rows: xr.Dataset, missing: str) -> xr.Dataset:
+def required(
+    rows: xr.Dataset,
+    missing: str,
+) -> xr.Dataset:
     """The same rows, unless there are none.
 
     Parameters
@@ -77,7 +80,10 @@ def required(rows: xr.Dataset, missing: str) -> xr.Dataset:
     return rows
 
 
-def faults(evidence: PairEvidence, role: str) -> xr.Dataset:
+def faults(
+    evidence: PairEvidence,
+    role: str,
+) -> xr.Dataset:
     """The faults with a role.
 
     Parameters

@@ -122,7 +122,10 @@ def as_tex(source: _Node) -> str:
     return _written(source, "latex", _TEX, _TEX_PAGE)
 
 
-def as_pdf(source: _Node, pictures: Mapping[str, Path]) -> bytes:
+def as_pdf(
+    source: _Node,
+    pictures: Mapping[str, Path],
+) -> bytes:
     """A document as PDF.
 
     Parameters
@@ -143,7 +146,12 @@ def as_pdf(source: _Node, pictures: Mapping[str, Path]) -> bytes:
         return bytes(pdf)
 
 
-def _written(source: _Node, to: str, header: str, variables: Mapping[str, str]) -> str:
+def _written(
+    source: _Node,
+    to: str,
+    header: str,
+    variables: Mapping[str, str],
+) -> str:
     options = [f"--variable={name}={value}" for name, value in variables.items()]
     options += [
         f"--variable=header-includes={header}",
@@ -159,7 +167,10 @@ def _written(source: _Node, to: str, header: str, variables: Mapping[str, str]) 
     return str(text)
 
 
-def parsed(text: str, authors: list[str]) -> dict[str, Any]:
+def parsed(
+    text: str,
+    authors: list[str],
+) -> dict[str, Any]:
     """The article as a document of pandoc's, with title, abstract and captions.
 
     Parameters

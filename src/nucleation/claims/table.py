@@ -57,7 +57,10 @@ def stated() -> dict[str, dict[str, Entry]]:
     return dict(yaml.safe_load(text))
 
 
-def claims_on(subject: str, entries: Mapping[str, Entry]) -> list[Claim]:
+def claims_on(
+    subject: str,
+    entries: Mapping[str, Entry],
+) -> list[Claim]:
     """The claims of one subject, each with the function that has its name.
 
     Parameters
@@ -85,11 +88,16 @@ def claims_on(subject: str, entries: Mapping[str, Entry]) -> list[Claim]:
 
 def _functions(module: ModuleType) -> dict[str, Computation]:
     """The functions of a subject's module by the ids of their claims."""
-    named = {name.replace("_", "-"): value for name, value in vars(module).items()}
-    return {**named, **module.SHORT}
+    functions = {}
+    for name, value in vars(module).items():
+        functions[name.replace("_", "-")] = value
+    return {**functions, **module.SHORT}
 
 
-def evaluate(statements: Mapping[str, Mapping[str, Entry]], evidence: Any) -> list[Row]:
+def evaluate(
+    statements: Mapping[str, Mapping[str, Entry]],
+    evidence: Any,
+) -> list[Row]:
     """The rows of all claims: the paper's number and ours, the verdict and its reason.
 
     Parameters

@@ -32,8 +32,8 @@ class Layer:
     modulus : float
         Shear modulus over the upper body's.
     far_side : str
-        What vanishes at the far side: slip parallel to the interface ("velocity") or all stresses
-        ("traction").
+        Condition at the far side besides zero normal stress: zero displacement along it
+        ("velocity") or zero shear stress ("traction").
     """
 
     q: float
@@ -49,8 +49,8 @@ def _chebyshev(points: int, end: float) -> tuple[Array, Array]:
     x = np.cos(np.pi * index / (points - 1))
     weight = np.where(at_ends, 2.0, 1.0)
     weight *= (-1.0) ** index
-    difference = x[:, None] - x[None, :] + np.eye(points)
-    matrix = weight[:, None] / weight[None, :] / difference
+    difference = np.subtract.outer(x, x) + np.eye(points)
+    matrix = np.divide.outer(weight, weight) / difference
     matrix -= np.diag(matrix.sum(axis=1))
     y = 0.5 * end * (1.0 - x)
     return y, matrix * (-2.0 / end)
@@ -63,12 +63,12 @@ class _Equations:
     ----------
     y : array, shape (points,)
         Distance from the interface.
-    u, w, t, n : array, shape (points, 2 points)
-        Rows that give U, W, T and N at the points.
-    inside : array, shape (2 points - 4, 2 points)
-        Equilibrium at the inner points.
-    far : array, shape (2, 2 points)
-        Values that vanish at the far side.
+    u, w : array, shape (points, 2 points)
+        Rows that give U and W at the points.
+    at_interface : array, shape (4, 2 points)
+        Rows that give U, W, T and N at the interface.
+    own : array, shape (2 points - 2, 2 points)
+        Rows that vanish: equilibrium at the inner points, and the conditions at the far side.
     """
 
     def __init__(self, layer: Layer, points: int) -> None:
@@ -83,28 +83,36 @@ class _Equations:
         self.w = np.hstack([none, one])
         du = np.hstack([d, none])
         dw = np.hstack([none, d])
-        self.t = mu * (du + self.w)
-        self.n = stiffness * dw - lame * self.u
+        t = mu * (du + self.w)
+        n = stiffness * dw - lame * self.u
         normal_x = lame * dw - stiffness * self.u  # sigma_xx / i
-        along_x = normal_x + d @ self.t
-        along_y = d @ self.n - self.t
-        self.inside = np.vstack([along_x[1:-1], along_y[1:-1]])
-        tangential = {"velocity": self.u, "traction": self.t}[layer.far_side]
-        self.far = np.vstack([tangential[-1], self.n[-1]])
+        along_x = normal_x + d @ t
+        along_y = d @ n - t
+        far_sides = {"velocity": self.u, "traction": t}
+        far = far_sides[layer.far_side]
+        inside = slice(1, -1)
+        self.at_interface = np.stack([self.u[0], self.w[0], t[0], n[0]])
+        self.own = np.vstack(
+            [
+                along_x[inside],
+                along_y[inside],
+                far[-1],
+                n[-1],
+            ]
+        )
 
-    @property
-    def own(self) -> Array:
-        """The equations of the body without those of the interface."""
-        return np.vstack([self.inside, self.far])
-
-    def at_interface(self) -> tuple[Array, Array, Array, Array]:
-        """The rows of U, W, T and N at the interface."""
-        return self.u[0], self.w[0], self.t[0], self.n[0]
-
-    def field(self, first: Array, second: Array, values: tuple[float, float]) -> Array:
+    def field(
+        self,
+        rows: Array,
+        values: tuple[float, float],
+    ) -> Array:
         """(U, W) for the values of two rows at the interface."""
-        rows = np.vstack([self.own, first, second])
-        return _solve(rows, values)
+        return _solve(np.vstack([self.own, rows]), values)
+
+    def field_of_slip(self) -> Array:
+        """(U, W) for a rigid other body, if the layer slips by one."""
+        displacement = self.at_interface[:2]
+        return self.field(displacement, (1.0, 0.0))
 
 
 def pair_transfer(
@@ -123,21 +131,20 @@ def pair_transfer(
     """
     above = _Equations(upper, points)
     if lower is None:
-        field = above.field(above.u[0], above.w[0], (1.0, 0.0))
+        field = above.field_of_slip()
     else:
-        field = _joint_field(above, _Equations(lower, points))
-    g1 = -float(above.t[0] @ field)
-    g2 = float(above.n[0] @ field)
-    return g1, g2
+        below = _Equations(lower, points)
+        field = _joint_field(above, below)
+    _, _, t, n = above.at_interface
+    return -float(t @ field), float(n @ field)
 
 
 def _joint_field(above: _Equations, below: _Equations) -> Array:
     """(U, W) of the upper one of two layers that slip by one."""
     own = block_diag(above.own, below.own)
-    jumps = []
-    for upper, lower in zip(above.at_interface(), below.at_interface(), strict=True):
-        jumps.append(np.append(upper, -lower))
-    field = _solve(np.vstack([own, *jumps]), (1.0, 0.0, 0.0, 0.0))
+    jumps = np.hstack([above.at_interface, -below.at_interface])
+    rows = np.vstack([own, jumps])
+    field = _solve(rows, (1.0, 0.0, 0.0, 0.0))
     return field[: 2 * above.y.size]
 
 
@@ -167,10 +174,15 @@ def half_spaces(
 
 def refined(number: Callable[[int], float]) -> Estimate:
     """A number with 64 points; its error is the difference from that with 48."""
-    return Estimate.within(number(64), number(64) - number(48))
+    value = number(64)
+    error = value - number(48)
+    return Estimate.within(value, error)
 
 
-def compliance(layer: Layer, points: int = 64) -> ComplexArray:
+def compliance(
+    layer: Layer,
+    points: int = 64,
+) -> ComplexArray:
     """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus.
 
     Parameters
@@ -185,15 +197,19 @@ def compliance(layer: Layer, points: int = 64) -> ComplexArray:
     array, shape (2, 2)
     """
     body = _Equations(layer, points)
-    t, n = body.t[0], body.n[0]
-    loads = ((1.0, 0.0), (0.0, 1.0))
-    fields = np.stack([body.field(t, n, load) for load in loads], axis=1)
-    u_x = body.u[0] @ fields
-    u_y = 1j * body.w[0] @ fields
-    return np.stack([u_x, u_y]) * [1.0, -1j]  # sigma_yy = i N
+    u, w = body.at_interface[:2]
+    tractions = body.at_interface[2:]
+    shear = body.field(tractions, (1.0, 0.0))
+    normal = body.field(tractions, (0.0, 1.0))
+    fields = np.stack([shear, normal], axis=1)
+    matrix = np.stack([u @ fields, 1j * w @ fields])
+    return matrix * [1.0, -1j]  # sigma_yy = i N
 
 
-def block_field(layer: Layer, points: int = 64) -> tuple[Array, Array, Array]:
+def block_field(
+    layer: Layer,
+    points: int = 64,
+) -> tuple[Array, Array, Array]:
     """The displacement of a layer on a rigid base that slips by one.
 
     Parameters
@@ -209,7 +225,7 @@ def block_field(layer: Layer, points: int = 64) -> tuple[Array, Array, Array]:
         Distance from the interface, U and W.
     """
     body = _Equations(layer, points)
-    field = body.field(body.u[0], body.w[0], (1.0, 0.0))
+    field = body.field_of_slip()
     return body.y, body.u @ field, body.w @ field
 
 
@@ -220,7 +236,9 @@ def _solve(rows: Array, values: tuple[float, ...]) -> Array:
     by one step of iterative refinement.
     """
     scale = np.abs(rows).max(axis=1)
-    right = np.append(np.zeros(len(rows) - len(values)), values) / scale
+    right = np.zeros(len(rows))
+    right[-len(values) :] = values
+    right /= scale
     matrix = rows / scale[:, None]
     field = np.linalg.solve(matrix, right)
     residual = right - matrix @ field

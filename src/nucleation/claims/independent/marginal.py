@@ -5,6 +5,7 @@ In units of V/ell the growth rate x solves ``a x^2 + (g - zeta) x + g = 0`` with
 """
 
 import cmath
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -17,11 +18,16 @@ Transfer = Callable[[float], tuple[float, float]]
 """G1 and G2 at a wavenumber (1/m)."""
 
 
-def _growth(load: complex, a: float, zeta: float) -> complex:
+def _growth(
+    load: complex,
+    a: float,
+    zeta: float,
+) -> complex:
     """The root with the larger real part, over V/ell."""
     half = 0.5 * (load - zeta) / a
     root = cmath.sqrt(half**2 - load / a)
-    return max(root - half, -root - half, key=lambda rate: rate.real)
+    rates = (root - half, -root - half)
+    return max(rates, key=lambda rate: rate.real)
 
 
 def growth_at(
@@ -75,11 +81,16 @@ def critical_wavenumber(
     def rate(wavenumber: float) -> complex:
         return growth_at(wavenumber, transfer, modulus, interface)
 
-    k = _largest_growing(rate, guess * np.geomspace(30.0, 1e-3, 400))
+    tried = guess * np.geomspace(30.0, 1e-3, 400)
+    k = _largest_growing(rate, tried)
     return k, abs(rate(k).imag)
 
 
-def half_space_load(f_beta: float, a: float, zeta: float) -> float:
+def half_space_load(
+    f_beta: float,
+    a: float,
+    zeta: float,
+) -> float:
     """The largest real part of the load with growth, for two half-spaces: ``zeta L_c^M / L_c``.
 
     Parameters
@@ -93,22 +104,30 @@ def half_space_load(f_beta: float, a: float, zeta: float) -> float:
     def rate(load: float) -> complex:
         return _growth(load * (1.0 - 1j * f_beta), a, zeta)
 
-    return _largest_growing(rate, (a + abs(zeta)) * np.geomspace(30.0, 1e-4, 2000))
+    scale = a + abs(zeta)
+    tried = scale * np.geomspace(30.0, 1e-4, 2000)
+    return _largest_growing(rate, tried)
 
 
 def _largest_growing(rate: Callable[[float], complex], falling: Array) -> float:
     """The largest value with growth, bracketed by a falling grid and found to round-off."""
 
     def growth(logarithm: float) -> float:
-        return rate(float(np.exp(logarithm))).real
+        value = float(np.exp(logarithm))
+        return rate(value).real
 
     grid = np.log(falling)
-    growing = next(i for i, logarithm in enumerate(grid) if growth(logarithm) > 0.0)
-    root = brentq(growth, grid[growing], grid[growing - 1], xtol=1e-13)
-    return float(np.exp(root))
+    for stable, growing in itertools.pairwise(grid):
+        if growth(growing) > 0.0:
+            root = brentq(growth, growing, stable, xtol=1e-13)
+            return float(np.exp(root))
+    raise ValueError("there is no growth in the range of the search")
 
 
-def strengthening_threshold(a: float, zeta: float) -> float:
+def strengthening_threshold(
+    a: float,
+    zeta: float,
+) -> float:
     """The least f beta at which two half-spaces with ``zeta < 0`` slide unstably.
 
     Parameters
@@ -122,13 +141,14 @@ def strengthening_threshold(a: float, zeta: float) -> float:
             load = np.exp(log_load) * (1.0 - 1j * f_beta)
             return -_growth(load, a, zeta).real
 
-        grid = np.log(a * np.geomspace(1e-4, 10.0, 300))
-        least = int(np.argmin([decay(x) for x in grid]))
-        left = grid[max(least - 1, 0)]
-        right = grid[min(least + 1, grid.size - 1)]
+        loads = a * np.geomspace(1e-4, 10.0, 300)
+        grid = np.log(loads)
+        decays = [decay(x) for x in grid]
+        least = int(np.argmin(decays))
+        near = grid[max(least - 1, 0) : least + 2]
         found = minimize_scalar(
             decay,
-            bounds=(left, right),
+            bounds=(near[0], near[-1]),
             method="bounded",
             options={"xatol": 1e-12},
         )

@@ -12,7 +12,11 @@ from ...model.linearised import InterfaceState
 from ...types import Array, ComplexArray
 
 
-def half_space_wavenumber(nu: float, modulus: float, at: InterfaceState) -> float:
+def half_space_wavenumber(
+    nu: float,
+    modulus: float,
+    at: InterfaceState,
+) -> float:
     """k_c of two identical half-spaces (Sect. 3).
 
     Parameters
@@ -33,7 +37,11 @@ def half_space_wavenumber(nu: float, modulus: float, at: InterfaceState) -> floa
     return load / modulus / at.slip_length
 
 
-def bimaterial_modulus(psi: float, nu1: float, nu2: float) -> float:
+def bimaterial_modulus(
+    psi: float,
+    nu1: float,
+    nu2: float,
+) -> float:
     """M over the upper body's shear modulus (Eq. 8).
 
     Parameters
@@ -48,7 +56,11 @@ def bimaterial_modulus(psi: float, nu1: float, nu2: float) -> float:
     return 2.0 * psi / (1.0 - beta**2) / compliance
 
 
-def bimaterial_contrast(psi: float, nu1: float, nu2: float) -> float:
+def bimaterial_contrast(
+    psi: float,
+    nu1: float,
+    nu2: float,
+) -> float:
     """beta (Eq. 8).
 
     Parameters
@@ -61,7 +73,11 @@ def bimaterial_contrast(psi: float, nu1: float, nu2: float) -> float:
     return difference / (2.0 * compliance)
 
 
-def bimaterial_transfer(psi: float, nu1: float, nu2: float) -> tuple[float, float]:
+def bimaterial_transfer(
+    psi: float,
+    nu1: float,
+    nu2: float,
+) -> tuple[float, float]:
     """G1 and G2 of two half-spaces (Eq. 7).
 
     Parameters
@@ -74,7 +90,10 @@ def bimaterial_transfer(psi: float, nu1: float, nu2: float) -> tuple[float, floa
     return g1, g2
 
 
-def bimaterial_ratio(f_beta: float, z: float) -> float:
+def bimaterial_ratio(
+    f_beta: float,
+    z: float,
+) -> float:
     """L_c over L_c^M (Eq. 9).
 
     Parameters
@@ -89,7 +108,10 @@ def bimaterial_ratio(f_beta: float, z: float) -> float:
     return (square * (1.0 + z - root) + 2.0 * z) / (2.0 * z)
 
 
-def strengthening_threshold(a: float, zeta: float) -> float:
+def strengthening_threshold(
+    a: float,
+    zeta: float,
+) -> float:
     """The f beta from which sliding is unstable, for zeta < 0 (Sect. 4).
 
     Parameters
@@ -100,7 +122,10 @@ def strengthening_threshold(a: float, zeta: float) -> float:
     return 2.0 * math.sqrt(-a * zeta) / (a + zeta)
 
 
-def block_transfer(q: float, nu: float) -> tuple[float, float]:
+def block_transfer(
+    q: float,
+    nu: float,
+) -> tuple[float, float]:
     """G1 and G2 of a block on a rigid base (Eq. 10).
 
     Parameters
@@ -119,7 +144,10 @@ def block_transfer(q: float, nu: float) -> tuple[float, float]:
     return g1 / divisor, g2 / divisor
 
 
-def response_matrix(q: float, nu: float) -> ComplexArray:
+def response_matrix(
+    q: float,
+    nu: float,
+) -> ComplexArray:
     """M of a layer, times k and the shear modulus (Eq. S-general_M).
 
     Parameters
@@ -161,7 +189,11 @@ def half_space_response(nu: float) -> ComplexArray:
     return matrix / 2.0
 
 
-def block_field(q: float, y: Array, nu: float) -> ComplexArray:
+def block_field(
+    q: float,
+    y: Array,
+    nu: float,
+) -> ComplexArray:
     """Displacement of a block on a rigid base, up to its amplitude (Eq. S-sol_inf).
 
     Parameters
@@ -197,7 +229,12 @@ def block_field(q: float, y: Array, nu: float) -> ComplexArray:
     return np.array([2.0 * u_x, 1j * u_y], np.complex128) / divisor
 
 
-def thin_length(height: float, nu: float, modulus: float, at: InterfaceState) -> float:
+def thin_length(
+    height: float,
+    nu: float,
+    modulus: float,
+    at: InterfaceState,
+) -> float:
     """L_c for Hk -> 0 (Eq. 11).
 
     Parameters

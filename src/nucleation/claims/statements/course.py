@@ -15,13 +15,19 @@ _RUPTURE = 0.1  # s after its event, by which a run contains the rupture
 
 
 @on_both
-def slip_rate_blows_up(evidence: Evidence, role: str) -> float:
+def slip_rate_blows_up(
+    evidence: Evidence,
+    role: str,
+) -> float:
     row = evidence.row(role, "aging", _HEIGHT_OF_INSET)
     return row["largest_rate"] / evidence.loading.velocity
 
 
 @on_both
-def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
+def instability_faster_than_creep(
+    evidence: Evidence,
+    role: str,
+) -> list[float]:
     ratios = []
     for run in evidence.each(role):
         ratios.append(run["growth_time"] / run["acceleration_time"])
@@ -30,8 +36,12 @@ def instability_faster_than_creep(evidence: Evidence, role: str) -> list[float]:
 
 
 @on_both
-def abrupt_drop(evidence: Evidence, role: str) -> list[float]:
-    return [row["onset_time"] / row["drop_time"] for row in evidence.rows(role)]
+def abrupt_drop(
+    evidence: Evidence,
+    role: str,
+) -> list[float]:
+    rows = evidence.rows(role)
+    return [row["onset_time"] / row["drop_time"] for row in rows]
 
 
 def rupture_duration(evidence: Evidence) -> float:
@@ -52,9 +62,13 @@ def _damped_rate(evidence: Evidence) -> float:
 
 
 @on_both
-def characteristic_slip_rate(evidence: Evidence, role: str) -> list[Estimate]:
+def characteristic_slip_rate(
+    evidence: Evidence,
+    role: str,
+) -> list[Estimate]:
     velocity = evidence.loading.velocity
-    return [with_range(row, "patch_rate", velocity) for row in evidence.series(role)]
+    rows = evidence.series(role)
+    return [with_range(row, "patch_rate", velocity) for row in rows]
 
 
 def contact_kept(evidence: Evidence) -> Result:
@@ -95,19 +109,17 @@ def _changes_by_length(rows: list[Row]) -> list[Estimate]:
     return changes
 
 
-def mesh_along(evidence: Evidence) -> list[float]:
-    return [row["n_x"] for row in evidence.rows(PAPERS)]
-
-
-def mesh_across(evidence: Evidence) -> list[float]:
-    return [row["n_y"] for row in evidence.rows(PAPERS)]
+def _of_papers(column: str) -> Computation:
+    """A column of the study on the paper's mesh."""
+    return lambda evidence: [row[column] for row in evidence.rows(PAPERS)]
 
 
 def shortest_step(evidence: Evidence) -> Estimate:
     rows = evidence.rows(PAPERS)
     with_rupture = [row for row in rows if _has_rupture(row)]
     steps = [row["shortest_step"] / 1e-6 for row in with_rupture or rows]
-    return Estimate.between(float(np.median(steps)), min(steps), max(steps))
+    median = float(np.median(steps))
+    return Estimate.between(median, min(steps), max(steps))
 
 
 def _has_rupture(row: Row) -> bool:
@@ -117,6 +129,8 @@ def _has_rupture(row: Row) -> bool:
 
 
 SHORT: dict[str, Computation] = {
+    "mesh-along": _of_papers("n_x"),
+    "mesh-across": _of_papers("n_y"),
     "slow-creep": of_runs("front_speed", _shear_wave_speed),
     "no-radiation": of_runs("onset_rate", _damped_rate),
     "usual-step": of_runs("usual_step", lambda evidence: 1e-3),

@@ -30,7 +30,10 @@ def _points(q: float) -> int:
     return 32 if q < 10.0 else 64
 
 
-def block_transfer(q: float, evidence: Evidence) -> tuple[float, float]:
+def block_transfer(
+    q: float,
+    evidence: Evidence,
+) -> tuple[float, float]:
     """G1 and G2 of a block on a rigid base by collocation.
 
     Parameters
@@ -56,13 +59,14 @@ def _transfer_ratios(evidence: Evidence, component: int) -> list[float]:
 
 def block_high_limit(evidence: Evidence) -> Result:
     nu = evidence.nu
+    block = _block(HALF_SPACE, evidence)
 
     def coupling(points: int) -> float:
-        g1, g2 = pair_transfer(_block(HALF_SPACE, evidence), points=points)
+        g1, g2 = pair_transfer(block, points=points)
         return g2 / g1
 
-    contrast = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
-    return Result(refined(coupling), formula(contrast))
+    beta = (1.0 - 2.0 * nu) / (2.0 * (1.0 - nu))
+    return Result(refined(coupling), formula(beta))
 
 
 def block_thin_g1(evidence: Evidence) -> Result:
@@ -137,7 +141,8 @@ def response_matrix_limit(evidence: Evidence) -> float:
 def block_field(evidence: Evidence) -> list[float]:
     differences = []
     for q in _NOT_THIN:
-        y, u, w = elastic_layers.block_field(_block(q, evidence), points=40)
+        block = _block(q, evidence)
+        y, u, w = elastic_layers.block_field(block, points=40)
         field = printed.block_field(q, y / q, evidence.nu)
         u_x, u_y = field / field[0, 0]
         along = np.abs(u_x - u).max()

@@ -74,7 +74,8 @@ def steady_agreement(evidence: Evidence) -> float:
     state = law.characteristic_slip_distance / v
     logarithmic = law.logarithmic(v, state, velocity)
     difference = np.abs(logarithmic / law.steady_coefficient(v) - 1.0)
-    middle = int(np.abs(np.log(v / velocity)).argmin())
+    distance = np.abs(np.log(v / velocity))
+    middle = int(distance.argmin())
     off = np.flatnonzero(difference >= 0.02)
     lowest = off[off < middle].max(initial=-1) + 1
     highest = off[off > middle].min(initial=v.size) - 1

@@ -20,7 +20,11 @@ _WEAKENINGS = (0.1, 0.2, 0.3, 0.4, 0.5)
 """zeta/a as measured for rocks."""
 
 
-def with_range(row: Row, column: str, unit: float = 1.0) -> Estimate:
+def with_range(
+    row: Row,
+    column: str,
+    unit: float = 1.0,
+) -> Estimate:
     """A number of a row of the table of lengths, with the ends of its range.
 
     Parameters
@@ -43,7 +47,10 @@ def _of_figure_s2(column: str) -> Callable[[Evidence], Result]:
     """A number of the run of Fig. S2."""
 
     @on_both
-    def numbers(evidence: Evidence, role: str) -> Estimate:
+    def numbers(
+        evidence: Evidence,
+        role: str,
+    ) -> Estimate:
         row = evidence.row(role, "aging", HEIGHT_OF_FIGURE_S2)
         return with_range(row, column)
 
@@ -107,19 +114,28 @@ def _heights(evidence: Evidence, role: str) -> list[Row]:
 
 
 @on_both
-def height_dependence(evidence: Evidence, role: str) -> list[float]:
+def height_dependence(
+    evidence: Evidence,
+    role: str,
+) -> list[float]:
     rows = _heights(evidence, role)
     ratios = [row["length"] / row["theory_length"] for row in rows]
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
 @on_both
-def length_increases(evidence: Evidence, role: str) -> float:
+def length_increases(
+    evidence: Evidence,
+    role: str,
+) -> float:
     lengths = [row["length"] for row in _heights(evidence, role)]
     return min(higher / lower for lower, higher in itertools.pairwise(lengths))
 
 
-def relative_change(varied: Row, base: Row) -> Estimate:
+def relative_change(
+    varied: Row,
+    base: Row,
+) -> Estimate:
     """Relative change of the length between two runs.
 
     Parameters
@@ -139,11 +155,18 @@ def relative_change(varied: Row, base: Row) -> Estimate:
     return Estimate.between(change, np.min(by_definition), np.max(by_definition))
 
 
-def _change_from_aging(height: float, law: str, age: float = 1.0) -> Computation:
+def _change_from_aging(
+    height: float,
+    law: str,
+    age: float = 1.0,
+) -> Computation:
     """Relative change of the length by another law or age (s), at one height (m)."""
 
     @on_both
-    def change(evidence: Evidence, role: str) -> Estimate:
+    def change(
+        evidence: Evidence,
+        role: str,
+    ) -> Estimate:
         varied = evidence.row(role, law, height, age)
         base = evidence.row(role, "aging", height)
         return relative_change(varied, base)

@@ -70,18 +70,25 @@ def half_spaces_g1(evidence: Evidence) -> Result:
     def g1(points: int) -> float:
         return half_spaces(nu, points=points)[0]
 
-    return Result(refined(g1), formula(1.0 / (2.0 * (1.0 - nu))))
+    expected = 1.0 / (2.0 * (1.0 - nu))
+    return Result(refined(g1), formula(expected))
 
 
 def half_spaces_g2(evidence: Evidence) -> list[float]:
-    return [half_spaces(evidence.nu, points=points)[1] for points in (48, 64)]
+    couplings = []
+    for points in (48, 64):
+        _, g2 = half_spaces(evidence.nu, points=points)
+        couplings.append(g2)
+    return couplings
 
 
 def symmetric_g2(evidence: Evidence) -> list[float]:
     nu = evidence.nu
     couplings = []
     for q in (0.1, 0.5, 1.0, 3.0):
-        _, g2 = pair_transfer(Layer(q, nu), Layer(-q, nu), points=32)
+        upper = Layer(q, nu)
+        lower = Layer(-q, nu)
+        _, g2 = pair_transfer(upper, lower, points=32)
         couplings.append(g2)
     return couplings
 
@@ -155,9 +162,10 @@ def uncoupled_frequency(evidence: Evidence) -> Result:
 
 
 def friction_perturbation(evidence: Evidence) -> list[float]:
+    law = evidence.friction
     velocity = evidence.loading.velocity
-    ell = evidence.friction.characteristic_slip_distance
-    _, a, zeta = evidence.friction.expansion(velocity)
+    ell = law.characteristic_slip_distance
+    _, a, zeta = law.expansion(velocity)
     (f_v, f_phi), (g_v, g_phi) = _linearised(evidence, velocity)
     differences = []
     for relative in (0.3 + 1j, 0.1 + 2j, 1j):
@@ -171,7 +179,8 @@ def friction_perturbation(evidence: Evidence) -> list[float]:
 
 def growth_changes_sign(evidence: Evidence) -> list[float]:
     modes = evidence.dispersion
-    return [_zero_of_growth(modes.sel(height=height)) for height in modes["height"].values]
+    heights = modes["height"].values
+    return [_zero_of_growth(modes.sel(height=height)) for height in heights]
 
 
 def _zero_of_growth(modes: xr.Dataset) -> float:
@@ -181,18 +190,25 @@ def _zero_of_growth(modes: xr.Dataset) -> float:
     last = int(np.flatnonzero(growth > 0.0)[-1])
     before, after = growth[last : last + 2]
     part = before / (before - after)
-    return ratios[last] + part * (ratios[last + 1] - ratios[last])
+    first, second = ratios[last : last + 2]
+    return first + part * (second - first)
 
 
 def short_waves_stable(evidence: Evidence) -> float:
     curve = evidence.theory.isel(height=slice(None, None, 10))
     heights = curve["height"].values
     critical = curve["critical_wavenumber"].values
-    rates = [_largest_rate(evidence, *at) for at in zip(heights, critical, strict=True)]
+    rates = []
+    for height, k_c in zip(heights, critical, strict=True):
+        rates.append(_largest_rate(evidence, height, k_c))
     return max(rates)
 
 
-def _largest_rate(evidence: Evidence, height: float, k_c: float) -> float:
+def _largest_rate(
+    evidence: Evidence,
+    height: float,
+    k_c: float,
+) -> float:
     """The largest growth of short waves in a block, over V/ell."""
     modulus = evidence.material.shear_modulus
 

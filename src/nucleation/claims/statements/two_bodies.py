@@ -47,7 +47,8 @@ def _lengths(rows: xr.Dataset, unit: Array | float = 1.0) -> list[Estimate]:
     values = rows["length_ratio"].values * unit
     lows = rows["length_ratio_low"].values * unit
     highs = rows["length_ratio_high"].values * unit
-    return [Estimate.between(*length) for length in zip(values, lows, highs, strict=True)]
+    lengths = zip(values, lows, highs, strict=True)
+    return [Estimate.between(*length) for length in lengths]
 
 
 def _note(rows: xr.Dataset) -> str:
@@ -71,8 +72,8 @@ def _eta(rows: xr.Dataset) -> str:
 def _response(evidence: PairEvidence, component: int) -> Result:
     """The measured G1 (component 0) or G2 (component 1) of half-spaces over Eq. (7)."""
     modes = evidence.modes
-    named = [str(name).startswith("half-spaces") for name in modes["id"].values]
-    high = modes.isel(run=named)
+    names = modes["id"].values.astype(str)
+    high = modes.isel(run=np.char.startswith(names, "half-spaces"))
     required(high, "No modes between half-spaces were simulated")
     ratio = high["second_shear_modulus"].values / high["shear_modulus"].values
     nu = high["poisson_ratio"].values
@@ -81,7 +82,8 @@ def _response(evidence: PairEvidence, component: int) -> Result:
     for pair in zip(ratio, nu, second_nu, strict=True):
         expected.append(printed.bimaterial_transfer(*pair)[component])
     measured = measured_response(high)[component]
-    return Result(measured / np.array(expected)[:, None], note=_SLIDING)
+    ratios = measured.T / expected
+    return Result(ratios.T, note=_SLIDING)
 
 
 def pairs_modulus(evidence: PairEvidence) -> Result:
@@ -125,7 +127,8 @@ def pairs_bimaterial(evidence: PairEvidence) -> Result:
 
 def pairs_smaller(evidence: PairEvidence) -> Result:
     rows, left_out = settled(evidence)
-    strong = chosen(rows, np.abs(rows["f_beta"].values) > _STRONG)
+    contrast = np.abs(rows["f_beta"].values)
+    strong = chosen(rows, contrast > _STRONG)
     ours = _lengths(strong, unit=strong["half_space_ratio"].values)
     senses_apart = _each_sense(strong, over_effective_modulus(strong))
     return Result(ours, note=_note(rows) + senses_apart + left_out)
@@ -153,9 +156,11 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
     for value in np.unique(weakening):
         for sign in (1.0, -1.0):
             contrast = sign * rows["f_beta"].values
-            own = np.flatnonzero((weakening == value) & (contrast >= -1e-9))
-            own = own[np.argsort(np.abs(contrast[own]))]
-            slope = np.diff(ratio[own]) / np.diff(np.abs(contrast[own]))
+            same = (weakening == value) & (contrast >= -1e-9)
+            contrast = np.abs(contrast)
+            own = np.flatnonzero(same)
+            own = own[np.argsort(contrast[own])]
+            slope = np.diff(ratio[own]) / np.diff(contrast[own])
             slopes += slope.tolist()
             ends += own[1:].tolist()
     if not slopes:
