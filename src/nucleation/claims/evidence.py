@@ -82,8 +82,9 @@ class Evidence:
         wanted = {"role": role, **labels}
         found = [row for row in self._own if _matches(row, wanted)]
         if not found:
-            which = "".join(f", {name} {value}" for name, value in labels.items())
-            raise Missing(f"The configuration has no such run: role {role}{which}")
+            items = wanted.items()
+            which = ", ".join(f"{name} {value}" for name, value in items)
+            raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
     def row(
@@ -250,7 +251,10 @@ def _records(table: xr.Dataset) -> list[Row]:
 
 
 def _matches(row: Row, wanted: dict[str, str | float]) -> bool:
-    return all(_same(row[column], value) for column, value in wanted.items())
+    for column, value in wanted.items():
+        if not _same(row[column], value):
+            return False
+    return True
 
 
 def _same(one: Any, other: str | float) -> bool:

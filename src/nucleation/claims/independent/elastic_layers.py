@@ -45,10 +45,9 @@ class Layer:
 def _chebyshev(points: int, end: float) -> tuple[Array, Array]:
     """Points from 0 to `end` and the matrix that differentiates values at them."""
     index = np.arange(points)
-    at_ends = (index == 0) | (index == points - 1)
     x = np.cos(np.pi * index / (points - 1))
-    weight = np.where(at_ends, 2.0, 1.0)
-    weight *= (-1.0) ** index
+    weight = (-1.0) ** index
+    weight[[0, -1]] *= 2.0
     difference = np.subtract.outer(x, x) + np.eye(points)
     matrix = np.divide.outer(weight, weight) / difference
     matrix -= np.diag(matrix.sum(axis=1))
@@ -91,7 +90,8 @@ class _Equations:
         far_sides = {"velocity": self.u, "traction": t}
         far = far_sides[layer.far_side]
         inside = slice(1, -1)
-        self.at_interface = np.stack([self.u[0], self.w[0], t[0], n[0]])
+        fields = (self.u, self.w, t, n)
+        self.at_interface = np.stack([rows[0] for rows in fields])
         self.own = np.vstack(
             [
                 along_x[inside],
@@ -107,7 +107,8 @@ class _Equations:
         values: tuple[float, float],
     ) -> Array:
         """(U, W) for the values of two rows at the interface."""
-        return _solve(np.vstack([self.own, rows]), values)
+        equations = np.vstack([self.own, rows])
+        return _solve(equations, values)
 
     def field_of_slip(self) -> Array:
         """(U, W) for a rigid other body, if the layer slips by one."""
@@ -168,7 +169,9 @@ def half_spaces(
         Number of collocation points in each body.
     """
     upper = Layer(HALF_SPACE, nu)
-    lower = Layer(-HALF_SPACE, nu if nu2 is None else nu2, psi)
+    if nu2 is None:
+        nu2 = nu
+    lower = Layer(-HALF_SPACE, nu2, psi)
     return pair_transfer(upper, lower, points)
 
 

@@ -48,8 +48,8 @@ def bimaterial_modulus_limit(evidence: Evidence) -> Result:
         g1, _ = half_spaces(nu, points=points)
         return 2.0 * g1
 
-    limit = formula(1.0 / (1.0 - nu), r"$1/(1 - \nu)$")
-    return Result(refined(modulus), limit)
+    expected = 1.0 / (1.0 - nu)
+    return Result(refined(modulus), formula(expected, r"$1/(1 - \nu)$"))
 
 
 def bimaterial_contrast_limit(evidence: Evidence) -> float:
@@ -57,9 +57,10 @@ def bimaterial_contrast_limit(evidence: Evidence) -> float:
     far, near = 1.02, 1.01
     g1_far, g2_far = half_spaces(nu, far)
     g1_near, g2_near = half_spaces(nu, near)
-    contrast = printed.bimaterial_contrast
-    part = contrast(near, nu, nu) / contrast(far, nu, nu)
-    return (g2_near / g1_near - part * g2_far / g1_far) / (1.0 - part)
+    part = printed.bimaterial_contrast(near, nu, nu)
+    part /= printed.bimaterial_contrast(far, nu, nu)
+    difference = g2_near / g1_near - part * g2_far / g1_far
+    return difference / (1.0 - part)
 
 
 def _weakenings(evidence: Evidence) -> Array:
@@ -74,7 +75,8 @@ def _searched_ratio(f_beta: float, z: float) -> float:
 
 def bimaterial_length(evidence: Evidence) -> list[float]:
     ratios = []
-    for f_beta, z in itertools.product(_CONTRASTS, _weakenings(evidence)):
+    weakenings = _weakenings(evidence)
+    for f_beta, z in itertools.product(_CONTRASTS, weakenings):
         expected = printed.bimaterial_ratio(f_beta, z)
         ratios.append(_searched_ratio(f_beta, z) / expected)
     return ratios
@@ -104,14 +106,16 @@ def bimaterial_decreasing(evidence: Evidence) -> xr.DataArray:
 def strengthening_threshold(evidence: Evidence) -> list[float]:
     ratios = []
     for a, zeta in _STRENGTHENING:
+        ours = marginal.strengthening_threshold(a, zeta)
         expected = printed.strengthening_threshold(a, zeta)
-        ratios.append(marginal.strengthening_threshold(a, zeta) / expected)
+        ratios.append(ours / expected)
     return ratios
 
 
 def strengthening_length(evidence: Evidence) -> list[float]:
     ratios = []
-    for (a, zeta), factor in itertools.product(_STRENGTHENING, (1.2, 2.0)):
+    factors = (1.2, 2.0)
+    for (a, zeta), factor in itertools.product(_STRENGTHENING, factors):
         f_beta = factor * printed.strengthening_threshold(a, zeta)
         ours = zeta / marginal.half_space_load(f_beta, a, zeta)
         expected = printed.bimaterial_ratio(f_beta, zeta / a)

@@ -39,7 +39,8 @@ def slip_rate_over_v0(evidence: Evidence) -> float:
 def friction_vanishes(evidence: Evidence) -> float:
     law = evidence.friction
     slow = 1e-5 * law.regularisation_slip_rate
-    return float(law.coefficient(slow, 1.0) / _f0(evidence))
+    friction = law.coefficient(slow, 1.0)
+    return float(friction / _f0(evidence))
 
 
 def logarithmic_law(evidence: Evidence) -> Array:
@@ -48,7 +49,8 @@ def logarithmic_law(evidence: Evidence) -> Array:
     factors = np.geomspace(0.1, 10.0, 41)
     states = law.steady_state(velocity) * factors
     v, phi = np.meshgrid(velocity * factors, states)
-    return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
+    logarithmic = law.logarithmic(v, phi, velocity)
+    return logarithmic / law.coefficient(v, phi)
 
 
 def _steady_extremes(evidence: Evidence) -> tuple[float, float]:
@@ -56,7 +58,8 @@ def _steady_extremes(evidence: Evidence) -> tuple[float, float]:
     velocity = evidence.loading.velocity
     friction = evidence.friction.steady_coefficient(_SLIP_RATES)
     slopes = np.sign(np.diff(friction))
-    extremes = 1 + np.flatnonzero(np.diff(slopes) != 0)
+    turns = np.diff(slopes) != 0
+    extremes = 1 + np.flatnonzero(turns)
     rates = _SLIP_RATES[extremes]
     rising = friction[extremes] > friction[extremes - 1]
     maxima = rates[rising & (rates < velocity)]
@@ -69,16 +72,20 @@ def _steady_extremes(evidence: Evidence) -> tuple[float, float]:
 def steady_agreement(evidence: Evidence) -> float:
     law = evidence.friction
     velocity = evidence.loading.velocity
-    first, after = np.searchsorted(_SLIP_RATES, _steady_extremes(evidence))
+    extremes = _steady_extremes(evidence)
+    first, after = np.searchsorted(_SLIP_RATES, extremes)
     v = _SLIP_RATES[first:after]
     state = law.characteristic_slip_distance / v
+    full = law.steady_coefficient(v)
     logarithmic = law.logarithmic(v, state, velocity)
-    difference = np.abs(logarithmic / law.steady_coefficient(v) - 1.0)
+    difference = np.abs(logarithmic / full - 1.0)
     distance = np.abs(np.log(v / velocity))
     middle = int(distance.argmin())
     off = np.flatnonzero(difference >= 0.02)
-    lowest = off[off < middle].max(initial=-1) + 1
-    highest = off[off > middle].min(initial=v.size) - 1
+    below = off[off < middle]
+    above = off[off > middle]
+    lowest = below.max(initial=-1) + 1
+    highest = above.min(initial=v.size) - 1
     return math.log10(v[highest] / v[lowest])
 
 
@@ -99,7 +106,8 @@ def _minimum(evidence: Evidence) -> float:
 
 def state_rate_at_v(evidence: Evidence) -> float:
     velocity = evidence.loading.velocity
-    return float(evidence.friction.slip_speed(velocity) / velocity)
+    regularised = evidence.friction.slip_speed(velocity)
+    return float(regularised / velocity)
 
 
 def _with_slip_law(evidence: Evidence) -> tuple[list[Row], list[Row]]:
@@ -138,14 +146,16 @@ def _healed_state(evidence: Evidence, run: Row) -> float:
     law = evidence.friction
     rate = law.regularisation_slip_rate / law.characteristic_slip_distance
     decay = math.exp(-rate * run["onset_time"])
-    return float((run["phi0"] * rate) ** decay / rate)
+    initial = run["phi0"] * rate
+    return float(initial**decay / rate)
 
 
 def _strengthened(evidence: Evidence, run: Row) -> float:
     """Relative change of friction at V by the healing up to a run's onset."""
     law = evidence.friction
     velocity = evidence.loading.velocity
-    healed = law.coefficient(velocity, _healed_state(evidence, run))
+    state = _healed_state(evidence, run)
+    healed = law.coefficient(velocity, state)
     initial = law.coefficient(velocity, run["phi0"])
     return float(healed / initial - 1.0)
 

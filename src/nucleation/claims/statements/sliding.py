@@ -13,7 +13,13 @@ from ..claim import Cause, Computation, Result
 from ..evidence import Evidence
 from ..expected import Estimate, formula
 from ..independent import marginal, printed
-from ..independent.elastic_layers import HALF_SPACE, Layer, half_spaces, pair_transfer, refined
+from ..independent.elastic_layers import (
+    HALF_SPACE,
+    Layer,
+    half_spaces,
+    pair_transfer,
+    refined,
+)
 
 _SHORT_WAVES = np.geomspace(1.001, 100.0, 60)
 """Wavenumbers over the critical one."""
@@ -23,8 +29,9 @@ def evolution_slope(evidence: Evidence) -> list[float]:
     step = 1e-5
     slopes = []
     for law in (aging, slip):
-        change = law.growth(1.0 + step) - law.growth(1.0 - step)
-        slopes.append(change / (2.0 * step))
+        ahead = law.growth(1.0 + step)
+        behind = law.growth(1.0 - step)
+        slopes.append((ahead - behind) / (2.0 * step))
     return slopes
 
 
@@ -40,10 +47,12 @@ def _linearised(evidence: Evidence, velocity: float) -> Array:
     for dv, dphi in steps:
         ahead = (velocity + dv, state + dphi)
         behind = (velocity - dv, state - dphi)
-        friction = law.coefficient(*ahead) - law.coefficient(*behind)
-        rate = law.state_rate(*ahead) - law.state_rate(*behind)
         step = 2.0 * (dv + dphi)
-        columns.append((friction / step, rate / step))
+        column = []
+        for function in (law.coefficient, law.state_rate):
+            change = function(*ahead) - function(*behind)
+            column.append(change / step)
+        columns.append(column)
     return np.transpose(columns)
 
 
@@ -55,12 +64,18 @@ def spring_stiffness(evidence: Evidence) -> float:
         # K dx + f_v dv + f_phi dphi = 0 per normal force, dx' = dv, dphi' = g_v dv + g_phi dphi
         dv = np.array([-stiffness / f_v, -f_phi / f_v])
         dphi = g_v * dv + [0.0, g_phi]
-        rates = np.linalg.eigvals(np.array([dv, dphi]))
+        matrix = np.array([dv, dphi])
+        rates = np.linalg.eigvals(matrix)
         return float(rates.real.max())
 
     zeta = evidence.friction.expansion(velocity).zeta
     expected = zeta / evidence.friction.characteristic_slip_distance
-    found = brentq(growth, 0.2 * expected, 5.0 * expected, rtol=1e-12)
+    found = brentq(
+        growth,
+        0.2 * expected,
+        5.0 * expected,
+        rtol=1e-12,
+    )
     return float(found / expected)
 
 
@@ -95,7 +110,11 @@ def symmetric_g2(evidence: Evidence) -> list[float]:
 
 def _printed_wavenumber(evidence: Evidence) -> float:
     modulus = evidence.material.shear_modulus
-    return printed.half_space_wavenumber(evidence.nu, modulus, evidence.interface)
+    return printed.half_space_wavenumber(
+        evidence.nu,
+        modulus,
+        evidence.interface,
+    )
 
 
 def _critical(evidence: Evidence) -> tuple[float, float]:
@@ -111,8 +130,9 @@ def _critical(evidence: Evidence) -> tuple[float, float]:
 
 def half_spaces_wavenumber(evidence: Evidence) -> Result:
     k, _ = _critical(evidence)
-    expected = formula(_printed_wavenumber(evidence))
-    return Result(Estimate.within(k, 1e-9 * k), expected)
+    ours = Estimate.within(k, 1e-9 * k)
+    expected = _printed_wavenumber(evidence)
+    return Result(ours, formula(expected))
 
 
 def _eta(evidence: Evidence) -> float:
@@ -120,12 +140,14 @@ def _eta(evidence: Evidence) -> float:
     interface = evidence.interface
     scale = interface.zeta * interface.normal_stress / interface.slip_length
     k, _ = _critical(evidence)
-    return 2.0 * math.pi / k * scale / evidence.material.shear_modulus
+    length = 2.0 * math.pi / k
+    return length * scale / evidence.material.shear_modulus
 
 
 def eta(evidence: Evidence) -> Result:
-    expected = formula(math.pi / (1.0 - evidence.nu), r"$\pi/(1 - \nu)$")
-    return Result(_eta(evidence), expected)
+    ours = _eta(evidence)
+    expected = math.pi / (1.0 - evidence.nu)
+    return Result(ours, formula(expected, r"$\pi/(1 - \nu)$"))
 
 
 def _eta_over_literature(evidence: Evidence) -> float:
@@ -157,8 +179,9 @@ def uncoupled_frequency(evidence: Evidence) -> Result:
     unit = interface.velocity / interface.slip_length
     _, in_units = _critical(evidence)
     frequency = unit * in_units
-    expected = formula(math.sqrt(interface.zeta / interface.a) * unit)
-    return Result(Estimate.within(frequency, 1e-8 * frequency), expected)
+    ours = Estimate.within(frequency, 1e-8 * frequency)
+    expected = math.sqrt(interface.zeta / interface.a) * unit
+    return Result(ours, formula(expected))
 
 
 def friction_perturbation(evidence: Evidence) -> list[float]:
@@ -172,7 +195,8 @@ def friction_perturbation(evidence: Evidence) -> list[float]:
         rate = relative * velocity / ell
         ours = rate * (f_v + f_phi * g_v / (rate - g_phi))
         dividend = rate * (a * rate * ell - zeta * velocity)
-        expected = dividend / (velocity * (velocity + rate * ell))
+        divisor = velocity * (velocity + rate * ell)
+        expected = dividend / divisor
         differences.append(abs(ours / expected - 1.0))
     return differences
 
@@ -180,17 +204,22 @@ def friction_perturbation(evidence: Evidence) -> list[float]:
 def growth_changes_sign(evidence: Evidence) -> list[float]:
     modes = evidence.dispersion
     heights = modes["height"].values
-    return [_zero_of_growth(modes.sel(height=height)) for height in heights]
+    zeros = []
+    for height in heights:
+        own = modes.sel(height=height)
+        zeros.append(_zero_of_growth(own))
+    return zeros
 
 
 def _zero_of_growth(modes: xr.Dataset) -> float:
     """The wavenumber over the critical one at which the growth changes sign, interpolated."""
-    ratios = (modes["mode_wavenumber"] / modes["critical_wavenumber"]).values
+    ratios = modes["mode_wavenumber"] / modes["critical_wavenumber"]
     growth = modes["measured_growth"].max("branch").values
-    last = int(np.flatnonzero(growth > 0.0)[-1])
+    growing = np.flatnonzero(growth > 0.0)
+    last = int(growing[-1])
     before, after = growth[last : last + 2]
     part = before / (before - after)
-    first, second = ratios[last : last + 2]
+    first, second = ratios.values[last : last + 2]
     return first + part * (second - first)
 
 
@@ -217,7 +246,12 @@ def _largest_rate(
         return printed.block_transfer(q, evidence.nu)
 
     def growth(wavenumber: float) -> float:
-        rate = marginal.growth_at(wavenumber, transfer, modulus, evidence.interface)
+        rate = marginal.growth_at(
+            wavenumber,
+            transfer,
+            modulus,
+            evidence.interface,
+        )
         return rate.real
 
     return max(map(growth, k_c * _SHORT_WAVES))

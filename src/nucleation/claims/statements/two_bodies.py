@@ -39,7 +39,8 @@ _CAUSE = (
 def pairs_half_spaces(evidence: PairEvidence) -> Result:
     high = half_spaces(faults(evidence, "pairs_identical"))
     required(high, "No identical blocks are as high as half-spaces")
-    return Result(_lengths(high), note=_note(high) + _eta(high))
+    note = _note(high) + _eta(high)
+    return Result(_lengths(high), note=note)
 
 
 def _lengths(rows: xr.Dataset, unit: Array | float = 1.0) -> list[Estimate]:
@@ -73,14 +74,20 @@ def _response(evidence: PairEvidence, component: int) -> Result:
     """The measured G1 (component 0) or G2 (component 1) of half-spaces over Eq. (7)."""
     modes = evidence.modes
     names = modes["id"].values.astype(str)
-    high = modes.isel(run=np.char.startswith(names, "half-spaces"))
+    are_high = np.char.startswith(names, "half-spaces")
+    high = modes.isel(run=are_high)
     required(high, "No modes between half-spaces were simulated")
-    ratio = high["second_shear_modulus"].values / high["shear_modulus"].values
-    nu = high["poisson_ratio"].values
-    second_nu = high["second_poisson_ratio"].values
+    ratio = high["second_shear_modulus"] / high["shear_modulus"]
+    pairs = zip(
+        ratio.values,
+        high["poisson_ratio"].values,
+        high["second_poisson_ratio"].values,
+        strict=True,
+    )
     expected = []
-    for pair in zip(ratio, nu, second_nu, strict=True):
-        expected.append(printed.bimaterial_transfer(*pair)[component])
+    for pair in pairs:
+        transfer = printed.bimaterial_transfer(*pair)
+        expected.append(transfer[component])
     measured = measured_response(high)[component]
     ratios = measured.T / expected
     return Result(ratios.T, note=_SLIDING)
@@ -104,7 +111,8 @@ def pairs_contrast(evidence: PairEvidence) -> Result:
         effect = difference / total / senses.contrast
         if effect.size < 2:
             raise Missing(rf"$\zeta/a = {senses.weakening:g}$ has no two contrasts")
-        ratios[senses.weakening] = effect[1:] / effect[0]
+        smallest = effect[0]
+        ratios[senses.weakening] = effect[1:] / smallest
     return _over_weakenings(ratios, _note(rows) + left_out)
 
 
@@ -120,9 +128,11 @@ def _over_weakenings(ratios: dict[float, Array], note: str) -> Result:
 
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
     rows, left_out = settled(evidence)
-    longest = (rows["length"] / rows["height"]).values.max()
+    relative = rows["length"] / rows["height"]
+    longest = relative.values.max()
     note = f" The longest patch at the drop is {longest:.2g} of the height of its block."
-    return Result(_lengths(rows), note=_note(rows) + note + left_out)
+    note = _note(rows) + note + left_out
+    return Result(_lengths(rows), note=note)
 
 
 def pairs_smaller(evidence: PairEvidence) -> Result:
@@ -130,8 +140,9 @@ def pairs_smaller(evidence: PairEvidence) -> Result:
     contrast = np.abs(rows["f_beta"].values)
     strong = chosen(rows, contrast > _STRONG)
     ours = _lengths(strong, unit=strong["half_space_ratio"].values)
-    senses_apart = _each_sense(strong, over_effective_modulus(strong))
-    return Result(ours, note=_note(rows) + senses_apart + left_out)
+    ratio = over_effective_modulus(strong)
+    note = _note(rows) + _each_sense(strong, ratio) + left_out
+    return Result(ours, note=note)
 
 
 def _each_sense(rows: xr.Dataset, values: Array) -> str:
@@ -160,13 +171,15 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
             contrast = np.abs(contrast)
             own = np.flatnonzero(same)
             own = own[np.argsort(contrast[own])]
-            slope = np.diff(ratio[own]) / np.diff(contrast[own])
+            rise = np.diff(ratio[own])
+            slope = rise / np.diff(contrast[own])
             slopes += slope.tolist()
             ends += own[1:].tolist()
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
-    senses_apart = _each_sense(rows.isel(run=ends), np.array(slopes))
-    return Result(slopes, note=_note(rows) + senses_apart + left_out)
+    upper = rows.isel(run=ends)
+    note = _note(rows) + _each_sense(upper, np.array(slopes)) + left_out
+    return Result(slopes, note=note)
 
 
 SHORT: dict[str, Computation] = {
