@@ -42,6 +42,11 @@ def test_search_finds_the_librarys_critical_wavenumber(evidence_of_theory, heigh
     assert frequency * rate == pytest.approx(abs(point.angular_frequency), rel=1e-7)
 
 
+def test_search_without_growth_is_an_error():
+    with pytest.raises(ValueError, match="no growth in the range of the search"):
+        marginal.half_space_load(0.0, a=0.01, zeta=-0.005)
+
+
 WRONG = [
     ("block_transfer", lambda f: lambda q, nu: (f(q, nu)[0] * 1.001, f(q, nu)[1]), "block-g1"),
     ("block_transfer", lambda f: lambda q, nu: (f(q, nu)[0], f(q, nu)[1] * 0.999), "block-g2"),

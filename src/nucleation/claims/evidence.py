@@ -142,8 +142,10 @@ class Evidence:
         Missing
             If there is no such row.
         """
-        faults = self.rows(role, **labels)
-        return [run for row in faults for run in row["members"]]
+        runs = []
+        for row in self.rows(role, **labels):
+            runs += row["members"]
+        return runs
 
     def patch(self, row: Row) -> xr.Dataset:
         """The stability of the patch of a fault's first realisation; raises Missing without it."""
@@ -154,16 +156,19 @@ class Evidence:
     @cached_property
     def _own(self) -> list[Row]:
         """The rows of all roles; cached because every claim on runs uses them."""
-        rows = [row for table in self.lengths for row in _faults(table)]
+        rows = []
+        for table in self.lengths:
+            rows += _faults(table)
         return [row for row in rows if self._is_own(row)]
 
     def _is_own(self, row: Row) -> bool:
         """Whether a row has the configuration's material, friction and loads, on a rigid base."""
         age = float(row["phi0"])
         height = float(row["height"])
+        law = {"evolution": row["evolution"]}
         own = Parameters(
             material=self.material,
-            friction=self.friction.changed({"evolution": row["evolution"]}),
+            friction=self.friction.changed(law),
             loading=dataclasses.replace(self.loading, initial_state=age),
             geometry=Geometry(height=height),
         )
@@ -193,7 +198,11 @@ def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence
         except Missing:
             return Result(judged)
         cause = Cause(MESH, "On the paper's own mesh our number is", papers)
-        return Result(judged, on_papers_mesh=papers, cause=cause)
+        return Result(
+            judged,
+            on_papers_mesh=papers,
+            cause=cause,
+        )
 
     return of_both
 
@@ -251,10 +260,7 @@ def _records(table: xr.Dataset) -> list[Row]:
 
 
 def _matches(row: Row, wanted: dict[str, str | float]) -> bool:
-    for column, value in wanted.items():
-        if not _same(row[column], value):
-            return False
-    return True
+    return all(_same(row[column], value) for column, value in wanted.items())
 
 
 def _same(one: Any, other: str | float) -> bool:

@@ -76,12 +76,9 @@ class _Equations:
         lame = 2.0 * mu * nu / (1.0 - 2.0 * nu)
         stiffness = lame + 2.0 * mu
         self.y, d = _chebyshev(points, layer.q)
-        one = np.eye(points)
-        none = np.zeros((points, points))
-        self.u = np.hstack([one, none])
-        self.w = np.hstack([none, one])
-        du = np.hstack([d, none])
-        dw = np.hstack([none, d])
+        self.u, self.w = np.split(np.eye(2 * points), 2)
+        du = d @ self.u
+        dw = d @ self.w
         t = mu * (du + self.w)
         n = stiffness * dw - lame * self.u
         normal_x = lame * dw - stiffness * self.u  # sigma_xx / i

@@ -105,7 +105,8 @@ def bimaterial_ratio(
     """
     square = f_beta**2
     root = math.sqrt((1.0 + z) ** 2 + 4.0 * z / square)
-    return (square * (1.0 + z - root) + 2.0 * z) / (2.0 * z)
+    dividend = square * (1.0 + z - root) + 2.0 * z
+    return dividend / (2.0 * z)
 
 
 def strengthening_threshold(
@@ -136,12 +137,13 @@ def block_transfer(
         Poisson's ratio in the plane.
     """
     constant = 4.0 * nu * (3.0 - 2.0 * nu)
-    divisor = 2.0 * q**2
-    divisor += (3.0 - 4.0 * nu) * math.cosh(2.0 * q)
-    divisor = divisor - constant + 5.0
-    g1 = 4.0 * (1.0 - nu) * (2.0 * q + math.sinh(2.0 * q))
-    g2 = 4.0 * (q**2 + (1.0 - 2.0 * nu) * math.sinh(q) ** 2)
-    return g1 / divisor, g2 / divisor
+    growing = (3.0 - 4.0 * nu) * math.cosh(2.0 * q)
+    divisor = 2.0 * q**2 + growing - constant + 5.0
+    shear = 2.0 * q + math.sinh(2.0 * q)
+    g1 = 4.0 * (1.0 - nu) * shear / divisor
+    normal = q**2 + (1.0 - 2.0 * nu) * math.sinh(q) ** 2
+    g2 = 4.0 * normal / divisor
+    return g1, g2
 
 
 def response_matrix(
@@ -163,8 +165,9 @@ def response_matrix(
     """
     sinh = math.sinh(2.0 * q)
     cross = 1j * (2.0 * q + (1.0 - 2.0 * nu) * sinh)
-    tangential = -4.0 * (1.0 - nu) * math.sinh(q) ** 2
-    normal = -4.0 * (1.0 - nu) * math.cosh(q) ** 2
+    own = -4.0 * (1.0 - nu)
+    tangential = own * math.sinh(q) ** 2
+    normal = own * math.cosh(q) ** 2
     matrix = np.array(
         [
             [tangential, cross],
@@ -218,15 +221,18 @@ def block_field(
     quadratic = 2.0 * q**2 * (y - 1.0) * np.cosh(near)
     linear = kolosov * (y - 2.0) * np.sinh(near)
     linear = q * (linear - y * np.sinh(far))
-    constant = (4.0 * (3.0 - 2.0 * nu) * nu - 5.0) * np.cosh(near)
-    u_x = quadratic + linear + kolosov * np.cosh(far) + constant
+    outer = kolosov * np.cosh(far)
+    factor = 4.0 * (3.0 - 2.0 * nu) * nu - 5.0
+    inner = factor * np.cosh(near)
+    u_x = quadratic + linear + outer + inner
 
     factor = q**2 * y + 4.0 * nu**2 - 6.0 * nu - q**2 + 2.0
     odd = 4.0 * factor * np.sinh(near)
     even = (3.0 - 4.0 * nu) * np.cosh(near) + np.cosh(far)
     u_y = odd - 2.0 * q * y * even
 
-    return np.array([2.0 * u_x, 1j * u_y], np.complex128) / divisor
+    field = np.array([2.0 * u_x, 1j * u_y], np.complex128)
+    return field / divisor
 
 
 def thin_length(

@@ -83,7 +83,8 @@ def bimaterial_length(evidence: Evidence) -> list[float]:
 
 
 def bimaterial_length_limit(evidence: Evidence) -> list[float]:
-    return [_searched_ratio(0.0, z) for z in _weakenings(evidence)]
+    weakenings = _weakenings(evidence)
+    return [_searched_ratio(0.0, z) for z in weakenings]
 
 
 def _theory_ratio(evidence: Evidence) -> xr.DataArray:
@@ -99,7 +100,8 @@ def bimaterial_smaller(evidence: Evidence) -> xr.DataArray:
 
 def bimaterial_decreasing(evidence: Evidence) -> xr.DataArray:
     ratio = _theory_ratio(evidence)
-    slopes = ratio.diff("f_beta") / np.diff(ratio["f_beta"])
+    steps = np.diff(ratio["f_beta"])
+    slopes = ratio.diff("f_beta") / steps
     return slopes.max()
 
 
@@ -117,7 +119,8 @@ def strengthening_length(evidence: Evidence) -> list[float]:
     factors = (1.2, 2.0)
     for (a, zeta), factor in itertools.product(_STRENGTHENING, factors):
         f_beta = factor * printed.strengthening_threshold(a, zeta)
-        ours = zeta / marginal.half_space_load(f_beta, a, zeta)
+        load = marginal.half_space_load(f_beta, a, zeta)
+        ours = zeta / load
         expected = printed.bimaterial_ratio(f_beta, zeta / a)
         ratios.append(ours / expected)
     return ratios

@@ -62,8 +62,10 @@ def _steady_extremes(evidence: Evidence) -> tuple[float, float]:
     extremes = 1 + np.flatnonzero(turns)
     rates = _SLIP_RATES[extremes]
     rising = friction[extremes] > friction[extremes - 1]
-    maxima = rates[rising & (rates < velocity)]
-    minima = rates[~rising & (rates > velocity)]
+    below = rates < velocity
+    above = rates > velocity
+    maxima = rates[rising & below]
+    minima = rates[~rising & above]
     if not maxima.size or not minima.size:
         raise Missing("Steady-state friction has no velocity-weakening branch around V")
     return float(maxima[-1]), float(minima[0])
@@ -128,9 +130,10 @@ def slip_law_approximation_ahead(evidence: Evidence) -> Result:
     """The relative change of the strength by the healing that v0 alone causes without slip."""
     converged, papers = _with_slip_law(evidence)
     latest = max(converged, key=lambda run: run["onset_time"])
+    state = _healed_state(evidence, latest)
     share = min(run["state_rate_share"] for run in converged)
     note = (
-        f"At the latest onset the state is {_healed_state(evidence, latest):.2f} s in the place of "
+        f"At the latest onset the state is {state:.2f} s in the place of "
         f"{latest['phi0']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
         f"below 10 % in {share:.2g} of the interface (results: The slip law ahead of the front)."
     )

@@ -61,7 +61,8 @@ def _note(rows: xr.Dataset) -> str:
 
 def _eta(rows: xr.Dataset) -> str:
     """A sentence with the lengths of instability and of the drop, as eta."""
-    eta = np.pi / (1.0 - rows["poisson_ratio"].values)
+    nu = rows["poisson_ratio"].values
+    eta = np.pi / (1.0 - nu)
     unstable = eta * rows["stability_ratio"].values
     drop = eta * rows["length_ratio"].values
     return (
@@ -89,8 +90,8 @@ def _response(evidence: PairEvidence, component: int) -> Result:
         transfer = printed.bimaterial_transfer(*pair)
         expected.append(transfer[component])
     measured = measured_response(high)[component]
-    ratios = measured.T / expected
-    return Result(ratios.T, note=_SLIDING)
+    ours = (measured.T / expected).T
+    return Result(ours, note=_SLIDING)
 
 
 def pairs_modulus(evidence: PairEvidence) -> Result:
@@ -123,7 +124,8 @@ def _over_weakenings(ratios: dict[float, Array], note: str) -> Result:
         worst = max(values, key=lambda value: abs(value - 1.0))
         furthest.append(rf"{worst:.3g} for $\zeta/a = {weakening:g}$")
     ours = np.concatenate(list(ratios.values()))
-    return Result(ours, note=f"{note} The furthest: {', '.join(furthest)}.")
+    note += f" The furthest: {', '.join(furthest)}."
+    return Result(ours, note=note)
 
 
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
