@@ -222,8 +222,8 @@ def block_field(
     linear = kolosov * (y - 2.0) * np.sinh(near)
     linear = q * (linear - y * np.sinh(far))
     outer = kolosov * np.cosh(far)
-    factor = 4.0 * (3.0 - 2.0 * nu) * nu - 5.0
-    inner = factor * np.cosh(near)
+    constant = 4.0 * (3.0 - 2.0 * nu) * nu - 5.0
+    inner = constant * np.cosh(near)
     u_x = quadratic + linear + outer + inner
 
     factor = q**2 * y + 4.0 * nu**2 - 6.0 * nu - q**2 + 2.0
