@@ -1,4 +1,4 @@
-"""The evidence of claims as the committed reference set has it: tables, but no simulations."""
+"""The evidence of claims from the committed reference set: tables without simulations."""
 
 import copy
 import dataclasses
@@ -30,7 +30,7 @@ def of_role(tables, role):
 
 
 def dispersion():
-    """results/dispersion.nc from its table, what the claims read of it."""
+    """The variables of results/dispersion.nc that the claims need, from its table."""
     frame = pd.read_csv(REFERENCE / "dispersion.csv")
     index = ["height", "wavenumber_over_critical", "branch"]
     modes = frame.set_index(index).to_xarray().rename(wavenumber_over_critical="mode")

@@ -1,4 +1,4 @@
-"""The independent evaluations against exact cases, and that a wrong formula is found out."""
+"""Independent evaluations agree with exact cases, and a wrong formula is not replicated."""
 
 import numpy as np
 import pytest

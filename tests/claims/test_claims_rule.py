@@ -104,7 +104,7 @@ def test_undefined_number_decides_nothing():
         (words("most"), 0.9, 0.9, 1.05),
     ],
 )
-def test_of_several_numbers_that_which_speaks_most_against_it_is_judged(expected, worst, low, high):
+def test_the_least_favourable_of_several_numbers_is_judged(expected, worst, low, high):
     assert expected.worst([0.9, 1.05, 1.0]) == Estimate(worst, low, high)
     assert expected.worst(0.9) == Estimate.exactly(0.9)
     own = [Estimate.within(0.9, 0.2), Estimate.within(1.05, 0.1), Estimate.exactly(1.0)]
@@ -162,7 +162,7 @@ def test_verdicts(result, verdict, words_of_reason):
     assert words_of_reason in reason
 
 
-def test_words_whose_reading_is_ours_are_not_supported_where_others_are_not_replicated():
+def test_words_with_a_chosen_reading_are_not_supported_where_others_are_not_replicated():
     def failing(expression):
         return judge(words(expression), Result(Estimate.exactly(-99.0)))[0]
 
@@ -185,7 +185,7 @@ def test_missing_result_gives_no_number():
     assert row["ours"] is None and row["uncertainty"] is None and row["paper"] == "13"
 
 
-def test_row_holds_number_range_and_what_the_function_says():
+def test_row_has_number_range_and_the_functions_own_expected_range():
     row = made_up(lambda evidence: Estimate.between(12.8, 12.7, 12.9)).evaluate(None)
     assert (row["ours"], row["uncertainty"], row["unit"]) == (12.8, [12.7, 12.9], "s")
     assert row["paper_range"] == [12.5, 13.5] and row["verdict"] == "replicated"
@@ -207,8 +207,8 @@ def test_a_statement_carried_to_another_problem_is_not_supported_where_it_fails(
     assert judged(1.1, False) == Verdict.NOT_REPLICATED
 
 
-def test_reasonably_good_admits_the_number_that_the_paper_calls_so():
-    """0.15 m at H = 0.005 m, where its theory has 0.235 m, with the rounding of both."""
+def test_reasonably_good_includes_the_papers_own_example():
+    """0.15 m at H = 0.005 m, where the paper's theory has 0.235 m, with the rounding of both."""
     for length in (0.145, 0.15, 0.155):
         for theory in (0.2345, 0.235, 0.2355):
             assert holds(words("reasonably good"), Estimate.exactly(length / theory))

@@ -1,4 +1,4 @@
-"""Why the sense of a contrast decides: the normal stress that the push builds under the patch.
+"""The sense of a contrast matters because the push changes the normal stress under the patch.
 
 A patch between half-spaces with zeta/a = 10 and f beta = +-0.38, by an eigenproblem of its own
 that shares no code with the library: slip in sines of quarter waves, Dundurs' constants, and the
