@@ -18,8 +18,8 @@ from ..theory.spectrum import Systems
 from ..theory.weakening_patch import weakening_patch_values
 from ..types import Array
 
-SLOW_SLIP = 1.15, 1.5
-"""W over W_c up to which simulated patches slipped slowly, and from which on they nucleated."""
+SLOW_SLIP = 1.1, 1.35
+"""W over W_c up to which patches slip slowly, and from which on all simulated ones nucleated."""
 
 CELLS = 3.0
 """Cells in a process zone that resolve it (Day and others, 2005)."""
