@@ -29,7 +29,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
-from .datasets.installed import MissingExtra, require, require_own
+from .installed import MissingExtra, require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material
@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.creep.runaway import runaway_length
+    from .theory.weakening_patch import weakening_patch_length
 
 __all__ = [
     "CriticalMode",
@@ -103,6 +104,7 @@ __all__ = [
     "spectrum",
     "stability_length",
     "transfer_functions",
+    "weakening_patch_length",
     "write",
 ]
 
@@ -121,6 +123,7 @@ _LATER = {
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
     ".theory.creep.runaway": ("runaway_length",),
+    ".theory.weakening_patch": ("weakening_patch_length",),
     ".answers.specimen": ("specimen_fit",),
     ".answers.specimen_quantiles": ("specimen_quantiles",),
     ".answers.status": ("length_statuses",),

@@ -220,11 +220,11 @@ _OF_ONE_MATERIAL = (
     ),
     Length(
         key="creeping_asperity",
-        title="asperity, creep around it",
+        title="asperity, rigid surroundings",
         formula="1.158 mu* D/(zeta sigma0)",
         source="Viesca and Garagash (2025), first scenario, by our derivation; "
         "Uenishi and Rice (2003)",
-        validity="velocity weakening, patch of fixed length in steady creep, either law",
+        validity="patch in steady creep whose surroundings keep to V; else W_c by --outside-zeta",
         compute=lambda s: s.plane(formulas.FINITE_PATCH),
     ),
     Length(

@@ -15,8 +15,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..datasets.installed import MissingExtra
 from ..datasets.pages import with_addresses
+from ..installed import MissingExtra
 
 DONE = 0
 FAILED = 1

@@ -45,6 +45,7 @@ from .fault_options import (
 from .options import option
 from .text import as_plain, to_json, wrapped
 from .uncertainty import draws_option, print_quantiles, samples_option, take_uncertain
+from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
 
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the friction law from which on it is told."""
@@ -74,6 +75,7 @@ DENSITY = declarations(Material)["density"]
     help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
     "or interior; a top that moves has --far-side velocity",
 )  # fmt: skip
+@patch_options
 @samples_option
 @draws_option(1000)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
@@ -95,11 +97,15 @@ def command(
     """
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
+    of_patch = {name: options.pop(name) for name in OPTIONS}
     given, law, papers = fault_values(**options, ranges=True)
     uncertain = {k: v for k, v in given.items() if isinstance(v, Range)} | uncertain
     if uncertain:
         if density is not None:
             raise ParameterError("density is not allowed beside ranges and samples")
+        for name in OPTIONS:
+            if of_patch[name] is not None:
+                raise ParameterError(f"{name} is not allowed beside ranges and samples")
         usual = {"weakening_rate": weakening_rate, "loading": loading, "draws": draws}
         return print_quantiles(given, uncertain, options | usual, as_json)
     if density is not None and "velocity" not in given:
@@ -108,6 +114,7 @@ def command(
         fault = Fault(**given)
         found = answers_of(fault, weakening_rate)
         theory = _theory(given, fault, density, loading, law, found["critical_length"])
+        patch = patch_of(fault, of_patch)
     answers = {
         length.key: found["stability_length" if length.system == THIS_FAULT else length.key]
         for length in LENGTHS
@@ -118,6 +125,7 @@ def command(
             "system": said,
             "parameters": parameters_of(fault),
             "theory": theory,
+            "weakening_patch": patch and patch._asdict(),
             "lengths": [
                 {"key": length.key, **as_plain(answers[length.key]), **length.words()}
                 for length in LENGTHS
@@ -125,7 +133,9 @@ def command(
         }
         click.echo(to_json(everything))
     else:
-        click.echo(with_addresses(_as_text(said, fault, theory, answers, law)))
+        more = patch_lines(patch, of_patch["width"], theory["critical_length"]) if patch else []
+        text = _as_text(said, fault, theory, answers, law, more)
+        click.echo(with_addresses(text))
     return DONE if math.isfinite(theory["critical_length"]) else CODE_OF_STABLE
 
 
@@ -174,6 +184,7 @@ def _as_text(
     theory: dict[str, Any],
     answers: dict[str, Answers],
     law: Friction | None,
+    patch: list[str],
 ) -> str:
     lines = [
         *wrapped(*said),
@@ -185,6 +196,7 @@ def _as_text(
     else:
         reason = textwrap.wrap(theory["critical_length_reason"], 90)
         lines += ["  no critical length:", *(f"  {line}" for line in reason)]
+    lines += ["", *patch] if patch else []
     for system in systems_of_lengths(fault):
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:

@@ -14,7 +14,7 @@ from ..configuration.load import configure, load
 from ..configuration.runs import Run
 from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
-from ..datasets.installed import require
+from ..installed import require
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS

@@ -13,7 +13,7 @@ import numpy as np
 from ..answers.draws import Draws
 from ..answers.specimen import SPECIMEN
 from ..configuration.study_names import study_parameters
-from ..datasets.installed import require
+from ..installed import require
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import NUMBER, parse

@@ -10,11 +10,10 @@ import click
 
 from ..configuration.advice import advise
 from ..configuration.runs import Run
-from ..configuration.settings import Limits, estimated_megabytes
-from ..configuration.studies import StudySettings
+from ..configuration.settings import Limits, StudySettings, estimated_megabytes
 from ..configuration.study_names import study_parameters
-from ..datasets.installed import require
 from ..datasets.pages import with_addresses
+from ..installed import require
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
