@@ -59,7 +59,7 @@ def test_figure_has_each_run_by_its_outcome(table):
     looks = {marker: colour for _, marker, colour in figure_weakening_patches.LOOKS.values()}
     drawn = {line.get_marker(): line for line in axes.lines if line.get_marker() in looks}
     assert {marker: line.get_color() for marker, line in drawn.items()} == looks
-    over_critical = table["width"] / table["critical_length"]
+    over_critical = table["patch_width"] / table["critical_length"]
     for name, (_, marker, _) in figure_weakening_patches.LOOKS.items():
         own = over_critical[table["outcome"] == name]
         assert drawn[marker].get_ydata() == pytest.approx(own.values)

@@ -49,12 +49,12 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
     theory = laws.where(rows, outcome="theory")
     curve = theory["smallest_width"] / theory["critical_length"]
     axes.plot(theory["strengthening"], curve, color=style.BLACK, label=THEORY)
-    style.level(axes, RIGID)
+    style.level(axes, RIGID, label="asperity, rigid surroundings")
     for name, (_, marker, colour) in LOOKS.items():
         own = laws.where(rows, outcome=name)
-        width = own["width"] / own["critical_length"]
+        width = own["patch_width"] / own["critical_length"]
         axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
-    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
+    top = 1.08 * float((rows["patch_width"] / rows["critical_length"]).max())
     axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, top))
     axes.set_xticks(TICKS)
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
