@@ -47,7 +47,7 @@ from .theory.fault import Fault
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings
     from .analysis.extraction import extract
-    from .analysis.progress import simulate
+    from .simulation.progress import simulate
     from .answers.specimen import specimen_fit
     from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
@@ -103,7 +103,7 @@ require_own()
 _LATER = {
     ".analysis.definitions": ("ExtractionSettings",),
     ".analysis.extraction": ("extract",),
-    ".analysis.progress": ("simulate",),
+    ".simulation.progress": ("simulate",),
     ".configuration.samples": ("read_samples",),
     ".datasets.netcdf": ("read", "write"),
     ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),

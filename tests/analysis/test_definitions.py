@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from analysis.made_up_patch import force_record
 
-from nucleation.analysis.definitions import find_onset, slipping_edge
+from nucleation.analysis.definitions import find_onset
 from nucleation.simulation.event import DropWatch
+from nucleation.simulation.patch import slipping_edge
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from analysis.made_up_patch import VELOCITY, synthetic_simulation
 
-from nucleation.analysis.definitions import Extent, ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.record import Record
+from nucleation.simulation.patch import Extent
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
 

@@ -11,9 +11,10 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation.analysis.definitions import Extent, ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch.frozen import Freezer
+from nucleation.simulation.patch import Extent
 from nucleation.simulation.run import composed, run
 from nucleation.theory.creep.front import advance, oscillating
 from nucleation.theory.creep.lengths import Patches

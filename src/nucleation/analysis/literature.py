@@ -23,9 +23,9 @@ from ..answers.in_use import LENGTHS, TWO_MATERIALS, expanding_length, values_of
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.parameters import Parameters
+from ..simulation.patch import slipping_zone
 from ..theory.fault import Fault
 from ..types import Array
-from .definitions import slipping_zone
 from .rows import Row
 
 SLIP_RATES = (1e-4, 1e-2, 1.0, 1e3)  # m/s, at which lengths are read

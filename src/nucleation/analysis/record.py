@@ -14,9 +14,10 @@ from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
 from ..simulation.event import WINDOW, PatchBursts, long_after
+from ..simulation.patch import patch_lengths
 from ..simulation.remarks import fastest_elsewhere
 from ..types import Array
-from .definitions import ExtractionSettings, Onset, find_onset, patch_lengths
+from .definitions import ExtractionSettings, Onset, find_onset
 
 
 def parameters_of(dataset: xr.Dataset) -> Parameters:

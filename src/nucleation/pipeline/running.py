@@ -7,7 +7,7 @@ from typing import Any
 
 import xarray as xr
 
-from ..analysis.progress import Progress
+from ..simulation.progress import Progress
 from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters

@@ -197,7 +197,7 @@ class Recorder:
         dataset.attrs["parameters"] = self.parameters.to_json()
         if not self._level.covers("interface"):
             return self._for_lengths(dataset)
-        realised = self._drive.realised(rows["step_time"], times)
+        realised = self._drive.realised({"step": rows["step_time"], "time": times})
         if realised is not None:
             dataset["perturbation"] = realised
         return dataset.assign(self._bodies()) if self._level.covers("everything") else dataset
