@@ -19,12 +19,10 @@ from types import FrameType
 from typing import TextIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..datasets.files import replacing
 from ..model.quantities import ParameterError
-
-Arrays = dict[str, NDArray]
+from ..types import Arrays
 
 EVERY = 60.0  # wall time (s) between checkpoints, unless the variable gives another
 VARIABLE = "NUCLEATION_CHECKPOINT_EVERY"

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..fem.grid import Field, Motion
-from ..types import Array
+from ..types import Array, Arrays
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,7 +57,7 @@ class State:
         """
         return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory)
 
-    def to_arrays(self) -> dict[str, Array]:
+    def to_arrays(self) -> Arrays:
         """The exact state as plain arrays by name, to be stored."""
         arrays = {name: np.asarray(getattr(self, name)) for name in _PLAIN}
         for i, motion in enumerate(self.motions):
