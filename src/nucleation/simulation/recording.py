@@ -1,6 +1,6 @@
 """Recording a run: interface fields at adaptive times, the drive at every step, bulk snapshots."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -233,12 +233,13 @@ class Recorder:
         return annotate(self._dataset(), RECORDED)
 
     def _dataset(self) -> xr.Dataset:
-        dataset = xr.Dataset(coords={"time": self._frame_times, "x": self.grid.x})
+        data: dict[str, tuple[Sequence[str], Array]] = {}
         for name, values in zip(PER_STEP, zip(*self._rows, strict=True), strict=True):
-            dataset[name] = "step", np.array(values)
+            data[name] = ("step",), np.array(values)
         frames = np.array(self._frames)
         for i, name in enumerate(self._fields):
-            dataset[name] = ("time", "x"), frames[:, i]
+            data[name] = ("time", "x"), frames[:, i]
+        dataset = xr.Dataset(data, {"time": self._frame_times, "x": self.grid.x})
         dataset.attrs["parameters"] = self.parameters.to_json()
         if not self._level.covers("interface"):
             return self._for_lengths(dataset)
