@@ -79,7 +79,11 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     return annotate(film, FILMED)
 
 
-def of_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> xr.Dataset:
+def of_run(
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> xr.Dataset:
     """The film of a run in a table of lengths.
 
     Parameters
@@ -141,7 +145,11 @@ def _thinned(indices: Indices, most: int) -> Indices:
     return indices[chosen.astype(int)]
 
 
-def shear_stress(body: Body, state: State, materials: Sequence[Material]) -> Array:
+def shear_stress(
+    body: Body,
+    state: State,
+    materials: Sequence[Material],
+) -> Array:
     """Shear stress at the nodes, by differences of neighbours.
 
     Two bodies have a level each on the interface. Their stresses there agree as far as the meshes

@@ -80,7 +80,12 @@ def measure(record: Record) -> dict[str, float]:
     return found | event | _patch(record)
 
 
-def _event(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str, float]:
+def _event(
+    record: Record,
+    start: int,
+    fastest: Array,
+    sizes: Array,
+) -> dict[str, float]:
     """How fast the event is that starts with a step."""
     _, steep, end = record.drop_times
     return {
@@ -91,7 +96,11 @@ def _event(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str
     }
 
 
-def _acceleration_time(record: Record, start: int, rates: Array) -> float:
+def _acceleration_time(
+    record: Record,
+    start: int,
+    rates: Array,
+) -> float:
     """Time (s) in which the largest slip rate grows from 10 V to 100 V after a step."""
     hundred = int(np.argmax(rates > 100.0 * record.velocity))  # zero also if it is never so fast
     slower = np.flatnonzero(rates[:hundred] < 10.0 * record.velocity)
@@ -144,7 +153,9 @@ def _share(good: NDArray[np.bool_], weight: Array) -> float:
 
 
 def _state_rate_well_approximated(
-    rate: Array, state: Array, friction: Friction
+    rate: Array,
+    state: Array,
+    friction: Friction,
 ) -> NDArray[np.bool_]:
     """Where ``dphi/dt`` with v in the place of ``w = sqrt(v^2 + v0^2)`` is nearly the same."""
     speed = np.maximum(np.abs(rate), 1e-300)

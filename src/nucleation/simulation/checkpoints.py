@@ -136,7 +136,11 @@ class Checkpoint:
             for number, handler in before.items():
                 signal.signal(number, handler)
 
-    def _stop(self, number: int, _: FrameType | None) -> None:
+    def _stop(
+        self,
+        number: int,
+        _: FrameType | None,
+    ) -> None:
         self._signal = signal.Signals(number).name
 
     def _report(self, message: str) -> None:

@@ -45,7 +45,12 @@ def _compiled(
     register_jitable(formula)
 
     def _at_end(  # type: ignore[no-untyped-def]
-        v, past, beta, v0, distance, constants
+        v,
+        past,
+        beta,
+        v0,
+        distance,
+        constants,
     ):
         speed = np.sqrt(v * v + v0 * v0)
         psi, psi_by_rate = implicit_log_state(past, beta, speed / distance)

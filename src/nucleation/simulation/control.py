@@ -28,7 +28,12 @@ class SimulationFailure(RuntimeError):
         More about the failure, for the message.
     """
 
-    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
+    def __init__(
+        self,
+        outcome: Outcome,
+        state: State,
+        reason: str,
+    ) -> None:
         super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
         self.outcome = outcome
 

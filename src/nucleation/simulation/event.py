@@ -63,7 +63,12 @@ def where_patch_is_sought(parameters: Parameters, x: Array) -> NDArray[np.bool_]
     return x <= NEAR * parameters.geometry.length
 
 
-def long_after(parameters: Parameters, x: Array, times: Array, slip_rates: Array) -> float:
+def long_after(
+    parameters: Parameters,
+    x: Array,
+    times: Array,
+    slip_rates: Array,
+) -> float:
     """Find the time (s) after which the patch has been longer than :data:`FEW` elements.
 
     Between two frames the nearest one counts, as for the length of the patch.
@@ -115,7 +120,12 @@ class PatchBursts:
         self._end = NEAR * parameters.geometry.length if pushed else np.inf
         self.own = False  # whether the present burst belongs to the patch
 
-    def at(self, time: float, rate: float, position: float) -> bool:
+    def at(
+        self,
+        time: float,
+        rate: float,
+        position: float,
+    ) -> bool:
         """Take in the next step and return whether the patch slips fast.
 
         Parameters
@@ -147,7 +157,11 @@ class DropWatch:
         Fraction by which it has to fall.
     """
 
-    def __init__(self, window: float, drop: float = EVENT_DROP) -> None:
+    def __init__(
+        self,
+        window: float,
+        drop: float = EVENT_DROP,
+    ) -> None:
         self._window = window
         self._drop = drop
         self._largest: deque[tuple[float, float]] = deque()  # falling maxima of the window
@@ -166,7 +180,12 @@ class DropWatch:
         """Time (s) of the window's largest force, from which a drop is counted."""
         return self._largest[0][0]
 
-    def dropped(self, time: float, force: float, fast: bool = True) -> bool:
+    def dropped(
+        self,
+        time: float,
+        force: float,
+        fast: bool = True,
+    ) -> bool:
         """Take in the next force and return whether it completes an abrupt drop.
 
         Parameters

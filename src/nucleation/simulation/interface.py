@@ -65,7 +65,13 @@ class Past(NamedTuple):
     at_rest: bool  # whether the interface has not slipped yet
 
     @classmethod
-    def of(cls, state: State, formula: Formula, imposed: Imposed, at_rest: bool) -> Past:
+    def of(
+        cls,
+        state: State,
+        formula: Formula,
+        imposed: Imposed,
+        at_rest: bool,
+    ) -> Past:
         """The past part for a state, with the forcing at the new time as an additional rate.
 
         Parameters
@@ -101,7 +107,12 @@ class Solver(Protocol):
         """Normal force (N/m) on the nodes 0..n_x in addition to that of the body."""
 
     def solve(
-        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+        self,
+        operator: Condensed,
+        response: Response,
+        past: Past,
+        imposed: Imposed,
+        guess: Array,
     ) -> InterfaceSolution:
         """Solve for the interface at the new time.
 
@@ -142,7 +153,12 @@ class Interface:
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x in addition to the body's
 
     def solve(
-        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+        self,
+        operator: Condensed,
+        response: Response,
+        past: Past,
+        imposed: Imposed,
+        guess: Array,
     ) -> InterfaceSolution:
         """Solve for the slip rates at the new time, see :meth:`Solver.solve`.
 
@@ -223,7 +239,12 @@ class Interface:
     def _compiled(self) -> compiled_laws.CompiledFriction:
         return compiled_laws.friction(self.friction)
 
-    def _friction(self, v: Array, past_log_state: Array, beta: float) -> tuple[Array, Array, Array]:
+    def _friction(
+        self,
+        v: Array,
+        past_log_state: Array,
+        beta: float,
+    ) -> tuple[Array, Array, Array]:
         """Log state at the end of the step, friction coefficient, and its total slope (s/m)."""
         law = self.friction
         return self._compiled(

@@ -16,7 +16,16 @@ LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
 @compiled
 def balance(
-    tangential, normal, coefficient, slope, v, elastic, least, tolerance, rounding, strength
+    tangential,
+    normal,
+    coefficient,
+    slope,
+    v,
+    elastic,
+    least,
+    tolerance,
+    rounding,
+    strength,
 ):
     """Residual of the interface's equations, and its error.
 
@@ -67,7 +76,11 @@ def balance(
 
 
 @compiled
-def coupled(elastic, damping, ratio):
+def coupled(
+    elastic,
+    damping,
+    ratio,
+):
     """Free nodes, counted from 0, that elasticity couples: ``elastic > ratio |damping|``.
 
     Parameters
@@ -90,7 +103,14 @@ def coupled(elastic, damping, ratio):
 
 
 @compiled
-def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
+def newton_matrix(
+    stiffness,
+    coupling,
+    coefficient,
+    damping,
+    active,
+    beta,
+):
     """``beta (D + f N) + R df/dv`` between the active nodes, transposed, in single precision.
 
     Parameters
@@ -119,7 +139,13 @@ def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
 
 
 @compiled
-def direction(residual, elastic, damping, active, solved):
+def direction(
+    residual,
+    elastic,
+    damping,
+    active,
+    solved,
+):
     """Newton's direction: that of the coupled system at active nodes, node by node elsewhere.
 
     Parameters
@@ -145,7 +171,11 @@ def direction(residual, elastic, damping, active, solved):
 
 
 @compiled
-def updated(v, change, v0):
+def updated(
+    v,
+    change,
+    v0,
+):
     """``v + change`` (m/s), but a slip rate that shrinks does so in asinh(v / v0).
 
     Friction is concave in v > 0: from above, Newton's method goes far beyond the root. Both
@@ -174,7 +204,13 @@ def updated(v, change, v0):
 
 
 @compiled
-def moved(v, velocity, beta, past, start):
+def moved(
+    v,
+    velocity,
+    beta,
+    past,
+    start,
+):
     """The displacement ``w = past + beta (v - V)`` and its difference from another one.
 
     Parameters
@@ -198,7 +234,12 @@ def moved(v, velocity, beta, past, start):
 
 
 @compiled
-def reach(v, before, tolerated, least):
+def reach(
+    v,
+    before,
+    tolerated,
+    least,
+):
     """Number of nodes up to the last one at which the slip rate has changed.
 
     Parameters
@@ -220,7 +261,13 @@ def reach(v, before, tolerated, least):
 
 
 @compiled
-def expected(rates, log_states, weights, scale, largest):
+def expected(
+    rates,
+    log_states,
+    weights,
+    scale,
+    largest,
+):
     """Extrapolate slip rates, as asinh(v / scale), and states.
 
     Parameters
@@ -255,7 +302,11 @@ def expected(rates, log_states, weights, scale, largest):
 
 
 @compiled
-def changed(rate, scaled, scale):
+def changed(
+    rate,
+    scaled,
+    scale,
+):
     """Largest distance of slip rates from others, in asinh(v / scale).
 
     Parameters
@@ -278,7 +329,13 @@ def changed(rate, scaled, scale):
 
 
 @compiled
-def distance(scaled, log_state, rate, psi, scale):
+def distance(
+    scaled,
+    log_state,
+    rate,
+    psi,
+    scale,
+):
     """Largest distance of slip rates, in asinh(v / scale), and of log(phi) from expected ones.
 
     Parameters

@@ -14,7 +14,11 @@ from .event import NEAR
 STUCK = 1e-300  # m/s, in place of zero: its logarithm is finite
 
 
-def slipping_edge(x: Array, slip_rate: Array, threshold: float) -> Array:
+def slipping_edge(
+    x: Array,
+    slip_rate: Array,
+    threshold: float,
+) -> Array:
     """Find the furthest position that slips faster than a threshold, if an edge is pushed.
 
     Only the part of the block next to the pushed edge is searched: slip at the far corner does not
@@ -69,7 +73,10 @@ def _between(
 
 
 def slipping_zone(
-    x: Array, slip_rate: Array, threshold: float, periodic: bool = False
+    x: Array,
+    slip_rate: Array,
+    threshold: float,
+    periodic: bool = False,
 ) -> tuple[float, float]:
     """Find the zone about the fastest node that slips faster than a threshold at one instant.
 
@@ -112,7 +119,12 @@ def slipping_zone(
     return end(-1), end(1)
 
 
-def patch_lengths(kind: str, x: Array, slip_rates: Array, threshold: float) -> Array:
+def patch_lengths(
+    kind: str,
+    x: Array,
+    slip_rates: Array,
+    threshold: float,
+) -> Array:
     """Length of the patch at every instant, by the slip rates of that instant alone.
 
     A pushed edge is one end of the patch. Otherwise the patch is the zone about the fastest node.
@@ -153,7 +165,12 @@ class Extent:
         Kind of the loading.
     """
 
-    def __init__(self, x: Array, threshold: float, kind: str = "edge") -> None:
+    def __init__(
+        self,
+        x: Array,
+        threshold: float,
+        kind: str = "edge",
+    ) -> None:
         self._x = x
         self._threshold = threshold
         self._kind = kind

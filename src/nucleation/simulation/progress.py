@@ -100,7 +100,11 @@ class Progress:
         )
         print(line, file=self._stream, flush=True)
 
-    def part_done(self, simulated: float, length: float) -> float:
+    def part_done(
+        self,
+        simulated: float,
+        length: float,
+    ) -> float:
         """Part of the run that is done; it never falls.
 
         It is 1 at the end time only: before that nobody knows whether the event is over.
@@ -127,7 +131,11 @@ class Progress:
         if self._bar is not None:
             self._bar.close()
 
-    def _speed(self, steps: int, now: float) -> str:
+    def _speed(
+        self,
+        steps: int,
+        now: float,
+    ) -> str:
         """Steps per second of wall time since this process began or resumed the run, as text."""
         if self._first_step is None:
             self._first_step = steps

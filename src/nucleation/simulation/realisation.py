@@ -32,7 +32,12 @@ ROWS_KEPT = 8  # of a sheet; four are in use at one time
 PHASE, SERIES, PROFILE, SHEET = range(4)  # independent streams of one seed
 
 
-def normals(seed: int, stream: int, row: int, number: int) -> Array:
+def normals(
+    seed: int,
+    stream: int,
+    row: int,
+    number: int,
+) -> Array:
     """The first standard normal numbers in a row of a stream.
 
     A larger number of them begins with the same ones. They are made from the raw integers of the
@@ -52,7 +57,12 @@ def normals(seed: int, stream: int, row: int, number: int) -> Array:
     return ndtri(_uniform(seed, stream, row, number))
 
 
-def _uniform(seed: int, stream: int, row: int, number: int) -> Array:
+def _uniform(
+    seed: int,
+    stream: int,
+    row: int,
+    number: int,
+) -> Array:
     """Numbers in (0, 1), one for each 64 random bits."""
     generator = np.random.Philox(counter=[0, row, stream, 0], key=[seed, 0])
     bits = generator.random_raw(number) >> np.uint64(12)  # 52 bits, so that 1 is not reached
@@ -151,7 +161,11 @@ class Series:
         Correlation time (s).
     """
 
-    def __init__(self, seed: int, correlation: float) -> None:
+    def __init__(
+        self,
+        seed: int,
+        correlation: float,
+    ) -> None:
         self.spacing = MEAN_SQUARE * correlation
         self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
         self._seed = seed
@@ -200,7 +214,13 @@ class Series:
 class _Positions:
     """Splines along x at given positions (m): the part of profiles and sheets that is constant."""
 
-    def __init__(self, seed: int, correlation: float, x: Array, stream: int) -> None:
+    def __init__(
+        self,
+        seed: int,
+        correlation: float,
+        x: Array,
+        stream: int,
+    ) -> None:
         phase = _uniform(seed, PHASE, stream, 2)[1]
         s = x / (MEAN_SQUARE * correlation) + phase
         self._first = np.floor(s).astype(int)
@@ -213,7 +233,11 @@ class _Positions:
         return (self._weights * used).sum(axis=0)
 
 
-def profile(seed: int, correlation: float, x: Array) -> Array:
+def profile(
+    seed: int,
+    correlation: float,
+    x: Array,
+) -> Array:
     """A realisation along x.
 
     Parameters
@@ -246,7 +270,11 @@ class Sheet:
     """
 
     def __init__(
-        self, seed: int, correlation_time: float, correlation_length: float, x: Array
+        self,
+        seed: int,
+        correlation_time: float,
+        correlation_length: float,
+        x: Array,
     ) -> None:
         self.spacing = MEAN_SQUARE * correlation_time
         self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])

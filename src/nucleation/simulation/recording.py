@@ -46,7 +46,11 @@ class Recorder:
         Body and drive of the run.
     """
 
-    def __init__(self, parameters: Parameters, dynamics: Dynamics) -> None:
+    def __init__(
+        self,
+        parameters: Parameters,
+        dynamics: Dynamics,
+    ) -> None:
         self.parameters = parameters
         self.grid = dynamics.grid
         self._body = dynamics.body
@@ -82,7 +86,11 @@ class Recorder:
         """Whether the event has begun, and ``stepping.time_after_event`` has passed since then."""
         return self._time >= self._event_time + self.parameters.stepping.time_after_event
 
-    def record(self, state: State, report: StepReport) -> None:
+    def record(
+        self,
+        state: State,
+        report: StepReport,
+    ) -> None:
         """Take in the initial state or one accepted step.
 
         Parameters
@@ -146,7 +154,11 @@ class Recorder:
         state = self._frames[int(distances.argmin())][1]
         return remarks.front_width(self.parameters, self.grid.x, state)
 
-    def _frame_is_due(self, time: float, slip_rate: Array) -> bool:
+    def _frame_is_due(
+        self,
+        time: float,
+        slip_rate: Array,
+    ) -> bool:
         if not self._frames:
             return True
         if time - self._frame_times[-1] >= self._longest_pause:
@@ -156,7 +168,11 @@ class Recorder:
         change = passes.changed(slip_rate, self._last_scaled, self._velocity)
         return bool(change >= FRAME_CHANGE)
 
-    def _take_frame(self, state: State, report: StepReport) -> None:
+    def _take_frame(
+        self,
+        state: State,
+        report: StepReport,
+    ) -> None:
         interface = report.interface
         lengths = self.grid.nodal_lengths
         displacement = self._drive.at(state.time).displacement
@@ -172,7 +188,11 @@ class Recorder:
         self._frame_times.append(state.time)
         self._frames.append(np.array([values[name] for name in self._fields]))
 
-    def _maybe_snapshot(self, state: State, fastest: float) -> None:
+    def _maybe_snapshot(
+        self,
+        state: State,
+        fastest: float,
+    ) -> None:
         rates = SNAPSHOT_RATES[self._next_snapshot_rate :]
         exceeded = sum(fastest > rate * self._velocity for rate in rates)
         if self._snapshots and not exceeded:

@@ -17,7 +17,11 @@ FRONT = 1.0
 """Change of the logarithm of the state that makes a front."""
 
 
-def front_width(parameters: Parameters, x: Array, state: Array) -> float:
+def front_width(
+    parameters: Parameters,
+    x: Array,
+    state: Array,
+) -> float:
     """Width of the front in elements: total change of log(phi) over the steepest one.
 
     Parameters

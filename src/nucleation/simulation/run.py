@@ -186,7 +186,11 @@ def simulate(
     return dataset
 
 
-def _arrays(instant: Instant, recorder: Recorder, seconds: float) -> Arrays:
+def _arrays(
+    instant: Instant,
+    recorder: Recorder,
+    seconds: float,
+) -> Arrays:
     """All arrays of a run after a step, from which it can resume."""
     control = {
         "wanted": np.array(instant.control.wanted),

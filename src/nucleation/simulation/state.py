@@ -102,7 +102,11 @@ class State:
 _PLAIN = tuple(field.name for field in dataclasses.fields(State) if field.name != "motions")
 
 
-def pushed(newest: Array | float, past: Array, most: int) -> Array:
+def pushed(
+    newest: Array | float,
+    past: Array,
+    most: int,
+) -> Array:
     """Put the newest value before the past ones and drop the oldest.
 
     Parameters

@@ -57,7 +57,13 @@ class Dynamics:
         The formulas of the steps.
     """
 
-    def __init__(self, body: Body, interface: Solver, drive: Drive, scheme: BDF) -> None:
+    def __init__(
+        self,
+        body: Body,
+        interface: Solver,
+        drive: Drive,
+        scheme: BDF,
+    ) -> None:
         self.body = body
         self.interface = interface
         self.drive = drive
@@ -66,7 +72,11 @@ class Dynamics:
         self._operators: OrderedDict[float, Operator] = OrderedDict()
         self._slip_distance = float(np.min(interface.friction.characteristic_slip_distance))
 
-    def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
+    def advance(
+        self,
+        state: State,
+        rung: int,
+    ) -> tuple[State, StepReport]:
         """Make one step.
 
         Parameters
@@ -128,7 +138,12 @@ class Dynamics:
         """Force (N/m) by which the driven edge accelerates the whole body with it."""
         return self.body.total_mass * imposed.acceleration
 
-    def _load_with_past(self, state: State, step: Step, imposed: Imposed) -> Field:
+    def _load_with_past(
+        self,
+        state: State,
+        step: Step,
+        imposed: Imposed,
+    ) -> Field:
         """The load at the end of the step, with the past part of inertia."""
         terms = []
         for c, motion in zip(step.body.past, state.motions, strict=False):
@@ -175,7 +190,11 @@ class Dynamics:
         )
 
 
-def _rate_of_momentum(step: Step, motion: Motion, motions: tuple[Motion, ...]) -> float:
+def _rate_of_momentum(
+    step: Step,
+    motion: Motion,
+    motions: tuple[Motion, ...],
+) -> float:
     """Rate of the momentum along x (N/m) by the step's formula."""
     change = motion.momentum
     for c, past in zip(step.body.past, motions, strict=False):
@@ -202,7 +221,12 @@ class _Guess(NamedTuple):
         )
 
 
-def _extrapolated(state: State, step: Step, velocity: float, distance: float) -> _Guess:
+def _extrapolated(
+    state: State,
+    step: Step,
+    velocity: float,
+    distance: float,
+) -> _Guess:
     """Slip rates and states at the end of a step, by polynomials through the past ones.
 
     Slip rates are extrapolated as asinh(v / scale): above the scale by relative changes. After an

@@ -37,7 +37,11 @@ class Formula:
     past: tuple[float, ...]
 
     @classmethod
-    def bdf2(cls, beta: float, previous_step: float) -> Formula:
+    def bdf2(
+        cls,
+        beta: float,
+        previous_step: float,
+    ) -> Formula:
         """The BDF2 step with a given leading coefficient.
 
         Parameters
@@ -62,7 +66,11 @@ class Formula:
         return cls(beta, beta, (1.0, 0.0))
 
     @classmethod
-    def bdf3(cls, step: float, past_times: Array) -> Formula:
+    def bdf3(
+        cls,
+        step: float,
+        past_times: Array,
+    ) -> Formula:
         """The BDF3 step: the derivative of the cubic through the new and the past values.
 
         Parameters
@@ -221,7 +229,11 @@ class BDF:
     error_order = 3  # power of the step's length in its local error
     largest_growth = LARGEST_GROWTH  # of the length from one step to the next
 
-    def step(self, rung: int, past_times: Array) -> Step:
+    def step(
+        self,
+        rung: int,
+        past_times: Array,
+    ) -> Step:
         """The next step.
 
         Parameters
@@ -247,7 +259,11 @@ class BDF:
         interface = self._on_interface(formula, past_times)
         return Step(formula, interface, weights, share, known == 1)
 
-    def _on_interface(self, formula: Formula, past_times: Array) -> Formula:
+    def _on_interface(
+        self,
+        formula: Formula,
+        past_times: Array,
+    ) -> Formula:
         """The formula for slip and state: BDF3 if the step is quasi-static and grows slowly."""
         step = formula.step
         if past_times.size < 3 or step < QUASI_STATIC * self.crossing_time:
@@ -261,7 +277,11 @@ class BDF:
             return formula
         return Formula.bdf3(step, past_times)
 
-    def coefficient(self, step: float, previous_step: float) -> float:
+    def coefficient(
+        self,
+        step: float,
+        previous_step: float,
+    ) -> float:
         """Leading coefficient of a step, see :func:`beta_of_step`.
 
         Parameters
@@ -276,7 +296,11 @@ class BDF:
         """
         return beta_of_step(step, previous_step)
 
-    def rung(self, step: float, previous_step: float) -> int:
+    def rung(
+        self,
+        step: float,
+        previous_step: float,
+    ) -> int:
         """The rung of a step that has been made.
 
         Parameters

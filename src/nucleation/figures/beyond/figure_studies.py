@@ -52,7 +52,7 @@ def draw(
     Parameters
     ----------
     table : Dataset
-        The study's table of lengths, see :func:`nucleation.analysis.lengths.gather`.
+        The study's table of lengths, see :func:`nucleation.analysis.lengths.lengths_table`.
     varied : dict
         Each parameter of which the study has several values, with its value in every run, in the
         order of the table.
