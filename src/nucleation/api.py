@@ -47,13 +47,13 @@ from .theory.fault import Fault
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings
     from .analysis.extraction import extract
-    from .simulation.progress import simulate
     from .answers.specimen import specimen_fit
     from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
     from .datasets.netcdf import read, write
     from .figures.overview import film, plot_length, plot_run, plot_spectrum
     from .patch.expected_drop import NoDrop, expected_drop
+    from .simulation.progress import simulate
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.creep.runaway import runaway_length

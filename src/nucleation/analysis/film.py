@@ -55,7 +55,8 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
     parameters = parameters_of(simulation)
     dynamics = composed(parameters)
     grid = dynamics.grid
-    farthest = np.fmin(SHOWN_LENGTHS * float(row["length"]), grid.length)
+    length = float(row["length"])
+    farthest = np.fmin(SHOWN_LENGTHS * length, grid.length)
     columns = _thinned(np.flatnonzero(grid.x <= farthest), MOST_COLUMNS)
     heights, rows = levels(dynamics.body)
     recorded = simulation["time"].values
@@ -66,9 +67,11 @@ def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
         materials.append(parameters.below.material)
     stresses: list[NDArray[np.float32]] = []
     for instant in run(parameters, dynamics=dynamics):
-        if instant.state.time >= recorded[frames[len(stresses)]]:
+        next_frame = frames[len(stresses)]
+        if instant.state.time >= recorded[next_frame]:
             stress = shear_stress(dynamics.body, instant.state, materials)
-            stresses.append(stress[np.ix_(rows, columns)].astype(np.float32))
+            shown = stress[np.ix_(rows, columns)]
+            stresses.append(shown.astype(np.float32))
         if len(stresses) == frames.size:
             break
     names = ["slip_rate", "driving_force", "maximal_slip_rate", "step_time"]
@@ -120,8 +123,10 @@ def event_interval(simulation: xr.Dataset, onset: float) -> tuple[float, float]:
     """
     time = simulation["step_time"].values
     if not np.isfinite(onset):
-        return float(time[-1]), float(time[-1])
-    during = np.flatnonzero((time >= onset) & (time <= onset + LONGEST_EVENT))
+        end = float(time[-1])
+        return end, end
+    after = (time >= onset) & (time <= onset + LONGEST_EVENT)
+    during = np.flatnonzero(after)
     rates = simulation["maximal_slip_rate"].values[during]
     peak = time[during[rates.argmax()]]
     return onset - MARGIN, float(peak) + MARGIN
@@ -133,7 +138,10 @@ def _chosen_frames(time: Array, event: tuple[float, float]) -> Indices:
     The record has more frames where more happens, so every nth frame is taken in each part.
     """
     part = np.digitize(time, event)
-    chosen = [_thinned(np.flatnonzero(part == i), most) for i, most in enumerate(MOST_FRAMES)]
+    chosen = []
+    for i, most in enumerate(MOST_FRAMES):
+        own = np.flatnonzero(part == i)
+        chosen.append(_thinned(own, most))
     return np.concatenate(chosen)
 
 
@@ -177,8 +185,9 @@ def shear_stress(
         material: Material,
     ) -> Array:
         along_x, along_y = values(state.displacement)
-        shear = np.gradient(along_x, up * grid.y, axis=0) + np.gradient(along_y, grid.x, axis=1)
-        return material.shear_modulus * shear
+        along_x_by_y = np.gradient(along_x, up * grid.y, axis=0)
+        along_y_by_x = np.gradient(along_y, grid.x, axis=1)
+        return material.shear_modulus * (along_x_by_y + along_y_by_x)
 
     upper = of_body(body.grid, 1.0, body.nodal_values, materials[0])
     if body.grid_below is None:
@@ -195,7 +204,8 @@ def levels(body: Body) -> tuple[Array, Indices]:
     rows = _thinned(np.arange(body.grid.y.size), MOST_ROWS)
     if body.grid_below is None:
         return body.grid.y, rows
-    below = body.grid_below.y
-    rows_below = below.size - 1 - _thinned(np.arange(below.size), MOST_ROWS)[::-1]
-    heights = np.concatenate((-below[::-1], body.grid.y))
-    return heights, np.append(rows_below, below.size + rows)
+    depths = body.grid_below.y
+    number = depths.size
+    rows_below = number - 1 - _thinned(np.arange(number), MOST_ROWS)
+    heights = np.concatenate((-depths[::-1], body.grid.y))
+    return heights, np.append(rows_below[::-1], number + rows)

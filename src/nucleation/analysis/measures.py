@@ -18,11 +18,15 @@ SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
 SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
+EDGES = ("usual", "high", "low")
+INSTANTS = ("start", "steepest", "end")
 BY_DEFINITION = {
     f"length_{edge}_{instant}": Variable(
-        "m", f"patch length at the {instant} of the drop, its edge at the {edge} slip rate", "L"
+        "m",
+        f"patch length at the {instant} of the drop, its edge at the {edge} slip rate",
+        "L",
     )
-    for edge, instant in itertools.product(("usual", "high", "low"), ("start", "steepest", "end"))
+    for edge, instant in itertools.product(EDGES, INSTANTS)
 }
 """The length by every definition of the patch's edge and of the instant."""
 
@@ -106,8 +110,8 @@ def _acceleration_time(
     slower = np.flatnonzero(rates[:hundred] < 10.0 * record.velocity)
     if not slower.size:
         return math.nan
-    steps = record.step_time
-    return float(steps[start + hundred] - steps[start + slower[-1]])
+    time = record.step_time[start:]
+    return float(time[hundred] - time[slower[-1]])
 
 
 def _patch(record: Record) -> dict[str, float]:
@@ -127,11 +131,13 @@ def _patch(record: Record) -> dict[str, float]:
     stress = record.simulation["shear_stress"].values[until]
     normal = record.simulation["normal_stress"].values[until]
     inside = x <= length[until, None]
-    medians = np.array([np.median(np.abs(rate[i][inside[i]])) for i in developed])
+    medians = np.array([np.median(np.abs(rate[i, inside[i]])) for i in developed])
     first = developed[0]
-    speed = (length[at] - length[first]) / (times[at] - times[first])
+    growth = length[at] - length[first]
+    speed = growth / (times[at] - times[first])
     good = _state_rate_well_approximated(rate, state, friction)
-    weight = np.gradient(times[until])[:, None] * np.ones_like(rate)
+    duration = np.gradient(times[until])
+    weight = duration[:, None] * np.ones_like(rate)
     regular = np.abs(rate[at]) > 10.0 * friction.regularisation_slip_rate
     return found | {
         "growth_time": float(length[at] / speed) if speed > 0.0 else math.inf,

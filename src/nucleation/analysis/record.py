@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
-from ..simulation.event import WINDOW, PatchBursts, long_after
+from ..simulation.event import WINDOW, Burst, PatchBursts, long_after
 from ..simulation.patch import patch_lengths
 from ..simulation.remarks import fastest_elsewhere
 from ..types import Array
@@ -122,7 +122,7 @@ class Record:
         return self.step_time > long_after(self.parameters, self.x, self.time, rates)
 
     @property
-    def fastest_elsewhere(self) -> tuple[float, float, float] | None:
+    def fastest_elsewhere(self) -> Burst | None:
         """Time (s), slip rate (m/s) and position (m) of the fastest burst outside the patch.
 
         None if all fast slip, up to the onset of an event, belongs to the patch.

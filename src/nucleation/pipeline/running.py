@@ -7,11 +7,11 @@ from typing import Any
 
 import xarray as xr
 
-from ..simulation.progress import Progress
 from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
+from ..simulation.progress import Progress
 from ..simulation.run import simulate
 from . import code
 from .recipes import PartFailed, Recipe

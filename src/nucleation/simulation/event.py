@@ -100,6 +100,10 @@ def long_after(
     return float(times[first - 1 : first + 1].mean())
 
 
+Burst = tuple[float, float, float]
+"""Time (s), largest slip rate (m/s) and its position (m)."""
+
+
 class PatchBursts:
     """Detects from step to step whether the patch slips fast.
 

@@ -42,7 +42,8 @@ def slipping_edge(
     rate = np.maximum(np.abs(slip_rate), STUCK, dtype=float)  # in double precision
     near = int(np.searchsorted(x, NEAR * x[-1], side="right"))
     faster = rate[..., :near] > threshold
-    inside = near - 1 - faster[..., ::-1].argmax(axis=-1)
+    from_far = faster[..., ::-1]
+    inside = near - 1 - from_far.argmax(axis=-1)
     outside = np.minimum(inside + 1, x.size - 1)
     edge = _between(x, rate, inside, outside, threshold)
     return np.where(faster.any(axis=-1), edge, 0.0)
@@ -62,14 +63,17 @@ def _between(
     """
 
     def log_rate(nodes: NDArray[np.intp]) -> Array:
-        return np.log(np.take_along_axis(rate, nodes[..., None], -1)[..., 0])
+        chosen = np.take_along_axis(rate, nodes[..., None], -1)
+        return np.log(chosen[..., 0])
 
     edge = np.log(threshold)
     faster = log_rate(inside)
     slower = log_rate(outside)
     passes = (slower < edge) & (edge < faster)
-    part = (faster - edge) / np.where(passes, faster - slower, np.inf)
-    return x[inside] + part * (x[outside] - x[inside])
+    fall = np.where(passes, faster - slower, np.inf)
+    part = (faster - edge) / fall
+    distance = x[outside] - x[inside]
+    return x[inside] + part * distance
 
 
 def slipping_zone(
@@ -113,8 +117,8 @@ def slipping_zone(
         outer = np.flatnonzero(rate[fastest::step] < threshold)
         if not outer.size:
             return float(x[::step][-1])
-        outside = fastest + step * int(outer[0])
-        return float(_between(x, rate, np.array(outside - step), np.array(outside), threshold))
+        outside = np.array(fastest + step * outer[0])
+        return float(_between(x, rate, outside - step, outside, threshold))
 
     return end(-1), end(1)
 

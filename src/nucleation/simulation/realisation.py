@@ -64,7 +64,8 @@ def _uniform(
     number: int,
 ) -> Array:
     """Numbers in (0, 1), one for each 64 random bits."""
-    generator = np.random.Philox(counter=[0, row, stream, 0], key=[seed, 0])
+    counter = [0, row, stream, 0]
+    generator = np.random.Philox(counter=counter, key=[seed, 0])
     bits = generator.random_raw(number) >> np.uint64(12)  # 52 bits, so that 1 is not reached
     return (bits.astype(np.float64) + 0.5) * 2.0**-52
 
@@ -120,10 +121,12 @@ def correlation(lag: ArrayLike, scale: float) -> Array:
     -------
     ndarray, shape of `lag`
     """
-    u = np.abs(np.asarray(lag, dtype=float)) / (MEAN_SQUARE * scale)
-    binomial = (1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)
-    septic = sum(c * np.maximum(4.0 - u - k, 0.0) ** 7 for k, c in enumerate(binomial))
-    return np.asarray(septic) / (5040.0 * MEAN_SQUARE)
+    spacing = MEAN_SQUARE * scale
+    u = np.abs(np.asarray(lag, dtype=float)) / spacing
+    septic = np.zeros_like(u)
+    for k, binomial in enumerate((1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)):
+        septic = septic + binomial * np.maximum(4.0 - u - k, 0.0) ** 7
+    return septic / (5040.0 * MEAN_SQUARE)
 
 
 def spectral_density(omega: ArrayLike, correlation: float) -> Array:
@@ -141,7 +144,8 @@ def spectral_density(omega: ArrayLike, correlation: float) -> Array:
     ndarray, shape of `omega`
         In s, or in m.
     """
-    half = 0.5 * MEAN_SQUARE * correlation * np.asarray(omega, dtype=float)
+    half_spacing = 0.5 * MEAN_SQUARE * correlation
+    half = half_spacing * np.asarray(omega, dtype=float)
     return correlation * np.sinc(half / np.pi) ** 8
 
 
@@ -199,7 +203,8 @@ class Series:
 
     def _primitive(self, time: float) -> float:
         first, u = _place(self._position(time))
-        return float(_spline_integral(u) @ self._used(first) + self._before[first])
+        own = _spline_integral(u) @ self._used(first)
+        return float(own + self._before[first])
 
     def _used(self, first: int) -> Array:
         """The four coefficients from an index on."""
@@ -229,7 +234,8 @@ class _Positions:
 
     def values(self, coefficients: Array) -> Array:
         """The series at all positions, for :attr:`number` coefficients."""
-        used = coefficients[self._first[None] + np.arange(4)[:, None]]
+        indices = self._first[None] + np.arange(4)[:, None]
+        used = coefficients[indices]
         return (self._weights * used).sum(axis=0)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..model.parameters import Parameters
 from ..types import Array
-from .event import FAST, FEW, PatchBursts, where_patch_is_sought
+from .event import FAST, FEW, Burst, PatchBursts, where_patch_is_sought
 
 RESOLVED = 1.25
 """Smallest width of a resolved front, in elements.
@@ -54,7 +54,7 @@ def fastest_elsewhere(
     rates: Array,
     positions: Array,
     until: float,
-) -> tuple[float, float, float] | None:
+) -> Burst | None:
     """Find the fastest slip outside the patch before a given time.
 
     Parameters
@@ -68,18 +68,17 @@ def fastest_elsewhere(
 
     Returns
     -------
-    tuple or None
-        Its time (s), slip rate (m/s) and position (m); None if only the patch slips fast.
+    Burst or None
+        None if only the patch slips fast.
     """
     bursts = PatchBursts(parameters)
-    steps = zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True)
+    steps = list(zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True))
     own = np.array([bursts.at(*step) for step in steps], dtype=bool)
     fast = rates > FAST * parameters.loading.velocity
-    elsewhere = np.where(fast & ~own & (times < until), rates, 0.0)
-    if not elsewhere.any():
+    counts = fast & ~own & (times < until)
+    if not counts.any():
         return None
-    at = int(elsewhere.argmax())
-    return float(times[at]), float(rates[at]), float(positions[at])
+    return steps[int(np.where(counts, rates, 0.0).argmax())]
 
 
 def of_front(width: float) -> list[str]:
@@ -89,7 +88,7 @@ def of_front(width: float) -> list[str]:
     return [f"not resolved: at the onset the front is {width:.1f} elements wide"]
 
 
-def of_slip_elsewhere(found: tuple[float, float, float] | None) -> list[str]:
+def of_slip_elsewhere(found: Burst | None) -> list[str]:
     """Remark on fast slip outside the patch, as :func:`fastest_elsewhere` finds it."""
     if found is None:
         return []

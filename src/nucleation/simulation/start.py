@@ -42,15 +42,16 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
         response = _relaxed(dynamics, loading, operator, load, response)
     balance = operator.balance(response, response.w)
     slip_rate = body.on_all_nodes(np.zeros(body.free_nodes), imposed.velocity)
-    log_state = np.full(dynamics.grid.n_x + 1, float(np.log(loading.initial_state)))
+    log_state = np.full_like(slip_rate, np.log(loading.initial_state))
     motion = body.at_rest(balance.displacement, imposed.velocity)
     state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
     normal = response.normal + dynamics.interface.extra_normal
     # at rest no friction acts on the driven edge's own node
     tangential = body.on_all_nodes(response.tangential, 0.0)
     interface = InterfaceSolution(slip_rate, log_state, tangential, normal, response.w, 0)
-    force = float(tangential[dynamics.grid.own].sum()) - dynamics.frame_inertia(imposed)
-    return state, StepReport(interface, force, 0.0)
+    friction = float(tangential[dynamics.grid.own].sum())
+    force = friction - dynamics.frame_inertia(imposed)
+    return state, StepReport(interface, force, error=0.0)
 
 
 def _in_uniform_shear(
@@ -62,10 +63,11 @@ def _in_uniform_shear(
 ) -> Response:
     """The response after the slip with which all nodes bear the initial shear stress."""
     n = dynamics.body.free_nodes
+    nodes = np.arange(1, n + 1)
+    stiffness, _ = operator.tangent(nodes)
     forces = -loading.initial_shear_stress * dynamics.grid.nodal_lengths[-n:]
-    stiffness, _ = operator.tangent(np.arange(1, n + 1))
-    slipped = np.linalg.solve(stiffness, forces - response.tangential)
-    return operator.respond(load, slipped)
+    slip = np.linalg.solve(stiffness, forces - response.tangential)
+    return operator.respond(load, slip)
 
 
 def _relaxed(
@@ -82,7 +84,8 @@ def _relaxed(
     n = dynamics.body.free_nodes
     friction = dynamics.interface.friction
     of_law = friction.coefficient(loading.velocity, loading.initial_state)
-    coefficient = np.broadcast_to(of_law, dynamics.grid.n_x + 1)[-n:]
+    on_all_nodes = np.broadcast_to(of_law, dynamics.grid.n_x + 1)
+    coefficient = on_all_nodes[-n:]
 
     def normal_forces(now: Response) -> Array:
         return (now.normal + dynamics.interface.extra_normal)[-n:]
@@ -98,7 +101,8 @@ def _relaxed(
         nodes = np.flatnonzero(slipped)
         stiffness, coupling = operator.tangent(nodes + 1)
         signed = (direction * coefficient)[nodes]
-        excess = signed * normal_forces(response)[nodes] - response.tangential[nodes]
+        strength = signed * normal_forces(response)[nodes]
+        excess = strength - response.tangential[nodes]
         matrix = stiffness - signed[:, None] * coupling
         w = response.w.copy()
         w[nodes] += np.linalg.solve(matrix, excess)
