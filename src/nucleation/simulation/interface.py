@@ -33,6 +33,8 @@ ROUNDING = 1e-14  # relative, of displacements
 DESCENTS = 6  # of Newton's method for one node alone, from at most twice the load to be balanced
 LARGEST_ASINH = 700.0
 UNCHANGED = 1e-3  # change of a slip rate that friction does not see, in units of the tolerance
+MOST_ITERATIONS = 8  # of Newton's method
+MOST_ITERATIONS_FROM_REST = 50
 ACTIVE = 1e-4  # a node is coupled to its neighbours above this ratio of elastic to frictional slope
 
 
@@ -148,8 +150,6 @@ class Interface:
 
     friction: Friction  # its parameters may be arrays over the nodes 0..n_x
     tolerance: float = 1e-8  # of the residual, in units of the slip rate's relative change
-    most_iterations: int = 8
-    most_iterations_from_rest: int = 50
     extra_normal: Array | float = 0.0  # N/m, on the nodes 0..n_x in addition to the body's
 
     def solve(
@@ -180,7 +180,7 @@ class Interface:
         strength = 1.0 if imposed.strength is None else imposed.strength
         elastic = beta * operator.diagonal
         rounding = ROUNDING * passes.largest_size(past.w) / beta  # of v = (w - past.w) / beta
-        most = self.most_iterations_from_rest if past.at_rest else self.most_iterations
+        most = MOST_ITERATIONS_FROM_REST if past.at_rest else MOST_ITERATIONS
         v, w = guess, response.w
         p = response.tangential
         normal = response.normal + self.extra_normal

@@ -102,23 +102,6 @@ class Formula:
         return np.asarray(self.past[:used]) @ values[:used]
 
 
-def beta_of_step(step: float, previous_step: float) -> float:
-    """Leading coefficient of a BDF2 step.
-
-    Parameters
-    ----------
-    step, previous_step : float
-        Length of the step and of the one before (s).
-
-    Returns
-    -------
-    float
-        In s.
-    """
-    r = step / previous_step
-    return step * (1 + r) / (1 + 2 * r)
-
-
 def extrapolation_weights(time: float, past: Array) -> Array:
     """Lagrange weights that extrapolate past values.
 
@@ -174,11 +157,6 @@ def error_factor(formula: Formula, past: Array) -> float:
 def rung_below(beta: float) -> int:
     """The largest rung of the ladder ``2^(n / RUNGS_PER_OCTAVE)`` seconds not above `beta`."""
     return math.floor(RUNGS_PER_OCTAVE * math.log2(beta) + 1e-9)
-
-
-def rung_nearest(beta: float) -> int:
-    """The rung with the value nearest to `beta` (s)."""
-    return round(RUNGS_PER_OCTAVE * math.log2(beta))
 
 
 def rung_value(rung: int) -> float:
@@ -282,7 +260,7 @@ class BDF:
         step: float,
         previous_step: float,
     ) -> float:
-        """Leading coefficient of a step, see :func:`beta_of_step`.
+        """Leading coefficient of a BDF2 step.
 
         Parameters
         ----------
@@ -294,29 +272,12 @@ class BDF:
         float
             In s.
         """
-        return beta_of_step(step, previous_step)
-
-    def rung(
-        self,
-        step: float,
-        previous_step: float,
-    ) -> int:
-        """The rung of a step that has been made.
-
-        Parameters
-        ----------
-        step, previous_step : float
-            Length of the step and of the one before (s).
-
-        Returns
-        -------
-        int
-        """
-        return rung_nearest(beta_of_step(step, previous_step))
+        r = step / previous_step
+        return step * (1 + r) / (1 + 2 * r)
 
     def steady_rung(self, step: float) -> int:
         """The largest rung on which steps of one length are no longer than `step` (s)."""
-        return rung_below(beta_of_step(step, step))
+        return rung_below(self.coefficient(step, step))
 
     def steady_step(self, rung: int) -> float:
         """Length (s) of the steps that stay on a rung: 3/2 of its beta."""
