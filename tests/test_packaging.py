@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from nucleation.datasets import installed
+from nucleation import installed
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"

@@ -7,8 +7,9 @@ import pytest
 import square_evolution
 from configurations import messages, papers, study
 
-from nucleation.configuration.advice import advise, element_sizes
+from nucleation.configuration.advice import advise
 from nucleation.configuration.load import configure
+from nucleation.configuration.mesh_advice import element_sizes
 from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
@@ -125,13 +126,13 @@ WARNED = {
     "steps' noise": (
         {"height": 0.02, "n_x": 1600, "perturbation": "drive_velocity", "strength": 1e-5},
         "strength = 1e-05 while the front passes 4.6 % of an element in the longest step, which "
-        "shakes the patch as much; recommended is longest_step = 0.09 or less",
+        "perturbs the patch as much; recommended is longest_step = 0.09 or less",
     ),
     "roughness": (
         GOOD | {"perturbation": "state", "strength": 1e-3, "correlation_length": 0.01},
         "roughness not resolved (s-aging-H0.005-phi1-n_x400-perturbationstate-"
         "correlation_length0.01-strength0.001): correlation_length = 0.01 m has 2.8 elements of "
-        "0.00352 m, which sample some other roughness; recommended is n_x = 564 or more",
+        "0.00352 m, which represent another roughness; recommended is n_x = 564 or more",
     ),
 }
 

@@ -1,5 +1,5 @@
-# One rule draws each figure. What is drawn comes from datasets alone: a rule's inputs bear the names
-# of the parameters of the function that draws.
+# One rule draws each figure, from datasets alone. The names of a rule's inputs are the arguments of
+# the function that draws.
 rule draw_figure_1:
     """Figure 1: the two set-ups"""
     input:
@@ -219,7 +219,7 @@ rule draw_figure_weakening:
 
 
 rule draw_figure_map:
-    """Where the theory is right: a map over height and weakening"""
+    """Lengths over height and weakening: a map"""
     input:
         grid=f"{RESULTS}/map.nc",
         recipe=recipe("draw_figure_map"),
@@ -236,7 +236,7 @@ rule draw_figure_map:
     params:
         call="nucleation.figures.beyond.figure_map:draw",
     message:
-        "Where the theory is right: a map over height and weakening"
+        "Lengths over height and weakening: a map"
     shell:
         JOB
 
@@ -426,13 +426,16 @@ rule draw_figure_literature:
 
 
 def declarations(names):
-    """What parameters are, for the axes of a figure."""
-    found = {name: asdict(study_parameters()[name]) for name in names}
-    return {name: entry | {"choices": list(entry["choices"])} for name, entry in found.items()}
+    """Declarations of parameters, for the axes of a figure."""
+    found = {}
+    for name in names:
+        entry = asdict(study_parameters()[name])
+        found[name] = entry | {"choices": list(entry["choices"])}
+    return found
 
 
 rule draw_study:
-    """A study: simulations and theory, by what it varies"""
+    """A study: simulations and theory over the varied parameters"""
     input:
         table=f"{RESULTS}/lengths/{{study}}.nc",
         recipe=recipe("draw_study"),
@@ -463,7 +466,7 @@ rule draw_study:
 
 
 rule film:
-    """A run once more, for the stress in its block"""
+    """One run again, for the stress in its block"""
     input:
         lengths=f"{RESULTS}/lengths.nc",
         after=lambda wildcards: batches([inset_run()]),
@@ -477,7 +480,7 @@ rule film:
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
     message:
-        "A run once more, for the stress in its block"
+        "One run again, for the stress in its block"
     shell:
         JOB
 

@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets.variables import Variable, annotate
-from ..fem.condensed import Body
+from ..fem.condensed import ElasticBody
 from ..fem.grid import Field, Grid
 from ..model.material import Material
 from ..simulation.recorded import RECORDED
@@ -154,7 +154,7 @@ def _thinned(indices: Indices, most: int) -> Indices:
 
 
 def shear_stress(
-    body: Body,
+    body: ElasticBody,
     state: State,
     materials: Sequence[Material],
 ) -> Array:
@@ -165,7 +165,7 @@ def shear_stress(
 
     Parameters
     ----------
-    body : Body
+    body : ElasticBody
         The body, or both of a pair.
     state : State
         State of the run.
@@ -196,7 +196,7 @@ def shear_stress(
     return np.concatenate([below[::-1], upper])
 
 
-def levels(body: Body) -> tuple[Array, Indices]:
+def levels(body: ElasticBody) -> tuple[Array, Indices]:
     """Heights y (m) of the nodes from the lowest to the highest, and the shown ones of them.
 
     With a second body, y = 0 appears twice; the second body's nodes come first.

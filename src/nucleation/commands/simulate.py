@@ -10,8 +10,7 @@ import click
 
 from ..configuration.advice import advise
 from ..configuration.runs import Run
-from ..configuration.settings import Limits, estimated_megabytes
-from ..configuration.studies import StudySettings
+from ..configuration.settings import Limits, StudySettings, estimated_megabytes
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS

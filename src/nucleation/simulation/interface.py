@@ -21,7 +21,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from scipy.linalg import lapack
 
-from ..fem.condensed import Condensed, Response
+from ..fem.condensed import Operator, Response
 from ..model.friction.law import Friction
 from ..types import Array
 from . import compiled_laws, passes
@@ -110,7 +110,7 @@ class Solver(Protocol):
 
     def solve(
         self,
-        operator: Condensed,
+        operator: Operator,
         response: Response,
         past: Past,
         imposed: Imposed,
@@ -120,7 +120,7 @@ class Solver(Protocol):
 
         Parameters
         ----------
-        operator : Condensed
+        operator : Operator
             The condensed body.
         response : Response
             Its forces at the predicted displacement.
@@ -154,7 +154,7 @@ class Interface:
 
     def solve(
         self,
-        operator: Condensed,
+        operator: Operator,
         response: Response,
         past: Past,
         imposed: Imposed,
@@ -258,7 +258,7 @@ class Interface:
 
 
 def _newton_direction(
-    operator: Condensed,
+    operator: Operator,
     coefficient: Array,
     residual: Array,
     damping: Array,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..fem.condensed import Body, Expectation, Operator
+from ..fem.condensed import ElasticBody, Expectation, Operator
 from ..fem.grid import Field, Motion
 from ..types import Array
 from . import passes
@@ -47,7 +47,7 @@ class Dynamics:
 
     Parameters
     ----------
-    body : Body
+    body : ElasticBody
         The elastic body, or the pair of bodies.
     interface : Solver
         The interface on which it slides.
@@ -59,7 +59,7 @@ class Dynamics:
 
     def __init__(
         self,
-        body: Body,
+        body: ElasticBody,
         interface: Solver,
         drive: Drive,
         scheme: BDF,
