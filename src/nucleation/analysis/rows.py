@@ -11,6 +11,8 @@ from ..datasets.variables import Variable
 from ..simulation.event import NEAR
 
 Row = dict[str, Any]
+LengthsRow = Mapping[str, Any]
+"""A row of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`)."""
 
 RATIOS = {
     "length_ratio": ("length", "theory_length"),
@@ -60,11 +62,8 @@ def ratios(columns: Mapping[Any, Any]) -> Row:
     return {name: columns[over] / columns[under] for name, (over, under) in RATIOS.items()}
 
 
-def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """Count the runs without an event, and give the reason for each in a line.
-
-    `rows` are those of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`).
-    """
+def without_event(rows: Iterable[LengthsRow]) -> list[str]:
+    """Count the runs without an event, and give the reason for each in a line."""
     rows = list(rows)
     quiet = [row for row in rows if not math.isfinite(row["onset_time"])]
     if not quiet:
@@ -73,11 +72,8 @@ def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
 
 
-def remarked(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """A line for each run with remarks in its status: reasons to doubt its event.
-
-    `rows` are those of a table of lengths.
-    """
+def remarked(rows: Iterable[LengthsRow]) -> list[str]:
+    """A line for each run with remarks in its status: reasons to doubt its event."""
     lines = []
     for row in rows:
         ended, *remarks = str(row["status"]).split("; ")
@@ -86,8 +82,8 @@ def remarked(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return lines
 
 
-def why(row: Mapping[str, Any]) -> str:
-    """Why a run had no event, as far as its row of the table of lengths shows."""
+def why(row: LengthsRow) -> str:
+    """Why a run had no event, as far as its row shows."""
     status = str(row["status"])
     if not status.startswith("completed"):
         return status

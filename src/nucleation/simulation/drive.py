@@ -99,10 +99,16 @@ class _Remote:
 
     def at(self, time: float) -> Imposed:
         imposed = self.near.at(time)
-        return dataclasses.replace(imposed, displacement=0.0, velocity=0.0, acceleration=0.0)
+        return dataclasses.replace(
+            imposed,
+            displacement=0.0,
+            velocity=0.0,
+            acceleration=0.0,
+        )
 
     def load(self, time: float) -> Field:
-        risen = self.rising.times(self.near.at(time).displacement)
+        displacement = self.near.at(time).displacement
+        risen = self.rising.times(displacement)
         return self.near.load(time).plus(self.start).plus(risen)
 
     def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
@@ -126,12 +132,14 @@ class _FluctuatingVelocity(_InTime):
     """An edge that moves at ``V [1 + eps xi(t)]``."""
 
     def at(self, time: float) -> Imposed:
-        size, series = self.strength, self.series
+        size = self.strength
+        ahead = size * self.series.integral(time)
+        faster = size * self.series.value(time)
         return Imposed(
             time,
-            displacement=self.velocity * (time + size * series.integral(time)),
-            velocity=self.velocity * (1.0 + size * series.value(time)),
-            acceleration=self.velocity * size * series.slope(time),
+            displacement=self.velocity * (time + ahead),
+            velocity=self.velocity * (1.0 + faster),
+            acceleration=self.velocity * size * self.series.slope(time),
         )
 
 
@@ -140,7 +148,8 @@ class _FluctuatingLoad(_InTime):
     """A stress ``sigma0 [1 + eps xi(t)]`` on the top."""
 
     def load(self, time: float) -> Field:
-        return self.constant_load.times(1.0 + self.strength * self.series.value(time))
+        larger = self.strength * self.series.value(time)
+        return self.constant_load.times(1.0 + larger)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -228,6 +237,8 @@ def _near_drive(parameters: Parameters, body: _LoadedBody) -> Steady:
     if declared.kind == "normal_load":
         return _FluctuatingLoad(velocity, load, strength, Series(seed, time))
     if declared.kind == "strength":
-        return UnevenStrength(velocity, load, strength, profile(seed, length, body.grid.x))
+        uneven = profile(seed, length, body.grid.x)
+        return UnevenStrength(velocity, load, strength, uneven)
+    rate = 1.0 / parameters.memory_time
     sheet = Sheet(seed, time, length, body.grid.x)
-    return _ForcedState(velocity, load, strength, 1.0 / parameters.memory_time, sheet)
+    return _ForcedState(velocity, load, strength, rate, sheet)

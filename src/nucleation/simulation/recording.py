@@ -104,16 +104,15 @@ class Recorder:
         fastest = float(abs(interface.slip_rate[node]))
         position = float(self.grid.x[node])
         self._time = state.time
-        self._rows.append(
-            (
-                state.time,
-                report.driving_force,
-                fastest,
-                position,
-                state.last_step,
-                interface.iterations,
-            )
+        row = (
+            state.time,
+            report.driving_force,
+            fastest,
+            position,
+            state.last_step,
+            interface.iterations,
         )
+        self._rows.append(row)
         fast = self._bursts.at(state.time, fastest, position)
         dropped = self._watch.dropped(state.time, abs(report.driving_force), fast)
         if dropped and np.isinf(self._event_time):
@@ -128,7 +127,8 @@ class Recorder:
         onset = self._watch.since
         times = np.array(self._frame_times)
         rates = np.array([fields[0] for fields in self._frames])
-        if onset > long_after(self.parameters, self.grid.x, times, rates):
+        long_enough = long_after(self.parameters, self.grid.x, times, rates)
+        if onset > long_enough:
             self._event_time = self._time
             self._onset_time = onset
         else:
@@ -186,7 +186,8 @@ class Recorder:
         self._last_scaled = np.arcsinh(interface.slip_rate / self._velocity)
         self._last_frame_step = len(self._rows)
         self._frame_times.append(state.time)
-        self._frames.append(np.array([values[name] for name in self._fields]))
+        recorded = [values[name] for name in self._fields]
+        self._frames.append(np.array(recorded))
 
     def _maybe_snapshot(
         self,
@@ -208,7 +209,13 @@ class Recorder:
         edge = self._drive.at(state.time)
         x, y = self._body.nodal_values(state.displacement)
         rate_x, rate_y = self._body.nodal_values(state.velocity)
-        return np.array([x + edge.displacement, y, rate_x + edge.velocity, rate_y])
+        fields = [
+            x + edge.displacement,
+            y,
+            rate_x + edge.velocity,
+            rate_y,
+        ]
+        return np.array(fields)
 
     def _bulk_below(self, state: State) -> Array:
         """The same in a second body, its levels from the interface down."""
@@ -228,13 +235,21 @@ class Recorder:
             "snapshots_below": np.array(self._snapshots_below),
             "next_snapshot_rate": np.array(self._next_snapshot_rate),
             "watched": self._watch.maxima,
-            "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
+            "event_times": np.array(
+                [
+                    self._event_time,
+                    self._onset_time,
+                    self._short_drop_time,
+                ]
+            ),
             "own_burst": np.array(self._bursts.own),
         }
 
     def restore(self, arrays: Mapping[str, Array]) -> None:
         """The inverse of :meth:`to_arrays`, on a recorder of the same parameters."""
-        self._rows = [(*row[:5], int(row[5])) for row in arrays["rows"].tolist()]
+        self._rows = []
+        for *values, iterations in arrays["rows"].tolist():
+            self._rows.append((*values, int(iterations)))
         self._frame_times = arrays["frame_times"].tolist()
         self._frames = list(arrays["frames"])
         self._last_scaled = np.arcsinh(self._frames[-1][0] / self._velocity)
@@ -254,7 +269,8 @@ class Recorder:
 
     def _dataset(self) -> xr.Dataset:
         data: dict[str, tuple[Sequence[str], Array]] = {}
-        for name, values in zip(PER_STEP, zip(*self._rows, strict=True), strict=True):
+        per_step = zip(*self._rows, strict=True)
+        for name, values in zip(PER_STEP, per_step, strict=True):
             data[name] = ("step",), np.array(values)
         frames = np.array(self._frames)
         for i, name in enumerate(self._fields):

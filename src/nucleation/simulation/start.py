@@ -43,13 +43,23 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     balance = operator.balance(response, response.w)
     slip_rate = body.on_all_nodes(np.zeros(body.free_nodes), imposed.velocity)
     log_state = np.full_like(slip_rate, np.log(loading.initial_state))
-    motion = body.at_rest(balance.displacement, imposed.velocity)
-    state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
-    normal = response.normal + dynamics.interface.extra_normal
-    # at rest no friction acts on the driven edge's own node
-    tangential = body.on_all_nodes(response.tangential, 0.0)
-    interface = InterfaceSolution(slip_rate, log_state, tangential, normal, response.w, 0)
-    friction = float(tangential[dynamics.grid.own].sum())
+    state = State.beginning(
+        body.at_rest(balance.displacement, imposed.velocity),
+        slip_rate,
+        log_state,
+        response.w,
+        balance.memory,
+    )
+    interface = InterfaceSolution(
+        slip_rate,
+        log_state,
+        # at rest no friction acts on the driven edge's own node
+        tangential=body.on_all_nodes(response.tangential, 0.0),
+        normal=response.normal + dynamics.interface.extra_normal,
+        w=response.w,
+        iterations=0,
+    )
+    friction = float(interface.tangential[dynamics.grid.own].sum())
     force = friction - dynamics.frame_inertia(imposed)
     return state, StepReport(interface, force, error=0.0)
 
