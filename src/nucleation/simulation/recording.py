@@ -1,4 +1,4 @@
-"""Recording a run: interface fields at adaptive times, the drive at every step, bulk snapshots."""
+"""Recording a run: interface fields at adaptive times, and the drive at every step."""
 
 from collections.abc import Mapping, Sequence
 
@@ -12,13 +12,13 @@ from ..types import Array, Arrays
 from . import passes, remarks
 from .event import WINDOW, DropWatch, PatchBursts, long_after
 from .recorded import RECORDED
+from .snapshots import Snapshots
 from .state import State
 from .step import Dynamics, StepReport
 
 LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
 FRAME_STEPS = 40  # largest number of steps between frames
-SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
 
 FOR_LENGTHS = ("slip_rate", "state", "normal_stress")
 """Fields from which patch, edge and the frozen patch's stability are computed."""
@@ -32,7 +32,6 @@ PER_STEP = (
     "fastest_position",
     *ONLY_IN_FULL,
 )
-BULK = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
 
 
 class Recorder:
@@ -64,10 +63,7 @@ class Recorder:
         self._frames: list[Array] = []  # of the fields
         self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
-        self._snapshot_times: list[float] = []
-        self._snapshots: list[Array] = []  # of BULK
-        self._snapshots_below: list[Array] = []  # at the same times, on a second body
-        self._next_snapshot_rate = 0
+        self._snapshots = Snapshots(dynamics)
         window = WINDOW * parameters.memory_time
         self._watch = DropWatch(window, parameters.stepping.event_drop)
         self._bursts = PatchBursts(parameters)
@@ -120,7 +116,7 @@ class Recorder:
         if self._frame_is_due(state.time, interface.slip_rate):
             self._take_frame(state, report)
         if self._level.covers("everything"):
-            self._maybe_snapshot(state, fastest)
+            self._snapshots.take(state, fastest)
 
     def _take_in_drop(self) -> None:
         """A drop of the force is the event if the patch was long enough when it began."""
@@ -189,40 +185,6 @@ class Recorder:
         recorded = [values[name] for name in self._fields]
         self._frames.append(np.array(recorded))
 
-    def _maybe_snapshot(
-        self,
-        state: State,
-        fastest: float,
-    ) -> None:
-        rates = SNAPSHOT_RATES[self._next_snapshot_rate :]
-        exceeded = sum(fastest > rate * self._velocity for rate in rates)
-        if self._snapshots and not exceeded:
-            return
-        self._next_snapshot_rate += exceeded
-        self._snapshot_times.append(state.time)
-        self._snapshots.append(self._bulk(state))
-        if self._body.grid_below is not None:
-            self._snapshots_below.append(self._bulk_below(state))
-
-    def _bulk(self, state: State) -> Array:
-        """Displacement and velocity at the nodes, shape (4, n_y + 1, n_x + 1)."""
-        edge = self._drive.at(state.time)
-        x, y = self._body.nodal_values(state.displacement)
-        rate_x, rate_y = self._body.nodal_values(state.velocity)
-        fields = [
-            x + edge.displacement,
-            y,
-            rate_x + edge.velocity,
-            rate_y,
-        ]
-        return np.array(fields)
-
-    def _bulk_below(self, state: State) -> Array:
-        """The same in a second body, its levels from the interface down."""
-        x, y = self._body.nodal_values_below(state.displacement)
-        rate_x, rate_y = self._body.nodal_values_below(state.velocity)
-        return np.array([x, y, rate_x, rate_y])
-
     def to_arrays(self) -> Arrays:
         """The exact record as plain arrays by name, to be stored."""
         return {
@@ -230,10 +192,7 @@ class Recorder:
             "frame_times": np.array(self._frame_times),
             "frames": np.array(self._frames),
             "last_frame_step": np.array(self._last_frame_step),
-            "snapshot_times": np.array(self._snapshot_times),
-            "snapshots": np.array(self._snapshots),
-            "snapshots_below": np.array(self._snapshots_below),
-            "next_snapshot_rate": np.array(self._next_snapshot_rate),
+            **self._snapshots.to_arrays(),
             "watched": self._watch.maxima,
             "event_times": np.array(
                 [
@@ -254,10 +213,7 @@ class Recorder:
         self._frames = list(arrays["frames"])
         self._last_scaled = np.arcsinh(self._frames[-1][0] / self._velocity)
         self._last_frame_step = int(arrays["last_frame_step"])
-        self._snapshot_times = arrays["snapshot_times"].tolist()
-        self._snapshots = list(arrays["snapshots"])
-        self._snapshots_below = list(arrays["snapshots_below"])
-        self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
+        self._snapshots.restore(arrays)
         self._watch.maxima = arrays["watched"]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
@@ -287,7 +243,7 @@ class Recorder:
         if realised is not None:
             dataset["perturbation"] = realised
         if self._level.covers("everything"):
-            return dataset.assign(self._bodies())
+            return dataset.assign(self._snapshots.dataset())
         return dataset
 
     def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:
@@ -300,18 +256,3 @@ class Recorder:
         for name in FOR_LENGTHS:
             reduced[name] = dataset[name].where(slips, 0.0).astype(np.float32)
         return reduced
-
-    def _bodies(self) -> xr.Dataset:
-        """The snapshots of the bodies."""
-        bodies = xr.Dataset(coords={"y": self.grid.y, "x": self.grid.x})
-        bodies["snapshot_time"] = "snapshot", self._snapshot_times
-        bulk = np.array(self._snapshots)
-        for i, name in enumerate(BULK):
-            bodies[name] = ("snapshot", "y", "x"), bulk[:, i]
-        below = self._body.grid_below
-        if below is not None:
-            bodies = bodies.assign_coords(second_y=-below.y)
-            bulk_below = np.array(self._snapshots_below)
-            for i, name in enumerate(BULK):
-                bodies[f"second_{name}"] = ("snapshot", "second_y", "x"), bulk_below[:, i]
-        return bodies
