@@ -76,7 +76,7 @@ class Checkpoint:
             fingerprint = str(arrays.pop("fingerprint"))
             content = str(arrays.pop("content"))
             if content != _digest(arrays):
-                raise ValueError("its content is not what was stored")
+                raise ValueError("its content has changed since it was stored")
         except Exception as error:  # damaged bytes make the archive's reader raise all sorts
             self._report(f"{self.path} is damaged ({error}): the run starts at the beginning")
             return None

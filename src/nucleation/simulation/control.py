@@ -63,7 +63,7 @@ def accepted_step(
     control: Control,
     longest: float,
 ) -> Instant:
-    """Make the next step whose error is within the tolerance.
+    """Make the next step, so short that its error is within the tolerance.
 
     Parameters
     ----------

@@ -191,7 +191,7 @@ class _LoadedBody(Protocol):
 
     @property
     def grid(self) -> Grid:
-        """The mesh, whose lowest nodes are those of the interface."""
+        """The mesh; its lowest nodes are those of the interface."""
 
     @property
     def top_load(self) -> Callable[..., Field]:

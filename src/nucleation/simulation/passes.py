@@ -178,7 +178,7 @@ def updated(
 ):
     """``v + change`` (m/s), but a slip rate that shrinks does so in asinh(v / v0).
 
-    Friction is concave in v > 0: from above, Newton's method goes far beyond the root. Both
+    Friction is concave in v > 0: from above, Newton's method overshoots the root by far. Both
     forms agree to first order in the change, so that convergence stays quadratic.
 
     Parameters

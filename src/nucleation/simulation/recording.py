@@ -69,7 +69,7 @@ class Recorder:
         self._bursts = PatchBursts(parameters)
         self._event_time = np.inf
         self._onset_time = np.inf
-        self._short_drop_time = np.inf  # of the first drop whose patch was too short
+        self._short_drop_time = np.inf  # of the first drop with too short a patch
         self._time = 0.0
 
     @property
