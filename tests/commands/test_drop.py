@@ -1,9 +1,11 @@
 """``nucleation drop``: what it asks of the law, what it prints of the answer, what it refuses."""
 
 import json
+import math
 
 import pytest
 
+from nucleation.api import critical_length, stability_length
 from nucleation.model.linearised import interface_state
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch import expected_drop as module
@@ -73,6 +75,7 @@ def test_text(nucleation, law):
 def test_json(nucleation, law):
     found = json.loads(nucleation(*WORDS, "--json").out)
     assert found["stability_length"] == 0.25
+    assert (found["status"], found["reason"]) == ("value", "")
     assert found["drop"]["length"] == 0.32 and found["closed_form"]["effective"] == 1e-5
     assert found["trusted"] is True and found["doubt"] == ""
     assert found["perturbation"]["kind"] == "normal_load"
@@ -86,12 +89,75 @@ def test_a_stable_fault_is_told_with_its_system(nucleation, law):
     ended = nucleation(*WORDS, "--zeta", "-0.001", "--json")
     found = json.loads(ended.out)
     assert ended.code == 3 and found["theory"]["critical_length"] is None
-    assert "sliding is stable" in found["unknown"] and "v0" not in found["unknown"]
+    assert "sliding is stable" in found["reason"] and "v0" not in found["reason"]
+    assert found["status"] == "stable"
 
 
 @pytest.mark.parametrize("words", [(), ("--json",)])
 def test_a_fault_that_the_law_does_not_reach(nucleation, law, words):
-    law.answer = NoDrop("no mode grows")
+    law.answer = NoDrop("no patch up to 3 L_c has a growing mode", "beyond")
     ended = nucleation(*WORDS, *words)
     assert ended.code == 4
-    assert "no mode grows" in ended.out
+    assert "no patch up to 3 L_c has a growing mode" in ended.out
+    assert ('"status": "beyond"' in ended.out) == bool(words)
+
+
+def test_it_answers_in_any_directory(nucleation, law, monkeypatch):
+    """Nothing is written, so it does not matter whether a run could write its results there."""
+    monkeypatch.chdir("/")
+    assert nucleation(*WORDS).code == 0
+
+
+@pytest.mark.slow
+def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_path):
+    """Each draw is a fault of its own, with a block of its own length."""
+    from nucleation.patch import drop_quantiles
+
+    seen = []
+
+    def expected(parameters):
+        seen.append(parameters)
+        return law.answer
+
+    monkeypatch.setattr(drop_quantiles, "expected_drop", expected)
+    own = ("drop", "--strength", "1e-4", "--second-body", "rigid", "--draws", "20")
+    ended = nucleation(*own, "--height", "2cm (1 to 4)", "--json")
+    found = json.loads(ended.out)
+    heights = [parameters.geometry.height for parameters in seen]
+    assert ended.code == 0 and len(set(heights)) == 20 and 0.019 < sorted(heights)[10] < 0.022
+    lengths = [p.geometry.length / run_length(p, interface_state(p)) for p in seen]
+    assert lengths == pytest.approx([6.0] * 20, rel=1e-3)  # lengths are rounded
+    assert (found["draws"], found["invalid"], found["uncertain"]) == (20, 0, ["height"])
+    assert [one["key"] for one in found["lengths"]][-1] == "drop_length"
+    path = tmp_path / "heights.csv"
+    path.write_text("height (cm)\n1\n2\n4\n")
+    text = nucleation(*own, "--samples", path).out
+    assert "3 draws of height: 0 left out, 0 of the others stable" in text
+    assert "length at the drop L" in text
+    twice = nucleation(*WORDS, "--samples", path)
+    assert twice.code == 2 and "height is given twice" in twice.err
+
+
+@pytest.mark.parametrize("command", ["drop", "simulate"])
+def test_a_half_space_is_answered_with_a_block(nucleation, law, tmp_path, command):
+    """As an option and in a file."""
+    file = tmp_path / "fault.yaml"
+    file.write_text("height: .inf\n")
+    output = [tmp_path / "run.nc"] if command == "simulate" else []
+    for words in (["--height", "inf"], ["--parameters", file]):
+        ended = nucleation(command, *output, *words)
+        assert ended.code == 2 and "4 L_c in height and 30 L_c in length" in ended.err
+
+
+@pytest.mark.slow
+def test_such_a_block_has_the_patch_of_a_half_space():
+    """L_s of weak and strong weakening, between bodies alike, on stiffer and rigid ones."""
+    rock = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "friction": 0.6}
+    for zeta in (0.005, 0.023, 0.2):
+        for second in (30e9, 60e9, math.inf):
+            fault = rock | {"a": 0.01, "zeta": zeta, "slip_distance": 5e-6}
+            fault["second_shear_modulus"] = second
+            height = 4.0 * float(critical_length(**fault))
+            block = float(stability_length(**fault, height=height))
+            half_space = float(stability_length(**fault))
+            assert block == pytest.approx(half_space, rel=0.02)

@@ -58,6 +58,25 @@ def test_steepness_is_the_mean_weakening_along_the_slip(omega, square):
     assert steepness(Friction(), omega) == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.filterwarnings("error")
+def test_round_off_of_steady_sliding_is_no_age():
+    for evolution in ("aging", "slip"):
+        assert steepness(Friction(evolution=evolution), 1.0000000000000002) == 1.0
+
+
+@pytest.mark.parametrize(("change", "warned"), [(-0.5, True), (-2.0, False)])
+def test_a_patch_may_weaken_in_a_fault_that_strengthens(change, warned):
+    defaults = {
+        "length": 12.0, "n_x": 201, "n_y": 16, "grading": 64.0,
+        "loading": "remote", "stress_rate": 1e-3, "second_body": "deformable",
+        "law": "dieterich_ruina", "friction_coefficient": 0.4, "direct_effect": 0.0068,
+        "velocity_weakening": -0.0034, "end_time": 10.0,
+        "varies": "zeta", "shape": "step", "width": 1.2, "change": change,
+    }  # fmt: skip
+    given = advice({"height": 1.0}, defaults=defaults)
+    assert any("nothing will nucleate" in text for text in given) == warned
+
+
 @pytest.mark.parametrize("omega", [0.1, 1.0, 1.5, 20.0, 1e8])
 def test_steepness_of_the_laws_of_the_house(omega):
     """Aging weakens at b/D over any drop; the slip law's energy is b D times the drop."""

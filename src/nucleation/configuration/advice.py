@@ -71,11 +71,20 @@ def _others(ids: list[str]) -> str:
     return f" [also {named}{rest}]"
 
 
+def _has_weakening_patch(run: Run, zeta: float) -> bool:
+    """Whether zeta, which is declared for the surroundings, is positive on a patch of the fault."""
+    own = run.parameters.heterogeneity
+    return own.varies == "zeta" and zeta * (1.0 + own.change) > 0.0
+
+
 def _about(run: Run) -> Iterator[Advice]:
     """All warnings about a run."""
     yield from resolution(run)
     interface = interface_state(run.parameters)
-    if math.isnan(run.theory_length) or interface.zeta <= 0.0:
+    stable = math.isnan(run.theory_length)
+    if stable and _has_weakening_patch(run, interface.zeta):
+        return
+    if stable or interface.zeta <= 0.0:
         yield _no_nucleation(run, interface)
         return
     yield from _steps(run, interface)

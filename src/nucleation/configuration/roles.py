@@ -45,6 +45,7 @@ _INTERFACE = _Need("record", "lengths".__ne__, "interface or everything")
 _UNPERTURBED = _Need("perturbation", "none".__eq__, "none")
 _PAIR = _Need("second_body", "deformable".__eq__, "deformable")
 _REMOTE = _Need("loading", "remote".__eq__, "remote")
+_ZETA_VARIES = _Need("varies", "zeta".__eq__, "zeta")
 
 
 class _Role(NamedTuple):
@@ -97,6 +98,10 @@ ROLES = {
         "weak to strong weakening, for `figure_weakening`",
         several=True,
         one_by_one=False,
+    ),
+    "weakening_patches": _Role(
+        "weakening patches in a fault that strengthens, for `figure_weakening_patches`",
+        runs=(_REMOTE, _ZETA_VARIES),
     ),
     "map": _Role(
         "heights and weakenings, for `figure_map`",

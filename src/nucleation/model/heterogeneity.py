@@ -6,7 +6,8 @@
 So `width` is the width of the step, or of the bump at half its height. The properties are the
 normal stress at the interface, without the changes that slip causes; D; and f, a, b and
 zeta = b - a of sliding at V. For these the friction law's own parameters are determined at each
-node (``with_expansion``).
+node (``with_expansion``). With a change below -1, zeta has one sign within and the other one
+elsewhere: a weakening patch in surroundings that strengthen.
 """
 
 import copy
@@ -28,6 +29,7 @@ class Heterogeneity(Checked):
     ------
     ParameterError
         Also if a varying property has the change zero, or a change is given without a property.
+        Also if the change makes a positive property negative.
     """
 
     varies: str = quantity(
@@ -56,8 +58,9 @@ class Heterogeneity(Checked):
         default=0.1,
     )
     change: float = quantity(
-        "change of the property within, over its value elsewhere",
-        low=-1.0,
+        "change of the property within, over its value elsewhere; below -1 for zeta alone, which "
+        "changes its sign there",
+        low=-1e3,
         high=1e3,
         default=0.0,
     )
@@ -70,6 +73,11 @@ class Heterogeneity(Checked):
             raise ParameterError(
                 f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
                 f"= {self.varies}: it must be {rule}"
+            )
+        if self.change <= -1.0 and self.varies != "zeta":
+            raise ParameterError(
+                f"heterogeneity.change = {self.change:g} is not allowed with heterogeneity.varies "
+                f"= {self.varies}, which is positive everywhere: it must lie in (-1, 1000)"
             )
 
     def factor(self, x: Array, length: float, periodic: bool) -> Array:

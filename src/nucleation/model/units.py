@@ -19,7 +19,7 @@ NUMBER = re.compile(rf"\s*([+-]?(?:{_DIGITS}|inf(?:inity)?))\s*(?:/\s*({_DIGITS}
 """A number or a fraction, and the unit after it."""
 
 _INTEGER = re.compile(r"\s*[+-]?\d{1,18}\s*")
-_DECIMAL_COMMA = re.compile(r"([+-]?\d+),(\d+)")
+_WITH_COMMA = re.compile(r"[+-]?[\d.]*,[\d.,]*\d")
 _UNIT = re.compile(r"[A-Za-zµμ_%*/^0-9 ().\-⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅]{1,60}")
 _EXPONENT = re.compile(r"(?<=[A-Za-zµμ])(-?\d+)")  # m-3 in the style of CF
 
@@ -96,10 +96,13 @@ def parse(
 
 def _number(text: str, entry: Quantity) -> float:
     """A decimal number or a fraction, with or without a unit, in the declared unit."""
-    comma = _DECIMAL_COMMA.match(text)
+    comma = _WITH_COMMA.match(text.strip())
     if comma:
-        whole, decimals = comma.groups()
-        raise ValueError(f"write a decimal point, {whole}.{decimals} in place of {comma[0]}")
+        written = comma[0]
+        if "." in written or written.count(",") > 1:
+            raise ValueError("write it without separators of thousands")
+        point = re.sub(r"^([+-]?),", r"\g<1>0.", written).replace(",", ".")
+        raise ValueError(f"write a decimal point, {point} in place of {written}")
     parts = NUMBER.fullmatch(text)
     if parts is None:
         raise ValueError("it is no number with a unit")
