@@ -153,7 +153,7 @@ STEPS = 10  # after which a run is stopped
 STOPPED = f"""
 import os, signal
 from nucleation import __main__
-from nucleation.analysis import progress
+from nucleation.simulation import progress
 def stop(self, instant):
     if instant.control.steps == {STEPS}:
         os.kill(os.getpid(), signal.SIGINT)
