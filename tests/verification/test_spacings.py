@@ -10,7 +10,7 @@ from nucleation.verification import orders
 def dataset(monkeypatch):
     """The study with made-up errors."""
     ones = np.ones((len(orders.ROWS), len(orders.ERRORS)))
-    monkeypatch.setattr(orders, "mesh_errors", lambda problem: ones)
+    monkeypatch.setattr(orders, "_mesh_errors", lambda problem: ones)
     monkeypatch.setattr(orders, "step_errors", lambda problem, name: ones)
     return orders.convergence_dataset()
 
