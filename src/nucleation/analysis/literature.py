@@ -72,7 +72,7 @@ COLUMNS = {
     **some(SHARED, "height", "n_x", "n_y"),
     "stress_rate": Variable("Pa/s", "rate of the far shear stress"),
     "change": Variable("1", "relative change of f where nucleation begins"),
-    "width": Variable("m", "full width of that change at half its height"),
+    "width": SHARED["width"],
 }
 
 

@@ -27,7 +27,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.analysis.weakening_patches.gather`.
+        From :func:`nucleation.analysis.weakening_patches.weakening_patches_table`.
     """
     rounded = table.assign(ratio=table["zeta_over_a"].round(3)).sortby("strengthening")
     kinds = sorted(laws.groups(rounded, "ratio"), key=lambda rows: float(rows["ratio"][0]))
