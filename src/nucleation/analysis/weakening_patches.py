@@ -17,6 +17,7 @@ from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.critical import systems_of
 from ..theory.crossings import largest_crossings
+from ..theory.curves import CURVES
 from ..theory.transfer import bodies_of
 from ..theory.weakening_patch import WeakeningPatch, smallest_width
 from .rows import Row
@@ -40,7 +41,7 @@ COLUMNS = {
     "zeta_over_a": SHARED["zeta_over_a"],
     "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
     "width": SHARED["width"],
-    "critical_length": Variable("m", "critical length of a fault that is all patch", "L_c"),
+    "critical_length": CURVES["critical_length"],  # of a fault with the patch's friction
     "smallest_width": Variable("m", "smallest width that nucleates, by theory", "W_c"),
     "width_ratio": Variable("1", "width over the smallest one that nucleates", "W/W_c"),
     "fastest": Variable("1", "largest slip rate over V"),
