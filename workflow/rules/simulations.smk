@@ -93,7 +93,7 @@ rule extract:
     priority: 1
     localrule: True
     params:
-        call="nucleation.analysis.lengths:gather",
+        call="nucleation.analysis.lengths:lengths_table",
         reads=lambda wildcards: {"simulations": simulations(runs_of(wildcards.study))},
         runs=lambda wildcards: as_dicts(runs_of(wildcards.study)),
         settings=asdict(settings.extraction),

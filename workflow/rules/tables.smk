@@ -203,7 +203,7 @@ rule gather_weakening_patches:
     log:
         f"{RESULTS}/logs/weakening_patches.log",
     params:
-        call="nucleation.analysis.weakening_patches:gather",
+        call="nucleation.analysis.weakening_patches:weakening_patches_table",
         loads=lambda wildcards: laws_of(runs_for("weakening_patches")),
         reads=lambda wildcards: {"simulations": simulations(runs_for("weakening_patches"))},
         runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),

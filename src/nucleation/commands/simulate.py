@@ -144,10 +144,10 @@ def _planned(run: Run) -> dict[str, Any]:
 def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
     from ..analysis.extraction import extract
-    from ..analysis.progress import Progress
     from ..datasets import netcdf, provenance
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
+    from ..simulation.progress import Progress
     from ..simulation.run import simulate
 
     digest = simulation_code(run.parameters)

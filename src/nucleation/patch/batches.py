@@ -22,7 +22,7 @@ def measured(
 
     If the measure is ``stability`` and not ``lengths``, :data:`STABILITY` stands beside them.
     """
-    row = lengths.gather([run], [record], settings)
+    row = lengths.lengths_table([run], [record], settings)
     if measure == "stability":
         patch = follow_patch(record, settings)
         row = row.assign({name: ("run", patch[name].values[None], c.attributes)

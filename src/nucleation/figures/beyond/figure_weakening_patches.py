@@ -27,7 +27,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.analysis.weakening_patches.gather`.
+        From :func:`nucleation.analysis.weakening_patches.weakening_patches_table`.
     """
     rounded = table.assign(ratio=table["zeta_over_a"].round(3)).sortby("strengthening")
     kinds = sorted(laws.groups(rounded, "ratio"), key=lambda rows: float(rows["ratio"][0]))
@@ -52,9 +52,9 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
     style.level(axes, RIGID, label="asperity, rigid surroundings")
     for name, (_, marker, colour) in LOOKS.items():
         own = laws.where(rows, outcome=name)
-        width = own["patch_width"] / own["critical_length"]
+        width = own["width"] / own["critical_length"]
         axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
-    top = 1.08 * float((rows["patch_width"] / rows["critical_length"]).max())
+    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
     axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, top))
     axes.set_xticks(TICKS)
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
