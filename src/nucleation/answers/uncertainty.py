@@ -14,7 +14,8 @@ from ..model.quantities import ParameterError, Quantity, check
 from ..model.units import NUMBER, magnitude, parse
 from ..theory.arrays import critical_length, fault_of, without_aliases
 from ..theory.creep.lengths import stability_values
-from ..theory.fault import QUANTITIES, Values, checked, inside, takes_fault
+from ..theory.fault import takes_fault
+from ..theory.values import QUANTITIES, Values, checked, inside
 from ..types import Array
 from .in_use import LENGTHS, THIS_FAULT, WEAKENING_RATE, values_of
 

@@ -120,7 +120,7 @@ class Response:
 
 def modes_for(one: Systems) -> int:
     """How many modes one fault needs."""
-    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
+    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1))
     above = float(one.friction[0]) * float(far.xy[0] / far.xx[0]) < STIFFER_ABOVE
     return MORE_MODES if above else MODES
 
@@ -185,11 +185,11 @@ def extrapolation_error(one: Systems, length: float) -> float:
 
 def _resolved(one: Systems, length: float, number: int, even: bool) -> Response:
     """The same of layers that are not slimmer than the tables reach."""
-    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1), whole=False)
+    far = _over_heights(one, np.inf).pair.stiffness(np.ones(1))
     slim = length / min(float(b.height[0]) for b in one.pair if b is not None)
     own = modes(number, min(reach for reach in REACHES if slim <= reach * (1.0 + 1e-9)), even)
     used = np.searchsorted(own.kappa, CUT * slim)
-    found = one.pair.stiffness(own.kappa[:used] / length, whole=False)
+    found = one.pair.stiffness(own.kappa[:used] / length)
     slip = own.slip[:used]
     shear = far.xx * own.half_space + own.shear[:used].T @ ((found.xx - far.xx)[:, None] * slip)
     normal = far.xy * own.gradients + own.normal[:used].T @ ((found.xy - far.xy)[:, None] * slip)
@@ -205,7 +205,7 @@ def _thickened(one: Systems, length: float, number: int, even: bool, factor: flo
     thicker = _over_heights(one, factor)
     found = _resolved(thicker, length, number, even)
     k = np.array([np.pi / length])
-    own, thick = (system.pair.stiffness(k, whole=False) for system in (one, thicker))
+    own, thick = (system.pair.stiffness(k) for system in (one, thicker))
     with np.errstate(divide="ignore", invalid="ignore"):
         by_shear, by_normal = float(own.xx[0] / thick.xx[0]), float(own.xy[0] / thick.xy[0])
     if not np.isfinite(by_normal):
