@@ -1,13 +1,13 @@
 """The stability length L_s: the shortest creeping patch with a growing mode.
 
 The eigenproblem of :mod:`.linearised` is solved at lengths that rise by a constant factor until a
-mode grows, from below the shortest that any fault is known to have, and then between the last two.
+mode grows, and then between the last two. The first length is below the L_s of any known fault.
 
-All modes count, oscillating or not. A growth rate that is real cannot cross zero: its mode would
-keep the balance of forces at rest, ``(K1 + f S2) dw = 0``, and a patch of any length resists slip.
-So growth begins with a pair of complex rates. Where ``a << zeta`` that pair oscillates in a narrow
-window of lengths only and then grows without oscillation: a search for oscillating modes steps over
-the window and finds nothing, or a longer patch.
+All modes count, oscillating or not. A real growth rate cannot cross zero: its mode would satisfy
+the balance of forces at rest, ``(K1 + f S2) dw = 0``, and a patch of any length resists slip. So
+growth begins with a pair of complex rates. Where ``a << zeta`` that pair oscillates only in a
+narrow window of lengths and then grows without oscillation: a search for oscillating modes would
+miss the window and find nothing, or a longer patch.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from ...model.friction.constants import full_law
@@ -32,20 +31,22 @@ from ..arrays import fault_of, named
 from ..critical import systems_of
 from ..crossings import largest_crossings
 from ..estimates import loading_rate
-from ..fault import Fault, Values, takes_fault
+from ..fault import Fault, takes_fault
 from ..spectrum import Systems
 from ..transfer import bodies_of
+from ..values import Values
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
 from .modes import Creep, creep, extrapolation_error, modes_for, response
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
-SHORTEST, FACTOR = 0.7, 1.12  # where the search starts, over its guess; from length to length
+SHORTEST = 0.7  # where the search starts, over its guess
+FACTOR = 1.12  # from one length to the next
 PRECISION = 1e-9  # relative, of L_s for a given number of modes
 STEP = 1e-3  # of log L, in the derivative of the growth rate
 
 
 class NoPatch(ValueError):
-    """No patch of the lengths looked at turns unstable, or none keeps contact."""
+    """No patch of the lengths tried turns unstable, or none keeps contact."""
 
 
 class StabilityPoint(NamedTuple):
@@ -61,77 +62,149 @@ class StabilityPoint(NamedTuple):
 class Patches:
     """The creeping patches of one fault, of any length.
 
-    A patch begins at an ``edge`` that is pushed, at a side that is free under a moved ``top``, or
-    in between under a ``remote`` load. Without an edge `load_rate` is the rise of the shear stress
-    that loads it, over ``sigma0 V/D``; with constant a and b nothing depends on that.
+    A patch begins at an ``edge`` that is pushed, at a free side under a moved ``top``, or in the
+    interior under a ``remote`` load. Without an edge `load_rate` is the rate of the shear stress
+    that loads it, over ``sigma0 V/D``; with constant a and b it has no effect.
     """
 
     one: Systems  # a single fault, all fields of shape (1,)
-    law: Friction | None = None  # with whose local a(v) and b(v); without it they are constant
+    law: Friction | None = None  # which gives the local a(v) and b(v); by default constant
     velocity: float = 1.0  # V (m/s), which a law needs
     loading: str = "edge"
     load_rate: float = 1.0
 
     @classmethod
     def of(cls, parameters: Parameters) -> Patches:
-        """Those of a run, with its own friction law.
+        """The patches of a run, with its own friction law.
 
-        Without an edge that is pushed a patch begins where the declared heterogeneity is: at a free
-        side where that is nearer than the block is high, else in the interior, as friction has no
-        shear stress to bear at the side itself.
+        Without an edge that is pushed a patch begins where the declared heterogeneity is. It begins
+        at a free side if that is nearer than the block's height. Else it begins in the interior,
+        since friction has no shear stress to support at the side itself.
         """
         one = systems_of([(*bodies_of(parameters), interface_state(parameters))])
         loading, block = parameters.loading, parameters.geometry
-        own = cls(one, parameters.friction, loading.velocity)
+        pushed = cls(one, parameters.friction, loading.velocity)
         if loading.kind == "edge":
-            return own
+            return pushed
+        from_side = 0.5 * block.length
         centre = parameters.heterogeneity.centre
-        away = 0.5 * block.length if centre is None else min(centre, block.length - centre)
-        begins = "top" if loading.kind == "top" and away < block.height else "remote"
+        if centre is not None:
+            from_side = min(centre, block.length - centre)
+        at_side = loading.kind == "top" and from_side < block.height
         rate = loading_rate(parameters) * parameters.memory_time / loading.normal_stress
-        return dataclasses.replace(own, loading=begins, load_rate=rate)
+        begins = "top" if at_side else "remote"
+        return dataclasses.replace(pushed, loading=begins, load_rate=rate)
 
     @cached_property
     def number(self) -> int:
-        """Of modes that the fault needs."""
+        """Number of modes that the fault needs."""
         return modes_for(self.one)
 
-    def creep(self, length: float, number: int | None = None) -> Creep:
-        """How a patch of a length (m) creeps."""
-        held = response(self.one, length, number or self.number, self.loading)
-        load_rate = None if self.loading == "edge" else self.load_rate
-        return creep(held, float(self.one.friction[0]), load_rate)
+    @property
+    def constants(self) -> tuple[float, float, float]:
+        """f, a and zeta of the fault at V."""
+        one = self.one
+        return float(one.friction[0]), float(one.a[0]), float(one.zeta[0])
 
-    def at(self, length: float, number: int | None = None) -> FrozenPatch:
-        """The linearised patch of a length (m); slip in D, time in D/V.
+    def creep(self, length: float, number: int | None = None) -> Creep:
+        """The creep of a patch.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        number : int, optional
+            Number of modes; by default as many as the fault needs.
+
+        Returns
+        -------
+        Creep
+            Slip rate and normal stress along the patch.
 
         Raises
         ------
         NoPatch
-            If the creep takes all of the compression somewhere.
+            If the creep removes all of the compression somewhere.
         """
-        creep, one = self.creep(length, number), self.one
-        if creep.normal_stress.min() <= 0.0:
-            raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")
-        if self.law is not None:
-            friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
+        bodies = response(self.one, length, number or self.number, self.loading)
+        load_rate = None if self.loading == "edge" else self.load_rate
+        found = creep(bodies, self.constants[0], load_rate)
+        require_contact(found)
+        return found
+
+    def at(self, length: float, number: int | None = None) -> FrozenPatch:
+        """The linearised patch; slip in D, time in D/V.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        number : int, optional
+            Number of modes; by default as many as the fault needs.
+
+        Returns
+        -------
+        FrozenPatch
+            Its coefficients at the angles of the modes.
+
+        Raises
+        ------
+        NoPatch
+            If the creep removes all of the compression somewhere.
+        """
+        creep = self.creep(length, number)
+        if self.law is None:
+            friction = constant_coefficients(creep.slip_rate, *self.constants)
         else:
-            values = (float(x[0]) for x in (one.friction, one.a, one.zeta))
-            friction = constant_coefficients(creep.slip_rate, *values)
+            friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
         return creeping_patch(creep, friction)
 
-    def growth(self, length: float, number: int | None = None) -> float:
+    def growth(self, length: float) -> float:
         """Re Lambda over V/D of the fastest growing mode, oscillating or not."""
-        return float(self.at(length, number).eigenvalues[0].real)
+        return float(self.at(length).eigenvalues[0].real)
 
     def rate_near(self, length: float, rate: complex, number: int | None = None) -> complex:
-        """Lambda over V/D of the mode whose rate is nearest to another."""
+        """The eigenvalue that is nearest to a given one.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        rate : complex
+            Lambda over V/D, the given one.
+        number : int, optional
+            Number of modes; by default as many as the fault needs.
+
+        Returns
+        -------
+        complex
+            Lambda over V/D.
+        """
         rates = self.at(length, number).eigenvalues
         return complex(rates[np.abs(rates - rate).argmin()])
 
 
+def require_contact(creep: Creep) -> None:
+    """Raise NoPatch if the creep removes all of the compression somewhere."""
+    if creep.normal_stress.min() <= 0.0:
+        length = creep.response.length
+        raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")
+
+
 def stability_point(patches: Patches, critical: float) -> StabilityPoint:
-    """L_s of one fault whose L_c (m) is `critical`, NaN where homogeneous sliding is stable.
+    """L_s of one fault.
+
+    Parameters
+    ----------
+    patches : Patches
+        Of the fault.
+    critical : float
+        L_c (m), NaN where homogeneous sliding is stable.
+
+    Returns
+    -------
+    StabilityPoint
+        L_s, its mode and its error.
 
     Raises
     ------
@@ -145,24 +218,28 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     def growth(log_length: float) -> float:
         return patches.growth(math.exp(log_length))
 
-    low, step = math.log(SHORTEST * _guess(patches.one) * critical), math.log(FACTOR)
+    step = math.log(FACTOR)
+    longest = math.log(LONGEST * critical)
+    low = math.log(SHORTEST * _guess(patches) * critical)
     while growth(low) > 0.0:
         low -= 2.0 * step
-    high, longest = low + step, math.log(LONGEST * critical)
+    high = low + step
     while growth(high) <= 0.0:
-        low, high = high, high + step
+        low = high
+        high += step
         if low > longest:
             raise NoPatch(f"no patch up to {LONGEST:g} L_c has a growing mode")
-    return _point(patches, brentq(growth, low, high, xtol=PRECISION))
+    log_length = brentq(growth, low, high, xtol=PRECISION)
+    return _point(patches, math.exp(log_length))
 
 
-def _point(patches: Patches, log_length: float) -> StabilityPoint:
-    """What is known of the pair of modes whose growth begins at a length."""
-    length = math.exp(log_length)
+def _point(patches: Patches, length: float) -> StabilityPoint:
+    """The pair of modes that begins to grow at a length (m)."""
     rates = patches.at(length).eigenvalues
     pairs = rates[rates.imag > 0.0]
-    rate = complex((pairs if pairs.size else rates)[0])
-    before, after = (patches.rate_near(length * math.exp(d), rate).real for d in (-STEP, STEP))
+    rate = complex(pairs[0] if pairs.size else rates[0])
+    before = patches.rate_near(length * math.exp(-STEP), rate).real
+    after = patches.rate_near(length * math.exp(STEP), rate).real
     slope = (after - before) / (2.0 * STEP)
     with_fewer_modes = patches.rate_near(length, rate, 3 * patches.number // 4).real
     error = abs(with_fewer_modes - rate.real) / slope + PRECISION
@@ -170,10 +247,11 @@ def _point(patches: Patches, log_length: float) -> StabilityPoint:
     return StabilityPoint(length, rate.imag, slope, error)
 
 
-def _guess(one: Systems) -> float:
-    """About L_s over L_c: that of a thin layer (:mod:`.thin`), or of one that does not weaken."""
-    zeta = max(float(one.zeta[0]), 1e-6)
-    return min(0.5 * (1.0 + 0.25 * float(one.a[0]) / zeta), 1.0)
+def _guess(patches: Patches) -> float:
+    """About L_s over L_c: that of a thin layer (:mod:`.thin`), or 1 where friction weakens less."""
+    _, a, zeta = patches.constants
+    weakening = max(zeta, 1e-6)
+    return min(0.5 * (1.0 + 0.25 * a / weakening), 1.0)
 
 
 @takes_fault
@@ -185,12 +263,12 @@ def stability_length(
     Parameters
     ----------
     friction_law : Friction, optional
-        The full law, of which each fault has its own with the fault's f, a, zeta and D, and local
-        a(v), b(v) along the patch; needs `velocity`. By default a and b are constant.
+        The full law. Each fault has this law with its own f, a, zeta and D, and local a(v), b(v)
+        along the patch; needs `velocity`. By default a and b are constant.
     loading : {"edge", "top", "remote"}
-        Where the patch begins: at an edge that is pushed, at a side that is free under a top that
-        moves, or in the interior under whatever loads it from afar, a top that moves among it.
-        That is said by the bodies' `far_side`: a top that moves has ``velocity``.
+        Where the patch begins: at an edge that is pushed, at a free side under a top that moves, or
+        in the interior under a load from afar, which may be a top that moves. The bodies'
+        `far_side` sets the boundary condition there: a top that moves has ``velocity``.
     **fault
         The parameters of :class:`~nucleation.theory.fault.Fault`.
 
@@ -204,8 +282,9 @@ def stability_length(
     Raises
     ------
     ParameterError
-        If a parameter is missing, unknown or outside its range, no law has a fault's constants, or
-        there is one without an edge: a slip rate on which its a(v) and b(v) depend is not V then.
+        If a parameter is missing, unknown or outside its range, if no law has a fault's constants,
+        or if there is a law but no edge: its a(v) and b(v) depend on a slip rate that is not V
+        then.
     """
     own = fault_of(fault)
     length, _, _ = stability_values(own, friction_law, loading)
@@ -215,38 +294,89 @@ def stability_length(
 def stability_values(
     fault: Fault, friction_law: Friction | None = None, loading: str = "edge"
 ) -> tuple[Any, Any, Any]:
-    """L_s (m), the mode's frequency over V/D and the relative error of L_s; plain, in SI units."""
-    if loading not in LOADINGS:
-        raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
-    if friction_law is not None and loading != "edge":
-        raise ParameterError(
-            f"a friction law is not allowed with loading = {loading}, whose slip rate is not V: a "
-            "and b are constant there"
-        )
-    if friction_law is not None and (fault.velocity is None or fault.friction is None):
-        raise ParameterError("a friction law needs the fault's velocity and friction")
+    """L_s, its mode's frequency and its error, as plain numbers in SI units.
 
-    def points(systems: Systems, velocity: Array) -> NDArray:
+    Parameters
+    ----------
+    fault : Fault
+        One or many faults.
+    friction_law : Friction, optional
+        The full law, as for :func:`stability_length`.
+    loading : {"edge", "top", "remote"}
+        Where the patch begins.
+
+    Returns
+    -------
+    length, frequency, error : ndarray or DataArray
+        L_s (m), angular frequency over V/D, and relative error of L_s; broadcast shape.
+
+    Raises
+    ------
+    ParameterError
+        As :func:`stability_length`.
+    """
+    _require_known(fault, friction_law, loading)
+    velocity = 1.0 if fault.velocity is None else fault.velocity
+
+    def points(systems: Systems, velocity: Array) -> Array:
         critical = 2.0 * np.pi / largest_crossings(systems)
         found = np.full((3, critical.size), np.nan)
         for i, length in enumerate(critical):
             one = systems.at(np.array([i]))
-            law = None if friction_law is None else _own_law(friction_law, one, velocity[i])
+            patches = Patches(one, velocity=float(velocity[i]), loading=loading)
+            if friction_law is not None:
+                patches = _with_law(patches, friction_law)
             try:
-                point = stability_point(Patches(one, law, velocity[i], loading), float(length))
+                point = stability_point(patches, float(length))
             except NoPatch:
                 continue
             found[:, i] = point.length, point.frequency, point.error
         return found
 
-    return tuple(fault.evaluate(points, 1.0 if fault.velocity is None else fault.velocity, rows=3))
+    length, frequency, error = fault.evaluate(points, velocity, rows=3)
+    return length, frequency, error
+
+
+def _require_known(fault: Fault, law: Friction | None, loading: str) -> None:
+    """Refuse an unknown loading, and a friction law where V, f or an edge is missing."""
+    if loading not in LOADINGS:
+        raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
+    if law is None:
+        return
+    if loading != "edge":
+        raise ParameterError(
+            f"a friction law is not allowed with loading = {loading}: there the slip rate is not "
+            "V, and a and b are constant"
+        )
+    if fault.velocity is None or fault.friction is None:
+        raise ParameterError("a friction law needs the fault's velocity and friction")
+
+
+def _with_law(patches: Patches, law: Friction) -> Patches:
+    """The patches with a friction law that has the constants of their fault at V."""
+    distance = patches.velocity / float(patches.one.rate[0])
+    scaled = law.changed({"characteristic_slip_distance": distance})
+    own = full_law(scaled, patches.velocity, *patches.constants)
+    return dataclasses.replace(patches, law=own)
 
 
 def stability_length_of(parameters: Parameters, critical: float, constant: bool = False) -> float:
-    """L_s (m) of a run's fault whose L_c (m) is `critical`; NaN without one.
+    """L_s of a run's fault.
 
-    With its own friction law, whose scales make a(v) and b(v) change along the patch, or with the
-    `constant` a and b that it has at V.
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the run.
+    critical : float
+        L_c (m) of the run.
+    constant : bool
+        Whether a and b are constant, with their values at V. By default the run's own friction law
+        gives a(v) and b(v) along the patch.
+
+    Returns
+    -------
+    float
+        L_s (m), or NaN if there is none.
     """
     patches = Patches.of(parameters)
     if constant:
@@ -255,12 +385,3 @@ def stability_length_of(parameters: Parameters, critical: float, constant: bool 
         return stability_point(patches, critical).length
     except NoPatch:
         return math.nan
-
-
-def _own_law(law: Friction, one: Systems, velocity: float) -> Friction:
-    """The law with the constants of a fault at V."""
-    distance = float(velocity / one.rate[0])
-    constants = (float(x[0]) for x in (one.friction, one.a, one.zeta))
-    return full_law(
-        law.changed({"characteristic_slip_distance": distance}), float(velocity), *constants
-    )
