@@ -13,6 +13,8 @@ import pandas as pd
 import pytest
 import xarray as xr
 from reference_evidence import BY_ID, CLAIMS, REFERENCE, ROOT, STATED, evaluated, evidence
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from nucleation.analysis.measures import BY_DEFINITION, MEASURES
 from nucleation.claims import table
@@ -106,12 +108,8 @@ def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
     verdicts = {id: row["verdict"] for id, row in reference.items()}
     assert Verdict.NOT_REPLICATED not in verdicts.values()
     failed = {id for id, verdict in verdicts.items() if verdict == Verdict.NOT_SUPPORTED}
-    assert failed == {
-        "stability-lost-at-length",
-        "slip-law-approximation-ahead",
-        "theory-agreement",
-    }
-    shown = ("onset-time", "length-shown", "slip-law-approximation")
+    assert failed == {"stability-lost-at-length"}
+    shown = ("onset-time", "length-shown", "slip-law-approximation", "theory-agreement")
     assert {verdicts[id] for id in shown} == {Verdict.REPLICATED}
     given = {id for id, row in reference.items() if row["verdict"] == Verdict.GIVEN}
     assert given == {"mesh-along", "mesh-across", "usual-step", "slip-rate-over-v0"}
@@ -132,6 +130,78 @@ def test_onset_and_length_of_figure_s2(rows):
     onset = converged.onset_time.mean()
     said = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
     assert said in rows["onset-time"]["reason"]
+    lengths = converged["length"]
+    said = f"all 6 realisations are {lengths.min():.4f} to {lengths.max():.4f} m"
+    assert said in rows["length-shown"]["reason"] and lengths.min() > 0.155
+
+
+def test_the_onset_depends_on_the_kind_of_noise(rows):
+    """What the reason says of a fluctuating state is so for each of its realisations."""
+    drops = pd.read_csv(REFERENCE / "drop.csv")
+    own = drops[(drops.evolution == "aging") & np.isclose(drops.height, 0.005)]
+    state = own[(own.kind == "state") & np.isclose(own.strength, 1e-5)]
+    assert len(state) == 6 and state.onset_time.min() > 13.5
+    assert "With a fluctuating state the force drops later" in rows["onset-time"]["reason"]
+
+
+def test_agreement_says_how_many_heights_are_within_a_quarter(rows):
+    aging = LENGTHS[(LENGTHS.evolution == "aging") & (LENGTHS.phi0 == 1)]
+    reason = rows["theory-agreement"]["reason"]
+    for study in ("converged", "paper"):
+        own = aging[aging.study == study].groupby("height")[["length", "theory_length"]].mean()
+        ratio = own.length / own.theory_length
+        near = int((ratio > 0.75).sum())
+        assert f"{ratio.min():.2f} to {ratio.max():.2f}, {near} of 9 within 25 %" in reason
+
+
+def test_the_whole_wavelength_is_right_for_weaker_weakening(rows):
+    """By finite differences of the thin layer's equation (T) of docs/patch_theory.md."""
+    reason = rows["stability-lost-at-length"]["reason"]
+    stated = re.search(r"gives ([\d., ]+) for \$\\zeta/a\$ = ([\d., ]+)\. So", reason)
+    lengths, weakenings = ([float(x) for x in part.split(", ")] for part in stated.groups())
+    assert weakenings == [0.1, 0.2, 0.3, 0.4, 0.5]
+    for length, weakening in zip(lengths, weakenings, strict=True):
+        assert length == pytest.approx(thin_length(weakening), abs=0.006)
+        assert (abs(length - 1.0) < 0.25) == (0.2 <= weakening <= 0.4)
+
+
+def thin_length(weakening, points=60):
+    """L_s/L_c of a thin layer where a zeta/a makes its patch unstable, by the growth of all modes.
+
+    Slip and log phi at the inner points, with v = V y; in units of the patch, D/V and sigma0.
+    """
+    a, b = 1.0 / weakening, 1.0 + 1.0 / weakening
+    y = np.arange(1, points) / points
+    stiffness = points**2 * (
+        2.0 * np.eye(points - 1) - np.eye(points - 1, k=1) - np.eye(points - 1, k=-1)
+    )
+
+    def growth(ratio):
+        load = stiffness / (ratio * 2.0 * np.pi) ** 2
+        elastic = -(y / a)[:, None] * load
+        healing = np.diag(-y * b / a)
+        state = -np.diag(y) - healing
+        return np.linalg.eigvals(np.block([[elastic, healing], [-elastic, state]])).real.max()
+
+    return brentq(growth, 0.4, 1.6, xtol=1e-4)
+
+
+def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
+    """The law integrated in time from phi0, without slip, and friction at V after it."""
+    law = evidence().friction.changed({"evolution": "slip"})
+    runs = LENGTHS[(LENGTHS.study == "converged") & (LENGTHS.evolution == "slip")]
+    found, healed = [], []
+    for run in runs.itertuples():
+        states = solve_ivp(
+            lambda _, state: law.state_rate(0.0, state), (0.0, run.onset_time), [run.phi0],
+            rtol=1e-9,
+        ).y[0]  # fmt: skip
+        strength = law.coefficient(1e-5, states[[0, -1]])
+        found.append(strength[1] / strength[0] - 1.0)
+        healed.append(states[-1])
+    row = rows["slip-law-approximation-ahead"]
+    assert row["ours"] == pytest.approx(max(found), rel=1e-5)
+    assert f"state is {max(healed):.2f} s in the place of 1.00 s" in row["reason"]
 
 
 def test_verdicts_whose_bound_is_near_have_six_realisations():
@@ -175,10 +245,12 @@ def test_dependence_on_height_is_judged_at_all_heights():
     claim = BY_ID["height-dependence"]
     on = evidence()
     assert claim.evaluate(on)["verdict"] == Verdict.REPLICATED
-    judged = on.lengths[1].copy(deep=True)
-    judged["length"] = judged["length"] * xr.where(np.isclose(judged["height"], 0.03), 1.4, 1.0)
-    row = claim.evaluate(evidence(lengths=(on.lengths[0], judged, *on.lengths[2:])))
-    assert row["verdict"] == Verdict.NOT_SUPPORTED and row["ours"] > 1.25
+    changed = [lengths.copy(deep=True) for lengths in on.lengths]
+    for lengths in changed:
+        at = np.isclose(lengths["height"], 0.03)
+        lengths["length"] = lengths["length"] * xr.where(at, 1.6, 1.0)
+    row = claim.evaluate(evidence(lengths=tuple(changed)))
+    assert row["verdict"] == Verdict.NOT_REPLICATED and row["ours"] > 1.4
 
 
 def test_theory_by_hand(rows):

@@ -1,5 +1,6 @@
 """The rule of verdicts on made-up numbers: each verdict, each boundary."""
 
+import dataclasses
 import math
 
 import pytest
@@ -131,7 +132,8 @@ def test_words_whose_reading_is_ours_are_not_supported_where_others_are_not_repl
     def failing(expression):
         return judge(words(expression), Result(Ours.exactly(-99.0)))[0]
 
-    assert failing("reasonably good") == failing("almost everywhere") == Verdict.NOT_SUPPORTED
+    assert failing("expected") == failing("almost everywhere") == Verdict.NOT_SUPPORTED
+    assert failing("reasonably good") == Verdict.NOT_REPLICATED
     assert failing("small variation") == failing("computed") == Verdict.NOT_REPLICATED
     assert set(REASONED) < set(WORDS)
 
@@ -159,6 +161,23 @@ def test_row_holds_number_range_and_what_the_function_says():
     assert row["verdict"] == "not replicated"
     with pytest.raises(ValueError, match="made-up says nothing"):
         made_up(lambda evidence: GOOD, said=None).evaluate(None)
+
+
+def test_a_statement_carried_to_another_problem_is_not_supported_where_it_fails():
+    def judged(value, carried):
+        claim = made_up(lambda evidence: Ours.exactly(value), below(1.0))
+        return dataclasses.replace(claim, carried=carried).evaluate(None)["verdict"]
+
+    assert judged(0.9, True) == judged(0.9, False) == Verdict.REPLICATED
+    assert judged(1.1, True) == Verdict.NOT_SUPPORTED
+    assert judged(1.1, False) == Verdict.NOT_REPLICATED
+
+
+def test_reasonably_good_admits_the_number_that_the_paper_calls_so():
+    """0.15 m at H = 0.005 m, where its theory has 0.235 m, with the rounding of both."""
+    for length in (0.145, 0.15, 0.155):
+        for theory in (0.2345, 0.235, 0.2355):
+            assert holds(words("reasonably good"), Ours.exactly(length / theory))
 
 
 def test_inputs_have_a_verdict_of_their_own():

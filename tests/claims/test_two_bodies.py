@@ -32,6 +32,8 @@ def table(ratio=0.8, slope=-1.0):
         "ensemble": [f"{i}" for i in range(7)],
         "seed": [0] * 7,
         "length": [0.5 * ratio] * 7,
+        "stability_ratio": [0.5] * 7,
+        "poisson_ratio": [1.0 / 3.0] * 7,
     }
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
@@ -102,12 +104,12 @@ def test_the_two_senses_are_told_apart():
     assert (row["ours"], row["uncertainty"]) == (0.5, [0.5, 0.5])  # of that pair alone
 
 
-@pytest.mark.parametrize(("slope", "verdict"), [(-1.0, "replicated"), (0.2, "not replicated")])
+@pytest.mark.parametrize(("slope", "verdict"), [(-1.0, "replicated"), (0.2, "not supported")])
 def test_contrast_has_to_shorten(slope, verdict):
     row = judged("pairs-decreasing", table(slope=slope))
     assert row["verdict"] == verdict
     assert row["ours"] == pytest.approx(0.8 * slope)
-    assert judged("pairs-smaller", table(1.2, slope=0.2))["verdict"] == "not replicated"
+    assert judged("pairs-smaller", table(1.2, slope=0.2))["verdict"] == "not supported"
 
 
 @pytest.mark.parametrize(
@@ -122,6 +124,37 @@ def test_the_response_of_half_spaces_is_read_from_the_rates(factors, verdicts):
     for name, factor, verdict in zip(("pairs-g1", "pairs-g2"), factors, verdicts, strict=True):
         row = judged(name, modes_=modes(*factors))
         assert (row["verdict"], row["ours"]) == (verdict, pytest.approx(factor))
+
+
+@pytest.mark.parametrize(("higher", "left_out"), [(1.0, False), (1.09, False), (1.2, True)])
+def test_a_length_that_depends_on_the_height_decides_nothing(higher, left_out):
+    """Identical blocks with the zeta/a of the pairs, twice as high, in another study."""
+    pairs = table(1.2, slope=0.2)
+    identical = pairs.isel(run=[2])
+    taller = identical.assign(
+        role=("run", ["pairs_weak"]),
+        height=2.0 * identical["height"],
+        length_ratio=higher * identical["length_ratio"],
+        ensemble=("run", ["taller"]),
+        id=("run", ["taller"]),
+    )
+    row = judged("pairs-smaller", xr.concat([pairs, taller], "run"))
+    assert row["verdict"] == ("cannot be checked" if left_out else "not supported")
+    other = pairs.isel(run=slice(2, None))
+    other = other.assign(
+        zeta_over_a=0.0 * other["zeta_over_a"] + 10.0,
+        length_ratio=0.5 * other["length_ratio"],
+        ensemble=("run", [f"other-{i}" for i in range(5)]),
+        id=("run", [f"other-{i}" for i in range(5)]),
+    )
+    row = judged("pairs-smaller", xr.concat([pairs, taller, other], "run"))
+    assert (r"$\zeta/a = 3$ is left out" in row["reason"]) == left_out
+    assert row["verdict"] == ("replicated" if left_out else "not supported")
+
+
+def test_lengths_of_half_spaces_are_given_as_eta():
+    reason = judged("pairs-half-spaces", table(0.8))["reason"]
+    assert f"unstable at {0.5 * 1.5 * np.pi:.1f} and the force drops at {1.2 * np.pi:.1f}" in reason
 
 
 def senses(below, above):

@@ -219,7 +219,7 @@ rule draw_figure_weakening:
 
 
 rule draw_figure_map:
-    """Where the theory is right: a map over height and weakening"""
+    """Lengths over height and weakening: a map"""
     input:
         grid=f"{RESULTS}/map.nc",
         recipe=recipe("draw_figure_map"),
@@ -236,7 +236,7 @@ rule draw_figure_map:
     params:
         call="nucleation.figures.beyond.figure_map:draw",
     message:
-        "Where the theory is right: a map over height and weakening"
+        "Lengths over height and weakening: a map"
     shell:
         JOB
 

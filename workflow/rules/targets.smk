@@ -108,7 +108,7 @@ rule figure_weakening:
 
 
 rule figure_map:
-    """Where the theory is right: a map over height and weakening"""
+    """Lengths over height and weakening: a map"""
     input:
         rules.draw_figure_map.output,
 

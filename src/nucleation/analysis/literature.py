@@ -239,7 +239,9 @@ def _rows(id: str, parameters: Parameters, simulation: xr.Dataset) -> Iterator[R
         definition = definition._replace(words=IN_THE_GAP)
     for slip_rate in SLIP_RATES:
         found = zone_length(simulation, slip_rate, definition)
-        far_slip_rate, far_state_ratio = far_ahead(simulation, slip_rate, fault.slip_distance)
+        far_slip_rate, far_state_ratio = far_ahead(
+            simulation, slip_rate, friction.characteristic_slip_distance
+        )
         at_this_rate = expanding_length(fault, slip_rate, far_slip_rate, far_state_ratio)
         expands = name == "rubin_ampuero_crack"
         whole = definition._replace(part=1.0)

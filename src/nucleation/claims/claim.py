@@ -71,6 +71,7 @@ class Claim:
     said : what is compared with; may be left to the function.
     unit : SI unit of the numbers.
     input : whether ours is what the configuration was given, and so no result.
+    carried : whether the paper says it of homogeneous sliding, and we try it on a pushed patch.
     note : words after the reason, or the reason if ours can't be had.
     """
 
@@ -83,6 +84,7 @@ class Claim:
     said: Said | None = None
     unit: str = "1"
     input: bool = False
+    carried: bool = False
     note: str = ""
 
     def evaluate(self, evidence: Any) -> dict[str, Any]:
@@ -105,6 +107,8 @@ class Claim:
             said = result.said or said
             if said is None:
                 raise ValueError(f"the claim {self.id} says nothing to compare with")
+            if self.carried:
+                said = dataclasses.replace(said, chosen=True)
             verdict, reason = judge(said, result)
             if self.input and verdict is Verdict.REPLICATED:
                 verdict, reason = Verdict.GIVEN, f"An input of ours as of the paper's. {reason}"

@@ -26,7 +26,8 @@ WORDS: dict[str, tuple[float, float, str]] = {
     "perfect": (0.98, 1.02, "within 2 % of one"),
     "extremely well": (0.98, 1.02, "within 2 % of one"),
     "computed": (0.99, 1.01, "within 1 % of one"),
-    "reasonably good": (0.75, 1.25, "within 25 % of one"),
+    "reasonably good": (0.6, 1.4, "within 40 % of one"),
+    "expected": (0.75, 1.25, "within 25 % of one"),
     "small variation": (-0.10, 0.10, "less than 10 %"),
     "significant": (0.10, math.inf, "more than 10 %"),
     "negligible": (-0.01, 0.01, "less than 1 %"),
@@ -40,7 +41,14 @@ WORDS: dict[str, tuple[float, float, str]] = {
 }
 """How words are read: lower and upper end of what they allow, and the reading in words."""
 
-REASONED = ("perfect", "extremely well", "computed", "small variation", "significant")
+REASONED = (
+    "perfect",
+    "extremely well",
+    "computed",
+    "reasonably good",
+    "small variation",
+    "significant",
+)
 """Words whose reading follows from the paper or from how a number is had; the others are a choice
 of ours (docs/claims.md)."""
 
@@ -89,7 +97,7 @@ class Said:
     high: float
     text: str
     value: float | None = None
-    chosen: bool = False  # words whose reading is a choice of ours
+    chosen: bool = False  # whether the reading is a choice of ours
 
     def worst(self, found: Found) -> Ours:
         """Of our numbers that which speaks most against what is said; NaN if one is NaN.

@@ -61,7 +61,7 @@ FIGURES: dict[str, Entry] = {
         (Data("weakening"),),
     ),
     "figure_map": Entry(
-        "Where the theory is right: a map over height and weakening", BEYOND, ("map",),
+        "Lengths over height and weakening: a map", BEYOND, ("map",),
         (Data("map"),),
     ),
     "figure_patch_stability": Entry(

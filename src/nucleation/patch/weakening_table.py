@@ -11,7 +11,7 @@ from typing import Any
 import xarray as xr
 
 from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.rows import RATIO_COLUMNS, Row, ratios, rows_of
+from ..analysis.rows import RATIO_COLUMNS, Row, rows_of
 from ..datasets.variables import Variable, some, table
 from ..model.identity import fault
 from ..model.parameters import Parameters
@@ -91,7 +91,8 @@ def gather(drops: Iterable[xr.Dataset], runs: Iterable[dict[str, Any]]) -> xr.Da
 
     rows = []
     for lengths in drops:
-        complete = lengths.assign(ratios(lengths))
+        ratio = lengths["velocity_weakening"] / lengths["direct_effect"]
+        complete = lengths.assign(zeta_over_a=ratio)
         for row in rows_of(complete, names=(*MEASURED, "zeta_over_a", "fault")):
             rows.append(row | of_fault(row["fault"]))
     return table(rows, COLUMNS)

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -61,6 +62,35 @@ def well_approximated(evidence: Evidence, part: str) -> Result:
         [run[part] for run in evidence.each(role, evolution="slip")] for role in (JUDGED, PAPERS)
     )
     return Result(judged, on_papers_mesh=papers)
+
+
+def slip_law_approximation_ahead(evidence: Evidence) -> Result:
+    """What the healing by v0 alone changes of the strength, where nothing slips."""
+    judged, papers = (evidence.each(role, evolution="slip") for role in (JUDGED, PAPERS))
+    latest = max(judged, key=lambda run: run["onset_time"])
+    share = min(run["state_rate_share"] for run in judged)
+    note = (
+        f"At the latest onset the state is {healed_state(evidence, latest):.2f} s in the place of "
+        f"{latest['phi0']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
+        f"below 10 % in {share:.2g} of the interface (findings: The slip law ahead of the front)."
+    )
+    ours, other = ([_strengthened(evidence, run) for run in runs] for runs in (judged, papers))
+    return Result(ours, on_papers_mesh=other, note=note)
+
+
+def healed_state(evidence: Evidence, run: dict[str, Any]) -> float:
+    """State (s) of the slip law at a run's onset where nothing slips: log(phi v0/D) decays."""
+    law = evidence.friction
+    rate = law.regularisation_slip_rate / law.characteristic_slip_distance
+    decay = math.exp(-rate * run["onset_time"])
+    return float((run["phi0"] * rate) ** decay / rate)
+
+
+def _strengthened(evidence: Evidence, run: dict[str, Any]) -> float:
+    """Relative change of friction at V by that healing."""
+    velocity, law = evidence.loading.velocity, evidence.friction
+    healed = law.coefficient(velocity, healed_state(evidence, run))
+    return float(healed / law.coefficient(velocity, run["phi0"]) - 1.0)
 
 
 SHORT = np.geomspace(1.001, 100.0, 60)  # wavenumbers over the critical one
@@ -186,7 +216,6 @@ OURS: dict[str, Computation] = {
     "regularisation-irrelevant": of_runs("regular_share"),
     "state-rate-at-v": lambda e: e.friction.slip_speed(e.loading.velocity) / e.loading.velocity,
     "slip-law-approximation": lambda e: well_approximated(e, "state_rate_share_patch"),
-    "slip-law-approximation-ahead": lambda e: well_approximated(e, "state_rate_share"),
     "evolution-slope": lambda e: [
         (law.growth(1.0 + 1e-5) - law.growth(1.0 - 1e-5)) / 2e-5 for law in (aging, slip)
     ],

@@ -23,10 +23,10 @@ from ..said import Missing, Ours
 HALF_SPACE = 1.0  # least height of a half-space over the theory's length
 SLIDING = f"Homogeneous sliding of two layers {DEEP:g} wavelengths high, integrated in time."
 STRONG = 0.05  # f beta from which on two materials differ
+SETTLED = 0.10  # part by which a length may differ between blocks of two heights
 CAUSE = (
-    "Whether it is below or above decides by the normal stress that the push builds under the "
-    "patch, which the theory of homogeneous sliding does not have (findings: Which side is stiff "
-    "decides whether contrast shortens the patch)."
+    "The push changes the normal stress under the patch, down or up; in homogeneous sliding it is "
+    "uniform (findings: Which side is stiff decides whether contrast shortens the patch)."
 )
 
 
@@ -49,6 +49,42 @@ def rows_of(evidence: PairEvidence, role: str = "figure_2_simulated") -> xr.Data
     rows = of_role(evidence.table, role)
     missing = f"The table of pairs has no runs with the role {role}"
     return over_realisations(required(rows, missing))
+
+
+def grows_with_height(evidence: PairEvidence) -> dict[float, list[tuple[float, float]]]:
+    """The zeta/a whose length at the drop depends on the height of half-spaces.
+
+    Of each, the heights (m) of identical blocks and their lengths over that of the theory.
+    """
+    rows = over_realisations(evidence.table)
+    weakening = np.round(rows["zeta_over_a"].values, 3)
+    high = (rows["height"] >= HALF_SPACE * rows["theory_length"]).values
+    alike = high & (np.abs(rows["f_beta"].values) < 1e-9)
+    found = {}
+    for value in np.unique(weakening[alike]):
+        own = chosen(rows, alike & (weakening == value))
+        lengths = own["length_ratio"].values
+        if np.ptp(lengths) > SETTLED * lengths.min():
+            found[float(value)] = sorted(zip(own["height"].values, lengths, strict=True))
+    return found
+
+
+def decided(evidence: PairEvidence) -> tuple[xr.Dataset, str]:
+    """The pairs of Figure 2 with lengths that do not depend on the height, and the others' names.
+
+    Raises Missing without any.
+    """
+    rows, unsettled = rows_of(evidence), grows_with_height(evidence)
+    weakening = np.round(rows["zeta_over_a"].values, 3)
+    settled = chosen(rows, ~np.isin(weakening, list(unsettled)))
+    left_out = ""
+    for value in np.intersect1d(weakening, list(unsettled)):
+        lengths = " and ".join(f"{ratio:.2f} at {h:g} m" for h, ratio in unsettled[float(value)])
+        left_out += (
+            rf" $\zeta/a = {value:g}$ is left out: between identical blocks the length over $L_c$ "
+            f"depends on their height, {lengths}."
+        )
+    return required(settled, "All lengths depend on the height of the blocks"), left_out
 
 
 def over_effective_modulus(rows: xr.Dataset) -> Array:
@@ -82,6 +118,16 @@ def _note(rows: xr.Dataset) -> str:
     return f"At a declared perturbation {kind} of {strength:g}, {number} realisations each."
 
 
+def _eta(rows: xr.Dataset) -> str:
+    """What the lengths at which the patch turns unstable and the force drops are as eta."""
+    eta = np.pi / (1.0 - rows["poisson_ratio"].values)
+    unstable, drop = (eta * rows[f"{name}_ratio"].values for name in ("stability", "length"))
+    return (
+        rf" As $\eta$ of Eq. (3) the patch turns unstable at {unstable.min():.1f} and the force "
+        rf"drops at {drop.min():.1f}, above the literature's $2/\pi$ to 4/3."
+    )
+
+
 def _lengths(rows: xr.Dataset, unit: Array | float = 1.0) -> list[Ours]:
     """The mean lengths in some unit, each with its realisations' range."""
     ends = (rows[f"length_ratio{end}"].values * unit for end in ("", "_low", "_high"))
@@ -99,19 +145,19 @@ def _each_sense(rows: xr.Dataset, values: Array) -> str:
     )
 
 
-def _over_weakenings(values: dict[float, Array], rows: xr.Dataset) -> Result:
+def _over_weakenings(values: dict[float, Array], note: str) -> Result:
     """The values of all zeta/a, that furthest from one of each in the note."""
     own = {z: max(found, key=lambda value: abs(value - 1.0)) for z, found in values.items()}
     each = ", ".join(rf"{worst:.3g} for $\zeta/a = {z:g}$" for z, worst in own.items())
     ours = np.concatenate(list(values.values()))
-    return Result(ours, note=f"{_note(rows)} The furthest: {each}.")
+    return Result(ours, note=f"{note} The furthest: {each}.")
 
 
 def pairs_half_spaces(evidence: PairEvidence) -> Result:
     rows = rows_of(evidence, "pairs_identical")
     high = chosen(rows, (rows["height"] >= HALF_SPACE * rows["theory_length"]).values)
     required(high, "No identical blocks are as high as half-spaces")
-    return Result(_lengths(high), note=_note(high))
+    return Result(_lengths(high), note=_note(high) + _eta(high))
 
 
 def response(evidence: PairEvidence, part: int) -> Result:
@@ -127,42 +173,40 @@ def response(evidence: PairEvidence, part: int) -> Result:
 
 
 def pairs_modulus(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence)
+    rows, left_out = decided(evidence)
     scaled = {z: both.mean(axis=1) / identical for z, _, both, identical in senses(rows)}
-    return _over_weakenings(scaled, rows)
+    return _over_weakenings(scaled, _note(rows) + left_out)
 
 
 def pairs_contrast(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence)
+    rows, left_out = decided(evidence)
     scaled = {}
     for z, contrast, both, _ in senses(rows):
         effect = (both[:, 0] - both[:, 1]) / both.sum(axis=1) / contrast
         if effect.size < 2:
             raise Missing(rf"$\zeta/a = {z:g}$ has no two contrasts")
         scaled[z] = effect[1:] / effect[0]
-    return _over_weakenings(scaled, rows)
+    return _over_weakenings(scaled, _note(rows) + left_out)
 
 
 def pairs_bimaterial(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence)
-    over = rows["length"].values / rows["height"].values
-    note = (
-        f" {int((rows['height'] < rows['theory_length']).sum())} of {over.size} blocks are lower "
-        f"than $L_c$; {int((over > 1.0).sum())} patches are at the drop longer than their block is "
-        f"high, at most by a factor of {over.max():.2g}."
-    )
-    return Result(_lengths(rows), note=_note(rows) + note)
+    rows, left_out = decided(evidence)
+    longest = (rows["length"] / rows["height"]).values.max()
+    note = f" The longest patch at the drop is {longest:.2g} of the height of its block."
+    return Result(_lengths(rows), note=_note(rows) + note + left_out)
 
 
 def pairs_smaller(evidence: PairEvidence) -> Result:
-    rows = rows_of(evidence)
+    rows, left_out = decided(evidence)
     strong = chosen(rows, np.abs(rows["f_beta"].values) > STRONG)
     ours = _lengths(strong, unit=strong["half_space_ratio"].values)
-    return Result(ours, note=_note(rows) + _each_sense(strong, over_effective_modulus(strong)))
+    senses_apart = _each_sense(strong, over_effective_modulus(strong))
+    return Result(ours, note=_note(rows) + senses_apart + left_out)
 
 
 def pairs_decreasing(evidence: PairEvidence) -> Result:
-    rows, slopes, at = rows_of(evidence), [], []
+    rows, left_out = decided(evidence)
+    slopes, at = [], []
     ratio = over_effective_modulus(rows)
     contrast, weakening = rows["f_beta"].values, np.round(rows["zeta_over_a"].values, 3)
     for value in np.unique(weakening):
@@ -173,7 +217,8 @@ def pairs_decreasing(evidence: PairEvidence) -> Result:
             at += own[1:].tolist()
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
-    return Result(slopes, note=_note(rows) + _each_sense(rows.isel(run=at), np.array(slopes)))
+    senses_apart = _each_sense(rows.isel(run=at), np.array(slopes))
+    return Result(slopes, note=_note(rows) + senses_apart + left_out)
 
 
 OURS: dict[str, Computation] = {

@@ -17,6 +17,7 @@ LINES = {
 
 SIMULATED = "simulated drop: mean and range of realisations"
 BASES = {"rigid": "rigid base", "deformable": "identical blocks"}
+FEWEST = 3  # zeta/a of a base and height that are drawn as curves
 TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)  # of zeta/a
 
 
@@ -29,7 +30,11 @@ def draw(table: xr.Dataset) -> Figure:
     table : Dataset
         From :func:`nucleation.patch.weakening_table.gather`.
     """
-    systems = list(laws.groups(table, "below", "height"))
+    systems = [
+        system
+        for system in laws.groups(table, "study", "below", "height")
+        if np.unique(system["zeta_over_a"]).size >= FEWEST
+    ]
     figure, panels = style.panels(1, len(systems), 7.5)
     for axes, letter, system in zip(np.ravel(panels), "abcdefgh", systems, strict=False):
         _draw_system(axes, system)
@@ -39,7 +44,7 @@ def draw(table: xr.Dataset) -> Figure:
     first = np.ravel(panels)[0]
     first.set_ylabel("Length over theory $L/L_c$")
     entries = style.entries(first)
-    entries[SIMULATED] = style.key(SIMULATED, "o", color=style.BLACK)
+    entries[SIMULATED] = style.key(SIMULATED, "o", colour=style.BLACK)
     figure.legend(entries.values(), entries, loc="outside upper center", ncols=2)
     return figure
 
@@ -52,8 +57,8 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
         ratios = [float(fault[name][0] / fault["theory_length"][0]) for fault in faults]
         axes.plot(weakening, ratios, dashes, color=colour, label=label)
     for at, fault in zip(weakening, faults, strict=True):
-        ratios = (fault["length"] / fault["theory_length"]).values
-        dropped = ratios[np.isfinite(ratios)]
+        simulated = (fault["length"] / fault["theory_length"]).values
+        dropped = simulated[np.isfinite(simulated)]
         if dropped.size:
             mean = dropped.mean()
             bars = [[mean - dropped.min()], [dropped.max() - mean]]
