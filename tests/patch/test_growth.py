@@ -21,7 +21,7 @@ from nucleation.patch.growth import (
     follow_patch,
     rough_crossing,
 )
-from nucleation.patch.tables import STABILITY, gather_stability
+from nucleation.patch.tables.stability import STABILITY, gather_stability
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, run, simulate
 from nucleation.theory.creep.lengths import Patches, stability_point

@@ -29,7 +29,10 @@ class CreepPath(NamedTuple):
     rate: ComplexArray
 
 
-def trend(history: ModeHistory, values: Array) -> Callable[[Array], Array]:
+def trend(
+    history: ModeHistory,
+    values: Array,
+) -> Callable[[Array], Array]:
     """Real values as a function of patch length.
 
     Parameters
@@ -55,7 +58,8 @@ def trend(history: ModeHistory, values: Array) -> Callable[[Array], Array]:
 
 
 def complex_trend(
-    history: ModeHistory, values: ComplexArray
+    history: ModeHistory,
+    values: ComplexArray,
 ) -> Callable[[Array | float], ComplexArray]:
     """Complex values as a function of patch length.
 
@@ -103,7 +107,9 @@ def exponent_of(path: CreepPath) -> ComplexArray:
 
 
 def roughness_weights(
-    history: ModeHistory, path: CreepPath, x: Array
+    history: ModeHistory,
+    path: CreepPath,
+    x: Array,
 ) -> Iterator[tuple[float, ComplexArray]]:
     """Weights of the roughness at each position in the amplitude A, as time advances.
 
@@ -164,7 +170,10 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     ]
     fitted = complex_trend(history, np.array(rows))
 
-    def at(length: float, x: Array) -> ComplexArray:
+    def at(
+        length: float,
+        x: Array,
+    ) -> ComplexArray:
         return np.interp(x - length, behind, fitted(length), left=0.0, right=0.0)
 
     return at

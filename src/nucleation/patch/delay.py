@@ -119,7 +119,11 @@ class Growth:
         at = np.interp(length, self.length, self.log_amplitude)
         return float(np.exp(-at) / ROOT_OF_MEDIAN)
 
-    def closed_form(self, history: ModeHistory, strength: float) -> ClosedForm:
+    def closed_form(
+        self,
+        history: ModeHistory,
+        strength: float,
+    ) -> ClosedForm:
         """The median drop in one line.
 
         Parameters
@@ -154,7 +158,10 @@ class Growth:
         )
 
 
-def growth(history: ModeHistory, declared: Perturbation) -> Growth:
+def growth(
+    history: ModeHistory,
+    declared: Perturbation,
+) -> Growth:
     """Growth of the mode along the creep under a declared forcing, in the mean square.
 
     The creep is continued by the trends of L(t) and Lambda(L).
@@ -183,7 +190,10 @@ def growth(history: ModeHistory, declared: Perturbation) -> Growth:
     return grown(path, 0.5 * _log_variance(path, log_power))
 
 
-def _power(history: ModeHistory, declared: Perturbation) -> Array:
+def _power(
+    history: ModeHistory,
+    declared: Perturbation,
+) -> Array:
     """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
     memory = history.parameters.memory_time
     omega = history.rate.imag
@@ -204,13 +214,19 @@ def _power(history: ModeHistory, declared: Perturbation) -> Array:
 
 
 def _log_amplitude_of_roughness(
-    history: ModeHistory, path: CreepPath, declared: Perturbation
+    history: ModeHistory,
+    path: CreepPath,
+    declared: Perturbation,
 ) -> Array:
     """log(sigma / eps) under roughness of the strength, as the front passes over it."""
     x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
     covariance = correlation(x[:, None] - x, declared.correlation_length)
-    log_factors, weights = zip(*roughness_weights(history, path, x), strict=True)
-    weights = np.array(weights)
+    log_factors = []
+    rows = []
+    for log_factor, row in roughness_weights(history, path, x):
+        log_factors.append(log_factor)
+        rows.append(row)
+    weights = np.array(rows)
 
     # all times at once, and no complex copy of the covariance
     def variance(part: Array) -> Array:
@@ -220,7 +236,10 @@ def _log_amplitude_of_roughness(
     return np.array(log_factors) + 0.5 * np.log(np.maximum(squares, TINY))
 
 
-def grown(path: CreepPath, log_amplitude: Array) -> Growth:
+def grown(
+    path: CreepPath,
+    log_amplitude: Array,
+) -> Growth:
     """The growth along a path.
 
     Parameters
@@ -247,7 +266,10 @@ def grown(path: CreepPath, log_amplitude: Array) -> Growth:
     )
 
 
-def _log_variance(path: CreepPath, log_power: Array) -> Array:
+def _log_variance(
+    path: CreepPath,
+    log_power: Array,
+) -> Array:
     """``log int exp(log_power + 2 int_s^t Re Lambda) ds``, without overflow."""
     exponent = 2.0 * exponent_of(path).real
     step = path.time[1] - path.time[0]

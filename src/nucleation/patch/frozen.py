@@ -76,7 +76,10 @@ def frozen_patch(
     )
 
 
-def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
+def _at(
+    law: Friction,
+    nodes: NDArray[np.intp],
+) -> Friction:
     """The law with its parameters at some nodes."""
     own = copy.copy(law)
     for name, value in vars(law).items():
@@ -88,7 +91,11 @@ def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
 class Freezer:
     """Linearises the patches of one run at given fields."""
 
-    def __init__(self, parameters: Parameters, threshold: float) -> None:
+    def __init__(
+        self,
+        parameters: Parameters,
+        threshold: float,
+    ) -> None:
         """Prepare the run's static operator and its law.
 
         Parameters
@@ -105,7 +112,12 @@ class Freezer:
         self.operator = body.operator(0.0)
         self._law = interface_of(parameters, body.grid).friction
 
-    def frozen(self, slip_rate: Array, state: Array, normal_force: Array) -> FrozenPatch:
+    def frozen(
+        self,
+        slip_rate: Array,
+        state: Array,
+        normal_force: Array,
+    ) -> FrozenPatch:
         """The patch about fields along the interface.
 
         Parameters
@@ -127,7 +139,11 @@ class Freezer:
             self.threshold,
         )
 
-    def oscillating(self, patch: FrozenPatch, slip_rate: Array) -> complex:
+    def oscillating(
+        self,
+        patch: FrozenPatch,
+        slip_rate: Array,
+    ) -> complex:
         """The eigenvalue of the fastest growing oscillating mode.
 
         The frequency's scale is V/D; without an edge that moves at V it is v/D of the patch itself.

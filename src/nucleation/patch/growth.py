@@ -50,7 +50,10 @@ FOLLOWED = {
 }
 
 
-def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
+def follow_patch(
+    simulation: xr.Dataset,
+    settings: ExtractionSettings,
+) -> xr.Dataset:
     """Growth of the frozen patch along a run up to its onset, and the length where it begins.
 
     Parameters
@@ -109,7 +112,11 @@ class _Spectra(Frames):
             self._known[frame] = (fastest, pair)
         return self._known[frame]
 
-    def dataset(self, fit: dict[str, float], mode: ComplexArray) -> xr.Dataset:
+    def dataset(
+        self,
+        fit: dict[str, float],
+        mode: ComplexArray,
+    ) -> xr.Dataset:
         """The dataset of :func:`follow_patch`.
 
         Parameters
@@ -148,7 +155,11 @@ class _Spectra(Frames):
         return annotate(found, FOLLOWED)
 
 
-def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.intp]:
+def evenly(
+    frames: NDArray[np.intp],
+    length: Array,
+    number: int,
+) -> NDArray[np.intp]:
     """Some of the frames, spaced evenly in patch length.
 
     Parameters
@@ -172,7 +183,10 @@ def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.i
     return frames[np.unique(nearest)]
 
 
-def rough_crossing(length: Array, growth: Array) -> float:
+def rough_crossing(
+    length: Array,
+    growth: Array,
+) -> float:
     """Patch length that best divides decay from growth.
 
     The range of lengths with the wrong sign is the least possible: on a coarse mesh the growth rate
@@ -202,7 +216,10 @@ def rough_crossing(length: Array, growth: Array) -> float:
     return float(length[min(at, length.size - 1)])
 
 
-def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
+def fitted_crossing(
+    length: Array,
+    growth: ComplexArray,
+) -> dict[str, float]:
     """Where a line through eigenvalues over patch length crosses zero growth.
 
     The front advances by one node at a time, and growth varies within each hop. The scatter about

@@ -58,7 +58,10 @@ class ModeHistory:
     state: ComplexArray  # g (1) of a source in d log(phi)/dt at each place
 
 
-def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
+def mode_history(
+    parameters: Parameters,
+    theory_length: float,
+) -> ModeHistory:
     """The mode of a run's creep.
 
     Parameters
@@ -99,7 +102,8 @@ def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
         )
     x = np.linspace(0.0, found.length[-1], PLACES)
     rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
-    load, drive, strength, state = (np.array(column) for column in zip(*rows, strict=True))
+    columns: list[ComplexArray] = [np.array(column) for column in zip(*rows, strict=True)]
+    load, drive, strength, state = columns
     memory = parameters.memory_time
     return ModeHistory(
         parameters=parameters,
@@ -114,7 +118,11 @@ def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
     )
 
 
-def _narrower(lengths: Array, known: NDArray[np.intp], stable: float) -> Array:
+def _narrower(
+    lengths: Array,
+    known: NDArray[np.intp],
+    stable: float,
+) -> Array:
     """Lengths (m) over the narrower range in which the mode is known, or around L_s."""
     middle = int(np.searchsorted(lengths, stable))
     first, last = (known[0], known[-1]) if known.size else (middle, middle - 1)
@@ -123,7 +131,11 @@ def _narrower(lengths: Array, known: NDArray[np.intp], stable: float) -> Array:
     return np.linspace(low, high, INSTANTS)
 
 
-def followed(length: Array, rates: ComplexArray, stable: float) -> NDArray[np.intp]:
+def followed(
+    length: Array,
+    rates: ComplexArray,
+    stable: float,
+) -> NDArray[np.intp]:
     """Indices of the lengths at which a rate belongs to the mode that begins to grow at L_s.
 
     The mode is followed from L_s to either side, until it no longer oscillates or the rate jumps:
@@ -168,7 +180,11 @@ def _continues(rates: ComplexArray) -> bool:
 
 
 def _weights(
-    patches: Patches, found: Advance, i: int, rate: complex, x: Array
+    patches: Patches,
+    found: Advance,
+    i: int,
+    rate: complex,
+    x: Array,
 ) -> tuple[complex, complex, ComplexArray, ComplexArray]:
     """The weights of a :class:`ModeHistory`, time in D/V."""
     patch, creep, law = found.patches[i], found.creeps[i], patches.law

@@ -109,7 +109,10 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
     own.broadcast(wavenumber=k)
 
-    def rates(systems: Systems, k: Array) -> ComplexArray:
+    def rates(
+        systems: Systems,
+        k: Array,
+    ) -> ComplexArray:
         return systems.growth_rates(as_wavenumber(k))
 
     found = own.evaluate(rates, k, rows=2, dtype=complex)
@@ -148,7 +151,10 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
     own.broadcast(wavenumber=k)
 
-    def functions(systems: Systems, k: Array) -> tuple[Array, Array]:
+    def functions(
+        systems: Systems,
+        k: Array,
+    ) -> tuple[Array, Array]:
         return systems.pair.transfer_functions(as_wavenumber(k))
 
     shear, normal = own.evaluate(functions, k, rows=2)
@@ -234,7 +240,13 @@ def _with_velocity(fault: Fault) -> Fault:
     return fault
 
 
-def named(values: Any, name: str, units: str, long_name: str, fault: Fault) -> Any:
+def named(
+    values: Any,
+    name: str,
+    units: str,
+    long_name: str,
+    fault: Fault,
+) -> Any:
     """A result in the form of the fault's parameters.
 
     Parameters

@@ -35,7 +35,12 @@ class _Extremes:
     end.
     """
 
-    def __init__(self, low: Waves, high: Waves, greatest: bool) -> None:
+    def __init__(
+        self,
+        low: Waves,
+        high: Waves,
+        greatest: bool,
+    ) -> None:
         self.low = low
         self.high = high
         self.greatest = greatest
@@ -50,7 +55,11 @@ class _Extremes:
         return np.where(self.thick, np.minimum(low, high), low / self.growth)
 
 
-def extremes(low: Waves, high: Waves, greatest: bool) -> Waves:
+def extremes(
+    low: Waves,
+    high: Waves,
+    greatest: bool,
+) -> Waves:
     """The least or the greatest values of the waves over intervals of q.
 
     Parameters
@@ -68,7 +77,11 @@ def extremes(low: Waves, high: Waves, greatest: bool) -> Waves:
     return cast(Waves, _Extremes(low, high, greatest))
 
 
-def transfer_bounds(k_low: Array, k_high: Array, pair: LayerPair) -> TransferBounds:
+def transfer_bounds(
+    k_low: Array,
+    k_high: Array,
+    pair: LayerPair,
+) -> TransferBounds:
     """Bounds of the transfer functions over intervals ``0 < k_low <= k <= k_high``.
 
     Parameters
@@ -138,7 +151,10 @@ def _stiffness_bounds(
     return low, high
 
 
-def _product(positive: _Interval, other: _Interval) -> _Interval:
+def _product(
+    positive: _Interval,
+    other: _Interval,
+) -> _Interval:
     """The bounds of a positive quantity times one of either sign."""
     low, high = positive
     x_low, x_high = other
@@ -147,7 +163,10 @@ def _product(positive: _Interval, other: _Interval) -> _Interval:
     return least, greatest
 
 
-def _product_of_any_sign(first: _Interval, second: _Interval) -> _Interval:
+def _product_of_any_sign(
+    first: _Interval,
+    second: _Interval,
+) -> _Interval:
     """The bounds of the product of two quantities of either sign."""
     corners = [x * y for x in first for y in second]
     return np.minimum.reduce(corners), np.maximum.reduce(corners)

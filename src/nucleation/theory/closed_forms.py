@@ -12,7 +12,10 @@ from .crossings import marginal_stiffness
 from .stiffness import Array
 
 
-def bimaterial_contrast(upper: Material, lower: Material) -> float:
+def bimaterial_contrast(
+    upper: Material,
+    lower: Material,
+) -> float:
     """The bimaterial contrast beta of two half-spaces (Eq. 8).
 
     Parameters
@@ -39,7 +42,10 @@ def bimaterial_contrast(upper: Material, lower: Material) -> float:
     return difference / (2.0 * total)
 
 
-def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
+def bimaterial_length_ratio(
+    f_beta: ArrayLike,
+    zeta_over_a: ArrayLike,
+) -> Array:
     """L_c of two half-spaces over ``L_c^M = pi M ell / (zeta sigma0)`` (Eq. 9, Fig. 2).
 
     Parameters
@@ -69,7 +75,11 @@ def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
         return zeta / h_plus
 
 
-def thin_limit_length(height: ArrayLike, material: Material, interface: InterfaceState) -> Array:
+def thin_limit_length(
+    height: ArrayLike,
+    material: Material,
+    interface: InterfaceState,
+) -> Array:
     """L_c of a block on a rigid base as ``Hk -> 0`` (Eq. 11).
 
     Parameters

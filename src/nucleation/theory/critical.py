@@ -46,7 +46,9 @@ class CriticalPoint:
 
 
 def critical_wavenumber(
-    upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState
+    upper: Body | RigidBody,
+    lower: Body | RigidBody,
+    interface: InterfaceState,
 ) -> CriticalPoint:
     """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5).
 
@@ -145,7 +147,11 @@ def _number(value: Array) -> float:
     return float(np.ravel(value)[0])
 
 
-def critical_length(height: ArrayLike, material: Material, interface: InterfaceState) -> Array:
+def critical_length(
+    height: ArrayLike,
+    material: Material,
+    interface: InterfaceState,
+) -> Array:
     """``L_c = 2 pi/k_c`` of a block on a rigid base (Fig. 3), Eq. (5) with Eq. (10).
 
     Parameters
@@ -179,7 +185,10 @@ def critical_length(height: ArrayLike, material: Material, interface: InterfaceS
 
 
 @cache
-def run_length(parameters: Parameters, interface: InterfaceState) -> float:
+def run_length(
+    parameters: Parameters,
+    interface: InterfaceState,
+) -> float:
     """L_c of a run with its own bodies and far sides.
 
     Parameters
@@ -203,7 +212,11 @@ def run_length(parameters: Parameters, interface: InterfaceState) -> float:
 
 
 @cache
-def theory_length(height: float, material: Material, interface: InterfaceState) -> float:
+def theory_length(
+    height: float,
+    material: Material,
+    interface: InterfaceState,
+) -> float:
     """L_c of a block on a rigid base.
 
     Parameters

@@ -77,7 +77,10 @@ def marginal_stiffness(
     return minus, plus
 
 
-def stability_margin(systems: Systems, k: Array) -> Array:
+def stability_margin(
+    systems: Systems,
+    k: Array,
+) -> Array:
     """Negative where a mode grows, positive where none does, continuous in k.
 
     Parameters
@@ -101,7 +104,11 @@ def stability_margin(systems: Systems, k: Array) -> Array:
     return np.where(zeta < 0.0, strengthening, weakening)
 
 
-def certainly_stable(systems: Systems, k_low: Array, k_high: Array) -> NDArray[np.bool_]:
+def certainly_stable(
+    systems: Systems,
+    k_low: Array,
+    k_high: Array,
+) -> NDArray[np.bool_]:
     """Whether no mode in ``[k_low, k_high]`` grows, from rigorous bounds of g and rho.
 
     Parameters
@@ -142,7 +149,10 @@ def largest_crossings(systems: Systems) -> Array:
     return k
 
 
-def marginal_frequencies(systems: Systems, k: Array) -> Array:
+def marginal_frequencies(
+    systems: Systems,
+    k: Array,
+) -> Array:
     """omega at marginal wavenumbers: the root of ``a w^2 - rho b w - zeta = 0`` that fits g.
 
     Parameters
@@ -224,7 +234,12 @@ def _brackets(systems: Systems) -> tuple[Array, Array]:
     return bracket[0], bracket[1]
 
 
-def _divided(owner: NDArray, low: Array, high: Array, parts: int) -> tuple[NDArray, Array, Array]:
+def _divided(
+    owner: NDArray,
+    low: Array,
+    high: Array,
+    parts: int,
+) -> tuple[NDArray, Array, Array]:
     """Intervals of log k divided into equal parts, in their order."""
     first = low[:, None]
     last = high[:, None]
@@ -234,7 +249,10 @@ def _divided(owner: NDArray, low: Array, high: Array, parts: int) -> tuple[NDArr
     return np.repeat(owner, parts), edges[:, :-1].ravel(), edges[:, 1:].ravel()
 
 
-def _brackets_of_long_waves(systems: Systems, bottom: Array) -> Array:
+def _brackets_of_long_waves(
+    systems: Systems,
+    bottom: Array,
+) -> Array:
     """The same where all ``Hk`` are small: every quantity is a power of k."""
     k = bottom[:, None] * 0.5 ** np.arange(HALVINGS)  # at the first of them sliding is stable
     index = np.broadcast_to(np.arange(bottom.size)[:, None], k.shape)
@@ -253,7 +271,11 @@ class _Bracket(NamedTuple):
     right: Array
     f_right: Array
 
-    def narrowed(self, x: Array, f: Array) -> "_Bracket":
+    def narrowed(
+        self,
+        x: Array,
+        f: Array,
+    ) -> "_Bracket":
         """The brackets narrowed by a point within."""
         inside = (self.left < x) & (x < self.right)
         lower = inside & (f < 0.0)
@@ -269,7 +291,11 @@ class _Bracket(NamedTuple):
         return _Bracket(*(values[index] for values in self))
 
 
-def _refined(systems: Systems, low: Array, high: Array) -> Array:
+def _refined(
+    systems: Systems,
+    low: Array,
+    high: Array,
+) -> Array:
     """The crossings within brackets, by Ridders' method in ``log(k/low)``, to round-off.
 
     NaN brackets stay NaN. A crossing does not depend on the other systems.

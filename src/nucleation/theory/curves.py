@@ -33,7 +33,10 @@ CURVES = {
 
 
 def theory_dataset(
-    material: Material, friction: Friction, interface: InterfaceState, curves: Curves
+    material: Material,
+    friction: Friction,
+    interface: InterfaceState,
+    curves: Curves,
 ) -> xr.Dataset:
     """All curves of the linear theory.
 
@@ -62,7 +65,11 @@ def theory_dataset(
     return annotate(xr.merge(parts), CURVES)
 
 
-def length_curve(material: Material, interface: InterfaceState, height: Array) -> xr.Dataset:
+def length_curve(
+    material: Material,
+    interface: InterfaceState,
+    height: Array,
+) -> xr.Dataset:
     """Critical length, wavenumber and frequency against the height (Figure 3).
 
     Parameters
@@ -91,7 +98,10 @@ def length_curve(material: Material, interface: InterfaceState, height: Array) -
     return xr.Dataset(on_height, {"height": height})
 
 
-def _bimaterial_curves(f_beta: Array, zeta_over_a: Array) -> xr.Dataset:
+def _bimaterial_curves(
+    f_beta: Array,
+    zeta_over_a: Array,
+) -> xr.Dataset:
     """Critical length of bimaterial half-spaces over that without contrast (Figure 2)."""
     ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
     return xr.Dataset(
@@ -100,7 +110,11 @@ def _bimaterial_curves(f_beta: Array, zeta_over_a: Array) -> xr.Dataset:
     )
 
 
-def _friction_curves(friction: Friction, velocity: float, slip_rate: Array) -> xr.Dataset:
+def _friction_curves(
+    friction: Friction,
+    velocity: float,
+    slip_rate: Array,
+) -> xr.Dataset:
     """Steady-state friction, full law and logarithmic expansion about `velocity` (Figure S1)."""
     state = friction.characteristic_slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
     expansion = friction.expansion(velocity)

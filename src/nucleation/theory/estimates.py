@@ -47,7 +47,10 @@ def stiffness_of(parameters: Parameters) -> _SlipStiffness:
     return _SlipStiffness(float(resistance[0]), float(resistance[1]) / long)
 
 
-def steepness(friction: Friction, omega: float) -> float:
+def steepness(
+    friction: Friction,
+    omega: float,
+) -> float:
     """How much faster friction weakens with slip at a front than it does by its linearisation.
 
     Parameters
@@ -79,7 +82,10 @@ def steepness(friction: Friction, omega: float) -> float:
     return max(drop**2 / (2.0 * energy), 1.0)
 
 
-def process_zone(parameters: Parameters, rest: float = 0.0) -> float:
+def process_zone(
+    parameters: Parameters,
+    rest: float = 0.0,
+) -> float:
     """Length (m) over which friction at the front weakens.
 
     Parameters
@@ -117,7 +123,10 @@ def process_zone(parameters: Parameters, rest: float = 0.0) -> float:
     return min(in_thick_body, in_thin_body)
 
 
-def growth_time(parameters: Parameters, length: float) -> float:
+def growth_time(
+    parameters: Parameters,
+    length: float,
+) -> float:
     """Time until the creep patch has a length, roughly.
 
     Parameters

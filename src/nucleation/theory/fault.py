@@ -157,7 +157,11 @@ class Fault:
         if with_names and without_names:
             raise ParameterError("arrays with and without named dimensions can't be combined")
 
-    def _set(self, name: str, value: Any) -> None:
+    def _set(
+        self,
+        name: str,
+        value: Any,
+    ) -> None:
         object.__setattr__(self, name, value)  # the dataclass is frozen
 
     def _given(self) -> list[str]:

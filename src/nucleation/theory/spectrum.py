@@ -66,7 +66,11 @@ class Systems(NamedTuple):
         return np.where(in_order, roots, roots[::-1]) * self.rate
 
 
-def system(upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState) -> Systems:
+def system(
+    upper: Body | RigidBody,
+    lower: Body | RigidBody,
+    interface: InterfaceState,
+) -> Systems:
     """One system of two bodies and their interface; its fields are single numbers.
 
     Parameters

@@ -63,7 +63,10 @@ class Stiffness(NamedTuple):
     det: Array
 
 
-def _velocity_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _velocity_terms(
+    w: Waves,
+    nu: Array,
+) -> StiffnessTerms:
     """``u_x = sigma_yy = 0``: the inverse of the paper's M (Eq. S-general_M)."""
     return StiffnessTerms(
         denominator=(3.0 - 4.0 * nu) * w.sinh_2q + w.linear,
@@ -75,7 +78,10 @@ def _velocity_terms(w: Waves, nu: Array) -> StiffnessTerms:
     )
 
 
-def _roller_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _roller_terms(
+    w: Waves,
+    nu: Array,
+) -> StiffnessTerms:
     """``u_y = sigma_xy = 0``: symmetric fields where those of `velocity` are antisymmetric.
 
     ``A_xy D = 2 [(1 - 2 nu) sinh 2q - 2q]`` with ``D = (3 - 4 nu) sinh 2q - 2q``.
@@ -90,7 +96,10 @@ def _roller_terms(w: Waves, nu: Array) -> StiffnessTerms:
     )
 
 
-def _traction_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _traction_terms(
+    w: Waves,
+    nu: Array,
+) -> StiffnessTerms:
     """``sigma_xy = sigma_yy = 0``: the first column is Eq. (10)."""
     compression = 4.0 * (1.0 - nu)
     constant = compression**2 / 2.0 * w.decay
@@ -104,7 +113,10 @@ def _traction_terms(w: Waves, nu: Array) -> StiffnessTerms:
     )
 
 
-def _clamped_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _clamped_terms(
+    w: Waves,
+    nu: Array,
+) -> StiffnessTerms:
     """``u_x = u_y = 0``, with ``kappa = 3 - 4 nu > 1``.
 
     ``A_xx, A_yy = 2 (1 - nu) (kappa sinh 2q -+ 2q) / D``,
@@ -137,17 +149,26 @@ FAR_SIDES: dict[str, _Terms] = {
 """Boundary conditions on the far side, by name; ``free`` is an alias of ``traction``."""
 
 
-def _antiplane_free_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _antiplane_free_terms(
+    w: Waves,
+    nu: Array,
+) -> StiffnessTerms:
     """``sigma_yz = 0``: ``tanh q = sinh 2q/(2 cosh^2 q)``; the other entry of A is 1."""
     return _antiplane_terms(w.sinh_2q, 2.0 * w.cosh_squared)
 
 
-def _antiplane_held_terms(w: Waves, nu: Array) -> StiffnessTerms:
+def _antiplane_held_terms(
+    w: Waves,
+    nu: Array,
+) -> StiffnessTerms:
     """``u_z = 0``: ``coth q = sinh 2q/(2 sinh^2 q)``."""
     return _antiplane_terms(w.sinh_2q, 2.0 * w.sinh_squared)
 
 
-def _antiplane_terms(numerator: Array, denominator: Array) -> StiffnessTerms:
+def _antiplane_terms(
+    numerator: Array,
+    denominator: Array,
+) -> StiffnessTerms:
     """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
     return StiffnessTerms(
         denominator=denominator,
@@ -168,7 +189,11 @@ OF_ANTIPLANE: dict[str, _Terms] = {
 """The same in antiplane shear, without rollers: they let a layer slide along x alone."""
 
 
-def require_far_side(name: str, far_side: str, plane: str) -> None:
+def require_far_side(
+    name: str,
+    far_side: str,
+    plane: str,
+) -> None:
     """Refuse a boundary condition that a plane of deformation does not have.
 
     Parameters

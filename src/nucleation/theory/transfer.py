@@ -99,7 +99,9 @@ def as_wavenumber(wavenumber: ArrayLike) -> Array:
 
 
 def transfer_functions(
-    wavenumber: ArrayLike, upper: Body | RigidBody, lower: Body | RigidBody
+    wavenumber: ArrayLike,
+    upper: Body | RigidBody,
+    lower: Body | RigidBody,
 ) -> tuple[Array, Array]:
     """G1 and G2 of a pair of bodies.
 

@@ -74,7 +74,10 @@ def _declared() -> dict[str, Quantity]:
     return {name: _bounded(name, entry) for name, entry in found.items()}
 
 
-def _bounded(name: str, entry: Quantity) -> Quantity:
+def _bounded(
+    name: str,
+    entry: Quantity,
+) -> Quantity:
     """The declaration with a range that begins at the parameter's floor, if it has one."""
     if name not in FLOORS:
         return entry
@@ -91,7 +94,11 @@ def labelled(value: Any) -> bool:
     return "xarray" in sys.modules and isinstance(value, sys.modules["xarray"].DataArray)
 
 
-def where(condition: Any, first: Any, second: Any) -> Any:
+def where(
+    condition: Any,
+    first: Any,
+    second: Any,
+) -> Any:
     """``xr.where`` if there is a DataArray, else NumPy's.
 
     Parameters
@@ -111,7 +118,11 @@ def where(condition: Any, first: Any, second: Any) -> Any:
     return np.where(condition, first, second)[()]
 
 
-def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
+def checked(
+    name: str,
+    value: Any,
+    entry: Quantity,
+) -> Array | xr.DataArray:
     """The value in SI units as an array of floats, all in the declared range.
 
     Parameters
@@ -156,7 +167,10 @@ def checked(name: str, value: Any, entry: Quantity) -> Array | xr.DataArray:
     return array
 
 
-def inside(values: Array, entry: Quantity) -> NDArray:
+def inside(
+    values: Array,
+    entry: Quantity,
+) -> NDArray:
     """Whether each value is in the declared range.
 
     Parameters

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import laws, style
-from ...patch.pairs import over_realisations
+from ...patch.tables.pairs import over_realisations
 from ...theory.closed_forms import bimaterial_length_ratio
 
 CONTRAST = np.linspace(-0.42, 0.42, 169)
@@ -20,7 +20,7 @@ def draw(table: xr.Dataset) -> Figure:
     """Draw lengths over ``L_c^M``, at the drop and where the patch turns unstable.
 
     The stiffer body is above on the left of each panel, below on the right; bars are the range of
-    the realisations. `table` is that of :func:`nucleation.patch.pairs.gather`.
+    the realisations. `table` is that of :func:`nucleation.patch.tables.pairs.gather_pairs`.
     """
     rows = over_realisations(laws.where(table, role="figure_2_simulated"))
     figure, axes = style.panels(1, 2, 8.4, sharey=True)

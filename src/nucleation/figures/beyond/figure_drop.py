@@ -34,7 +34,7 @@ SMALL: Any = {"fontsize": style.SMALL, "title_fontsize": style.SMALL}
 def draw(table: xr.Dataset) -> Figure:
     """Draw lengths at the drop against strength, and the law beside them.
 
-    `table` is that of :func:`nucleation.patch.drop_table.gather`.
+    `table` is that of :func:`nucleation.patch.tables.drops.gather_drops`.
     """
     figure, ((load, state), (ratio, spread)) = style.panels(2, 2, 13.0)
     for axes, kind in ((load, "normal_load"), (state, "state")):

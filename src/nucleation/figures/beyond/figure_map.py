@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from ...figures import style
-from ...patch.map_table import mean_over_seeds
+from ...patch.tables.map import mean_over_seeds
 
 RATIOS = (0.45, 1.0)  # of the colours
 CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2)
@@ -23,7 +23,7 @@ def draw(grid: xr.Dataset) -> Figure:
     """Draw ratios of lengths as images with contours, and lengths over height.
 
     Of stability, of the drop at the weakest and the strongest perturbation, and lengths over height
-    for some weakenings. `grid` is that of :func:`nucleation.patch.map_table.on_grid`.
+    for some weakenings. `grid` is that of :func:`nucleation.patch.tables.map.on_grid`.
     """
     figure, ((stable, quiet), (noisy, slices)) = style.panels(2, 2, 13.0)
     stability = mean_over_seeds(grid, "stability_ratio").isel(strength=0)

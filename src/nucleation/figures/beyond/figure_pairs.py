@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ...answers.formulas import FINITE_PATCH
 from ...figures import laws, style
-from ...patch.pairs import over_realisations
+from ...patch.tables.pairs import over_realisations
 
 SIDES = (
     ("free", "o", style.VERMILLION),
@@ -30,7 +30,7 @@ HALF_SPACES = (
 def draw(table: xr.Dataset) -> Figure:
     """Draw (a) the lengths of identical blocks and (b) all pairs' over the theory's.
 
-    `table` is that of :func:`nucleation.patch.pairs.gather`.
+    `table` is that of :func:`nucleation.patch.tables.pairs.gather_pairs`.
     """
     figure, (left, right) = style.panels(1, 2, 7.4)
     table = over_realisations(table)

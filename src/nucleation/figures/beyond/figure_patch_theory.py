@@ -15,7 +15,7 @@ BAND = 0.03  # relative error within which theory and simulation agree
 def draw(table: xr.Dataset) -> Figure:
     """Draw L_s over L_c against zeta/a, both lengths against each other, slip rate and stress.
 
-    `table` is that of :func:`nucleation.patch.theory_table.gather`.
+    `table` is that of :func:`nucleation.patch.tables.theory.gather_theory`.
     """
     figure, (ratio, parity, creep) = style.panels(1, 3, 7.6)
     _draw_ratio(ratio, table)

@@ -157,7 +157,12 @@ class _Front:
         return creep
 
 
-def _stepped(law: Friction, log_state: Array, step: Array, rate: Array) -> Array:
+def _stepped(
+    law: Friction,
+    log_state: Array,
+    step: Array,
+    rate: Array,
+) -> Array:
     """log(phi) after a time at a slip speed over D (1/s), extrapolated from one and two steps."""
     evolve = law.evolution_law.implicit_log_state
     half, _ = evolve(log_state, 0.5 * step, rate)
@@ -232,7 +237,10 @@ def fastest(found: Advance) -> Array:
 
 
 def first_growing(
-    patches: Patches, critical: float, initial_state: float, initial_stress: float = 0.0
+    patches: Patches,
+    critical: float,
+    initial_state: float,
+    initial_stress: float = 0.0,
 ) -> float:
     """L_s of a patch with its advancing front.
 
@@ -283,7 +291,8 @@ def first_growing(
 
 
 def _bracket(
-    advanced: Callable[[ArrayLike], Advance], critical: float
+    advanced: Callable[[ArrayLike], Advance],
+    critical: float,
 ) -> tuple[float, float, Array]:
     """Neighbouring lengths (m) without and with growth, and the oscillating modes' growth there."""
     tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
@@ -303,7 +312,10 @@ def _bracket(
     return low, high, oscillating(found)[i - 1 : i + 1].real
 
 
-def _vanishing(advanced: Callable[[ArrayLike], Advance], at: float) -> float:
+def _vanishing(
+    advanced: Callable[[ArrayLike], Advance],
+    at: float,
+) -> float:
     """Root of a parabola through the pair's growth around a length (m); `at` without a root."""
     growth = oscillating(advanced(at * np.exp(NEAR))).real
     if not np.isfinite(growth).all():

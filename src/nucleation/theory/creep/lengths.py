@@ -106,7 +106,11 @@ class Patches:
         one = self.one
         return float(one.friction[0]), float(one.a[0]), float(one.zeta[0])
 
-    def creep(self, length: float, number: int | None = None) -> Creep:
+    def creep(
+        self,
+        length: float,
+        number: int | None = None,
+    ) -> Creep:
         """The creep of a patch.
 
         Parameters
@@ -132,7 +136,11 @@ class Patches:
         require_contact(found)
         return found
 
-    def at(self, length: float, number: int | None = None) -> FrozenPatch:
+    def at(
+        self,
+        length: float,
+        number: int | None = None,
+    ) -> FrozenPatch:
         """The linearised patch; slip in D, time in D/V.
 
         Parameters
@@ -163,7 +171,12 @@ class Patches:
         """Re Lambda over V/D of the fastest growing mode, oscillating or not."""
         return float(self.at(length).eigenvalues[0].real)
 
-    def rate_near(self, length: float, rate: complex, number: int | None = None) -> complex:
+    def rate_near(
+        self,
+        length: float,
+        rate: complex,
+        number: int | None = None,
+    ) -> complex:
         """The eigenvalue that is nearest to a given one.
 
         Parameters
@@ -191,7 +204,10 @@ def require_contact(creep: Creep) -> None:
         raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")
 
 
-def stability_point(patches: Patches, critical: float) -> StabilityPoint:
+def stability_point(
+    patches: Patches,
+    critical: float,
+) -> StabilityPoint:
     """L_s of one fault.
 
     Parameters
@@ -233,7 +249,10 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     return _point(patches, math.exp(log_length))
 
 
-def _point(patches: Patches, length: float) -> StabilityPoint:
+def _point(
+    patches: Patches,
+    length: float,
+) -> StabilityPoint:
     """The pair of modes that begins to grow at a length (m)."""
     rates = patches.at(length).eigenvalues
     pairs = rates[rates.imag > 0.0]
@@ -256,7 +275,10 @@ def _guess(patches: Patches) -> float:
 
 @takes_fault
 def stability_length(
-    *, friction_law: Friction | None = None, loading: str = "edge", **fault: Values
+    *,
+    friction_law: Friction | None = None,
+    loading: str = "edge",
+    **fault: Values,
 ) -> Any:
     """Stability length L_s: where a creeping patch turns unstable.
 
@@ -292,7 +314,9 @@ def stability_length(
 
 
 def stability_values(
-    fault: Fault, friction_law: Friction | None = None, loading: str = "edge"
+    fault: Fault,
+    friction_law: Friction | None = None,
+    loading: str = "edge",
 ) -> tuple[Any, Any, Any]:
     """L_s, its mode's frequency and its error, as plain numbers in SI units.
 
@@ -318,7 +342,10 @@ def stability_values(
     _require_known(fault, friction_law, loading)
     velocity = 1.0 if fault.velocity is None else fault.velocity
 
-    def points(systems: Systems, velocity: Array) -> Array:
+    def points(
+        systems: Systems,
+        velocity: Array,
+    ) -> Array:
         critical = 2.0 * np.pi / largest_crossings(systems)
         found = np.full((3, critical.size), np.nan)
         for i, length in enumerate(critical):
@@ -337,7 +364,11 @@ def stability_values(
     return length, frequency, error
 
 
-def _require_known(fault: Fault, law: Friction | None, loading: str) -> None:
+def _require_known(
+    fault: Fault,
+    law: Friction | None,
+    loading: str,
+) -> None:
     """Refuse an unknown loading, and a friction law where V, f or an edge is missing."""
     if loading not in LOADINGS:
         raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
@@ -352,7 +383,10 @@ def _require_known(fault: Fault, law: Friction | None, loading: str) -> None:
         raise ParameterError("a friction law needs the fault's velocity and friction")
 
 
-def _with_law(patches: Patches, law: Friction) -> Patches:
+def _with_law(
+    patches: Patches,
+    law: Friction,
+) -> Patches:
     """The patches with a friction law that has the constants of their fault at V."""
     distance = patches.velocity / float(patches.one.rate[0])
     scaled = law.changed({"characteristic_slip_distance": distance})
@@ -360,7 +394,11 @@ def _with_law(patches: Patches, law: Friction) -> Patches:
     return dataclasses.replace(patches, law=own)
 
 
-def stability_length_of(parameters: Parameters, critical: float, constant: bool = False) -> float:
+def stability_length_of(
+    parameters: Parameters,
+    critical: float,
+    constant: bool = False,
+) -> float:
     """L_s of a run's fault.
 
     Parameters

@@ -97,7 +97,11 @@ def _null_vector(matrix: ComplexArray) -> ComplexArray:
     return vector
 
 
-def log_state_derivatives(law: Friction, slip_rate: Array, state: Array) -> tuple[Array, Array]:
+def log_state_derivatives(
+    law: Friction,
+    slip_rate: Array,
+    state: Array,
+) -> tuple[Array, Array]:
     """Derivatives of ``dpsi/dt``, which is ``g(phi w / D) / phi`` with the evolution law g(omega).
 
     Parameters
@@ -138,7 +142,12 @@ class LinearFriction(NamedTuple):
     evolution_by_state: Array
 
 
-def constant_coefficients(rate: Array, friction: float, a: float, zeta: float) -> LinearFriction:
+def constant_coefficients(
+    rate: Array,
+    friction: float,
+    a: float,
+    zeta: float,
+) -> LinearFriction:
     """Friction with constant a and b about steady sliding at each place.
 
     Parameters
@@ -202,7 +211,10 @@ def local_coefficients(
     )
 
 
-def creeping_patch(creep: Creep, friction: LinearFriction) -> FrozenPatch:
+def creeping_patch(
+    creep: Creep,
+    friction: LinearFriction,
+) -> FrozenPatch:
     """The patch linearised about its creep: slip in D, time in D/V.
 
     ``dv = -[(K1 + f S2) dw / sigma + f_psi dpsi] / f_v``, with sigma and f at each place.

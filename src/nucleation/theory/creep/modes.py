@@ -89,7 +89,11 @@ class MirrorModes(Modes):
 
 
 @lru_cache(maxsize=16)
-def mirror_modes(number: int, slimmest: float = 0.0, even: bool = False) -> MirrorModes:
+def mirror_modes(
+    number: int,
+    slimmest: float = 0.0,
+    even: bool = False,
+) -> MirrorModes:
     """The modes of one symmetry about x = 0.
 
     Parameters
@@ -164,7 +168,11 @@ class PatchResponse:
         """Shear stress lost plus friction that is gained: ``K1 + f S2``."""
         return self.shear + np.reshape(friction, (-1, 1)) * self.normal
 
-    def scaled(self, shear: float, normal: float) -> "PatchResponse":
+    def scaled(
+        self,
+        shear: float,
+        normal: float,
+    ) -> "PatchResponse":
         """The response with both stresses multiplied."""
         return dataclasses.replace(self, shear=shear * self.shear, normal=normal * self.normal)
 
@@ -177,7 +185,10 @@ def modes_for(one: Systems) -> int:
 
 
 def response(
-    one: Systems, length: float, number: int = MODES, loading: str = "edge"
+    one: Systems,
+    length: float,
+    number: int = MODES,
+    loading: str = "edge",
 ) -> PatchResponse:
     """The response of one fault's bodies to slip of a patch.
 
@@ -220,14 +231,22 @@ def response(
     )
 
 
-def _on_both_sides(odd: Array, even: Array, sign: float, imposed: float = 0.0) -> Array:
+def _on_both_sides(
+    odd: Array,
+    even: Array,
+    sign: float,
+    imposed: float = 0.0,
+) -> Array:
     """Columns of both symmetries at x > 0, continued to x < 0; `sign` is that of even columns."""
     odd, even = odd[:, 1:], even[:, 1:]
     columns = np.block([[odd, even], [-sign * odd, sign * even]])
     return np.insert(columns, 0, imposed, axis=1)
 
 
-def _slimness(one: Systems, length: float) -> float:
+def _slimness(
+    one: Systems,
+    length: float,
+) -> float:
     """Patch length (m) over the height of the lower of the layers."""
     return length / min(float(body.height[0]) for body in one.pair.deformable)
 
@@ -237,7 +256,12 @@ def _half_space_functions(one: Systems) -> tuple[Array, Array]:
     return _with_heights_times(one, np.inf).pair.transfer_functions(np.ones(1))
 
 
-def _mirror_response(one: Systems, length: float, number: int, even: bool) -> PatchResponse:
+def _mirror_response(
+    one: Systems,
+    length: float,
+    number: int,
+    even: bool,
+) -> PatchResponse:
     """The response in the modes of one symmetry about x = 0, at x > 0.
 
     A layer that is slimmer than the tables reach is extrapolated, linearly in H/L, from the
@@ -256,7 +280,10 @@ def _mirror_response(one: Systems, length: float, number: int, even: bool) -> Pa
     )
 
 
-def extrapolation_error(one: Systems, length: float) -> float:
+def extrapolation_error(
+    one: Systems,
+    length: float,
+) -> float:
     """Upper bound of the error of L_s due to layers slimmer than the tables reach.
 
     Parameters
@@ -275,7 +302,12 @@ def extrapolation_error(one: Systems, length: float) -> float:
     return EXTRAPOLATED * (1.0 - SLIMMEST / slim) if slim > SLIMMEST else 0.0
 
 
-def _resolved(one: Systems, length: float, number: int, even: bool) -> PatchResponse:
+def _resolved(
+    one: Systems,
+    length: float,
+    number: int,
+    even: bool,
+) -> PatchResponse:
     """The same of layers that are not slimmer than the tables reach."""
     slim = _slimness(one, length)
     reach = min(reach for reach in REACHES if slim <= reach * ROUNDING)
@@ -296,7 +328,11 @@ def _resolved(one: Systems, length: float, number: int, even: bool) -> PatchResp
 
 
 def _thickened(
-    one: Systems, length: float, number: int, even: bool, factor: float
+    one: Systems,
+    length: float,
+    number: int,
+    even: bool,
+    factor: float,
 ) -> PatchResponse:
     """The response of layers made thicker by a factor, corrected by the ratio of G at ``kL = pi``.
 
@@ -314,7 +350,10 @@ def _thickened(
     return _resolved(thicker, length, number, even).scaled(by_shear, by_normal)
 
 
-def _with_heights_times(one: Systems, factor: float) -> Systems:
+def _with_heights_times(
+    one: Systems,
+    factor: float,
+) -> Systems:
     """The system with all heights multiplied."""
     return one._replace(pair=one.pair.with_heights(lambda height: factor * height))
 
@@ -332,7 +371,11 @@ class Creep(NamedTuple):
     fastest: float = 1.0  # over V
 
 
-def creep(response: PatchResponse, friction: float, load_rate: float | None = None) -> Creep:
+def creep(
+    response: PatchResponse,
+    friction: float,
+    load_rate: float | None = None,
+) -> Creep:
     """The creep of a patch under the loading of a response.
 
     Parameters
@@ -383,7 +426,9 @@ class EdgeSlip(NamedTuple):
 
 
 def edge_slip(
-    response: PatchResponse, friction: Array | float, strength: Array | float
+    response: PatchResponse,
+    friction: Array | float,
+    strength: Array | float,
 ) -> EdgeSlip:
     """The modes' coefficients of the slip rate over V and of the slip over D.
 

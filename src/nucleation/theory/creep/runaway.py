@@ -40,7 +40,11 @@ RELATIVE_TOLERANCE = 1e-5  # of the integration, of the logarithms
 ABSOLUTE_TOLERANCE = 1e-6
 
 
-def runs_away(patches: Patches, length: float, evolution: str = "aging") -> bool:
+def runs_away(
+    patches: Patches,
+    length: float,
+    evolution: str = "aging",
+) -> bool:
     """Whether the slow slip of a patch accelerates without bound.
 
     Parameters
@@ -71,7 +75,10 @@ def runs_away(patches: Patches, length: float, evolution: str = "aging") -> bool
     law = Friction(evolution=evolution, characteristic_slip_distance=1.0)
     evolve = law.evolution_law.growth
 
-    def rates(_: float, logs: Array) -> Array:
+    def rates(
+        _: float,
+        logs: Array,
+    ) -> Array:
         """Rates of log(v) and log(phi)."""
         v = np.exp(logs[:count])
         log_state = logs[count:]
@@ -79,7 +86,10 @@ def runs_away(patches: Patches, length: float, evolution: str = "aging") -> bool
         accelerating = (-stiffness @ (v - steady) - (a + zeta) * aging) / a
         return np.concatenate([accelerating, aging])
 
-    def event(_: float, logs: Array) -> float:
+    def event(
+        _: float,
+        logs: Array,
+    ) -> float:
         return float(logs[:count].max() - math.log(FAST))
 
     event.terminal = True  # type: ignore[attr-defined]
@@ -98,7 +108,11 @@ def runs_away(patches: Patches, length: float, evolution: str = "aging") -> bool
     return bool(found.t_events[0].size)
 
 
-def runaway_point(patches: Patches, critical: float, evolution: str = "aging") -> float:
+def runaway_point(
+    patches: Patches,
+    critical: float,
+    evolution: str = "aging",
+) -> float:
     """L_run of one fault.
 
     Parameters
@@ -163,7 +177,10 @@ def runaway_length(*, evolution: str = "aging", **fault: Values) -> Any:
     return named(runaway_values(own, evolution), "runaway_length", "m", "runaway length", own)
 
 
-def runaway_values(fault: Fault, evolution: str = "aging") -> Any:
+def runaway_values(
+    fault: Fault,
+    evolution: str = "aging",
+) -> Any:
     """L_run, as plain numbers in SI units.
 
     Parameters

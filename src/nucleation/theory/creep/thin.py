@@ -43,7 +43,11 @@ def _second_derivative(degree: int) -> tuple[Array, Array]:
     return 0.5 * (inner + 1.0), second[1:-1, 1:-1]
 
 
-def _longest_wave(ratio: float, frequency: float, degree: int) -> complex:
+def _longest_wave(
+    ratio: float,
+    frequency: float,
+    degree: int,
+) -> complex:
     """``1/(zeta lambda)`` of the longest wave at an angular frequency over V/D."""
     y, second = _second_derivative(degree)
     rate = 1j * frequency
@@ -53,7 +57,10 @@ def _longest_wave(ratio: float, frequency: float, degree: int) -> complex:
     return complex(values[np.argmax(values.real)])
 
 
-def thin_limit(zeta_over_a: float, degree: int = DEGREE) -> ThinLimit:
+def thin_limit(
+    zeta_over_a: float,
+    degree: int = DEGREE,
+) -> ThinLimit:
     """Length and frequency of the thin limit; checked to 1e-6 from ``zeta/a = 0.2`` on.
 
     Parameters

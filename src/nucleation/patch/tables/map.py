@@ -1,7 +1,7 @@
 """The map of a fault's lengths over its height and its weakening: a table, and on a grid.
 
-Beside the theory's critical length stand the two lengths of the simulated patch: where it turns
-unstable, and where the force drops under a declared perturbation.
+Beside the theory's critical length are the two lengths of the simulated patch: the one at which it
+turns unstable, and the one at which the force drops under a declared perturbation.
 """
 
 from typing import Any
@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.rows import RATIO_COLUMNS, ratios
-from ..datasets.variables import DatasetError, annotate, some, to_csv
-from .batches import STABILITY
+from ...analysis.lengths import COLUMNS as LENGTHS
+from ...analysis.rows import RATIO_COLUMNS, ratios
+from ...datasets.variables import DatasetError, annotate, some, to_csv
+from .runs import STABILITY
 
 COLUMNS = {
     **some(LENGTHS, "id", "height"),
@@ -26,20 +26,20 @@ COLUMNS = {
 }
 
 AXES = ("height", "zeta_over_a", "strength", "seed")
-"""What the grid is over."""
+"""Dimensions of the grid."""
 
 ON_GRID = ("length", "length_ratio", "stability_length", "stability_ratio", "onset_time")
 
 DIGITS = 6
-"""Significant digits by which values of an axis are the same."""
+"""Significant digits by which values of an axis are equal."""
 
 
-def gather(lengths: xr.Dataset) -> xr.Dataset:
+def gather_map(lengths: xr.Dataset) -> xr.Dataset:
     """:data:`COLUMNS` on ``run``, of a table of lengths with the stability of each patch."""
     table = lengths.assign(ratios(lengths))
     rounded = [float(f"{value:.{DIGITS}g}") for value in table["zeta_over_a"].values]
-    table = table.assign(zeta_over_a=("run", np.array(rounded)))[list(COLUMNS)]
-    return annotate(table.drop_attrs(), COLUMNS)
+    table = table.assign(zeta_over_a=("run", np.array(rounded)))
+    return annotate(table[list(COLUMNS)].drop_attrs(), COLUMNS)
 
 
 def on_grid(table: xr.Dataset) -> xr.Dataset:
@@ -55,7 +55,8 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     axes = {name: np.unique(table[name].values) for name in AXES}
     places = tuple(np.searchsorted(axes[name], table[name].values) for name in AXES)
     shape = tuple(values.size for values in axes.values())
-    if np.unique(np.array(places), axis=1).shape[1] < table.sizes["run"]:
+    different = np.unique(np.array(places), axis=1).shape[1]
+    if different < table.sizes["run"]:
         raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")
     data: dict[str, Any] = {}
     for name in ON_GRID:
@@ -68,12 +69,28 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     return annotate(xr.Dataset(data, coords=axes), COLUMNS)
 
 
-def mean_over_seeds(grid: xr.Dataset, name: str) -> xr.DataArray:
-    """The mean of a variable over realisations; NaN where one of them has none."""
+def mean_over_seeds(
+    grid: xr.Dataset,
+    name: str,
+) -> xr.DataArray:
+    """The mean of a variable over realisations.
+
+    Parameters
+    ----------
+    grid : Dataset
+        From :func:`on_grid`.
+    name : str
+        One of :data:`ON_GRID`.
+
+    Returns
+    -------
+    DataArray
+        Without the dimension ``seed``; NaN where one of the realisations has none.
+    """
     return grid[name].mean("seed", skipna=False)
 
 
-def files(lengths: xr.Dataset) -> dict[str, Any]:
+def map_files(lengths: xr.Dataset) -> dict[str, Any]:
     """The table as CSV, and on its grid."""
-    rows = gather(lengths)
+    rows = gather_map(lengths)
     return {".nc": on_grid(rows), ".csv": to_csv(rows)}
