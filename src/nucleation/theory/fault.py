@@ -141,10 +141,11 @@ class Fault:
 
     def _complete(self) -> None:
         """Set the parameters that follow from others."""
+        own = vars(self)
         if self.zeta is None:
-            self._set("zeta", self.b - self.a)
+            self._set("zeta", own["b"] - own["a"])
         else:
-            self._set("b", self.a + self.zeta)
+            self._set("b", own["a"] + own["zeta"])
         for name in ("shear_modulus", "poisson_ratio", "height"):
             if getattr(self, f"second_{name}") is None:
                 self._set(f"second_{name}", getattr(self, name))
@@ -229,7 +230,7 @@ class Fault:
             Shape ``(rows,) + broadcast shape``; the first dimension of a DataArray is ``row``.
         """
 
-        def core(*inputs: Array) -> NDArray:
+        def core(*inputs: Values) -> NDArray:
             shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
             flat = [np.broadcast_to(x, shape).ravel() for x in inputs]
             found: NDArray = np.empty((flat[0].size, rows), dtype=dtype)

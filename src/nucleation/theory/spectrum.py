@@ -63,7 +63,8 @@ class Systems(NamedTuple):
         larger = -(half + root)
         roots = np.stack([larger, product / larger])
         in_order = roots[0].real >= roots[1].real
-        return np.where(in_order, roots, roots[::-1]) * self.rate
+        ordered = np.where(in_order, roots, roots[::-1])
+        return np.asarray(ordered * self.rate, dtype=complex)
 
 
 def system(
@@ -88,11 +89,11 @@ def system(
     pair = LayerPair(upper.layers, lower.layers)
     return Systems(
         pair=pair,
-        friction=interface.friction,
-        a=interface.a,
-        zeta=interface.zeta,
+        friction=np.asarray(interface.friction),
+        a=np.asarray(interface.a),
+        zeta=np.asarray(interface.zeta),
         softness=pair.modulus * interface.slip_length / interface.normal_stress,
-        rate=interface.velocity / interface.slip_length,
+        rate=np.asarray(interface.velocity / interface.slip_length),
     )
 
 

@@ -60,9 +60,9 @@ class Body(Checked):
         """The body as one layer."""
         material = self.material
         return Layers(
-            shear_modulus=material.shear_modulus,
-            poisson_ratio=material.in_plane_ratio,
-            height=self.height,
+            shear_modulus=np.asarray(material.shear_modulus),
+            poisson_ratio=np.asarray(material.in_plane_ratio),
+            height=np.asarray(self.height),
             far_side=self.far_side,
             antiplane=material.plane == ANTIPLANE,
         )

@@ -27,7 +27,7 @@ class StateEvolution(Protocol):
         """``g'(omega)``."""
 
     @staticmethod
-    def implicit_log_state(history: Array, step: float, rate: Array) -> tuple[Array, Array]:
+    def implicit_log_state(history: Array, step: Array | float, rate: Array) -> tuple[Array, Array]:
         """Solve ``psi = history + step * dpsi/dt(psi, rate)``; return psi and dpsi/drate."""
 
 

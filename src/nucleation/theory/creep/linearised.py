@@ -48,7 +48,7 @@ class FrozenPatch:
     @cached_property
     def eigenvalues(self) -> ComplexArray:
         """All eigenvalues Lambda (1/s), fastest growing first."""
-        values = np.linalg.eigvals(self.matrix)
+        values: ComplexArray = np.asarray(np.linalg.eigvals(self.matrix), dtype=complex)
         return values[np.argsort(-values.real)]
 
     def oscillating(self, frequency: float) -> complex:
