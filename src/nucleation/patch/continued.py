@@ -52,7 +52,9 @@ def trend(
     slope = fit.deriv()(last)
 
     def at(lengths: Array) -> Array:
-        return fit(np.minimum(lengths, last)) + slope * np.maximum(lengths - last, 0.0)
+        within = np.minimum(lengths, last)
+        beyond = np.maximum(lengths - last, 0.0)
+        return fit(within) + slope * beyond
 
     return at
 
@@ -80,15 +82,17 @@ def complex_trend(
     fitted, *_ = np.linalg.lstsq(powers.astype(complex), values, rcond=None)
 
     def at(lengths: Array | float) -> ComplexArray:
-        relative = np.atleast_1d(np.minimum(lengths, last)) / last - 1.0
-        return np.squeeze(np.vander(relative, DEGREE + 1) @ fitted)
+        within = np.atleast_1d(np.minimum(lengths, last))
+        powers = np.vander(within / last - 1.0, DEGREE + 1)
+        return np.squeeze(powers @ fitted)
 
     return at
 
 
 def continued(history: ModeHistory) -> CreepPath:
     """The trend over the lengths followed and beyond, evenly in time."""
-    lengths = np.linspace(history.length[0], BEYOND * history.length[-1], LENGTHS)
+    longest = BEYOND * history.length[-1]
+    lengths = np.linspace(history.length[0], longest, LENGTHS)
     times = trend(history, history.time)(lengths)
     growth = trend(history, history.rate.real)(lengths)
     frequency = trend(history, history.rate.imag)(lengths)
@@ -131,14 +135,18 @@ def roughness_weights(
     """
     exponent = exponent_of(path)
     moving = _moving_weights(history)
-    steps = np.linspace(0, path.time.size - 1, path.time.size // COARSE).round().astype(int)
-    share = (x[1] - x[0]) / (history.x[1] - history.x[0])  # of a node's force
+    times = path.time.size
+    steps = np.linspace(0, times - 1, times // COARSE)
+    spacing = x[1] - x[0]
+    node_spacing = history.x[1] - history.x[0]
+    share = spacing / node_spacing  # of a node's force
     start = path.time[0]
-    unstable = path.time[int(np.argmax(path.rate.real > 0.0))]
+    first_growing = int(np.argmax(path.rate.real > 0.0))
+    unstable = path.time[first_growing]
     rise = RISE * (unstable - start)
     added = np.zeros(x.size, dtype=complex)
     before = 0
-    for at in steps:
+    for at in steps.round().astype(int):
         duration = path.time[at] - path.time[before]
         # a sudden start would itself excite the mode
         begun = _smooth_step((path.time[at] - start) / rise)
@@ -163,7 +171,8 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
     fitted to all instants.
     """
     dx = history.x[1] - history.x[0]
-    behind = np.arange(-history.length[-1] * BEYOND, 4.0 * dx, 0.5 * dx)
+    longest = history.length[-1] * BEYOND
+    behind = np.arange(-longest, 4.0 * dx, 0.5 * dx)
     rows = [
         np.interp(behind + length, history.x, weights, left=0.0, right=0.0)
         for length, weights in zip(history.length, history.strength, strict=True)
@@ -174,6 +183,7 @@ def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArr
         length: float,
         x: Array,
     ) -> ComplexArray:
-        return np.interp(x - length, behind, fitted(length), left=0.0, right=0.0)
+        weights = fitted(length)
+        return np.interp(x - length, behind, weights, left=0.0, right=0.0)
 
     return at

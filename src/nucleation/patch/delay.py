@@ -86,8 +86,9 @@ class Growth:
         if not above[-1] or above.all():
             return float("nan")
         i = int(np.flatnonzero(~above)[-1])
-        ends = slice(i, i + 2)
-        return float(np.interp(level, self.log_amplitude[ends], self.length[ends]))
+        amplitudes = self.log_amplitude[i : i + 2]
+        lengths = self.length[i : i + 2]
+        return float(np.interp(level, amplitudes, lengths))
 
     def drop(self, strength: float) -> Drop:
         """The expected drop at a relative strength; NaN where the law does not apply."""
@@ -101,12 +102,14 @@ class Growth:
     def _dropped(self, strength: float) -> Array:
         """The part of the realisations that have dropped by each length; it never decreases."""
         log_sigma = np.maximum.accumulate(self.log_amplitude) + np.log(strength)
-        reached = np.exp(-np.exp(np.minimum(-2.0 * log_sigma, LARGEST)))
+        inverse_square = np.exp(np.minimum(-2.0 * log_sigma, LARGEST))
+        reached = np.exp(-inverse_square)
         area = cumulative_trapezoid(reached, self.length, initial=0)
         last = self.length[-1]
 
         def area_up_to(length: Array) -> Array:
-            return np.interp(length, self.length, area) + np.maximum(length - last, 0.0)
+            beyond = np.maximum(length - last, 0.0)
+            return np.interp(length, self.length, area) + beyond
 
         above = area_up_to(self.length + 0.5 * self.per_period)
         below = area_up_to(self.length + -0.5 * self.per_period)
@@ -142,13 +145,16 @@ class Growth:
         start = float(self.length[first])
         near = (self.length >= start) & (self.length <= NEAR * start)
         last = np.flatnonzero(near)[-1]
-        rate = trend(history, history.rate.real)(self.length[near])
-        slope = float(np.polyfit(self.length[near], rate, 1)[0])
-        speed = float(np.polyfit(self.time[near], self.length[near], 1)[0])
+        lengths = self.length[near]
+        times = self.time[near]
+        rates = trend(history, history.rate.real)(lengths)
+        slope = float(np.polyfit(lengths, rates, 1)[0])
+        speed = float(np.polyfit(times, lengths, 1)[0])
         grown = self.exponent[last] - self.exponent[first]
         initial = self.log_amplitude[last] - grown
         effective = float(strength * ROOT_OF_MEDIAN * np.exp(initial))
-        delay = np.sqrt(max(2.0 * speed * np.log(1.0 / effective) / slope, 0.0))
+        square = 2.0 * speed * np.log(1.0 / effective) / slope
+        delay = np.sqrt(max(square, 0.0))
         return ClosedForm(
             front_length=start,
             length=start + float(delay),

@@ -83,9 +83,11 @@ def follow_patch(
             crossing = fit["stability_length"]
     mode = np.zeros(spectra.grid.n_x + 1, dtype=complex)
     if np.isfinite(crossing):
-        at = near[np.abs(spectra.length[near] - crossing).argmin()]
+        distance = np.abs(spectra.length[near] - crossing)
+        at = near[distance.argmin()]
         patch, _ = spectra.patch(at)
-        mode[patch.nodes], _ = patch.mode(spectra.growth([at])[0])
+        (rate,) = spectra.growth([at])
+        mode[patch.nodes], _ = patch.mode(rate)
     found = spectra.dataset(fit, mode)
     return found.assign_attrs(parameters=simulation.attrs["parameters"])
 
@@ -99,16 +101,20 @@ class _Spectra(Frames):
 
     def fastest(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing mode at some frames, or NaN."""
-        return np.array([self._rates(i)[0] for i in frames], dtype=complex)
+        rates = [self._rates(i) for i in frames]
+        return np.array([fastest for fastest, _ in rates], dtype=complex)
 
     def growth(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
-        return np.array([self._rates(i)[1] for i in frames], dtype=complex)
+        rates = [self._rates(i) for i in frames]
+        return np.array([pair for _, pair in rates], dtype=complex)
 
     def _rates(self, frame: int) -> tuple[complex, complex]:
         if frame not in self._known:
             patch, pair = self.patch(frame)
-            fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
+            fastest = complex(np.nan, np.nan)
+            if patch.nodes.size:
+                fastest = patch.eigenvalues[0]
             self._known[frame] = (fastest, pair)
         return self._known[frame]
 
@@ -132,8 +138,8 @@ class _Spectra(Frames):
             The variables :data:`FOLLOWED` at all frames with known eigenvalues.
         """
         frames = sorted(self._known)
-        rates = np.array([self._known[i] for i in frames]).reshape(-1, 2)
-        fastest, pairs = rates.T
+        rates = [self._known[i] for i in frames]
+        fastest, pairs = np.array(rates).reshape(-1, 2).T
         on_instant = {
             "instant_time": self.time[frames],
             "patch_length": self.length[frames],
@@ -178,8 +184,10 @@ def evenly(
     """
     if frames.size <= number:
         return frames
-    wanted = np.linspace(length[frames[0]], length[frames[-1]], number)
-    nearest = np.searchsorted(length[frames], wanted).clip(0, frames.size - 1)
+    lengths = length[frames]
+    wanted = np.linspace(lengths[0], lengths[-1], number)
+    nearest = np.searchsorted(lengths, wanted)
+    nearest = nearest.clip(0, frames.size - 1)
     return frames[np.unique(nearest)]
 
 
@@ -243,12 +251,15 @@ def fitted_crossing(
     if length.size < FEWEST_NEAR:
         return none
     centre = length.mean()
-    slope, level = np.polyfit(length - centre, growth.real, 1)
-    if slope <= 0.0 or not length.min() <= centre - level / slope <= length.max():
+    offset = length - centre
+    slope, level = np.polyfit(offset, growth.real, 1)
+    if slope <= 0.0:
         return none
-    turn, frequency = np.polyfit(length - centre, growth.imag, 1)
     crossing = centre - level / slope
-    misfit = growth.real - level - slope * (length - centre)
+    if not length.min() <= crossing <= length.max():
+        return none
+    turn, frequency = np.polyfit(offset, growth.imag, 1)
+    misfit = growth.real - level - slope * offset
     scatter = np.std(misfit, ddof=2) / slope
     lever = np.hypot(1.0, (crossing - centre) / length.std())
     return {

@@ -125,7 +125,9 @@ def _narrower(
 ) -> Array:
     """Lengths (m) over the narrower range in which the mode is known, or around L_s."""
     middle = int(np.searchsorted(lengths, stable))
-    first, last = (known[0], known[-1]) if known.size else (middle, middle - 1)
+    first, last = middle, middle - 1
+    if known.size:
+        first, last = known[0], known[-1]
     low = lengths[max(first - 1, 0)]
     high = lengths[min(last + 1, INSTANTS - 1)]
     return np.linspace(low, high, INSTANTS)
@@ -206,7 +208,8 @@ def _weights(
 
     def along_x(weights: ComplexArray) -> ComplexArray:
         density = weights / spacing
-        return np.interp(x, position[::-1], density[::-1], right=0.0) * (x[1] - x[0])
+        along = np.interp(x, position[::-1], density[::-1], right=0.0)
+        return along * (x[1] - x[0])
 
     load = complex(by_force @ friction.friction)
     strength = along_x(by_force * friction.friction * creep.normal_stress)

@@ -104,20 +104,25 @@ def transfer_bounds(
     r = pair.ratio
     a, a_high = _stiffness_bounds(k_low, k_high, pair.upper)
     b, b_high = _stiffness_bounds(k_low, k_high, pair.lower)
-    cross, cross_high = _product_of_any_sign((a.xy, a_high.xy), (b.xy, b_high.xy))
+    a_xy = a.xy, a_high.xy
+    b_xy = b.xy, b_high.xy
+    cross, cross_high = _product_of_any_sign(a_xy, b_xy)
     # A and B are positive definite, hence A_xx B_yy + A_yy B_xx + 2 A_xy B_xy >= 0
-    mixed = np.maximum(a.xx * b.yy + a.yy * b.xx + 2.0 * cross, 0.0)
+    mixed = a.xx * b.yy + a.yy * b.xx + 2.0 * cross
+    mixed = np.maximum(mixed, 0.0)
     mixed_high = a_high.xx * b_high.yy + a_high.yy * b_high.xx + 2.0 * cross_high
     joint = a.det + r**2 * b.det + r * mixed
     joint_high = a_high.det + r * mixed_high + r**2 * b_high.det
     share_a = r**2 * b.det, r**2 * b_high.det
     share_b = r * a.det, r * a_high.det
-    from_a = _product(share_a, (a.xy, a_high.xy))
-    from_b = _product(share_b, (b.xy, b_high.xy))
-    coupling = np.maximum(from_a[1] - from_b[0], from_b[1] - from_a[0])
+    from_a, from_a_high = _product(share_a, a_xy)
+    from_b, from_b_high = _product(share_b, b_xy)
+    coupling = np.maximum(from_a_high - from_b, from_b_high - from_a)
+    xx = share_a[0] * a.xx + share_b[0] * b.xx
+    xx_high = share_a[1] * a_high.xx + share_b[1] * b_high.xx
     return TransferBounds(
-        g1_low=(share_a[0] * a.xx + share_b[0] * b.xx) / joint_high,
-        g1_high=(share_a[1] * a_high.xx + share_b[1] * b_high.xx) / joint,
+        g1_low=xx / joint_high,
+        g1_high=xx_high / joint,
         g2_high=coupling / joint,
     )
 

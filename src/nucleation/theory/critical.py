@@ -73,7 +73,8 @@ def critical_wavenumber(
     k = largest_crossings(one)
     if np.isnan(k[0]):
         raise NoInstability(stability_reason(one))
-    return CriticalPoint(float(k[0]), float(marginal_frequencies(one, k)[0]))
+    omega = marginal_frequencies(one, k)
+    return CriticalPoint(float(k[0]), float(omega[0]))
 
 
 def systems_of(cases: Sequence[_Case]) -> Systems:
@@ -92,8 +93,10 @@ def _stacked(bodies: Iterable[Layers | None]) -> Layers | None:
     present = [body for body in bodies if body is not None]
     if not present:
         return None
-    modulus, ratio, height = np.array([body[:3] for body in present], dtype=float).T
-    return Layers(modulus, ratio, height, present[0].far_side, present[0].antiplane)
+    first = present[0]
+    fields = np.array([body[:3] for body in present], dtype=float)
+    modulus, ratio, height = fields.T
+    return Layers(modulus, ratio, height, first.far_side, first.antiplane)
 
 
 def theory_lengths(cases: Iterable[_Case]) -> Array:
@@ -110,7 +113,8 @@ def theory_lengths(cases: Iterable[_Case]) -> Array:
     lengths: dict[_Case, float] = {}
     for group in groups.values():
         k = largest_crossings(systems_of(list(group)))
-        lengths |= zip(group, (2.0 * math.pi / k).tolist(), strict=True)
+        found = 2.0 * math.pi / k
+        lengths |= zip(group, found.tolist(), strict=True)
     return np.array([lengths[case] for case in cases], dtype=float)
 
 

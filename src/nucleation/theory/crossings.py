@@ -70,9 +70,10 @@ def marginal_stiffness(
     discriminant = (rho * b) ** 2 + 4.0 * a * zeta
     real = (discriminant >= 0.0) & (b > 0.0)
     root = np.sqrt(np.where(real, discriminant, np.nan))
-    plus = (2.0 * zeta + rho**2 * b + rho * root) / (2.0 * (1.0 + rho**2))
+    leading = 1.0 + rho**2
+    plus = (2.0 * zeta + rho**2 * b + rho * root) / (2.0 * leading)
     with np.errstate(divide="ignore", invalid="ignore"):
-        product_over_plus = zeta**2 / ((1.0 + rho**2) * plus)
+        product_over_plus = zeta**2 / (leading * plus)
     minus = np.where(plus > 0.0, product_over_plus, plus)
     return minus, plus
 
@@ -170,9 +171,11 @@ def marginal_frequencies(
     """
     a, zeta, b = systems.a, systems.zeta, systems.b
     g, rho = systems.load_and_coupling(k)
-    root = np.sqrt(np.maximum((rho * b) ** 2 + 4.0 * a * zeta, 0.0))
+    discriminant = (rho * b) ** 2 + 4.0 * a * zeta
+    root = np.sqrt(np.maximum(discriminant, 0.0))
+    size = (np.abs(rho) * b + root) / (2.0 * a)
     sign = np.where(rho == 0.0, 1.0, rho)
-    large = np.copysign((np.abs(rho) * b + root) / (2.0 * a), sign)
+    large = np.copysign(size, sign)
     small = -zeta / (a * large)
 
     def misfit(w: Array) -> Array:
@@ -197,7 +200,8 @@ def _half_space_crossings(systems: Systems) -> Array:
 
 def _ends(systems: Systems) -> tuple[Array, Array]:
     """Wavenumbers (1/m) below which all layers are thin, and above which sliding is stable."""
-    finite = [np.where(np.isfinite(height), height, np.nan) for height in _heights(systems)]
+    heights = _heights(systems)
+    finite = [np.where(np.isfinite(height), height, np.nan) for height in heights]
     bottom = LONG_WAVES / np.fmax.reduce(finite)
     high = SATURATION / np.fmin.reduce(finite)
     g, _ = systems.load_and_coupling(high)
@@ -221,9 +225,11 @@ def _brackets(systems: Systems) -> tuple[Array, Array]:
         np.maximum.at(unstable, owner[growing], low[growing])
         keep = low == unstable[owner]
         above = np.flatnonzero(low > unstable[owner])
-        stable = certainly_stable(systems.at(owner[above]), low[above], high[above])
-        keep[above] = ~stable
-        owner, low, high = owner[keep], low[keep], high[keep]
+        part = systems.at(owner[above])
+        keep[above] = ~certainly_stable(part, low[above], high[above])
+        owner = owner[keep]
+        low = low[keep]
+        high = high[keep]
         narrow = np.log(high / low) < RESOLUTION
         found = narrow & (low == unstable[owner])
         bracket[:, owner[found]] = low[found], high[found]
@@ -246,7 +252,9 @@ def _divided(
     share = np.arange(1, parts) / parts
     inner = first * (last / first) ** share
     edges = np.concatenate([first, inner, last], axis=1)
-    return np.repeat(owner, parts), edges[:, :-1].ravel(), edges[:, 1:].ravel()
+    lows = edges[:, :-1].ravel()
+    highs = edges[:, 1:].ravel()
+    return np.repeat(owner, parts), lows, highs
 
 
 def _brackets_of_long_waves(
@@ -255,10 +263,10 @@ def _brackets_of_long_waves(
 ) -> Array:
     """The same where all ``Hk`` are small: every quantity is a power of k."""
     k = bottom[:, None] * 0.5 ** np.arange(HALVINGS)  # at the first of them sliding is stable
-    index = np.broadcast_to(np.arange(bottom.size)[:, None], k.shape)
+    rows = np.arange(bottom.size)
+    index = np.broadcast_to(rows[:, None], k.shape)
     growing = stability_margin(systems.at(index), k) < 0.0
     first = np.argmax(growing, axis=1)
-    rows = np.arange(bottom.size)
     found = np.stack([k[rows, first], k[rows, first - 1]])
     return np.where(growing.any(axis=1), found, np.nan)
 
@@ -302,7 +310,8 @@ def _refined(
     """
     found = np.full(low.size, np.nan)
     index = np.flatnonzero(np.isfinite(low))
-    own, base = systems.at(index), low[index]
+    own = systems.at(index)
+    base = low[index]
     bracket = _Bracket(
         left=np.zeros_like(base),
         f_left=stability_margin(own, base),
@@ -323,6 +332,9 @@ def _refined(
         on = moving & (f_new != 0.0) & (bracket.f_left * bracket.f_right < 0.0)
         if not on.any():
             break
-        index, own, base, last = index[on], own.at(on), base[on], new[on]
+        index = index[on]
+        own = own.at(on)
+        base = base[on]
+        last = new[on]
         bracket = bracket.at(on)
     return found

@@ -78,7 +78,8 @@ def steepness(
     drop = math.log(omega)
     u = 0.5 * drop * (1.0 + POINTS)
     rates = friction.evolution_law.growth(np.exp(u))
-    energy = 0.5 * drop * float(WEIGHTS @ (u * np.exp(u) / -rates))
+    integrand = u * np.exp(u) / -rates
+    energy = 0.5 * drop * float(WEIGHTS @ integrand)
     return max(drop**2 / (2.0 * energy), 1.0)
 
 

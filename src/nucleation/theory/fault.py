@@ -174,8 +174,9 @@ class Fault:
     @property
     def in_plane_ratios(self) -> tuple[Any, Any]:
         """nu of both bodies in plane strain, ``nu/(1 + nu)`` in plane stress, 0 in antiplane."""
-        ratios = self.poisson_ratio, self.second_poisson_ratio
-        return in_plane_ratio(ratios[0], self.plane), in_plane_ratio(ratios[1], self.plane)
+        first = in_plane_ratio(self.poisson_ratio, self.plane)
+        second = in_plane_ratio(self.second_poisson_ratio, self.plane)
+        return first, second
 
     @property
     def bodies_differ(self) -> Any:
@@ -299,8 +300,9 @@ def takes_fault(function: F) -> F:
     shown = inspect.signature(function)
     own = [p for p in shown.parameters.values() if p.kind is not p.VAR_KEYWORD]
     taken = {p.name for p in own}
-    fault = [p for p in inspect.signature(Fault).parameters.values() if p.name not in taken]
-    function.__signature__ = shown.replace(parameters=own + fault)  # type: ignore[attr-defined]
+    of_fault = inspect.signature(Fault).parameters.values()
+    added = [p for p in of_fault if p.name not in taken]
+    function.__signature__ = shown.replace(parameters=own + added)  # type: ignore[attr-defined]
     return function
 
 

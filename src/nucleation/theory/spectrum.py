@@ -59,7 +59,8 @@ class Systems(NamedTuple):
         half = 0.5 * (gamma - self.zeta) / self.a
         product = gamma / self.a
         root = np.sqrt(half**2 - product)
-        root = np.where((np.conj(half) * root).real < 0.0, -root, root)
+        opposite = (np.conj(half) * root).real < 0.0
+        root = np.where(opposite, -root, root)
         larger = -(half + root)
         roots = np.stack([larger, product / larger])
         in_order = roots[0].real >= roots[1].real

@@ -78,13 +78,14 @@ def gather_theory(
     for same in faults.values():
         mean = float(np.mean([known[run["id"]] for run in same]))
         rows.append(_row(same[0], mean))
-    first = {same[0]["id"]: same[0] for same in faults.values()}
+    firsts = [same[0] for same in faults.values()]
+    by_name = {run["id"]: run for run in firsts}
     length_ratios = [thin_limit(ratio).length_ratio for ratio in CURVE]
     drawn = xr.Dataset(
         {
             "curve_ratio": ("curve", CURVE),
             "curve_length": ("curve", length_ratios),
-            **_profiles(rows, first),
+            **_profiles(rows, by_name),
         }
     )
     return annotate(table(rows, COLUMNS).merge(drawn), DRAWN)
@@ -163,18 +164,22 @@ def _profiles(
     if not known:
         return {}
     shown = _evenly_over_contrast(known)
-    creeps = []
+    contrasts, places, rates, stresses = [], [], [], []
     for row in shown:
         parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
         patches = Patches.of(parameters)
         made = advance(patches, [row["front_length"]], parameters.loading.initial_state)
-        creeps.append(made.creeps[0])
+        (creep,) = made.creeps
+        contrasts.append(row["f_beta"])
+        places.append(np.cos(creep.response.modes.theta))
+        rates.append(creep.slip_rate)
+        stresses.append(creep.normal_stress)
     at = "case", "place"
     return {
-        "shown_beta": ("case", [row["f_beta"] for row in shown]),
-        "shown_x": (at, np.array([np.cos(creep.response.modes.theta) for creep in creeps])),
-        "shown_rate": (at, np.array([creep.slip_rate for creep in creeps])),
-        "shown_stress": (at, np.array([creep.normal_stress for creep in creeps])),
+        "shown_beta": ("case", contrasts),
+        "shown_x": (at, np.array(places)),
+        "shown_rate": (at, np.array(rates)),
+        "shown_stress": (at, np.array(stresses)),
     }
 
 

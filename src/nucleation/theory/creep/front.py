@@ -83,14 +83,14 @@ class _Front:
         self.friction = np.full((length.size, number), steady_friction)
         self.log_states = np.zeros_like(self.friction)
         self.update_slip()
-        self.rates = np.array([slip.rates for slip in self.slips[1]])
+        self.rates = _column(self.slips[1], "rates")
 
     def update_slip(self) -> None:
         """Slip in balance with the strength, time and speed; each at three neighbouring lengths."""
         self.slips = [self._slips(row) for row in self.responses]
-        loaded = np.array([[slip.loaded for slip in row] for row in self.slips])
-        self.by_length = (loaded[2] - loaded[0]) / (2.0 * STEP * self.length)
-        self.time = loaded[1] * self.distance / self.velocity
+        before, at, after = (_column(row, "loaded") for row in self.slips)
+        self.by_length = (after - before) / (2.0 * STEP * self.length)
+        self.time = at * self.distance / self.velocity
         self.speed = self.velocity / (self.by_length * self.distance)
 
     def _slips(self, row: list) -> list[EdgeSlip]:
@@ -107,7 +107,7 @@ class _Front:
         u'``.
         """
         own = self.modes
-        before, at, after = (np.array([slip.slip for slip in row]) for row in self.slips)
+        before, at, after = (_column(row, "slip") for row in self.slips)
         growing = (after - before) / (2.0 * STEP) @ own.values.T
         moving = (at @ own.gradients.T) * np.cos(own.theta)
         values = (growing - moving) / (self.length * self.by_length)[:, None]
@@ -119,19 +119,24 @@ class _Front:
         """log(phi) and friction behind the front, at the modes' angles, (n, N)."""
         law, own = self.law, self.modes
         theta = np.linspace(0.0, 0.5 * np.pi, FINE + 1)
-        rates = self.velocity * np.maximum(self.rates @ own.at(theta).T, self.floor)
-        speeds = law.slip_speed(rates) / self.distance
+        speeds = law.slip_speed(self._slip_rate(own.at(theta))) / self.distance
         log_state = self._state_ahead()
         along = [log_state]
-        steps = self.length[:, None] * -np.diff(np.cos(theta)) / self.speed[:, None]
+        distances = self.length[:, None] * -np.diff(np.cos(theta))
+        steps = distances / self.speed[:, None]
         for j in range(FINE):
             speed = 0.5 * (speeds[:, j] + speeds[:, j + 1])
             log_state = _stepped(law, log_state, steps[:, j], speed)
             along.append(log_state)
-        columns = np.transpose(along)
-        self.log_states = np.array([np.interp(own.theta, theta, column) for column in columns])
-        rates = self.velocity * np.maximum(self.rates @ own.values.T, self.floor)
-        self.friction = law.coefficient_and_slopes(rates, self.log_states)[0]
+        self.log_states = np.array(
+            [np.interp(own.theta, theta, of_length) for of_length in np.transpose(along)]
+        )
+        slip_rate = self._slip_rate(own.values)
+        self.friction, *_ = law.coefficient_and_slopes(slip_rate, self.log_states)
+
+    def _slip_rate(self, modes: Array) -> Array:
+        """Slip rate (m/s) at the angles of some values of the modes, (n, angle)."""
+        return self.velocity * np.maximum(self.rates @ modes.T, self.floor)
 
     def _state_ahead(self) -> Array:
         """log(phi) of the interface that has aged at rest until the front reaches it, (n,)."""
@@ -155,6 +160,11 @@ class _Front:
         )
         require_contact(creep)
         return creep
+
+
+def _column(slips: list[EdgeSlip], name: str) -> Array:
+    """One field of several slips."""
+    return np.array([getattr(slip, name) for slip in slips])
 
 
 def _stepped(
@@ -276,9 +286,10 @@ def first_growing(
 
     low, high, pair = _bracket(advanced, critical)
     if np.isfinite(pair).all():
-        at = float(np.exp(np.interp(0.0, pair, np.log([low, high]))))
-        onset = _vanishing(advanced, at)
-        before, after = fastest(advanced(onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])))
+        log_at = np.interp(0.0, pair, np.log([low, high]))
+        onset = _vanishing(advanced, float(np.exp(log_at)))
+        around = onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])
+        before, after = fastest(advanced(around))
         if before < 0.0 < after:
             return onset
     while high / low > 1.0 + NARROW:

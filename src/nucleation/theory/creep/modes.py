@@ -180,8 +180,8 @@ class PatchResponse:
 def modes_for(one: Systems) -> int:
     """Number of modes that one fault needs."""
     g1, g2 = _half_space_functions(one)
-    stiffer_above = float(one.friction[0]) * float(g2[0] / g1[0]) < STIFFER_ABOVE
-    return MORE_MODES if stiffer_above else MODES
+    coupling = float(one.friction[0]) * float(g2[0] / g1[0])
+    return MORE_MODES if coupling < STIFFER_ABOVE else MODES
 
 
 def response(
@@ -316,14 +316,16 @@ def _resolved(
     far_g1, far_g2 = _half_space_functions(one)
     g1, g2 = one.pair.transfer_functions(modes.kappa[:used] / length)
     slip = modes.slip[:used]
-    shear_of_layer = modes.shear[:used].T @ ((g1 - far_g1)[:, None] * slip)
-    normal_of_layer = modes.normal[:used].T @ ((g2 - far_g2)[:, None] * slip)
+    more_g1 = (g1 - far_g1)[:, None]
+    more_g2 = (g2 - far_g2)[:, None]
+    more_shear = modes.shear[:used].T @ (more_g1 * slip)
+    more_normal = modes.normal[:used].T @ (more_g2 * slip)
     scale = float(one.softness[0]) / length
     return PatchResponse(
         modes=modes,
         length=length,
-        shear=scale * (far_g1 * modes.half_space + shear_of_layer),
-        normal=scale * (far_g2 * modes.gradients + normal_of_layer),
+        shear=scale * (far_g1 * modes.half_space + more_shear),
+        normal=scale * (far_g2 * modes.gradients + more_normal),
     )
 
 
