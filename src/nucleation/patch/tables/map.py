@@ -17,8 +17,17 @@ from .runs import STABILITY
 COLUMNS = {
     **some(LENGTHS, "id", "height"),
     "zeta_over_a": RATIO_COLUMNS["zeta_over_a"],
-    **some(LENGTHS, "kind", "strength", "seed", "onset_time", "length", "length_low"),
-    **some(LENGTHS, "length_high", "theory_length"),
+    **some(
+        LENGTHS,
+        "kind",
+        "strength",
+        "seed",
+        "onset_time",
+        "length",
+        "length_low",
+        "length_high",
+        "theory_length",
+    ),
     "length_ratio": RATIO_COLUMNS["length_ratio"],
     **STABILITY,
     "stability_ratio": RATIO_COLUMNS["stability_ratio"],
@@ -28,7 +37,13 @@ COLUMNS = {
 AXES = ("height", "zeta_over_a", "strength", "seed")
 """Dimensions of the grid."""
 
-ON_GRID = ("length", "length_ratio", "stability_length", "stability_ratio", "onset_time")
+ON_GRID = (
+    "length",
+    "length_ratio",
+    "stability_length",
+    "stability_ratio",
+    "onset_time",
+)
 
 DIGITS = 6
 """Significant digits by which values of an axis are equal."""
@@ -52,21 +67,23 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
     DatasetError
         If runs differ in anything else: each place of the grid has one.
     """
-    axes = {name: np.unique(table[name].values) for name in AXES}
-    places = tuple(np.searchsorted(axes[name], table[name].values) for name in AXES)
-    shape = tuple(values.size for values in axes.values())
-    different = np.unique(np.array(places), axis=1).shape[1]
-    if different < table.sizes["run"]:
+    values = [table[name].values for name in AXES]
+    axes = [np.unique(column) for column in values]
+    shape = tuple(axis.size for axis in axes)
+    places = tuple(np.searchsorted(axis, column) for axis, column in zip(axes, values, strict=True))
+    different = np.unique(np.array(places), axis=1)
+    if different.shape[1] < table.sizes["run"]:
         raise DatasetError(f"runs of the map differ in more than {', '.join(AXES)}")
     data: dict[str, Any] = {}
     for name in ON_GRID:
-        values = np.full(shape, np.nan)
-        values[places] = table[name].values
-        data[name] = AXES, values
+        grid = np.full(shape, np.nan)
+        grid[places] = table[name].values
+        data[name] = AXES, grid
     theory = np.full(shape[:2], np.nan)
     theory[places[:2]] = table["theory_length"].values
     data["theory_length"] = AXES[:2], theory
-    return annotate(xr.Dataset(data, coords=axes), COLUMNS)
+    coordinates = dict(zip(AXES, axes, strict=True))
+    return annotate(xr.Dataset(data, coords=coordinates), COLUMNS)
 
 
 def mean_over_seeds(

@@ -22,7 +22,15 @@ from ...theory.creep.thin import thin_limit
 from ..growth import FITTED
 
 COLUMNS = {
-    **some(LENGTHS, "id", "study", "role", "evolution", "friction_law", "height"),
+    **some(
+        LENGTHS,
+        "id",
+        "study",
+        "role",
+        "evolution",
+        "friction_law",
+        "height",
+    ),
     **some(SHARED, "zeta_over_a", "f_beta"),
     "theory_length": LENGTHS["theory_length"],
     "stability_length": FITTED["stability_length"],
