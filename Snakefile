@@ -5,9 +5,9 @@
 # Data flow: theory and simulate -> extract -> draw. Results are below the configuration's `results`,
 # relative to the working directory; every file there that people open is the output of a rule.
 #
-# A rule names the function that makes its result (`call`), its parameters and its inputs. From these
-# follows the recipe of the result (nucleation.pipeline.planning), which is one more input: it is
-# newer than the output if and only if that is another result.
+# A rule names the function that makes its result (`call`), its parameters and its inputs. The recipe
+# of the result collects these (nucleation.pipeline.planning). It is one more input of the rule, and it
+# is newer than the output if and only if the output shows another result.
 import functools
 import gc
 import importlib.util
@@ -28,7 +28,7 @@ min_version("9.12")
 
 BASE = Path(workflow.current_basedir)  # of this file, also where it is a module of another
 
-# The one place that says where the package is, for this file and for all jobs.
+# The place of the package, for this file and for all jobs.
 SOURCE = str(Path(BASE, "src"))
 sys.path.insert(0, SOURCE)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [SOURCE, os.environ.get("PYTHONPATH")]))
@@ -41,7 +41,7 @@ if missing:
         "install` in the project's directory, and .venv/bin/snakemake there"
     )
 
-# Compiled code that is outdated must not be run, here and in the jobs.
+# Outdated bytecode must not run, neither here nor in the jobs.
 bytecode = runpy.run_path(str(Path(SOURCE, "nucleation", "pipeline", "bytecode.py")))
 bytecode["make_checked"](Path(SOURCE, "nucleation"))
 os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nucleation")))
@@ -49,14 +49,13 @@ os.environ["NUMBA_CACHE_DIR"] = str(bytecode["cache_of_numba"](Path(SOURCE, "nuc
 from nucleation.configuration.advice import advise
 from nucleation.configuration.contradictions import directory_problem
 from nucleation.configuration.load import completed, configure
-from nucleation.configuration.roles import (
-    JUDGED, LONGER, PAIRS as PAIR_ROLES, PAPERS, REFINEMENTS, ROLES,
-)  # fmt: skip
+from nucleation.configuration.roles import JUDGED, LONGER, PAPERS, REFINEMENTS, ROLES
+from nucleation.configuration.roles import PAIRS as PAIR_ROLES
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.configuration.strict_yaml import read_yaml
-from nucleation.configuration.studies import theory_curves
 from nucleation.configuration.study_names import study_parameters
+from nucleation.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from nucleation.figures import catalogue
@@ -65,11 +64,13 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.friction.registry import plugins
 from nucleation.model.identity import fault, identity
 from nucleation.model.quantities import ParameterError
+from nucleation.pipeline.entries import StoreError
 from nucleation.pipeline.launch import options
+from nucleation.pipeline.messages import LOGGER
 from nucleation.pipeline.planning import Plan
-from nucleation.pipeline.store import StoreError, others
+from nucleation.pipeline.store import others
 
-gc.freeze()  # what is loaded stays: looking through it takes a third of a second in all
+gc.freeze()  # searching all loaded objects takes a third of a second in all
 
 PLANS = workflow.is_main_process  # a job on a cluster reads this file as well
 
@@ -79,10 +80,10 @@ try:
     unusable = directory_problem(settings.results)
     if unusable:
         raise ParameterError(unusable)
-    if PLANS:  # a job on a node that lacks a disk goes on
-        others()  # the stores that the environment names can be used
+    if PLANS:  # a job continues even on a node that lacks a disk
+        others()  # raises an error if a store elsewhere can't be used
 except (ParameterError, StoreError, DatasetError) as error:
-    print(error, file=sys.stderr)  # whatever Snakemake is told to be quiet about
+    LOGGER.error(error)  # even if Snakemake is quiet
     raise WorkflowError("the workflow can't be used like this, see above") from None
 
 if PLANS:
@@ -92,7 +93,7 @@ RESULTS = settings.results
 SHARED = [name for name, study in settings.studies.items() if study.table == "lengths"]
 DEFAULT = "paper" if settings.studies_for("paper") else "studies"
 EVOLUTIONS = sorted({name for e in ("aging", "slip") for name in plugins(Friction(evolution=e))})
-"""Code of the paper's law with either evolution, for what computes with both."""
+"""Code of the paper's law with either evolution, for rules that compute with both."""
 
 PYTHON = shlex.quote(sys.executable)
 JOB = f"exec {PYTHON} -m nucleation.pipeline.job {{input.recipe:q}} {{rule}} {{threads}} {{log:q}}"
@@ -103,7 +104,7 @@ recipe = Plan(rules, workflow, RESULTS)
 
 
 def no_more_timers():
-    """End at once: a timer of Snakemake's would let it wait until it looks for work once more."""
+    """Cancel Snakemake's timers: otherwise it would wait for the next one before it exits."""
     for thread in threading.enumerate():
         if isinstance(thread, threading.Timer):
             thread.cancel()
@@ -137,7 +138,7 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/targets.smk"
 
 
-# Here, since `include` keeps the default target that was there before.
+# These rules are here because `include` keeps an earlier default target.
 rule paper:
     """Every figure, table and verdict of the paper"""
     default_target: DEFAULT == "paper"

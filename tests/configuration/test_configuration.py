@@ -10,7 +10,7 @@ from configurations import CONFIG, PAPER, papers, study
 from nucleation.configuration import schema
 from nucleation.configuration.load import configure, load
 from nucleation.configuration.runs import first_realisations
-from nucleation.configuration.studies import theory_curves
+from nucleation.configuration.theory_curves import theory_curves
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState, interface_state
 from nucleation.model.material import Material

@@ -27,7 +27,8 @@ from harness import (
 )
 from processes import require
 
-from nucleation.pipeline.store import NOTE, Store, read_note
+from nucleation.pipeline.entries import NOTE, read_note
+from nucleation.pipeline.store import Store
 
 
 def truncate(content: bytearray, random: random.Random) -> None:

@@ -32,9 +32,11 @@ from nucleation.configuration.load import load
 from nucleation.datasets import netcdf, variables
 from nucleation.model.friction.registry import plugins
 from nucleation.pipeline.check import LEFTOVERS, OWN, Finding
+from nucleation.pipeline.entries import StoreError, path_in, read_note
+from nucleation.pipeline.keys import key_in
 from nucleation.pipeline.recipes import Recipe
 from nucleation.pipeline.running import SIMULATE, UNFINISHED
-from nucleation.pipeline.store import Store, StoreError, key_in, path_in, read_note
+from nucleation.pipeline.store import Store
 
 IDS = tuple(f"faults-aging-H{height}-phi1" for height in (0.02, 0.1))
 CONFIG = {

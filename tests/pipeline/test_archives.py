@@ -15,9 +15,10 @@ import xarray as xr
 from nucleation.datasets import netcdf
 from nucleation.pipeline import bundle
 from nucleation.pipeline.bundle import CHECKSUMS, BundleError
-from nucleation.pipeline.planning import RECIPES
+from nucleation.pipeline.entries import StoreError
+from nucleation.pipeline.recipe_files import RECIPES
 from nucleation.pipeline.recipes import Recipe
-from nucleation.pipeline.store import Store, StoreError
+from nucleation.pipeline.store import Store
 from nucleation.pipeline.views import lay
 
 KEY, OTHER, UNSHOWN = "0" * 16, "1" * 16, "2" * 16

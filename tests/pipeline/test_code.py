@@ -13,10 +13,10 @@ from nucleation.pipeline import bytecode, code
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """A package of its own in the place of the project's."""
-    monkeypatch.setattr(code, "ROOT", tmp_path / "nucleation")
-    monkeypatch.setattr(code, "PARSED", tmp_path / "digests.json")
+    monkeypatch.setattr(code, "_ROOT", tmp_path / "nucleation")
+    monkeypatch.setattr(code, "_PARSED", tmp_path / "digests.json")
     code.forget()
-    code._kept.cache_clear()
+    code._parsed.cache_clear()
     files = {
         "__init__.py": '"""Words."""\n__version__ = "1"\n',
         "wing/__init__.py": '"""Words."""\n',
@@ -32,7 +32,7 @@ def package(tmp_path, monkeypatch):
         path.write_text(text)
     yield tmp_path
     code.forget()
-    code._kept.cache_clear()
+    code._parsed.cache_clear()
 
 
 def digest(package):

@@ -52,8 +52,8 @@ def test_snakemake_sees_what_planning_writes_in_a_directory_that_it_has_listed(
     (tmp_path / "results").mkdir()
     for path in (file, other):
         (tmp_path / path).touch()
-        Plan._tell_of(SimpleNamespace(_workflow=workflow), path)
+        Plan._refresh(SimpleNamespace(_workflow=workflow), path)
     assert cache.exists_local[file] and cache.exists_local[other]
     (tmp_path / file).unlink()
-    Plan._tell_of(SimpleNamespace(_workflow=workflow), file)
+    Plan._refresh(SimpleNamespace(_workflow=workflow), file)
     assert not cache.exists_local[file] and cache.exists_local[other]

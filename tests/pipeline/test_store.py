@@ -12,16 +12,10 @@ import pytest
 import xarray as xr
 
 from nucleation.datasets import netcdf
+from nucleation.pipeline import entries
 from nucleation.pipeline import store as module
-from nucleation.pipeline.store import (
-    NOTE,
-    VARIABLE,
-    Store,
-    StoreError,
-    give_all,
-    others,
-    read_note,
-)
+from nucleation.pipeline.entries import NOTE, StoreError, read_note
+from nucleation.pipeline.store import VARIABLE, Store, give_all, others
 
 KEY, OTHER = "0" * 16, "1" * 16
 
@@ -62,7 +56,7 @@ def test_of_writers_at_once_one_wins(store):
     assert names(store.directory) == [KEY], "nobody's entry was moved aside"
 
 
-STEPS = ("content", "flush", "shutil.rmtree", "Path.chmod", "Path.rename", "json.dumps")
+STEPS = ("digest_of_file", "flush", "shutil.rmtree", "Path.chmod", "Path.rename", "json.dumps")
 
 
 @pytest.mark.parametrize("step", STEPS)
@@ -133,8 +127,8 @@ CLOCK = 0.05
 
 def test_bytes_are_read_once_after_a_file_was_touched(store, monkeypatch):
     entry = put(store)
-    read, content = [], module.content
-    monkeypatch.setattr(module, "content", lambda path: read.append(path) or content(path))
+    read, digest = [], entries.digest_of_file
+    monkeypatch.setattr(entries, "digest_of_file", lambda path: read.append(path) or digest(path))
     time.sleep(CLOCK)
     Store(store.directory).note(KEY)
     read.clear()  # at most once after the entry was made, within one tick of the clock

@@ -14,7 +14,7 @@ from docutils.utils import SystemMessage
 from jinja2 import UndefinedError
 
 from nucleation.figures import catalogue
-from nucleation.report import encode, page, tables
+from nucleation.report import encode, page, summary, tables, verdicts
 
 ROOT = encode.HERE.parents[2]
 
@@ -57,12 +57,12 @@ def test_the_report_opens_with_the_length_at_the_drop_its_range_and_the_noise(ta
     runs = [run(**quiet), run(**quiet | noisy), run(**quiet | {"height": 0.1, "length": 0.2})]
     runs = [run.assign(ensemble=("run", [str(i)])) for i, run in enumerate(runs)]
     runs[2]["fault"] = "run", ["another"]
-    shown = tables.of_paper(xr.concat(runs, "run"))
+    shown = summary.of_paper(xr.concat(runs, "run"))
     assert [shown[name] for name in ("length", "low", "high")] == ["0.156", "0.138", "0.162"]
     assert shown["ratios"] == {"paper": "0.66 to 0.85", "converged": "0.69"}
     assert (shown["creep"], shown["thickest"]) == ("0.56", "0.1")
     assert shown["declared"]["length"] == "0.162" and shown["declared"]["strength"] == "0.001"
-    assert tables.of_paper(run(role="own")) is None
+    assert summary.of_paper(run(role="own")) is None
 
 
 # ---- Parts
@@ -88,13 +88,13 @@ def test_every_claim_and_run_is_in_the_tables(html, table):
 
 
 def test_claims_as_they_are_shown(content):
-    onset, ratio, unknown, wrong = tables.claim_rows(content.claims)
+    onset, ratio, unknown, wrong = verdicts.claim_rows(content.claims)
     assert (onset["paper"], onset["ours"], onset["spread"]) == ("13 s", "12.78", "(12.78 to 12.87)")
     assert (ratio["ours"], ratio["spread"], ratio["unit"]) == ("2.356", "", "")
     assert (unknown["paper"], unknown["ours"], unknown["spread"]) == ("", "", "")
     assert wrong["spread"] == "(8 to 11)"
-    counts = {c["verdict"]: c["count"] for c in tables.verdict_counts(content.claims)}
-    assert counts == dict.fromkeys(set(tables.VERDICTS) - {"taken as given", "not supported"}, 1)
+    counts = {c["verdict"]: c["count"] for c in verdicts.verdict_counts(content.claims)}
+    assert counts == dict.fromkeys(set(verdicts.VERDICTS) - {"taken as given", "not supported"}, 1)
 
 
 def test_runs_without_an_event_have_dashes(table):

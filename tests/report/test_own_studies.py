@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 from nucleation.figures import catalogue
-from nucleation.report import page, tables
+from nucleation.report import page, summary, tables
 
-STUDIES = tables.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
+STUDIES = summary.OwnStudies({"mine": "granite"}, {"mine": ["mesh too coarse (x): by far"]})
 
 
 @pytest.fixture(scope="module")

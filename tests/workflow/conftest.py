@@ -73,7 +73,7 @@ class Workflow:
         assert done.returncode == 0, done.stdout
         if "Nothing to be done" in done.stdout:
             return {}
-        kept = re.search(r"a run needs none for what is in a store: (.*)", done.stdout)
+        kept = re.search(r"as a store has their results: (.*)", done.stdout)
         table = re.search(r"Job stats:\njob +count\n-+ +-+\n(.*?)\ntotal", done.stdout, re.S)
         assert table, done.stdout
         counts = Counter({rule: int(n) for rule, n in map(str.split, table[1].splitlines())})

@@ -12,7 +12,7 @@ from nucleation.analysis.extraction import extract
 from nucleation.configuration.load import load, read_yaml
 from nucleation.datasets import netcdf
 from nucleation.model.parameters import Parameters
-from nucleation.pipeline.store import key_in
+from nucleation.pipeline.keys import key_in
 
 ROOT = Path(__file__).parents[2]
 CLAIMING = {"evaluate_claims", "write_article"}

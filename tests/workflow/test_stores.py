@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from nucleation.pipeline.store import Store, read_note
+from nucleation.pipeline.entries import read_note
+from nucleation.pipeline.store import Store
 
 RUN = {"height": [0.02, 0.1], "n_x": 40, "n_y": 4, "tolerance": 0.1}
 
@@ -46,7 +47,7 @@ def test_results_are_taken_and_wrong_ones_are_made_and_given_again(filled, tmp_p
     taken = elsewhere(first, tmp_path / "taken")
     taken.directory.mkdir()
     seen = taken("simulations", "--dry-run")
-    assert "a run needs none for what is in a store: simulate 2" in seen.stdout
+    assert "as a store has their results: simulate 2" in seen.stdout
     assert not (taken.directory / "results" / "simulations").exists()
     done = taken("simulations")
     assert done.returncode == 0, done.stdout

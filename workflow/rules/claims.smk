@@ -1,6 +1,5 @@
 # Every quantitative statement of the paper with our number and a verdict (docs/claims.md), and the
-# article that tells of them. Claims about runs that the configuration does not have can't be checked,
-# and say so.
+# article on them. If the configuration lacks the runs of a claim, its verdict is "cannot be checked".
 PAIRED = "two bodies, simulated"
 PAPERS_FIGURES = ["figure_1", "figure_2", "figure_3", "figure_s1", "figure_s2"]
 PRINTED = [*PAPERS_FIGURES, "figure_patch_stability", "figure_drop", "figure_map"]
@@ -45,10 +44,10 @@ rule evaluate_claims:
         JOB
 
 
-# What the paper's theory says of two bodies, by simulations: verdicts of their own, for which
-# those of `claims`, and so `make paper`, do not wait.
+# The paper's theory of two bodies, compared with simulations. These verdicts are separate, so that
+# `claims` and `make paper` need not wait for them.
 rule evaluate_pairs:
-    """Verdicts on what the paper's theory says of two bodies"""
+    """Verdicts on the paper's theory of two bodies"""
     input:
         pairs=f"{RESULTS}/pairs.nc",
         modes=f"{RESULTS}/pair_modes.nc",
@@ -87,7 +86,7 @@ rule write_article:
 
 
 rule print_article:
-    """The same with the figures that come after it, on paper"""
+    """The article with its figures, as PDF and LaTeX"""
     input:
         template=str(Path(BASE, "docs", "article.md.in")),
         citation=str(Path(BASE, "CITATION.cff")),

@@ -1,23 +1,23 @@
-# The independent solver: the same runs by FreeFem++ and by the project's own solver. Not a part of
-# `paper`: it needs a program that make doesn't install, and takes twenty minutes.
+# The independent solver: the same runs by FreeFem++ and by the project's own solver. They are not part
+# of `paper`, since they take twenty minutes and need a program that make does not install.
 FREEFEM_SCRIPTS = sorted(map(str, Path(BASE, "workflow", "crosscheck").glob("*.edp")))
 
 
 @functools.cache
 def crosschecks():
-    """The runs that are made with both solvers, by name."""
+    """The runs of both solvers, by name."""
     from nucleation.verification.crosscheck import plan
 
     return plan.runs(settings.base, settings.crosscheck, settings.main_text_interface)
 
 
 def crosschecked(solver):
-    """An input function that gives the records of all runs by one of the solvers."""
+    """An input function for the records of all runs by one of the solvers."""
     return lambda wildcards: [f"{RESULTS}/crosscheck/{solver}/{name}.nc" for name in crosschecks()]
 
 
 def freefem_scripts(wildcards):
-    """The scripts, if there is a program to run them: without one, nothing at all is started."""
+    """The scripts; without the program that runs them, the workflow stops before any job."""
     from nucleation.verification.crosscheck import freefem
 
     if not freefem.installed():

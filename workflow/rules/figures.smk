@@ -1,5 +1,5 @@
-# One rule draws each figure. What is drawn comes from datasets alone: a rule's inputs bear the names
-# of the parameters of the function that draws.
+# One rule draws each figure, from datasets alone. The names of a rule's inputs are the arguments of
+# the function that draws.
 rule draw_figure_1:
     """Figure 1: the two set-ups"""
     input:
@@ -218,6 +218,29 @@ rule draw_figure_weakening:
         JOB
 
 
+rule draw_figure_weakening_patches:
+    """Weakening patches among strengthening surroundings"""
+    input:
+        table=f"{RESULTS}/weakening_patches.nc",
+        recipe=recipe("draw_figure_weakening_patches"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_weakening_patches.png",
+            caption="../report/figure_weakening_patches.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_weakening_patches.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_weakening_patches.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_weakening_patches:draw",
+    message:
+        "Weakening patches among strengthening surroundings"
+    shell:
+        JOB
+
+
 rule draw_figure_map:
     """Lengths over height and weakening: a map"""
     input:
@@ -426,13 +449,16 @@ rule draw_figure_literature:
 
 
 def declarations(names):
-    """What parameters are, for the axes of a figure."""
-    found = {name: asdict(study_parameters()[name]) for name in names}
-    return {name: entry | {"choices": list(entry["choices"])} for name, entry in found.items()}
+    """Declarations of parameters, for the axes of a figure."""
+    found = {}
+    for name in names:
+        entry = asdict(study_parameters()[name])
+        found[name] = entry | {"choices": list(entry["choices"])}
+    return found
 
 
 rule draw_study:
-    """A study: simulations and theory, by what it varies"""
+    """A study: simulations and theory over the varied parameters"""
     input:
         table=f"{RESULTS}/lengths/{{study}}.nc",
         recipe=recipe("draw_study"),
@@ -463,7 +489,7 @@ rule draw_study:
 
 
 rule film:
-    """A run once more, for the stress in its block"""
+    """One run again, for the stress in its block"""
     input:
         lengths=f"{RESULTS}/lengths.nc",
         after=lambda wildcards: batches([inset_run()]),
@@ -477,7 +503,7 @@ rule film:
         reads=lambda wildcards: {"simulation": simulations([inset_run()])[0]},
         id=lambda wildcards: inset_run().id,
     message:
-        "A run once more, for the stress in its block"
+        "One run again, for the stress in its block"
     shell:
         JOB
 

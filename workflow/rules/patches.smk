@@ -1,5 +1,5 @@
-# Beyond the paper: the linear stability of each simulation's own creeping patch. Each takes a fifth of
-# a second, a job more than one: those of a study are made in one.
+# Beyond the paper: the linear stability of the creeping patch in each simulation. A patch takes a fifth
+# of a second, and a job more than a second, so one job makes all patches of a study.
 rule follow_patches:
     """Stability of the creeping patches of a study"""
     input:

@@ -1,18 +1,18 @@
-# The report: one HTML file with every figure that the configuration has the studies for, the theory
-# for any fault, tables and provenance.
+# The report: one HTML file with all figures whose studies are in the configuration, a calculator for
+# any fault, tables and provenance.
 OF_THE_PAPER = DEFAULT == "paper"
 REPORTED = catalogue.drawable({study.role for study in settings.studies.values()}, OF_THE_PAPER)
 OWN_STUDIES = {
     study: settings.studies[study].description for study in SHARED if study not in CLAIMED
 }
-"""What the studies are for on which no verdict stands and that share lengths.csv."""
+"""Descriptions of the studies that share lengths.csv, except those that claims are about."""
 ENTRIES = {name: FIGURES[name] for name in REPORTED} | catalogue.of_studies(OWN_STUDIES)
-"""What is shown. A configuration that isn't the paper's leads with its own studies, and has neither
-the paper's figures nor the verdicts, which are about the paper's runs."""
+"""The shown figures. If the configuration is not the paper's, its own studies come first, and the
+paper's figures and verdicts, which are about the paper's runs, are left out."""
 
 
-def explored():
-    """The fault that the calculator begins with: the paper's, or the first run's."""
+def first_fault():
+    """The first fault in the calculator: that of the paper, or of the first run."""
     own = [] if OF_THE_PAPER else runs_in(*OWN_STUDIES)
     own = [run for run in own if run.interface.zeta > 0.0]
     material, interface, height = settings.base.material, settings.main_text_interface, 0.1
@@ -34,28 +34,29 @@ def explored():
 
 
 SHOWN_RUNS = {"figure_3": inset_run, "figure_s2": space_time_run, "animation": inset_run}
-"""The simulation of which a figure shows more than its lengths."""
+"""Figures of a single simulation, and the functions that select it."""
 
 
 def caption_values(wildcards):
-    """What captions say of a run or a study, by the figure."""
+    """Values for the captions, by figure: the shown run or study."""
     shown = {name: {"id": run().id} for name, run in SHOWN_RUNS.items() if name in REPORTED}
     return shown | {f"study_{study}": {"study": study} for study in OWN_STUDIES}
 
 
 def pictures(wildcards):
-    """What the report shows."""
+    """The files of the shown figures."""
     suffixes = {name: "gif" if name == "animation" else "png" for name in ENTRIES}
     return [f"{RESULTS}/figures/{name}.{suffix}" for name, suffix in suffixes.items()]
 
 
-def warned_of(wildcards):
-    """What was warned of before the runs of studies of the user's own."""
-    studies = [] if OF_THE_PAPER else OWN_STUDIES
-    return {
-        study: [warning.partition(": ")[2] for warning in advise(runs_of(study))]
-        for study in studies
-    }
+def own_warnings(wildcards):
+    """The warnings about each study of the user, without the name of the study."""
+    if OF_THE_PAPER:
+        return {}
+    found = {}
+    for study in OWN_STUDIES:
+        found[study] = [warning.partition(": ")[2] for warning in advise(runs_of(study))]
+    return found
 
 
 rule write_report:
@@ -86,9 +87,9 @@ rule write_report:
         dataset_names=catalogue.datasets_of(ENTRIES.values()),
         studies=OWN_STUDIES,
         caption_values=caption_values,
-        fault=lambda wildcards: explored(),
+        fault=lambda wildcards: first_fault(),
         friction=asdict(settings.base.friction),
-        warnings=warned_of,
+        warnings=own_warnings,
         leads=not OF_THE_PAPER,
         config=lambda wildcards: completed(config),
     message:

@@ -1,16 +1,16 @@
 # Simulations, and the tables of their lengths.
 #
-# One job makes a batch: the simulations of a study with `runs_per_job`, or a single one. It makes
-# them side by side on its cores and shows each, results/simulations/ID.nc, once it is finished.
-# Where nothing else is made of them one by one, the job measures its simulations itself.
+# One job makes a batch: several simulations of a study with `runs_per_job`, or a single one. It makes
+# them in parallel on its cores, and shows each one, results/simulations/ID.nc, when it is finished.
+# If no other rule reads the simulations one by one, the job also extracts their lengths.
 def memory(runs, threads, attempt):
-    """Memory (MB) of a cluster job that makes simulations: Snakemake in it needs 300 MB."""
+    """Memory (MB) of a cluster job that makes simulations; Snakemake itself needs 300 MB."""
     largest = max(estimated_megabytes(run.parameters) for run in runs)
     return attempt * ceil(300 + min(threads, len(runs)) * (largest + 150))
 
 
 rule simulate:
-    """The simulations of a batch, side by side on its cores"""
+    """The simulations of a batch, in parallel on its cores"""
     input:
         recipe=recipe("simulate"),
     output:
@@ -33,7 +33,7 @@ rule simulate:
 
 
 rule simulate_and_measure:
-    """The same, and the table of what is measured of them"""
+    """The simulations of a batch, and the table of their lengths"""
     input:
         recipe=recipe("simulate_and_measure"),
     output:
@@ -61,7 +61,7 @@ rule simulate_and_measure:
 
 
 rule simulation:
-    """One simulation, shown under its name; its batch makes it"""
+    """One simulation under its name; the job of its batch makes it"""
     input:
         after=lambda wildcards: batches([run_of(wildcards.name)]),
         recipe=recipe("simulation"),
@@ -80,7 +80,7 @@ rule simulation:
         JOB
 
 
-# A table with onset time and critical length for each study, and one of the studies that share it.
+# A table with onset time and critical length for each study, and one for all studies that share it.
 rule extract:
     """Critical lengths of a study"""
     input:
@@ -104,7 +104,7 @@ rule extract:
 
 
 rule join_batches:
-    """Critical lengths of a study whose batches are measured by the jobs that make them"""
+    """Critical lengths of a study, joined from the tables of its batches"""
     input:
         tables=lambda wildcards: batches(runs_of(wildcards.study)),
         recipe=recipe("join_batches"),

@@ -1,4 +1,4 @@
-# Which runs have which role, and the files that are made of each.
+# The runs of each role, and the files that are made from them.
 in_role = settings.studies_for
 SIMULATION = "nucleation.simulation.run"
 
@@ -7,41 +7,41 @@ CONVERGENCE_STUDIES = in_role(*REFINEMENTS)
 CLAIMED = in_role(PAPERS, JUDGED)
 """Studies that claims are about."""
 FLOORS = in_role("paper", "convergence_quiet")
-"""Studies of quiet runs, whose drops say how noisy their meshes are."""
+"""Studies of quiet runs; the length at their drop shows the noise of the mesh."""
 PATCH_TABLES = {
     "patch_stability": in_role("paper", "converged"),
     "patch_convergence": in_role("converged", "patch_convergence"),
 }
-"""Tables of patches by the studies in them."""
+"""Tables of patches, and the studies in each."""
 TABLED = [
     name
     for name, study in settings.studies.items()
     if study.runs_per_job > 1 and not ROLES[study.role].one_by_one
 ]
-"""Studies whose batches are measured by the jobs that make them."""
+"""Studies whose jobs also extract the lengths of their simulations."""
 EXTRACTED = [name for name in settings.studies if name not in TABLED]
-"""The others, of whose simulations lengths are read one by one."""
+"""The other studies; a rule extracts their lengths."""
 
 
 def one_of(names):
-    """The constraint of a wildcard to some names, of which there may be none."""
+    """A regular expression that matches only these names; without names it matches nothing."""
     return "|".join(names) or "(?!)"
 
 
-def needed(files, what):
-    """An input function that gives some files, or says what the configuration lacks for them."""
+def needed(files, requirement):
+    """An input function that returns files, or raises an error that names the requirement."""
 
     def given(wildcards):
         found = files()
         if not found:
-            raise WorkflowError(f"the configuration has no {what}, which this target needs")
+            raise WorkflowError(f"the configuration has no {requirement}, which this target needs")
         return found
 
     return given
 
 
 def or_refused(function, *arguments):
-    """What a function of the configuration returns; its error as one of the workflow."""
+    """Call a function of the configuration; turn its error into one of the workflow."""
     try:
         return function(*arguments)
     except ParameterError as error:
@@ -50,7 +50,7 @@ def or_refused(function, *arguments):
 
 @functools.cache
 def runs_of(study):
-    """The runs of a study; what is unusual about them is warned of once."""
+    """The runs of a study; warnings about them appear once."""
     runs = or_refused(settings.runs_of, study)
     if PLANS:
         for warning in advise(runs):
@@ -59,18 +59,19 @@ def runs_of(study):
 
 
 REFUSED = []
-"""Studies that can't be run and were left out."""
+"""Studies that were left out because they can't be run."""
 
 
 @functools.cache
 def is_usable(study):
-    """Whether a study can be run. If not, a run with --keep-going leaves it out, and fails at its end."""
+    """Whether a study can be run. With --keep-going it is left out, and the workflow fails at the end."""
     problems = settings.problems_of(study)
     if problems and not (recipe.runs and workflow.execution_settings.keep_going):
-        runs_of(study)  # which tells what is wrong
+        runs_of(study)  # raises the error
     for problem in problems:
-        print(f"The study {study} is left out: {problem}", file=sys.stderr)
-    REFUSED.extend([study] * bool(problems))
+        LOGGER.warning(f"The study {study} is left out: {problem}")
+    if problems:
+        REFUSED.append(study)
     return not problems
 
 
@@ -81,7 +82,7 @@ def run_of(name):
 
 @functools.cache
 def runs_of_batch(batch):
-    """The runs that one job makes; a run without a batch is one of its own."""
+    """The runs of one job; a run without a batch has its own job."""
     study = settings.studies.get(study_of(batch))
     if study is not None and study.runs_per_job == 1:
         return [run_of(batch)]
@@ -94,12 +95,12 @@ def study_of(name):
 
 
 def runs_in(*studies):
-    """The runs of those of some studies that the configuration has."""
+    """The runs of some studies."""
     return [run for study in studies for run in runs_of(study)]
 
 
 def runs_for(*roles):
-    """The runs of the studies with some roles."""
+    """The runs of all studies with these roles."""
     return runs_in(*in_role(*roles))
 
 
@@ -108,7 +109,7 @@ def as_dicts(runs):
 
 
 def laws_of(runs):
-    """Code that some runs load by name."""
+    """Modules that some runs load by name."""
     return sorted({law for run in runs for law in plugins(run.parameters)})
 
 
@@ -118,66 +119,75 @@ def simulations(runs):
 
 
 def batches(runs):
-    """The files that are made by the jobs of some runs."""
+    """The files that the jobs of some runs write."""
     suffixes = {run.batch or run.id: "nc" if run.study in TABLED else "json" for run in runs}
     return [f"{RESULTS}/batches/{batch}.{suffix}" for batch, suffix in suffixes.items()]
 
 
 def lengths_of(*studies):
-    """The tables of lengths of those of some studies that the configuration has."""
+    """The tables of lengths of some studies; a study that is not in the configuration is left out."""
     return [f"{RESULTS}/lengths/{study}.nc" for study in studies if study in settings.studies]
 
 
 def table_of(role):
-    """The table of lengths of the one study that has a role; nothing without it."""
+    """The table of lengths of the only study with a role; an empty list without such a study."""
     return (lengths_of(*in_role(role)) or [[]])[0]
 
 
 def patched_runs(*studies):
-    """The runs whose patches are followed: of each fault the first realisation."""
+    """The runs whose patches are followed: the first realisation of each fault."""
     return first_realisations(runs_in(*studies))
 
 
 def patches(*studies):
-    """The files with the stability of patches, of some studies."""
+    """The files with the stability of the patches of some studies."""
     return [f"{RESULTS}/patches/{run.id}.nc" for run in patched_runs(*studies)]
 
 
 def patch_batches(*studies):
-    """The files that are made by the jobs that follow the patches of some studies."""
+    """The files of the jobs that follow the patches of some studies."""
     return [f"{RESULTS}/patches/{study}.json" for study in studies]
 
 
 def patch_tables():
-    """The tables with lengths at which patches turn unstable."""
-    names = ["patch_stability"] * bool(in_role(JUDGED)) + ["pairs"] * bool(PAIR_STUDIES)
+    """The tables with lengths at which patches become unstable."""
+    names = []
+    if in_role(JUDGED):
+        names.append("patch_stability")
+    if PAIR_STUDIES:
+        names.append("pairs")
     return [f"{RESULTS}/{name}.nc" for name in names]
 
 
 def one_of_each_fault(runs):
-    """The first of some runs that each fault has."""
-    return list({fault(run.parameters): run for run in reversed(runs)}.values())[::-1]
+    """The first run of each fault, in the order of their last runs."""
+    found = {fault(run.parameters): run for run in reversed(runs)}
+    return list(found.values())[::-1]
 
 
 def inset_run():
-    """The run that the inset of Figure 3 and the animation show."""
+    """The run in the inset of Figure 3 and in the animation."""
     return or_refused(settings.shown, settings.figures.inset_height)
 
 
 def space_time_run():
-    """The run that Figure S2 shows."""
+    """The run in Figure S2."""
     return or_refused(settings.shown, settings.figures.space_time_height)
 
 
 def element(run):
-    """All that a run is given but for the block's length, of which there is that of an element (m)."""
+    """All parameters of a run, but with the length of an element (m) for that of the block."""
     size = run.parameters.geometry.length / run.parameters.mesh.n_x
     return identity(run.parameters, "geometry.length", "mesh.n_x"), round(size, 9)
 
 
 @functools.cache
 def longer():
-    """The runs in longer blocks that differ from one of those judged in nothing else, and these."""
-    blocks, judged = ([(element(run), run) for run in runs_for(role)] for role in (LONGER, JUDGED))
-    return [run for like, block in blocks for other, base in judged if other == like
-            for run in (block, base)]  # fmt: skip
+    """Pairs of runs that differ only in the length of the block: the longer one, the judged one."""
+    found = []
+    judged = [(element(run), run) for run in runs_for(JUDGED)]
+    for block in runs_for(LONGER):
+        for other, base in judged:
+            if other == element(block):
+                found += [block, base]
+    return found

@@ -1,4 +1,4 @@
-# Tables beyond the paper: each is made of others, of simulations, or of what was read from these.
+# Tables beyond the paper: each is made from other tables or from simulations.
 rule gather_drop:
     """Drops, and the law of the drop"""
     input:
@@ -21,7 +21,7 @@ rule gather_drop:
 
 
 rule gather_weakening:
-    """Drops of faults that weaken little to much, beside theory"""
+    """Drops from weak to strong weakening: simulations and theory"""
     input:
         drops=needed(lambda: lengths_of(*in_role("weakening")), "study with role: weakening"),
         recipe=recipe("gather_weakening"),
@@ -34,7 +34,7 @@ rule gather_weakening:
         loads=lambda wildcards: laws_of(runs_for("weakening")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
     message:
-        "Drops of faults that weaken little to much, beside theory"
+        "Drops from weak to strong weakening: simulations and theory"
     shell:
         JOB
 
@@ -81,12 +81,12 @@ rule gather_map:
 
 
 def compared_with_theory():
-    """The runs whose L_s stands beside that of the theory."""
+    """The runs whose L_s is compared with that of the theory."""
     return runs_for(JUDGED, "map", "patch_theory", *PAIR_ROLES)
 
 
 rule gather_patch_theory:
-    """Lengths of creeping patches by theory, beside those of simulations"""
+    """Lengths of creeping patches: theory and simulations"""
     input:
         tables=needed(
             lambda: [*lengths_of(*in_role("map", "patch_theory")), *patch_tables()],
@@ -102,12 +102,12 @@ rule gather_patch_theory:
         loads=lambda wildcards: laws_of(compared_with_theory()),
         runs=lambda wildcards: as_dicts(compared_with_theory()),
     message:
-        "Lengths of creeping patches by theory, beside those of simulations"
+        "Lengths of creeping patches: theory and simulations"
     shell:
         JOB
 
 
-# All studies whose base is deformable in every run.
+# All studies with a deformable base in every run.
 rule gather_pairs:
     """Lengths of the patches between two deformable bodies"""
     input:
@@ -187,5 +187,27 @@ rule gather_literature:
         runs=lambda wildcards: as_dicts(runs_for("literature")),
     message:
         "The literature's lengths, simulated"
+    shell:
+        JOB
+
+
+rule gather_weakening_patches:
+    """Weakening patches among strengthening surroundings, beside theory"""
+    input:
+        after=needed(
+            lambda: batches(runs_for("weakening_patches")), "study with role: weakening_patches"
+        ),
+        recipe=recipe("gather_weakening_patches"),
+    output:
+        multiext(f"{RESULTS}/weakening_patches", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/weakening_patches.log",
+    params:
+        call="nucleation.analysis.weakening_patches:gather",
+        loads=lambda wildcards: laws_of(runs_for("weakening_patches")),
+        reads=lambda wildcards: {"simulations": simulations(runs_for("weakening_patches"))},
+        runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),
+    message:
+        "Weakening patches among strengthening surroundings, beside theory"
     shell:
         JOB

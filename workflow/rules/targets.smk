@@ -1,6 +1,6 @@
-# What users ask for by name. Every file can be asked for as well: results/figures/figure_3.pdf.
+# Targets with names. Every file is a target as well: results/figures/figure_3.pdf.
 def shared(files):
-    """An input function that gives files of the studies that share lengths.csv."""
+    """An input function for files of the studies that share lengths.csv."""
     return needed(lambda: files([*filter(is_usable, SHARED)]), "study with table: lengths")
 
 
@@ -10,11 +10,12 @@ def of_studies(names):
     figures = [
         f"{RESULTS}/figures/study_{name}.{kind}" for name in names for kind in ("png", "pdf")
     ]
-    return [*figures, *[path.replace(".nc", ".csv") for path in lengths_of(*names)]]
+    tables = [path.replace(".nc", ".csv") for path in lengths_of(*names)]
+    return figures + tables
 
 
 rule simulations:
-    """The simulations of the studies that share lengths.csv"""
+    """The simulations of all studies that share lengths.csv"""
     input:
         shared(lambda names: batches(runs_in(*names))),
 
@@ -107,6 +108,12 @@ rule figure_weakening:
         rules.draw_figure_weakening.output,
 
 
+rule figure_weakening_patches:
+    """Weakening patches among strengthening surroundings"""
+    input:
+        rules.draw_figure_weakening_patches.output,
+
+
 rule figure_map:
     """Lengths over height and weakening: a map"""
     input:
@@ -174,7 +181,7 @@ rule figure_studies:
 
 
 rule pairs:
-    """Two deformable bodies: lengths over the theory of the own far sides, and verdicts"""
+    """Two deformable bodies: lengths over the theory of the same pair, and verdicts"""
     input:
         rules.gather_pairs.output,
         rules.evaluate_pairs.output,
@@ -182,19 +189,19 @@ rule pairs:
 
 
 rule floors:
-    """How noisy each mesh is with its steps, as a declared strength"""
+    """The noise of each mesh and its steps, as the strength of a perturbation"""
     input:
         rules.gather_floors.output,
 
 
 rule patch_convergence:
-    """Where patches turn unstable on refined meshes"""
+    """Lengths at which patches become unstable on refined meshes"""
     input:
         f"{RESULTS}/patch_convergence.csv",
 
 
 rule figure_crosscheck:
-    """The figure of both solvers"""
+    """Patch length and driving force by both solvers"""
     input:
         rules.draw_figure_crosscheck.output,
 
@@ -212,7 +219,7 @@ rule report:
         rules.write_report.output,
 
 
-# Questions about results, which nothing is made for.
+# Checks of the results; they make no result.
 rule check:
     """List results that are stale, incomplete, damaged or foreign"""
     log:
@@ -229,7 +236,7 @@ rule check:
 
 
 rule prune:
-    """List results that nothing refers to; the environment's PRUNE=yes removes them"""
+    """List results that are not in use; PRUNE=yes in the environment removes them"""
     log:
         f"{RESULTS}/logs/prune.log",
     localrule: True
@@ -237,7 +244,7 @@ rule prune:
         results=lambda wildcards: recipe.results,
         expected=lambda wildcards: recipe.write_expected(of_studies(settings.studies)),
     message:
-        "Results that nothing refers to"
+        "Results that are not in use"
     shell:
         f"{PYTHON} -m nucleation.pipeline.check prune {{params.results:q}} {{params.expected:q}}"
         " | tee {log:q}"

@@ -1,4 +1,4 @@
-# The linear theory, and what holds the solver against mathematics (docs/verification.md).
+# The linear theory, and the verification of the solver against mathematics (docs/verification.md).
 rule theory:
     """Theory: critical lengths and friction curves"""
     input:
@@ -21,7 +21,7 @@ rule theory:
         JOB
 
 
-# Single modes of homogeneous sliding, integrated in time, beside the spectrum.
+# Single modes of homogeneous sliding: time integration and spectrum.
 rule dispersion:
     """Growth of single modes: time integration and theory"""
     input:
@@ -30,7 +30,7 @@ rule dispersion:
         multiext(f"{RESULTS}/dispersion", ".nc", ".csv"),
     log:
         f"{RESULTS}/logs/dispersion.log",
-    priority: 3  # the verdicts wait for it, and nothing that it needs
+    priority: 3  # the verdicts wait for it
     params:
         call="nucleation.verification.dispersion:files",
         loads=plugins(settings.base),
@@ -64,7 +64,7 @@ rule pair_modes:
         JOB
 
 
-# Orders of convergence on manufactured solutions, which depend on no configuration.
+# Orders of convergence on manufactured solutions; they depend on no configuration.
 rule verification:
     """Errors of manufactured solutions against element size and time step"""
     input:

@@ -16,7 +16,7 @@ from typing import Any
 import xarray as xr
 import yaml
 
-from ..datasets.installed import require
+from ..installed import require
 from . import article
 
 try:

@@ -1,4 +1,4 @@
-"""Files written whole or not at all, what variables are, where a result is from; what is installed.
+"""Files: how datasets are written and read, and the metadata of their variables and origin.
 
-It uses nothing of the project.
+This wing imports nothing else of the package.
 """

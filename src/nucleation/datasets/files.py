@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all."""
+"""Files that are written completely or not at all."""
 
 import contextlib
 import errno
@@ -6,12 +6,12 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-LACKS_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 @contextlib.contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A temporary path to write to, which takes the place of `path` once it is on the disk."""
+    """Yield a temporary path to write to; the file replaces `path` once it is on the disk."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
@@ -25,23 +25,35 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def require_room(path: Path, size: int) -> None:
-    """Raise the system's own error if a file can't have a size (bytes) where it stands.
+    """Raise the system's error if there is no room for a file.
 
-    For a library that reports a full disk, a quota or a limit in words of its own. The file is
-    enlarged by the attempt.
+    A library may report a full disk, a quota or a limit in words of its own. This function finds
+    the system's reason. It enlarges the file.
+
+    Parameters
+    ----------
+    path : Path
+        The file; it is created if it is missing.
+    size : int
+        Required size in bytes.
+
+    Raises
+    ------
+    OSError
+        If the disk is full, or a quota or a limit of file sizes is exceeded.
     """
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
     try:
         os.posix_fallocate(descriptor, 0, size)
     except OSError as error:
-        if error.errno in LACKS_ROOM:
+        if error.errno in _NO_ROOM:
             raise OSError(error.errno, os.strerror(error.errno), str(path)) from None
     finally:
         os.close(descriptor)
 
 
 def flush(path: Path) -> None:
-    """Have a file's data, or a directory's entries, on the disk before going on."""
+    """Wait until the data of a file, or the entries of a directory, are on the disk."""
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

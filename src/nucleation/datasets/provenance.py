@@ -1,4 +1,4 @@
-"""Where a result comes from: what a dataset says of its parameters, code, sources and versions."""
+"""The origin of a result: parameters, code, sources and versions, as attributes of a dataset."""
 
 import contextlib
 import datetime
@@ -7,42 +7,61 @@ import importlib.metadata
 import json
 import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .. import __version__
 from .variables import DatasetError
 
-PACKAGE = "nucleation"
-NUMERICAL_LIBRARIES = ("numpy", "scipy", "numba")
+_LIBRARIES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "xarray",
+    "netCDF4",
+    "matplotlib",
+    "snakemake",
+)
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python, of this package and of the libraries that results depend on.
-
-    Those that are installed: the library needs no Snakemake.
-    """
-    libraries = (*NUMERICAL_LIBRARIES, "xarray", "netCDF4", "matplotlib", "snakemake")
-    found = {}
-    for library in libraries:
+    """Versions of Python, of this package and of the installed libraries it depends on."""
+    found = {
+        "nucleation": __version__,
+        "python": platform.python_version(),
+    }
+    for library in _LIBRARIES:
         with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             found[library] = importlib.metadata.version(library)
-    return {PACKAGE: __version__, "python": platform.python_version(), **found}
+    return found
 
 
 def fingerprint(parameters: Any, code_digest: str) -> str:
-    """Digest of parameters (JSON-serialisable) and code, which tells whether a result is theirs."""
+    """Digest of parameters and code, by which a checkpoint is recognised.
+
+    Parameters
+    ----------
+    parameters : JSON-serialisable
+        All parameters of the result.
+    code_digest : str
+        From :func:`nucleation.pipeline.code.digest`.
+
+    Returns
+    -------
+    str
+        Hexadecimal digits.
+    """
     text = json.dumps([parameters, code_digest], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def moment() -> datetime.datetime:
-    """The time that results bear: now, or that of the environment's ``SOURCE_DATE_EPOCH``.
+    """The creation time of results: now, or the environment's ``SOURCE_DATE_EPOCH``.
 
     Raises
     ------
     DatasetError
-        If that is no number of seconds since 1970.
+        If ``SOURCE_DATE_EPOCH`` is not a number of seconds since 1970.
     """
     seconds = os.environ.get("SOURCE_DATE_EPOCH")
     if not seconds:
@@ -60,23 +79,29 @@ def attributes(
     parameters: Any,
     code_digest: str,
     command: str,
-    sources: Mapping[str, Any] | None = None,
+    sources: Mapping[str, Sequence[str]] | None = None,
     key: str = "",
 ) -> dict[str, str]:
-    """The attributes of a dataset that say how it was made (all of them text).
+    """Attributes that record how a dataset was made.
 
     Parameters
     ----------
     parameters : JSON-serialisable
-        Everything from the configuration that the result depends on.
+        All values of the configuration that the result depends on.
     code_digest : str
         From :func:`nucleation.pipeline.code.digest`.
     command : str
         A command that makes the dataset again.
     sources : mapping of role to keys
-        What it is made from.
+        Keys of the results that it was made from.
     key : str
-        Of the dataset in the workflow (:func:`nucleation.pipeline.store.key`), if it is from there.
+        Key of the dataset in the workflow (:func:`nucleation.pipeline.keys.key`); empty if the
+        workflow did not make it.
+
+    Returns
+    -------
+    dict
+        Texts by name.
     """
     made = {
         "parameters": json.dumps(parameters, sort_keys=True),
@@ -86,4 +111,6 @@ def attributes(
         "command": command,
         "created": moment().isoformat(timespec="seconds"),
     }
-    return made | ({"key": key} if key else {})
+    if key:
+        made["key"] = key
+    return made

@@ -1,6 +1,6 @@
-"""Variables that tables and datasets of several wings have: which fault they are about.
+"""Variables that describe the fault in the tables of several wings.
 
-What a simulation records is declared in :mod:`nucleation.simulation.recorded`, so that no
+:mod:`nucleation.simulation.recorded` declares the variables that a simulation records, so that no
 simulation depends on this module.
 """
 

@@ -1,12 +1,13 @@
-"""What a variable of a dataset is: its unit, long name and paper symbol.
+"""Metadata of variables: unit, long name and the paper's symbol.
 
-They are declared beside the code that computes the variable, as a mapping of names to
-:class:`Variable`: in a table, the columns in their order. A dataset that lacks them is not written.
+The code that computes a variable declares it, in a mapping from names to :class:`Variable`. For a
+table this mapping also gives the columns in their order. A dataset with an undeclared variable is
+not written.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
@@ -14,11 +15,11 @@ if TYPE_CHECKING:
 
 
 class DatasetError(ValueError):
-    """A dataset's variable is not declared, or a file is damaged, incomplete or foreign."""
+    """A variable is not declared, or a file is damaged, incomplete or from another project."""
 
 
 class Variable(NamedTuple):
-    """Metadata of one variable: unit ("1" if dimensionless, "" for text), name, paper symbol."""
+    """Metadata of one variable: unit ("1" if dimensionless, "" for text), name, paper's symbol."""
 
     units: str
     long_name: str
@@ -26,17 +27,30 @@ class Variable(NamedTuple):
 
     @property
     def attributes(self) -> dict[str, str]:
-        """What the variable carries in a dataset."""
+        """Attributes of the variable in a dataset."""
         return {name: text for name, text in self._asdict().items() if text}
 
 
 def some(columns: Mapping[str, Variable], *names: str) -> dict[str, Variable]:
-    """Some of the declared variables, in the order of the names."""
+    """Select declared variables, in the order of the names."""
     return {name: columns[name] for name in names}
 
 
 def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset:
-    """A copy of the dataset, in which the variables that are declared carry their metadata."""
+    """Add the declared metadata to a copy of a dataset.
+
+    Parameters
+    ----------
+    dataset : Dataset
+        Its variables without a declaration stay as they are.
+    columns : mapping
+        Declarations by variable.
+
+    Returns
+    -------
+    Dataset
+        The copy.
+    """
     annotated = dataset.copy()
     for name in columns.keys() & dataset.variables.keys():
         annotated[name].attrs.update(columns[name].attributes)
@@ -44,14 +58,30 @@ def annotate(dataset: xr.Dataset, columns: Mapping[str, Variable]) -> xr.Dataset
 
 
 def table(
-    rows: Iterable[Mapping[str, Any]], columns: Mapping[str, Variable], dim: str = "run"
+    rows: Iterable[Mapping[str, Any]],
+    columns: Mapping[str, Variable],
+    dim: str = "run",
 ) -> xr.Dataset:
-    """A table of rows, one value by name for each of the declared columns, on one dimension.
+    """Make a table with one variable for each declared column.
+
+    Parameters
+    ----------
+    rows : iterable of mapping
+        A value for each column; further values are ignored.
+    columns : mapping
+        Declarations of the columns, in their order.
+    dim : str
+        Name of the dimension of the rows.
+
+    Returns
+    -------
+    Dataset
+        The table.
 
     Raises
     ------
     DatasetError
-        If a column is declared and not computed.
+        If a row lacks a declared column.
     """
     import xarray as xr
 
@@ -59,37 +89,47 @@ def table(
     missing = sorted({name for row in listed for name in columns.keys() - row.keys()})
     if missing:
         raise DatasetError(f"columns that are declared and not computed: {missing}")
-    return xr.Dataset(
-        {name: (dim, [row[name] for row in listed], c.attributes) for name, c in columns.items()}
-    )
+    variables = {}
+    for name, column in columns.items():
+        values = [row[name] for row in listed]
+        variables[name] = (dim, values, column.attributes)
+    return xr.Dataset(variables)
 
 
 def is_table(dataset: xr.Dataset) -> bool:
-    """Whether all of a dataset's variables are columns, on one dimension."""
-    return len(dataset.dims) == 1 and all(v.ndim == 1 for v in dataset.data_vars.values())
+    """Whether all variables of a dataset are columns on one dimension."""
+    if len(dataset.dims) != 1:
+        return False
+    return all(variable.ndim == 1 for variable in dataset.data_vars.values())
 
 
 def to_csv(table: xr.Dataset) -> str:
-    """A table as comma-separated text, in the order of its columns."""
-    return table.to_dataframe()[list(table.data_vars)].to_csv(index=False)
+    """Write a table as comma-separated text, in the order of its columns."""
+    columns = list(table.data_vars)
+    return table.to_dataframe()[columns].to_csv(index=False)
 
 
 def require_annotated(dataset: xr.Dataset) -> None:
-    """Make sure that every variable says what it is: long name, and the unit of numbers.
+    """Check that every variable has a long name, and a unit if it holds numbers.
 
-    An empty column of a table is of no type.
+    An empty column needs no unit, since its type is unknown.
 
     Raises
     ------
     DatasetError
-        If one does not.
+        If one lacks them.
     """
-    bare = sorted(
-        str(name)
-        for name, variable in dataset.variables.items()
-        if not variable.attrs.get("long_name")
-        or (variable.size and variable.dtype.kind in "fiubc" and not variable.attrs.get("units"))
-    )
+    bare = [str(name) for name in dataset.variables if not _is_annotated(dataset, name)]
     if bare:
-        raise DatasetError(f"variables without unit or long name: {bare}: declare them where the "
-                           "dataset is made, as nucleation.datasets.variables says")  # fmt: skip
+        raise DatasetError(
+            f"variables without unit or long name: {sorted(bare)}: declare them where the "
+            "dataset is made, see nucleation.datasets.variables"
+        )
+
+
+def _is_annotated(dataset: xr.Dataset, name: Hashable) -> bool:
+    variable = dataset.variables[name]
+    has_numbers = variable.size > 0 and variable.dtype.kind in "fiubc"
+    if has_numbers and not variable.attrs.get("units"):
+        return False
+    return bool(variable.attrs.get("long_name"))

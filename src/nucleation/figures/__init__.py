@@ -1,6 +1,6 @@
-"""Figures and tables of the paper: datasets in, matplotlib figures out.
+"""Figures: functions from datasets to matplotlib figures, and the catalogue of all figures.
 
-Every module ``figure_*`` has one function ``draw`` that takes datasets and returns a
-:class:`matplotlib.figure.Figure`; :func:`nucleation.figures.style.save` writes it. Nothing
-scientific is computed here: what is drawn was computed before and is read from the datasets.
+Figures of the paper are in :mod:`.paper`, further ones in :mod:`.beyond`, and those that support
+the solver in :mod:`.checks`. :mod:`.style` has sizes, fonts and colours, and :mod:`.laws` marks
+runs by their friction law.
 """

@@ -1,4 +1,4 @@
-"""The figures of the report: title, category, roles of the studies they stand on, data."""
+"""The figures of the report: title, category, required roles of studies, and data."""
 
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
@@ -10,7 +10,7 @@ OWN = "Studies of your own"
 
 
 class Data(NamedTuple):
-    """A table that can be downloaded: some variables of a dataset, or all of them."""
+    """A table for download: some variables of a dataset, or all of them."""
 
     dataset: str  # file name in the directory of results, without its suffix
     variables: tuple[str, ...] = ()
@@ -22,7 +22,7 @@ class Data(NamedTuple):
 
 
 class Entry(NamedTuple):
-    """One figure; it can be made if the configuration has studies with these roles."""
+    """One figure; a configuration can make it if it has studies with these roles."""
 
     title: str
     category: str
@@ -30,100 +30,178 @@ class Entry(NamedTuple):
     data: tuple[Data, ...] = ()
 
 
-LENGTHS = Data("lengths")
-PATCHES = Data("patch_stability")
+_LENGTHS = Data("lengths")
+_PATCHES = Data("patch_stability")
+_PAIRS = Data("pairs")
 
 FIGURES: dict[str, Entry] = {
     "figure_1": Entry("Figure 1: the two set-ups", PAPER),
     "figure_2": Entry(
-        "Figure 2: bimaterial interfaces", PAPER, (),
-        (Data("theory", ("bimaterial_length_ratio",)),),
+        "Figure 2: bimaterial interfaces",
+        PAPER,
+        data=(Data("theory", ("bimaterial_length_ratio",)),),
     ),
     "figure_3": Entry(
-        "Figure 3: critical length against height", PAPER, ("paper",),
-        (Data("theory", ("critical_length", "thin_limit_length")), LENGTHS),
+        "Figure 3: critical length against height",
+        PAPER,
+        roles=("paper",),
+        data=(
+            Data("theory", ("critical_length", "thin_limit_length")),
+            _LENGTHS,
+        ),
     ),
     "figure_s1": Entry(
-        "Figure S1: steady-state friction", PAPER, (),
-        (Data("theory", ("steady_friction", "steady_friction_logarithmic")),),
+        "Figure S1: steady-state friction",
+        PAPER,
+        data=(
+            Data(
+                "theory",
+                ("steady_friction", "steady_friction_logarithmic"),
+            ),
+        ),
     ),
-    "figure_s2": Entry("Figure S2: stress in space and time", PAPER, ("paper",)),
-    "animation": Entry("Creep, nucleation and rupture", BEYOND, ("paper",)),
+    "figure_s2": Entry(
+        "Figure S2: stress in space and time",
+        PAPER,
+        roles=("paper",),
+    ),
+    "animation": Entry(
+        "Creep, nucleation and rupture",
+        BEYOND,
+        roles=("paper",),
+    ),
     "figure_3_extended": Entry(
-        "Lengths of the drop and of the patch's stability", BEYOND, ("paper",), (LENGTHS, PATCHES)
+        "Lengths of the drop and of the patch's stability",
+        BEYOND,
+        roles=("paper",),
+        data=(_LENGTHS, _PATCHES),
     ),
     "figure_drop": Entry(
-        "Where the force drops under a declared perturbation", BEYOND, ("drop",),
-        (Data("drop"),),
+        "Where the force drops under a declared perturbation",
+        BEYOND,
+        roles=("drop",),
+        data=(Data("drop"),),
     ),
     "figure_weakening": Entry(
-        "Where slow slip ends: lengths over the weakening", BEYOND, ("weakening",),
-        (Data("weakening"),),
+        "Where slow slip ends: lengths over the weakening",
+        BEYOND,
+        roles=("weakening",),
+        data=(Data("weakening"),),
+    ),
+    "figure_weakening_patches": Entry(
+        "Weakening patches among strengthening surroundings",
+        BEYOND,
+        ("weakening_patches",),
+        (Data("weakening_patches"),),
     ),
     "figure_map": Entry(
-        "Lengths over height and weakening: a map", BEYOND, ("map",),
-        (Data("map"),),
+        "Lengths over height and weakening: a map",
+        BEYOND,
+        roles=("map",),
+        data=(Data("map"),),
     ),
     "figure_patch_stability": Entry(
-        "Stability of the creeping patch", BEYOND, ("paper",), (PATCHES,),
+        "Stability of the creeping patch",
+        BEYOND,
+        roles=("paper",),
+        data=(_PATCHES,),
     ),
     "figure_patch_theory": Entry(
-        "Stability of the creeping patch by theory", BEYOND, ("converged",),
-        (Data("patch_theory"),),
+        "Stability of the creeping patch by theory",
+        BEYOND,
+        roles=("converged",),
+        data=(Data("patch_theory"),),
     ),
     "figure_sensitivity": Entry(
-        "Sensitivity to parameters and definitions", BEYOND, ("sensitivity",),
-        (Data("sensitivity"),),
+        "Sensitivity to parameters and definitions",
+        BEYOND,
+        roles=("sensitivity",),
+        data=(Data("sensitivity"),),
     ),
     "figure_pairs": Entry(
-        "Two deformable bodies", BEYOND, ("pairs_identical",), (Data("pairs"),)
+        "Two deformable bodies",
+        BEYOND,
+        roles=("pairs_identical",),
+        data=(_PAIRS,),
     ),
     "figure_2_simulated": Entry(
-        "Figure 2 with simulations, in both senses of the contrast", BEYOND,
-        ("pairs_identical", "figure_2_simulated"), (Data("pairs"),),
+        "Figure 2 with simulations, in both senses of the contrast",
+        BEYOND,
+        roles=("pairs_identical", "figure_2_simulated"),
+        data=(_PAIRS,),
     ),
     "figure_literature": Entry(
-        "Lengths of the literature, simulated in their own settings", BEYOND, ("literature",),
-        (Data("literature"),),
+        "Lengths of the literature, simulated in their own settings",
+        BEYOND,
+        roles=("literature",),
+        data=(Data("literature"),),
     ),
     "figure_convergence": Entry(
-        "Critical length against mesh and steps", CHECKS,
-        ("convergence", "convergence_quiet"), (Data("convergence"),)
+        "Critical length against mesh and steps",
+        CHECKS,
+        roles=("convergence", "convergence_quiet"),
+        data=(Data("convergence"),),
     ),
     "figure_dispersion": Entry(
-        "Growth of single modes: simulation and theory", CHECKS, (),
-        (
-            Data("dispersion", ("mode_wavenumber", "measured_growth", "measured_frequency",
-                                "theory_growth", "theory_frequency")),
-            Data("dispersion", ("curve_wavenumber", "curve_growth", "curve_frequency")),
+        "Growth of single modes: simulation and theory",
+        CHECKS,
+        data=(
+            Data(
+                "dispersion",
+                (
+                    "mode_wavenumber",
+                    "measured_growth",
+                    "measured_frequency",
+                    "theory_growth",
+                    "theory_frequency",
+                ),
+            ),
+            Data(
+                "dispersion",
+                ("curve_wavenumber", "curve_growth", "curve_frequency"),
+            ),
         ),
     ),
     "figure_verification": Entry(
-        "Orders of convergence on manufactured solutions", CHECKS, (), (Data("verification"),)
+        "Orders of convergence on manufactured solutions",
+        CHECKS,
+        data=(Data("verification"),),
     ),
-}  # fmt: skip
+}
 
 
 def of_studies(descriptions: dict[str, str]) -> dict[str, Entry]:
-    """The generic figures of studies, by name, from what the studies are for."""
-    return {
-        f"study_{study}": Entry(f"Study {study}: {text}", OWN, (), (LENGTHS,))
-        for study, text in descriptions.items()
-    }
+    """The figures of studies by name, from the studies' descriptions."""
+    found = {}
+    for study, text in descriptions.items():
+        found[f"study_{study}"] = Entry(f"Study {study}: {text}", OWN, data=(_LENGTHS,))
+    return found
 
 
 def drawable(roles: Collection[str], papers: bool = True) -> list[str]:
-    """The figures that a configuration can make whose studies have these roles, in their order.
+    """The figures that a configuration can make, in the order of the catalogue.
 
-    Those of the paper's category are left out unless the configuration is the paper's.
+    Parameters
+    ----------
+    roles : collection of str
+        Roles of the configuration's studies.
+    papers : bool
+        Whether the configuration is the paper's; if not, the paper's figures are left out.
+
+    Returns
+    -------
+    list of str
+        Names of the figures.
     """
-    return [
-        name
-        for name, entry in FIGURES.items()
-        if set(entry.roles) <= set(roles) and (papers or entry.category != PAPER)
-    ]
+    found = []
+    for name, entry in FIGURES.items():
+        if not papers and entry.category == PAPER:
+            continue
+        if set(entry.roles) <= set(roles):
+            found.append(name)
+    return found
 
 
 def datasets_of(entries: Iterable[Entry]) -> list[str]:
-    """Names of the datasets whose tables come with some figures."""
+    """Names of the datasets for the tables of some figures."""
     return list(dict.fromkeys(data.dataset for entry in entries for data in entry.data))

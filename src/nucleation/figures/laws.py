@@ -1,6 +1,6 @@
-"""Rows of a table of runs as points with bars, marked by evolution law and by where they start.
+"""Rows of a table of runs as points with bars, marked by evolution law and initial state.
 
-The paper's two laws look as in its Figure 3; every other law of a table takes the next free marker.
+The paper's two laws have the marks of its Figure 3; other laws take the next free mark.
 """
 
 from collections.abc import Iterable, Iterator
@@ -9,19 +9,23 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..model.friction.registry import USUAL_EVOLUTION
+from ..types import Array
 from . import style
 
-USUAL_AGE = 1.0  # s: the initial state of all simulations that name no other
+USUAL_AGE = 1.0  # s: the initial state of all simulations that declare no other
+
+Kind = tuple[str, bool]
+"""Evolution law, and whether the initial state differs from :data:`USUAL_AGE`."""
 
 
 class Look(NamedTuple):
-    """How one kind of simulation is drawn, and how the legend calls its law."""
+    """The marks of one kind of simulation, and the name of its law in the legend."""
 
     marker: str
-    size: float  # points; other kinds are wider than the usual one, which is drawn upon them
+    size: float  # points; the usual kind is the smallest, as it is drawn over the others
     colour: str
     label: str
 
@@ -32,54 +36,81 @@ PAPERS = {
     ("aging", True): Look("s", 6.6, style.OLD_AGE, "aging law"),
     ("slip", True): Look("v", 7.2, style.SLIP, "slip law"),
 }
-"""By evolution law, and by whether the initial state differs from :data:`USUAL_AGE`."""
 
-OTHERS = (("D", style.GREEN), ("P", style.PURPLE), ("X", style.SKY_BLUE), ("<", style.ORANGE))
+_OTHERS = (
+    ("D", style.GREEN),
+    ("P", style.PURPLE),
+    ("X", style.SKY_BLUE),
+    ("<", style.ORANGE),
+)
 
 
-def looks(laws: Iterable[str]) -> dict[tuple[str, bool], Look]:
-    """The looks of some laws, keys as of :data:`PAPERS`: the paper's first, the others by name."""
+def looks(laws: Iterable[str]) -> dict[Kind, Look]:
+    """The marks of some laws: those of the paper first, then the others by name."""
     given = set(laws)
-    found = {key: look for key, look in PAPERS.items() if key[0] in given}
+    found = {kind: look for kind, look in PAPERS.items() if kind[0] in given}
     others = sorted(given - {law for law, _ in PAPERS})
-    for aged in (False, True):
+    for old in (False, True):
         for i, law in enumerate(others):
-            marker, colour = OTHERS[i % len(OTHERS)]
-            label = f"{law.replace('_', ' ')} law"
-            found[law, aged] = Look(marker, 6.6, style.OLD_AGE if aged else colour, label)
+            marker, colour = _OTHERS[i % len(_OTHERS)]
+            if old:
+                colour = style.OLD_AGE
+            found[law, old] = Look(marker, 6.6, colour, f"{law.replace('_', ' ')} law")
     return found
 
 
-def kinds(table: xr.Dataset) -> Iterator[tuple[tuple[str, bool], Look, xr.Dataset]]:
-    """Law and whether the initial state differs, the look, and the rows of each kind."""
-    names = table["evolution"].values.astype(str)
-    for (law, old), look in looks(names).items():
-        yield (law, old), look, where(table, (names == law) & (aged(table) == old))
+def kinds(table: xr.Dataset) -> Iterator[tuple[Kind, Look, xr.Dataset]]:
+    """Yield each kind of simulation, its marks and its rows."""
+    laws = _laws(table)
+    for (law, old), look in looks(laws).items():
+        rows = where(table, (laws == law) & (aged(table) == old))
+        yield (law, old), look, rows
+
+
+def _laws(table: xr.Dataset) -> NDArray[np.str_]:
+    return table["evolution"].values.astype(str)
 
 
 def aged(table: xr.Dataset) -> NDArray[np.bool_]:
-    """The rows whose initial state is not :data:`USUAL_AGE`."""
+    """The rows with another initial state than :data:`USUAL_AGE`."""
     return ~np.isclose(table["phi0"].values, USUAL_AGE)
 
 
 def usual_law(table: xr.Dataset) -> str:
-    """The law of a table that is shown where one is: the usual one, or else that of its first row.
+    """The law for figures of a single law: the usual one, or else the law of the first row.
 
-    A table without rows has the usual one.
+    For a table without rows it is the usual one.
     """
-    laws = table["evolution"].values.astype(str)
-    return USUAL_EVOLUTION if USUAL_EVOLUTION in laws or not laws.size else str(laws[0])
+    laws = _laws(table)
+    if USUAL_EVOLUTION in laws or not laws.size:
+        return USUAL_EVOLUTION
+    return str(laws[0])
 
 
 def usual(table: xr.Dataset) -> NDArray[np.bool_]:
     """The rows with :func:`usual_law` and the usual initial state, or any state if none has it."""
-    law = table["evolution"].values.astype(str) == usual_law(table)
+    law = _laws(table) == usual_law(table)
     young = law & ~aged(table)
     return young if young.any() else law
 
 
-def where(table: xr.Dataset, chosen: Any = True, **labels: object) -> xr.Dataset:
-    """The rows with these labels in columns of their names, of those that are `chosen`."""
+def where(table: xr.Dataset, chosen: ArrayLike = True, **labels: object) -> xr.Dataset:
+    """Select rows of a table.
+
+    Parameters
+    ----------
+    table : Dataset
+        A table on ``run``.
+    chosen : array of bool on ``run``
+        The rows to select from.
+    **labels
+        Values that the columns of these names must have.
+
+    Returns
+    -------
+    Dataset
+        The selected rows.
+    """
     found = np.broadcast_to(np.asarray(chosen, dtype=bool), table.sizes["run"])
     for name, value in labels.items():
         found = found & (table[name].values == value)
@@ -87,15 +118,41 @@ def where(table: xr.Dataset, chosen: Any = True, **labels: object) -> xr.Dataset
 
 
 def groups(table: xr.Dataset, *names: str) -> Iterator[xr.Dataset]:
-    """The rows that agree in some columns, set by set, in the order of the table."""
-    keys = list(zip(*(table[name].values.tolist() for name in names), strict=True))
+    """Yield the rows that agree in some columns, group by group, in the order of the table."""
+    columns = [table[name].values.tolist() for name in names]
+    keys = list(zip(*columns, strict=True))
     for key in dict.fromkeys(keys):
         yield table.isel(run=[i for i, own in enumerate(keys) if own == key])
 
 
-def draw(axes: Axes, x: Any, table: xr.Dataset, name: str, scale: Any = 1.0, **look: Any) -> None:
-    """Draw a column over `scale`, with bars from that ``_low`` to that ``_high``, where known."""
-    middle, low, high = (table[name + end].values / scale for end in ("", "_low", "_high"))
+def draw(
+    axes: Axes,
+    x: Array,
+    table: xr.Dataset,
+    name: str,
+    scale: float | Array = 1.0,
+    **look: Any,
+) -> None:
+    """Draw a column as points, with bars from its ``_low`` to its ``_high``.
+
+    Parameters
+    ----------
+    axes : Axes
+        The panel.
+    x : array on ``run``
+        Abscissae.
+    table : Dataset
+        A table on ``run``.
+    name : str
+        The column. A bar is left out if an end is NaN.
+    scale : float or array on ``run``
+        Divides the column and the ends of its bars.
+    **look
+        Options of :meth:`matplotlib.axes.Axes.errorbar`.
+    """
+    middle = table[name].values / scale
+    low = table[f"{name}_low"].values / scale
+    high = table[f"{name}_high"].values / scale
     bars = np.clip(np.nan_to_num([middle - low, high - middle]), 0.0, None)
-    usual: Any = {"elinewidth": 0.9, "linestyle": "none"}
+    usual: style.Options = {"elinewidth": 0.9, "linestyle": "none"}
     axes.errorbar(x, middle, bars, **usual | look)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis.extraction import extract
@@ -12,21 +13,27 @@ from ..analysis.film import film_dataset
 from ..analysis.record import Record
 from ..figures import style
 from ..model.quantities import ParameterError
-from ..theory.arrays import critical_length, critical_mode, fault_of, spectrum
+from ..theory.arrays import (
+    critical_length,
+    critical_mode,
+    fault_of,
+    spectrum,
+)
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES, takes_fault
+from ..types import Array
 from .beyond import animation
 from .paper import figure_s2
 
-SHOWN_WAVENUMBERS = np.linspace(0.02, 2.0, 200)  # over k_c
-MOST_PATCHES = 40  # L_s of more faults takes longer than one waits for a picture
-WIDE = 10.0  # ratio of a parameter's values from which axes are logarithmic
+_WAVENUMBERS = np.linspace(0.02, 2.0, 200)  # over k_c
+_MOST_PATCHES = 40  # more values of L_s take too long for a picture
+_WIDE = 10.0  # ratio of a parameter's values above which axes are logarithmic
 
 
 def plot_run(record: xr.Dataset) -> Figure:
     """Picture of a run: shear stress in space and time, force, onset and patch length.
 
-    `record` is that of :func:`nucleation.simulation.run.simulate`, with slip and stresses.
+    `record` comes from :func:`nucleation.simulation.run.simulate`, with slip and stresses.
     """
     Record(record).require("slip", "shear_stress")
     return figure_s2.draw(record, xr.Dataset(extract(record)))
@@ -40,15 +47,20 @@ def plot_length(over: str, **fault: Any) -> Figure:
     Parameters
     ----------
     over : str
-        The parameter of which `fault` has several values, such as ``"height"``. L_s is computed
-        for some of them if they are many.
+        The parameter with several values in `fault`, such as ``"height"``. If there are many
+        values, L_s is computed for some of them.
     **fault
         The parameters of :class:`~nucleation.theory.fault.Fault`.
+
+    Returns
+    -------
+    Figure
+        Lengths in m.
 
     Raises
     ------
     ParameterError
-        If a parameter is wrong, or `over` is not the one that has several values.
+        If a parameter is wrong, or another parameter than `over` has several values.
     """
     if over not in QUANTITIES or over not in fault:
         raise ParameterError(f"over = {over!r} is not allowed: it must be a parameter given")
@@ -56,12 +68,23 @@ def plot_length(over: str, **fault: Any) -> Figure:
     length = np.asarray(critical_length(**fault))
     if values.ndim != 1 or length.shape != values.shape:
         raise ParameterError(f"{over} needs several values, in one dimension, and nothing else may")
-    some = np.unique(np.linspace(0, values.size - 1, MOST_PATCHES).astype(int))
+    some = np.unique(np.linspace(0, values.size - 1, _MOST_PATCHES).astype(int))
     patch = np.asarray(stability_length(**fault | {over: values[some]}))
     figure, axes = style.column(6.6)
-    axes.plot(values, length, color=style.THEORY, label="$L_c$, homogeneous sliding")
-    axes.plot(values[some], patch, color=style.GREEN, linestyle="--", label="$L_s$, creeping patch")
-    if values.min() > 0.0 and values.max() >= WIDE * values.min():
+    axes.plot(
+        values,
+        length,
+        color=style.THEORY,
+        label="$L_c$, homogeneous sliding",
+    )
+    axes.plot(
+        values[some],
+        patch,
+        color=style.GREEN,
+        linestyle="--",
+        label="$L_s$, creeping patch",
+    )
+    if values.min() > 0.0 and values.max() >= _WIDE * values.min():
         axes.set(xscale="log", yscale="log")
     entry = QUANTITIES[over]
     label = over if len(over) == 1 else over.replace("_", " ").capitalize()
@@ -79,41 +102,72 @@ def plot_spectrum(**fault: Any) -> Figure:
     Parameters
     ----------
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`, of one fault that is unstable.
+        The parameters of :class:`~nucleation.theory.fault.Fault`, of a single unstable fault.
+
+    Returns
+    -------
+    Figure
+        Rates in 1/s over the wavenumber in 1/m.
 
     Raises
     ------
     ParameterError
         If a parameter is wrong, there are several faults, or sliding is stable.
     """
-    mode = critical_mode(**fault)
-    critical = np.asarray(getattr(mode.wavenumber, "magnitude", mode.wavenumber))
-    if critical.size != 1 or not np.isfinite(critical).all():
+    wavenumber = _magnitude(critical_mode(**fault).wavenumber)
+    if wavenumber.size != 1 or not np.isfinite(wavenumber).all():
         raise ParameterError("a spectrum is drawn of one fault that has a critical length")
-    k = SHOWN_WAVENUMBERS * float(critical)
-    rates = spectrum(k, **fault)
-    rates = np.asarray(getattr(rates, "magnitude", rates))
+    critical = float(wavenumber)
+    k = _WAVENUMBERS * critical
+    faster, slower = _magnitude(spectrum(k, **fault))
     figure = style.new_figure(style.SINGLE_COLUMN, 8.4 * style.CENTIMETRE)
     growth, frequency = figure.subplots(2, 1, sharex=True)
-    for name, rate, dashes in zip(("faster mode", "slower mode"), rates, ("-", "--"), strict=True):
+    for name, rate, dashes in (
+        ("faster mode", faster, "-"),
+        ("slower mode", slower, "--"),
+    ):
         growth.plot(k, rate.real, dashes, color=style.THEORY, label=name)
         frequency.plot(k, rate.imag, dashes, color=style.THEORY)
     growth.axhline(0.0, color=style.GUIDE, linewidth=0.9)
     for axes in (growth, frequency):
-        axes.axvline(float(critical), color=style.GUIDE, linestyle=":")
-    place: Any = ((float(critical), 1.0), (3.0, -10.0), growth.get_xaxis_transform())
-    growth.annotate("$k_c$", *place, "offset points", color=style.GUIDE)
+        axes.axvline(critical, color=style.GUIDE, linestyle=":")
+    _name_critical(growth, critical)
     growth.set_ylabel(r"Growth rate $\mathrm{Re}\,\Lambda$ (1/s)")
     growth.legend()
-    frequency.set(xlabel="Wavenumber $k$ (1/m)", ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)")
+    frequency.set(
+        xlabel="Wavenumber $k$ (1/m)",
+        ylabel=r"Frequency $\mathrm{Im}\,\Lambda$ (1/s)",
+    )
     return figure
 
 
-def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a film of a run, a GIF, to a path; an older file is replaced.
+def _magnitude(value: Any) -> Array:
+    """An array, without the unit that pint has given it."""
+    return np.asarray(getattr(value, "magnitude", value))
 
-    `record` is that of :func:`nucleation.simulation.run.simulate`; the run is made once more for
-    the stress in its bodies.
+
+def _name_critical(axes: Axes, critical: float) -> None:
+    axes.annotate(
+        "$k_c$",
+        (critical, 1.0),
+        (3.0, -10.0),
+        axes.get_xaxis_transform(),
+        "offset points",
+        color=style.GUIDE,
+    )
+
+
+def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:
+    """Write a film of a run as a GIF.
+
+    The run is made again, for the stress in its bodies.
+
+    Parameters
+    ----------
+    record : Dataset
+        From :func:`nucleation.simulation.run.simulate`.
+    path : path
+        The file; an older one is replaced.
     """
     row = xr.Dataset(extract(record))
     animation.save(animation.frames(film_dataset(record, row), row), path)

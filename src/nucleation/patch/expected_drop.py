@@ -12,6 +12,7 @@ from ..model.parameters import Geometry, Parameters
 from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
 from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
+from ..theory.status import UNKNOWN
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
@@ -31,7 +32,19 @@ THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's
 
 
 class NoDrop(ValueError):
-    """The law of the drop does not apply to this fault."""
+    """The theory has no length at the drop for this fault.
+
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    status : {"stable", "beyond", "unknown"}
+        The kind of reason, of :mod:`nucleation.theory.status`.
+    """
+
+    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
+        super().__init__(reason)
+        self.status = status
 
 
 class ExpectedDrop(NamedTuple):
@@ -97,7 +110,7 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
         critical = run_length(parameters, interface_state(parameters))
         history = mode_history(parameters, critical)
     except (NoInstability, NoPatch) as error:
-        raise NoDrop(str(error)) from None
+        raise NoDrop(str(error), error.status) from None
     found = growth(history, declared)
     known = ExpectedDrop(
         stability_length=stability_length_of(parameters, critical),

@@ -28,6 +28,7 @@ from ..theory.creep.front import Advance, advance, first_growing, oscillating
 from ..theory.creep.lengths import NoPatch, Patches
 from ..theory.creep.linearised import local_coefficients
 from ..theory.creep.modes import edge_slip
+from ..theory.status import STABLE
 from ..types import Array, ComplexArray
 
 FIRST, LAST = 0.8, 1.7  # lengths over L_s that are followed
@@ -83,7 +84,7 @@ def mode_history(
         oscillates in too few of them.
     """
     if not np.isfinite(theory_length):
-        raise NoPatch("homogeneous sliding is stable")
+        raise NoPatch("homogeneous sliding is stable", STABLE)
     patches, loading = Patches.of(parameters), parameters.loading
     initial_stress = loading.initial_shear_stress / loading.normal_stress
     stable = first_growing(patches, theory_length, loading.initial_state, initial_stress)

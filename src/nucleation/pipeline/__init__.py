@@ -1,4 +1,4 @@
-"""What surrounds a computation: jobs, their stores, views of results, checks, archives.
+"""The workflow: recipes of results, jobs, stores, views of results, checks and archives.
 
-It may use every other wing but the command line.
+This wing may import every other wing except the command line.
 """

@@ -1,9 +1,9 @@
-"""Results in one archive: entries of a store, and a checkout that starts from them.
+"""Archives of results: entries of a store in one file, from which another checkout starts.
 
-A plain tar file: ``store/KEY/...`` for all that the results show, copies of the tables, figures and
-texts under their plain names, the configuration, and a checksum of each file. An archive comes from
-others, and a checkout runs what lies in it. So names, kinds and checksums of all members are looked
-at before anything is written, and :func:`restore` writes entries of the store alone.
+An archive is a plain tar file. It holds ``store/KEY/...`` for all shown results, copies of tables,
+figures and texts under their plain names, the configuration, and a checksum of each file. It may
+come from somebody else, and a checkout runs code that it finds. So the names, kinds and checksums
+of all members are checked first, and :func:`restore` writes only entries of the store.
 """
 
 import contextlib
@@ -17,34 +17,39 @@ import shutil
 import sys
 import tarfile
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
 
 from ..configuration.load import DEFAULTS, load
 from ..datasets.files import replacing
 from ..datasets.provenance import moment
-from .planning import kept_recipes
-from .store import BAD, NOTE, PATTERN, STEM, Store, StoreError, content, read_note
+from .entries import BAD, NOTE, STEM, StoreError, read_note
+from .keys import PATTERN, digest_of_file
+from .recipe_files import kept_recipes
+from .recipes import Recipe
+from .store import Store
 
 CHECKSUMS = "manifest-sha256.txt"
-CONFIGURATION = ("config.yaml", "beyond.yaml")
-"""What the files of a configuration are called, of which only the default one has two."""
-KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
-"""Endings of results; none that Python, a shell or git would run."""
-DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, *CONFIGURATION)))
-IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{KINDS})")
-COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{KINDS}"
-PLACE = re.compile(f"{DESCRIPTIONS}|{IN_ENTRY.pattern}|{COPY}")
-LARGEST_TEXT = 2**26  # bytes of what is parsed; checksums of a hundred thousand files take 15 MB
+_CONFIGURATION = ("config.yaml", "beyond.yaml")
+"""Names of the configuration's files; only the default configuration has two."""
+_KINDS = r"(\.\w+)*\.(nc|csv|tsv|json|md|html|txt|tex|pdf|png|svg|gif)"
+"""Suffixes of results; neither Python nor a shell nor git runs such files."""
+_DESCRIPTIONS = "|".join(map(re.escape, (CHECKSUMS, *_CONFIGURATION)))
+_IN_ENTRY = re.compile(rf"store/({PATTERN})/({re.escape(NOTE)}|{STEM}{_KINDS})")
+_COPY = rf"(?!store/)([\w-][^/\\]*/)*[\w-][^/\\]*?{_KINDS}"
+_PLACE = re.compile(f"{_DESCRIPTIONS}|{_IN_ENTRY.pattern}|{_COPY}")
+LARGEST_TEXT = 2**26  # bytes of a parsed file; a hundred thousand checksums take 15 MB
+_SHOWN_PROBLEMS = 5
+
+_Members = dict[str, tarfile.TarInfo]
 
 
 class BundleError(Exception):
-    """An archive that can't be written, or that is damaged or foreign."""
+    """An archive can't be written, or is damaged or foreign."""
 
 
 def write(archive: Path, configuration: Path | None, directory: Path = Path()) -> int:
-    """Write an archive of what the results of a configuration show; the number of files in it.
+    """Write an archive of the shown results of a configuration.
 
     Parameters
     ----------
@@ -53,7 +58,12 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
     configuration : Path or None
         The configuration's file; None for the default configuration.
     directory : Path
-        Where the workflow runs.
+        Working directory of the workflow.
+
+    Returns
+    -------
+    int
+        The number of files in the archive.
 
     Raises
     ------
@@ -65,30 +75,22 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
     if archive.exists():
         raise BundleError(f"{archive} exists already: remove it or give another name")
     store = Store(results / "store")
-    planned = [
-        (one.key, one)
-        for recipe in kept_recipes(store)
-        for one in (recipe, *recipe.parts)
-        if one.call and (store.entry(one.key) / NOTE).is_file()
-    ]
-    digests: set[str] = set()
-    entries: dict[str, Path] = {}
-    for key in sorted({key for key, _ in planned}):
-        files = read_note(store.entry(key), whole=True)["files"]
-        digests |= {file["sha256"] for file in files.values()}
-        entries |= {f"store/{key}/{name}": store.entry(key) / name for name in (*files, NOTE)}
+    recipes = _stored_recipes(store)
+    entries, digests = _packed_entries(store, {recipe.key for recipe in recipes})
     if not entries:
         raise BundleError(f"there are no results in {results}: make them first")
-    names = {os.path.relpath(file, one.results) for _, one in planned for file in one.files}
-    shown = {name: results / name for name in sorted(names) if not name.endswith(".nc")}
-    copies = {  # and no file of the user's own
-        name: path for name, path in shown.items() if path.is_file() and content(path) in digests
-    }
-    packed = {**dict(zip(CONFIGURATION, configured, strict=False)), **copies, **entries}
-    checksums = "".join(f"{content(path)}  {name}\n" for name, path in packed.items()).encode()
+    copies = _packed_copies(results, recipes, digests)
+    packed = dict(zip(_CONFIGURATION, configured, strict=False))
+    packed |= copies
+    packed |= entries
     members = {name: _member(name, path.stat().st_size) for name, path in packed.items()}
     _refuse_foreign(members.values())
-    with replacing(archive) as temporary, tarfile.open(temporary, "w") as tar:
+    lines = [f"{digest_of_file(path)}  {name}\n" for name, path in packed.items()]
+    checksums = "".join(lines).encode()
+    with (
+        replacing(archive) as temporary,
+        tarfile.open(temporary, "w") as tar,
+    ):
         tar.addfile(_member(CHECKSUMS, len(checksums)), io.BytesIO(checksums))
         for name, path in packed.items():
             with path.open("rb") as stream:
@@ -96,24 +98,77 @@ def write(archive: Path, configuration: Path | None, directory: Path = Path()) -
     return len(packed) + 1
 
 
+def _stored_recipes(store: Store) -> list[Recipe]:
+    """The planned recipes with a result in the store."""
+    found = []
+    for recipe in kept_recipes(store):
+        for one in (recipe, *recipe.parts):
+            if one.call and (store.entry(one.key) / NOTE).is_file():
+                found.append(one)
+    return found
+
+
+def _packed_entries(store: Store, keys: set[str]) -> tuple[dict[str, Path], set[str]]:
+    """Files of entries by their names in the archive, and the digests of these files."""
+    entries: dict[str, Path] = {}
+    digests: set[str] = set()
+    for key in sorted(keys):
+        files = read_note(store.entry(key), whole=True)["files"]
+        digests |= {file["sha256"] for file in files.values()}
+        for name in (*files, NOTE):
+            entries[f"store/{key}/{name}"] = store.entry(key) / name
+    return entries, digests
+
+
+def _packed_copies(results: Path, recipes: list[Recipe], digests: set[str]) -> dict[str, Path]:
+    """Tables, figures and texts by their names in the archive.
+
+    A file of the user under such a name has none of the digests, and is left out.
+    """
+    names = {os.path.relpath(file, recipe.results) for recipe in recipes for file in recipe.files}
+    copies = {}
+    for name in sorted(names):
+        path = results / name
+        if path.suffix != ".nc" and path.is_file() and digest_of_file(path) in digests:
+            copies[name] = path
+    return copies
+
+
 def _member(name: str, size: int) -> tarfile.TarInfo:
     member = tarfile.TarInfo(name)
-    member.size, member.mtime = size, int(moment().timestamp())
+    member.size = size
+    member.mtime = int(moment().timestamp())
     return member
 
 
 def restore(archive: Path, results: str, directory: Path = Path()) -> int:
-    """Put the entries of an archive into the store of a checkout; how many are new there.
+    """Put the entries of an archive, which may come from somebody else, into a store.
 
-    The archive may come from others. If it is damaged or foreign, BundleError says so and nothing
-    is written. `results` is relative to `directory`, where the workflow runs.
+    Parameters
+    ----------
+    archive : Path
+        The archive.
+    results : str
+        The directory of results, relative to `directory`.
+    directory : Path
+        Working directory of the workflow.
+
+    Returns
+    -------
+    int
+        The number of new entries.
+
+    Raises
+    ------
+    BundleError
+        If the archive is damaged or foreign; then nothing is written.
     """
     place = Path(os.path.normpath(directory.resolve() / results / "store"))
     if place.resolve() != place:
         raise BundleError(f"{place} leads to {place.resolve()}, over a link: nothing is put there")
     with contextlib.ExitStack() as stack:
         try:
-            # not compressed: it is no smaller than what it holds
+            # without compression, so that it can't hold more than its own size
             tar = stack.enter_context(tarfile.open(archive, "r:"))
             entries = _entries(tar)
         except (tarfile.TarError, EOFError, *BAD) as error:
@@ -121,75 +176,118 @@ def restore(archive: Path, results: str, directory: Path = Path()) -> int:
         store = Store(place)
         new = {key: files for key, files in entries.items() if store.note(key) is None}
         for key, files in new.items():
-            about = json.load(_file(tar, files.pop(NOTE)))
-            del about["files"]  # it is looked at again
+            about = json.load(_opened(tar, files.pop(NOTE)))
+            del about["files"]  # the store makes this list again
             store.put(key, functools.partial(_unpack, tar, files), about)
     return len(new)
 
 
-def _entries(tar: tarfile.TarFile) -> dict[str, dict[str, tarfile.TarInfo]]:
-    """The files of each entry of an archive, if all in it is what was packed."""
+def _entries(tar: tarfile.TarFile) -> dict[str, _Members]:
+    """The files of each entry of an archive, after a check of all members."""
     members = tar.getmembers()
     _refuse_foreign(members)
-    sums = {m.name: hashlib.file_digest(_file(tar, m), "sha256").hexdigest() for m in members}
-    lines = _file(tar, tar.getmember(CHECKSUMS)).read().decode().splitlines()
-    packed = {name: digest for digest, name in (line.split("  ", 1) for line in lines)}
-    for name, _ in sorted(packed.items() ^ (sums.items() - {(CHECKSUMS, sums[CHECKSUMS])})):
-        raise StoreError(f"{name} is not what was packed")
-    entries: dict[str, dict[str, tarfile.TarInfo]] = defaultdict(dict)
+    digests = {}
     for member in members:
-        if place := IN_ENTRY.fullmatch(member.name):
+        digests[member.name] = hashlib.file_digest(_opened(tar, member), "sha256").hexdigest()
+    _check_checksums(tar, digests)
+    entries: dict[str, _Members] = defaultdict(dict)
+    for member in members:
+        place = _IN_ENTRY.fullmatch(member.name)
+        if place:
             entries[place[1]][place[2]] = member
     for key, files in entries.items():
-        note = json.load(_file(tar, files[NOTE]))
-        told = {name: (file["size"], file["sha256"]) for name, file in note["files"].items()}
-        held = {name: (m.size, sums[m.name]) for name, m in files.items() if name != NOTE}
-        if note["key"] != key or told != held:
-            raise StoreError(f"store/{key} is not the result that its note tells of")
+        _check_note(tar, key, files, digests)
     return entries
 
 
-def _file(tar: tarfile.TarFile, member: tarfile.TarInfo) -> Any:
-    return tar.extractfile(member)
+def _check_checksums(tar: tarfile.TarFile, digests: Mapping[str, str]) -> None:
+    """Compare all members, except the list of checksums, with this list."""
+    text = _opened(tar, tar.getmember(CHECKSUMS)).read().decode()
+    packed = {}
+    for line in text.splitlines():
+        digest, name = line.split("  ", 1)
+        packed[name] = digest
+    found = {name: digest for name, digest in digests.items() if name != CHECKSUMS}
+    for name, _ in sorted(packed.items() ^ found.items()):
+        raise StoreError(f"{name} is not what was packed")
 
 
-def _unpack(tar: tarfile.TarFile, files: dict[str, tarfile.TarInfo], place: Path) -> None:
+def _check_note(
+    tar: tarfile.TarFile,
+    key: str,
+    files: _Members,
+    digests: Mapping[str, str],
+) -> None:
+    """Compare the files of an entry with its note."""
+    note = json.load(_opened(tar, files[NOTE]))
+    noted = {}
+    for name, file in note["files"].items():
+        noted[name] = (file["size"], file["sha256"])
+    found = {}
+    for name, member in files.items():
+        if name != NOTE:
+            found[name] = (member.size, digests[member.name])
+    if note["key"] != key or noted != found:
+        raise StoreError(f"store/{key} is not the result that its note describes")
+
+
+def _opened(tar: tarfile.TarFile, member: tarfile.TarInfo) -> io.BufferedReader:
+    stream = tar.extractfile(member)
+    if not isinstance(stream, io.BufferedReader):
+        raise StoreError(f"{member.name} is no file")
+    return stream
+
+
+def _unpack(tar: tarfile.TarFile, files: _Members, place: Path) -> None:
     for name, member in files.items():
         with (place / name).open("xb") as file:
-            shutil.copyfileobj(_file(tar, member), file)
+            shutil.copyfileobj(_opened(tar, member), file)
 
 
 def _refuse_foreign(members: Iterable[tarfile.TarInfo]) -> None:
-    """Refuse an archive by its members, if any of them has no place there."""
+    """Refuse an archive with a member that has no place in archives."""
     problems = []
     for member in members:
-        # neither links and devices, nor sparse files, whose size in the archive says nothing
-        if member.type not in (tarfile.REGTYPE, tarfile.AREGTYPE) or member.issparse():
-            problem = "only plain files are taken, no directories, links and devices"
-        elif not (member.name.isprintable() and PLACE.fullmatch(member.name)):
-            problem = "it is neither a result in a store nor a table, figure or text under its name"
-        elif member.name.endswith((CHECKSUMS, NOTE)) and member.size > LARGEST_TEXT:
-            problem = "it is too large"
-        else:
-            continue
-        problems.append(f"\n  - {member.name!r}: {problem}")
+        problem = _problem(member)
+        if problem is not None:
+            problems.append(f"\n  - {member.name!r}: {problem}")
     if problems:
-        more = f", and {len(problems) - 5} more" if len(problems) > 5 else ""
-        raise BundleError(f"nothing is written, as this is foreign:{''.join(problems[:5])}{more}")
+        shown = "".join(problems[:_SHOWN_PROBLEMS])
+        hidden = len(problems) - _SHOWN_PROBLEMS
+        more = f", and {hidden} more" if hidden > 0 else ""
+        raise BundleError(f"nothing is written, as this is foreign:{shown}{more}")
 
 
-def main(what: str, archive: str, configuration: str = "") -> None:
-    """``write`` results of a configuration to an archive, or ``restore`` those of one.
+def _problem(member: tarfile.TarInfo) -> str | None:
+    # neither links and devices, nor sparse files, whose true size is not in the archive
+    if member.type not in (tarfile.REGTYPE, tarfile.AREGTYPE) or member.issparse():
+        return "only plain files are taken, no directories, links and devices"
+    if not (member.name.isprintable() and _PLACE.fullmatch(member.name)):
+        return "it is neither a result in a store nor a table, figure or text under its name"
+    if member.name.endswith((CHECKSUMS, NOTE)) and member.size > LARGEST_TEXT:
+        return "it is too large"
+    return None
 
-    Without the name of its file it is the default configuration.
+
+def main(command: str, archive: str, configuration: str = "") -> None:
+    """Write an archive, or restore the results in one.
+
+    Parameters
+    ----------
+    command : str
+        ``write`` or ``restore``.
+    archive : str
+        The archive.
+    configuration : str
+        The configuration's file; empty for the default configuration.
     """
     own = Path(configuration) if configuration else None
-    if what == "write":
+    if command == "write":
         print(f"{write(Path(archive), own)} files are in {archive}")
     else:
         settings = load(own, lazy=True) if own else load(lazy=True)
         count = restore(Path(archive), settings.results)
-        print(f"{count} results are new here. Make what you want to see: it takes them")
+        print(f"{count} results are new here. Make a target to see them: it takes them")
 
 
 if __name__ == "__main__":

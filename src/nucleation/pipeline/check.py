@@ -1,10 +1,10 @@
-"""Results that are stale, incomplete, damaged or foreign, and those that nothing refers to.
+"""Find results that are stale, incomplete, damaged or foreign, and results that are not in use.
 
     python -m nucleation.pipeline.check check RESULTS EXPECTED
     python -m nucleation.pipeline.check prune RESULTS EXPECTED       (PRUNE=yes: and remove them)
 
-What each result has to be is known from the recipes of all that a configuration can ask for, which
-the workflow writes into a file; what it is, from the store.
+The workflow writes the file EXPECTED, with the recipes of all results that a configuration can
+make. They are compared with the store.
 """
 
 import dataclasses
@@ -14,20 +14,23 @@ import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from .planning import referred
-from .store import ASIDE, Store, StoreError, key_in, read_note
+from .entries import StoreError, read_note
+from .keys import key_in
+from .recipe_files import referred
+from .store import ASIDE, Store
 from .views import shows
 
+_HALF = "half a file of a run that was killed: delete it"
 LEFTOVERS = {
-    ".*.tmp": "half a file of a run that was killed: delete it",
-    "*.checkpoint.npz": "a run has begun here and goes on when it is asked for again",
+    ".*.tmp": _HALF,
+    "*.checkpoint.npz": "a run has begun here and goes on when it is requested again",
     "*.failed.nc": "the record of a run that failed",
 }
 OWN = {"store", "logs", "reference"}  # directories that show no results
 UNUSED = "unused"  # state of a result of other parameters or other code, which is no finding
 
 Expected = Mapping[str, str]
-"""Where the store has what each file should show, by the file's name; of a list its text."""
+"""For each file its target in the store, or its text if it is the list of a batch."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,7 +38,7 @@ class Finding:
     """A file that is not as it should be."""
 
     path: Path
-    state: str  # stale, incomplete, damaged, foreign or UNUSED
+    state: str  # stale, incomplete, damaged, foreign or unused
     reason: str
 
     def __str__(self) -> str:
@@ -43,51 +46,108 @@ class Finding:
 
 
 def check_results(results: Path, expected: Expected) -> list[Finding]:
-    """All among the results that is not what the present configuration and code make."""
+    """Compare results with those that the present configuration and code make.
+
+    Parameters
+    ----------
+    results : Path
+        The directory of results.
+    expected : mapping
+        For each file its target in the store, or its text.
+
+    Returns
+    -------
+    list of Finding
+        Among them the entries that are not in use.
+    """
     store = Store(results / "store")
-    found = [*_entries(store), *_shown(results, expected)]
-    gone = unused(results, expected)
-    return found + [Finding(store.entry(key), UNUSED, "make prune removes it") for key in gone]
+    findings = [*_entries(store), *_shown(results, expected)]
+    for key in unused(results, expected):
+        findings.append(Finding(store.entry(key), UNUSED, "make prune removes it"))
+    return findings
 
 
 def unused(results: Path, expected: Expected) -> list[str]:
-    """Keys in a store that neither the configuration nor any directory of results refers to."""
+    """Keys in a store without any reference.
+
+    Parameters
+    ----------
+    results : Path
+        The directory of results.
+    expected : mapping
+        As of :func:`check_results`.
+
+    Returns
+    -------
+    list of str
+        Neither the configuration nor any directory of results refers to them.
+    """
     store = Store(results / "store")
-    kept = referred(store) | {str(key_in(path)) for path in expected.values()}
-    return [key for key in store.listed() if key not in kept]
+    used = referred(store) | {str(key_in(path)) for path in expected.values()}
+    return [key for key in store.listed() if key not in used]
 
 
 def _entries(store: Store) -> Iterator[Finding]:
-    """Entries that are not right, and what has been left between them."""
+    """Wrong entries, and files that processes have left between the entries."""
     for key in store.listed():
+        entry = store.entry(key)
         try:
-            read_note(store.entry(key), whole=True)
+            read_note(entry, whole=True)
         except StoreError as error:
             state = "foreign" if "another key" in str(error) else "damaged"
-            yield Finding(store.entry(key), state, f"{error}: make it again, and it is moved aside")
+            yield Finding(
+                entry,
+                state,
+                f"{error}: make it again, and it is moved aside",
+            )
     for path in sorted(store.directory.glob(".*.tmp")):
-        yield Finding(path, "incomplete", LEFTOVERS[".*.tmp"])
+        yield Finding(path, "incomplete", _HALF)
     for path in sorted((store.directory / ASIDE).glob("*/*")):
-        yield Finding(path, "damaged", "it was moved aside, since it is not what it should be")
+        yield Finding(
+            path,
+            "damaged",
+            "it was moved aside, since it is not what it should be",
+        )
 
 
 def _shown(results: Path, expected: Expected) -> Iterator[Finding]:
-    """Files among the results that do not show the present ones."""
+    """Files among the results that do not show the present results."""
     for path in sorted(results.rglob("*")):
         if path.relative_to(results).parts[0] in OWN or path.is_dir():
             continue
-        if any((above / "store").is_dir() for above in path.parents if results in above.parents):
-            continue  # it is of the results of another configuration, below these
-        leftover = next((text for form, text in LEFTOVERS.items() if path.match(form)), None)
+        if _is_of_other_results(path, results):
+            continue
+        leftover = _leftover(path)
         wanted = expected.get(str(path))
         if leftover is not None:
             yield Finding(path, "incomplete", leftover)
         elif wanted is None:
             yield Finding(path, "foreign", "nothing in the configuration makes it")
         elif path.is_symlink() and not path.exists():
-            yield Finding(path, "damaged", "its result is not in the store: make it again")
+            yield Finding(
+                path,
+                "damaged",
+                "its result is not in the store: make it again",
+            )
         elif not _is_as_wanted(path, wanted):
-            yield Finding(path, "stale", "it is of other parameters or other code: make it again")
+            yield Finding(
+                path,
+                "stale",
+                "it is of other parameters or other code: make it again",
+            )
+
+
+def _is_of_other_results(path: Path, results: Path) -> bool:
+    """Whether a file is in the directory of results of another configuration, below this one."""
+    below = [above for above in path.parents if results in above.parents]
+    return any((directory / "store").is_dir() for directory in below)
+
+
+def _leftover(path: Path) -> str | None:
+    for form, text in LEFTOVERS.items():
+        if path.match(form):
+            return text
+    return None
 
 
 def _is_as_wanted(path: Path, wanted: str) -> bool:
@@ -97,7 +157,22 @@ def _is_as_wanted(path: Path, wanted: str) -> bool:
 
 
 def prune(results: Path, expected: Expected, remove: bool) -> str:
-    """List what nothing refers to, and remove it if that is asked for; what was done, in words."""
+    """List the results that are not in use, and remove them if `remove` is set.
+
+    Parameters
+    ----------
+    results : Path
+        The directory of results.
+    expected : mapping
+        As of :func:`check_results`.
+    remove : bool
+        Whether they are removed.
+
+    Returns
+    -------
+    str
+        A line for each, and their number.
+    """
     store = Store(results / "store")
     keys = unused(results, expected)
     lines = []
@@ -111,12 +186,33 @@ def prune(results: Path, expected: Expected, remove: bool) -> str:
     return "\n".join([*lines, f"{len(keys)} results {done}"])
 
 
-def main(asked: str, results: str, expected_file: str) -> None:
-    """Answer ``check`` or ``prune``; the exit code of ``check`` is 1 if there are findings."""
+def main(command: str, results: str, expected_file: str) -> None:
+    """Run ``check`` or ``prune``.
+
+    Parameters
+    ----------
+    command : str
+        ``check`` or ``prune``.
+    results : str
+        The directory of results.
+    expected_file : str
+        File that the workflow has written.
+
+    Raises
+    ------
+    SystemExit
+        If ``check`` has findings.
+    """
     try:
         expected = json.loads(Path(expected_file).read_text("utf-8"))
-        if asked == "prune":
-            print(prune(Path(results), expected, os.environ.get("PRUNE") == "yes"))
+        if command == "prune":
+            print(
+                prune(
+                    Path(results),
+                    expected,
+                    os.environ.get("PRUNE") == "yes",
+                )
+            )
             return
         findings = check_results(Path(results), expected)
     except (StoreError, OSError) as error:

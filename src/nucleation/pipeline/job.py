@@ -1,67 +1,96 @@
-"""What every job of the workflow does: find its result in a store, or make it and put it there.
+"""A job of the workflow: take the result from a store, or make it and put it there.
 
     python -m nucleation.pipeline.job RECIPE RULE THREADS LOG
 
-The recipe says what to make (:mod:`.recipes`). Nothing heavy is loaded before the store was asked.
-A job that Snakemake was forced to run makes its result once more and compares.
+No heavy library is loaded before the stores were searched. If Snakemake was forced to run the job,
+the result is made again and compared with the stored one.
 """
 
+import contextlib
 import os
 import sys
 import time
 from pathlib import Path
 
+from .messages import LOGGER, warnings_on
 from .recipes import Recipe, read
 from .store import others
 from .views import show
 
 FORCED = "NUCLEATION_FORCED"
-"""Of the environment: the rules and files that Snakemake was forced to make, or ``*`` for all."""
+"""Environment variable with the rules and files that Snakemake must make again; ``*`` for all."""
 
-ONE_CORE = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Of the environment: a result is made on one core, as sums on several have another order.
+_ONE_CORE = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+)
+"""Environment variables that keep a result on one core: on several, sums have another order.
 
 Snakemake sets the first to the threads of the rule."""
 
 
 def main(recipe_file: str, rule: str, threads: str, log: str) -> None:
-    """Make the result of a recipe and show it; say in the log what happens.
+    """Make the result of a recipe and show it.
 
-    An error that the user can do something about is one line, in the log and on the terminal.
+    Parameters
+    ----------
+    recipe_file : str
+        File of the recipe.
+    rule : str
+        Name of the rule.
+    threads : str
+        Number of cores.
+    log : str
+        File to which everything on standard error is appended. Warnings and errors also appear on
+        the terminal.
+
+    Raises
+    ------
+    SystemExit
+        If the job fails; the reason has been reported.
     """
-    began, terminal = time.monotonic(), sys.stderr
-    os.environ |= dict.fromkeys(ONE_CORE, "1")
+    began = time.monotonic()
+    os.environ |= dict.fromkeys(_ONE_CORE, "1")
     Path(log).parent.mkdir(parents=True, exist_ok=True)
-    sys.stderr = Path(log).open("a", buffering=1, encoding="utf-8")  # noqa: SIM115  to the end
-    recipe = read(recipe_file)
-    try:
-        if is_forced(rule, recipe) or not is_there(recipe):
-            from .making import make
+    terminal = sys.stderr
+    with (
+        Path(log).open("a", buffering=1, encoding="utf-8") as stream,
+        contextlib.redirect_stderr(stream),
+        warnings_on(terminal),
+    ):
+        try:
+            _run(read(recipe_file), rule, int(threads))
+        except SystemExit as error:  # with the reason
+            LOGGER.error(error)
+            sys.exit(1)
+        LOGGER.info(f"done in {time.monotonic() - began:.1f} s")
 
-            make(recipe, rule, int(threads), is_forced(rule, recipe))
-        show(recipe)
-    except SystemExit as error:  # with the reason
-        print(error, file=terminal)
-        print(error, file=sys.stderr)
-        sys.exit(1)
-    print(f"done in {time.monotonic() - began:.1f} s", file=sys.stderr)
+
+def _run(recipe: Recipe, rule: str, threads: int) -> None:
+    forced = _is_forced(rule, recipe)
+    if forced or not _is_there(recipe):
+        from .making import make
+
+        make(recipe, rule, threads, forced)
+    show(recipe)
 
 
-def is_there(recipe: Recipe) -> bool:
-    """Whether a store has all that is needed; it is in the job's own store then."""
-    store, elsewhere = recipe.store, others(strict=False)
+def _is_there(recipe: Recipe) -> bool:
+    """Whether the store has all results of a recipe; those of other stores are copied first."""
+    store = recipe.store
+    elsewhere = others(strict=False)
     for one in recipe.needed:
         if store.note(one.key) is not None:
             continue
         source = store.take(one.key, elsewhere)
         if source is None:
             return False
-        print(f"taken from {source}", file=sys.stderr)
+        LOGGER.info(f"taken from {source}")
     return True
 
 
-def is_forced(rule: str, recipe: Recipe) -> bool:
-    """Whether Snakemake was asked to make a result although it may be there."""
+def _is_forced(rule: str, recipe: Recipe) -> bool:
     named = os.environ.get(FORCED, "").split("\n")
     return not {"*", rule, *recipe.files}.isdisjoint(named)
 

@@ -1,9 +1,9 @@
-"""Snakemake, started once its configuration files have been looked at.
+"""Start Snakemake after a check of its configuration files.
 
-``python -m nucleation.pipeline.launch`` takes Snakemake's arguments. Snakemake itself reads a file
-given by ``--configfile`` before anything of the workflow: one that is missing or is no text ends
-in a traceback there, and of one with the key ``__use_yte__`` it runs expressions of Python. With no
-core at all it waits forever.
+``python -m nucleation.pipeline.launch`` takes Snakemake's arguments. Snakemake reads the files of
+``--configfile`` before the workflow can check them: a missing file, or one that is no text, ends in
+a traceback, and a file with the key ``__use_yte__`` may contain Python that is executed. With zero
+cores Snakemake waits for ever.
 """
 
 import argparse
@@ -16,16 +16,25 @@ from ..configuration.load import load
 from ..model.quantities import ParameterError
 
 
-def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
-    """What a command line of Snakemake, by default this one, says of cores and configuration."""
+def options(
+    arguments: Sequence[str] | None = None,
+) -> argparse.Namespace:
+    """Cores and configuration files in Snakemake's arguments, by default those of this process."""
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--cores", "-c", nargs="?")
-    parser.add_argument("--configfile", "--configfiles", nargs="*", action="extend", default=[])
-    return parser.parse_known_args(arguments)[0]
+    parser.add_argument(
+        "--configfile",
+        "--configfiles",
+        nargs="*",
+        action="extend",
+        default=[],
+    )
+    known, _ = parser.parse_known_args(arguments)
+    return known
 
 
 def problem(arguments: Sequence[str]) -> str | None:
-    """What is wrong with the cores or the configuration files, in words; None if nothing."""
+    """The problem with the cores or the configuration files, in words; None if there is none."""
     given = options(arguments)
     if re.fullmatch(r"0+|-\d+", given.cores or ""):
         return "--cores must be 1 or more"
@@ -38,7 +47,7 @@ def problem(arguments: Sequence[str]) -> str | None:
 
 
 def main() -> None:
-    """Check, then become Snakemake."""
+    """Check the arguments, then replace this process by Snakemake."""
     arguments = sys.argv[1:]
     found = problem(arguments)
     if found is not None:

@@ -1,37 +1,53 @@
-"""What the workflow plans: the recipe of each result, and whether the result is there already.
+"""Planning: the recipe of each result, and whether the result is there already.
 
-Every file that people open is the output of a rule. One more input of each rule is its recipe
-(:mod:`.recipes`), a file below the store. :class:`Plan` writes it while Snakemake plans: as old as
-a file can be where the rule's outputs are the result of that recipe, else with new content.
-So Snakemake's own triggers do what is right, whatever happened to its notes or to times of files.
+Every file that people open is the output of a rule. Each rule has its recipe (:mod:`.recipes`) as
+one more input, a file below the store. :class:`Plan` writes it while Snakemake plans: as old as a
+file can be if the rule's outputs show the result of that recipe, otherwise with new content. So
+Snakemake's own triggers decide correctly, even if its notes are lost or times of files are wrong.
 
-A run, unlike a dry run, begins with what the stores have: it is shown, and needs no job. Files that
-show another result than they should are taken away, so that none is left if a job fails.
+A run, unlike a dry run, starts by showing all results that are in a store; they need no job. Files
+that show an outdated result are removed first, so that none is left if a job fails.
 """
 
 import atexit
 import contextlib
 import hashlib
 import os
-import re
-import sys
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+from .entries import NOTE
 from .job import FORCED
-from .recipes import Recipe, listed, read
-from .store import NOTE, PATTERN, Store, StoreError, key_in, others, plain
-from .views import can_link, is_linked, is_shown, leads_nowhere, show, withdraw, write
+from .keys import as_json
+from .messages import LOGGER
+from .recipe_files import (
+    RECIPES,
+    WORKING,
+    expected_of,
+    key_of,
+    marks_shown,
+)
+from .recipes import Recipe, listed
+from .store import Store, others
+from .views import (
+    can_link,
+    is_broken,
+    is_linked,
+    is_shown,
+    show,
+    withdraw,
+    write,
+)
 
-RECIPES = "recipes"  # directory in a store, with one for each directory of results
-WORKING = "directory"  # file beside recipes: where they were planned, as seen from the store
-LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
-HEAD = re.compile(rf'{{"key": "({PATTERN})"'.encode())  # of a recipe's file
+_LOCKS = ".snakemake/locks"  # of a run that is at work, or was killed
+
+Paths = Any
+"""One path, or several in a nested list, as Snakemake's texts or plain ones."""
 
 
 class Plan:
@@ -39,9 +55,12 @@ class Plan:
 
     Parameters
     ----------
-    rules : Snakemake's; each is asked for once it is used, so it may be defined further down.
-    workflow : Snakemake's, too.
-    results : the directory of results, as the configuration names it.
+    rules : rules of Snakemake
+        By name. Each is read when it is used, so its definition may come later.
+    workflow : workflow of Snakemake
+        The one that is planned.
+    results : str
+        The directory of results, as the configuration names it.
     """
 
     def __init__(self, rules: Any, workflow: Any, results: str) -> None:
@@ -51,36 +70,38 @@ class Plan:
         self._names: list[str] = []  # of the rules that make results
         self._known: dict[tuple[str, ...], Recipe] = {}
         self._inputs: dict[str, list[str]] = {}  # by the name of the result
-        self._files: dict[str, Any] = {}  # as Snakemake has them, by their paths
-        self._kept: Counter[str] = Counter()  # jobs that a dry run lists, a run shows the result
+        self._files: dict[str, Any] = {}  # Snakemake's files by their paths
+        self._kept: Counter[str] = Counter()  # jobs of a dry run that a run would not start
         self._shown = 0  # results that were shown without a job
-        self._taken = 0  # and those of them that came from other stores
+        self._taken = 0  # results that were copied from other stores
         atexit.register(self._report)
 
     def __call__(self, rule: str) -> Callable[[Any], str]:
-        """The input function that gives the file with the recipe of a rule."""
+        """The input function of a rule; it returns the path of the recipe's file."""
         self._names.append(rule)
-        return lambda wildcards: self._file_of(rule, dict(wildcards.items())).removeprefix(
-            self.prefix
-        )
+
+        def recipe_file(wildcards: Any) -> str:
+            file = self._file_of(rule, dict(wildcards.items()))
+            return file.removeprefix(self.prefix)
+
+        return recipe_file
 
     def _report(self) -> None:
-        """Say what was found in stores, in a line."""
         kept = ", ".join(f"{rule} {count}" for rule, count in self._kept.items() if count)
         if kept:
-            print(f"Of these jobs a run needs none for what is in a store: {kept}", file=sys.stderr)
+            LOGGER.info(f"Of these jobs a run starts none, as a store has their results: {kept}")
         if self._shown:
             taken = f", {self._taken} of them taken from other stores" if self._taken else ""
-            print(f"Shown without a job: {self._shown} results{taken}", file=sys.stderr)
+            LOGGER.info(f"Shown without a job: {self._shown} results{taken}")
 
     @cached_property
     def results(self) -> str:
-        """The directory of results where Snakemake has it: a module may have a prefix."""
+        """The directory of results for Snakemake, with the prefix of a module."""
         return self.prefix + self._configured
 
     @cached_property
     def prefix(self) -> str:
-        """What a module's ``prefix:`` puts before the paths of its rules; empty without one."""
+        """The ``prefix:`` of a module, which Snakemake puts before all paths of its rules."""
         name = str(getattr(self._rules, self._names[0]).output[0])
         before, found, _ = name.partition(self._configured)
         if not found:
@@ -93,28 +114,30 @@ class Plan:
         return Store(f"{self.results}/store")
 
     @cached_property
-    def place(self) -> str:
-        """The directory of the recipes in the store, which others may use at the same time."""
+    def _place(self) -> str:
+        """The directory of the recipes in the store; directories of results may share a store."""
         places = [self._from_store(place) for place in (self.results, ".")]
         mark = hashlib.sha256("\n".join(places).encode()).hexdigest()[:8]
         return f"{self.store.directory}/{RECIPES}/{mark}"
 
     def _from_store(self, place: str) -> str:
-        real = os.path.realpath
-        return os.path.relpath(real(place), real(self.store.directory))
+        """A path relative to the store."""
+        store = os.path.realpath(self.store.directory)
+        return os.path.relpath(os.path.realpath(place), store)
 
     @cached_property
     def runs(self) -> bool:
-        """Whether jobs will run, not only be listed; they are told what is forced.
+        """Whether jobs will run and not only be listed; then they learn which results are forced.
 
-        Where another run is at work Snakemake stops later, and nothing may be changed before.
+        If another run is at work, Snakemake stops later, and nothing may be changed before.
         """
         workflow = self._workflow
-        runs = workflow.executor_plugin is not None and not (workflow.dryrun or workflow.touch)
-        runs = runs and not any(Path(LOCKS).glob("*"))
-        if runs:
-            os.environ[FORCED] = "\n".join(_forced(workflow.dag_settings))
-        return runs
+        if workflow.executor_plugin is None or workflow.dryrun or workflow.touch:
+            return False
+        if any(Path(_LOCKS).glob("*")):
+            return False
+        os.environ[FORCED] = "\n".join(_forced(workflow.dag_settings))
+        return True
 
     @cached_property
     def _others(self) -> list[Store]:
@@ -122,15 +145,16 @@ class Plan:
 
     @cached_property
     def _links(self) -> bool:
-        """Whether there can be links: where not, copies are left, of whatever time they are."""
+        """Whether links are possible; if not, copies are left as they are, whatever their time."""
         return can_link(self.store.directory)
 
     @cached_property
     def _makers(self) -> tuple[dict[str, str], list[tuple[Any, str]]]:
-        """Rules by their files, and those with wildcards by the patterns of these."""
-        fixed, patterns = {}, []
+        """Rules by their files, and pairs of a pattern with wildcards and its rule."""
+        fixed: dict[str, str] = {}
+        patterns: list[tuple[Any, str]] = []
         for rule in self._names:
-            # of the rule itself: its proxy has no constraints of wildcards
+            # the proxy of a rule lacks the constraints of wildcards
             for file in getattr(self._rules, rule).rule.output:
                 if "{" in str(file):
                     patterns.append((file, rule))
@@ -138,8 +162,8 @@ class Plan:
                     fixed[str(file)] = rule
         return fixed, patterns
 
-    def recipe(self, path: str) -> Recipe | None:
-        """The recipe of a file; None of a file that no rule makes."""
+    def _recipe(self, path: str) -> Recipe | None:
+        """The recipe of a file; None if no rule makes it."""
         fixed, patterns = self._makers
         if path in fixed:
             return self._of_rule(fixed[path], {})
@@ -150,25 +174,25 @@ class Plan:
         return None
 
     def write_expected(self, more: list[str]) -> str:
-        """Write what every file that the workflow makes should show; the path of what is written.
+        """Write which result each file of the workflow should show; return the written path.
 
-        These are the files of rules without wildcards, some more, and all that they are made from.
-        What the configuration lacks the studies for is left out.
+        This includes the files of all rules without wildcards, the files `more`, and all their
+        sources. A target is left out if the configuration lacks its studies.
         """
         found: dict[str, str] = {}
         for path in (*self._makers[0], *more):
             with contextlib.suppress(Exception):
-                found |= expected_of(self.behind([path]))
-        file = f"{self.place}/expected"
-        write(Path(file), plain(found))
+                found |= expected_of(self._with_sources(path))
+        file = f"{self._place}/expected"
+        write(Path(file), as_json(found))
         return file
 
-    def behind(self, paths: list[str]) -> Iterator[Recipe]:
-        """The recipes of some files, and of all that these are made from."""
+    def _with_sources(self, path: str) -> Iterator[Recipe]:
+        """The recipes of a file and of all its sources, direct or not."""
         seen: set[str] = set()
-        waiting = list(paths)
+        waiting = [path]
         while waiting:
-            found = self.recipe(waiting.pop())
+            found = self._recipe(waiting.pop())
             if found is not None and found.name not in seen:
                 seen.add(found.name)
                 waiting += self._inputs[found.name]
@@ -176,66 +200,73 @@ class Plan:
                 yield from found.parts
 
     def _of_rule(self, rule: str, wildcards: Mapping[str, str]) -> Recipe:
-        """The recipe of a rule with some wildcards."""
         mark = (rule, *wildcards.values())
         if mark not in self._known:
-            self._known[mark] = self._put_together(rule, wildcards)
+            self._known[mark] = self._made(rule, wildcards)
         return self._known[mark]
 
-    def _put_together(self, rule: str, wildcards: Mapping[str, str]) -> Recipe:
-        asked, names = getattr(self._rules, rule), SimpleNamespace(**wildcards)
-        made = [file.apply_wildcards(wildcards) for file in asked.output]
-        files = [*map(str, made)]
-        self._files |= dict(zip(files, made, strict=True))
-        inputs = {
-            role: _given(value, names) for role, value in asked.input.items() if role != "recipe"
-        }
-        params = {name: _given(value, names) for name, value in asked.params.items()}
-        before = inputs.pop("after", [])  # batches, of which `reads` says what is read
-        read = {role: self._placed(paths) for role, paths in params.pop("reads", {}).items()}
-        sources = inputs | read
-        found = Recipe(
+    def _made(self, rule: str, wildcards: Mapping[str, str]) -> Recipe:
+        """Make the recipe of a rule from its outputs, inputs and parameters."""
+        asked = getattr(self._rules, rule)
+        names = SimpleNamespace(**wildcards)
+        outputs = [file.apply_wildcards(wildcards) for file in asked.output]
+        files = [str(file) for file in outputs]
+        self._files |= dict(zip(files, outputs, strict=True))
+        inputs = {}
+        for role, value in asked.input.items():
+            if role != "recipe":
+                inputs[role] = _evaluated(value, names)
+        params = {name: _evaluated(value, names) for name, value in asked.params.items()}
+        waited_for = inputs.pop("after", [])  # batches; `reads` names the files that are read
+        reads = params.pop("reads", {})
+        sources = inputs | {role: self._placed(paths) for role, paths in reads.items()}
+        parts = [self._recipe(path) for path in self._placed(params.pop("makes", []))]
+        recipe = Recipe(
             name=self._name(files[0]),
             files=files,
             results=self.results,
             call=params.pop("call", ""),
             loads=list(params.pop("loads", [])),
             sources={role: self._source(paths) for role, paths in sources.items()},
-            parts=[*filter(None, map(self.recipe, self._placed(params.pop("makes", []))))],
+            parts=[part for part in parts if part is not None],
             values=params,
         )
-        self._inputs[found.name] = [
-            path for paths in (*inputs.values(), before) for path in listed(paths)
-        ]
-        return found
+        needed = [listed(paths) for paths in (*inputs.values(), waited_for)]
+        self._inputs[recipe.name] = [path for paths in needed for path in paths]
+        return recipe
 
-    def _placed(self, paths: Any) -> Any:
-        """Files of a parameter with the prefix of a module, which Snakemake puts before inputs."""
+    def _placed(self, paths: Paths) -> Paths:
+        """Paths with the prefix of a module; Snakemake adds it to inputs, not to parameters."""
         if not isinstance(paths, str):
             return [self._placed(path) for path in paths]
-        return paths if os.path.isabs(paths) or paths.startswith("..") else self.prefix + paths
+        if os.path.isabs(paths) or paths.startswith(".."):
+            return paths
+        return self.prefix + paths
 
     def _name(self, file: str) -> str:
-        """The name of a result: that of its first file, without the suffix."""
+        """The name of a result: the path of its first file without the suffix."""
         return file.removeprefix(f"{self.results}/").rpartition(".")[0]
 
-    def _source(self, paths: Any) -> Any:
-        """What is read; of results the file in the store."""
+    def _source(self, paths: Paths) -> Paths:
+        """Paths of sources: results in the store, other files as they are."""
         if not isinstance(paths, str):
             return [self._source(path) for path in paths]
-        found = self.recipe(str(paths))
+        found = self._recipe(str(paths))
         return str(paths) if found is None else found.stored(str(paths))
 
     def _file_of(self, rule: str, wildcards: Mapping[str, str]) -> str:
-        """The file with the recipe of a job, written if this process plans."""
+        """The file with the recipe of a job; this process writes it if it plans."""
         first = getattr(self._rules, rule).output[0].apply_wildcards(wildcards)
-        file = f"{self.place}/{self._name(str(first))}.json"
-        if self._workflow.is_main_process:  # and not a job, which takes its recipe as it is
+        file = f"{self._place}/{self._name(str(first))}.json"
+        if self._workflow.is_main_process:  # a job takes its recipe as it is
             try:
-                if not os.path.exists(f"{self.place}/{WORKING}"):
-                    write(Path(self.place, WORKING), self._from_store("."))
+                if not os.path.exists(f"{self._place}/{WORKING}"):
+                    write(
+                        Path(self._place, WORKING),
+                        self._from_store("."),
+                    )
                 self._write(rule, self._of_rule(rule, wildcards), Path(file))
-            except Exception as error:  # Snakemake would take an old file in the result's place
+            except Exception as error:  # else Snakemake would use an outdated file of the result
                 raise SystemExit(f"{rule} can't be planned: {error}") from None
         return file
 
@@ -246,18 +277,22 @@ class Plan:
         shown = is_shown(recipe, self.store)
         if not self.runs and not (shown and is_linked(recipe)):
             self._kept[rule] += all(self._is_kept(one.key) for one in recipe.needed)
-            for path in map(Path, recipe.files):
-                if leads_nowhere(path):  # Snakemake would stop there
-                    path.unlink(missing_ok=True)
-                    self._tell_of(str(path))
-        if not (shown and is_old(file) and key_of(file) == recipe.key):
+            self._remove_broken_links(recipe)
+        if not (shown and marks_shown(file) and key_of(file) == recipe.key):
             write(file, recipe.text("" if shown else str(time.time_ns())))
         if shown:
             os.utime(file, (0, 0))
-        self._tell_of(str(file))
+        self._refresh(str(file))
+
+    def _remove_broken_links(self, recipe: Recipe) -> None:
+        """Remove links to missing files, at which Snakemake would stop."""
+        for path in recipe.files:
+            if is_broken(Path(path)):
+                Path(path).unlink(missing_ok=True)
+                self._refresh(path)
 
     def _update_views(self, recipe: Recipe, file: Path) -> None:
-        """Show what the stores have of a result, and take away what shows another one."""
+        """Show the results that the stores have, and remove files that show outdated ones."""
         for one in recipe.needed:
             if self.store.note(one.key) is None and self.store.take(one.key, self._others):
                 self._taken += 1
@@ -271,30 +306,31 @@ class Plan:
                 show(one)
                 self._shown += one is recipe
                 for path in one.files:
-                    # what Snakemake noted is of another result
+                    # Snakemake's note is about another result
                     self._workflow.persistence.cleanup_metadata(self._files[path])
             for path in one.files:
-                self._tell_of(path)
+                self._refresh(path)
 
-    def _tell_of(self, path: str) -> None:
-        """Correct what Snakemake remembers of a file: it may have looked before this changed it.
+    def _refresh(self, path: str) -> None:
+        """Correct Snakemake's memory of a file, which it may have read before the change.
 
-        Its own ``iocache.clear()`` keeps which directories it has listed, and takes every file in
-        them for missing from then on.
+        Its own ``iocache.clear()`` keeps the list of directories that it has read, and takes every
+        file in them for missing from then on.
         """
         known = self._workflow.iocache
         known.exists_local[path] = os.path.exists(path)
-        for facts in filter(None, (known.mtime, known.size, known.checksum)):
-            facts.pop(path, None)
+        for facts in (known.mtime, known.size, known.checksum):
+            if facts:
+                facts.pop(path, None)
 
     def _is_kept(self, key: str) -> bool:
-        """Whether a store has a result, as far as can be told without copying it."""
+        """Whether a store has a result; an entry elsewhere is not checked."""
         if self.store.note(key) is not None:
             return True
         return any((other.entry(key) / NOTE).is_file() for other in self._others)
 
 
-def _given(value: Any, wildcards: Any) -> Any:
+def _evaluated(value: Any, wildcards: SimpleNamespace) -> Any:
     """The value of a parameter or an input, which may be a function or a pattern of wildcards."""
     if callable(value):
         return value(wildcards)
@@ -303,76 +339,10 @@ def _given(value: Any, wildcards: Any) -> Any:
     return value
 
 
-def is_old(file: Path) -> bool:
-    """Whether a recipe's file says that its result is shown."""
-    return file.is_file() and file.stat().st_mtime == 0.0
-
-
-def key_of(file: Path) -> str | None:
-    """The key in a recipe's file; None if there is no file, or another one."""
-    try:
-        with file.open("rb") as stream:
-            found = HEAD.match(stream.read(64))
-    except OSError:
-        return None
-    return found[1].decode() if found else None
-
-
-def kept_recipes(store: Store) -> Iterator[Recipe]:
-    """The recipes of all directories of results that share a store, as they were planned.
-
-    Those of a working directory that is gone are left out.
-
-    Raises
-    ------
-    StoreError
-        If one can't be read: nothing can be said of what is used.
-    """
-    for place in sorted(store.directory.glob(f"{RECIPES}/*")):
-        for file in sorted(place.glob("**/*.json")) if _is_in_use(place, store) else []:
-            try:
-                yield read(file)
-            except (OSError, ValueError, KeyError, TypeError) as error:
-                message = f"{file} can't be read ({error!r}): delete it, plan again"
-                raise StoreError(message) from None
-
-
-def _is_in_use(place: Path, store: Store) -> bool:
-    """Whether the working directory of some recipes is still there."""
-    try:
-        return (store.directory.resolve() / (place / WORKING).read_text("utf-8")).is_dir()
-    except OSError:
-        return True
-
-
-def referred(store: Store) -> set[str]:
-    """Keys in a store that recipes of any directory of results refer to, or their files show."""
-    found: set[str] = set()
-    for recipe in kept_recipes(store):
-        for one in (recipe, *recipe.parts):
-            found.add(one.key)
-            found.update(key for path in one.source_keys.values() for key in path)
-            links = (os.path.realpath(file) for file in one.files if os.path.islink(file))
-            found.update(filter(None, map(key_in, links)))
-    return found
-
-
-def expected_of(recipes: Iterable[Recipe]) -> dict[str, str]:
-    """What the files of some recipes should show: files of the store, or the text of a list."""
-    return {
-        file: recipe.stored(file) if recipe.call else recipe.manifest()
-        for recipe in recipes
-        for file in recipe.files
-    }
-
-
-def _forced(asked: Any) -> Iterator[str]:
-    """Rules and files that Snakemake was told to make whether they are there or not; * for all.
-
-    `asked` are Snakemake's settings of the DAG.
-    """
-    if asked.forceall:
+def _forced(dag_settings: Any) -> Iterator[str]:
+    """Rules and files that Snakemake makes even if they are there; * for all."""
+    if dag_settings.forceall:
         yield "*"
-    yield from map(str, asked.forcerun)
-    if asked.forcetargets:
-        yield from map(str, asked.targets)
+    yield from map(str, dag_settings.forcerun)
+    if dag_settings.forcetargets:
+        yield from map(str, dag_settings.targets)

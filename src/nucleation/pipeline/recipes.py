@@ -1,39 +1,41 @@
-"""Recipes: all that a job has to know to make a result.
+"""Recipes: everything a job needs to know to make a result.
 
-A rule says which function makes its result (``call``), what code this function loads by name
-(``loads``), its other parameters, and what it reads. The recipe puts these together, and its key is
-their digest. It is kept as JSON, so that a job makes what was planned, on whatever machine.
+A rule names the function that makes its result (``call``), the modules that this function loads by
+name (``loads``), its other arguments, and its sources. The recipe collects these; its digest is the
+key. It is stored as JSON, so that a job on any machine makes the result that was planned.
 """
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from . import code
-from .store import PATTERN, STEM, Store, key, of_file, plain
+from .entries import STEM
+from .keys import PATTERN, as_json, key, key_of_file
+from .store import Store
 
-MANIFEST = re.compile(rf'\{{("[^"]+": "{PATTERN}"(, )?)*\}}\n')
+_MANIFEST = re.compile(rf'\{{("[^"]+": "{PATTERN}"(, )?)*\}}\n')
 
 Sources = dict[str, str | list[str]]
-"""What is read, by the names of a function's arguments: files in the store, or of others."""
+"""Paths of the sources, by the function's argument: files in the store, or other files."""
 
 
 class PartFailed(Exception):
-    """A part of a batch that came to no result; the others go on."""
+    """A part of a batch has failed; the other parts are made."""
 
 
 class _Ingredients(NamedTuple):
-    name: str  # of the result in the directory of results, without a suffix: figures/figure_3
-    files: list[str]  # the outputs of its rule, where people find it
+    name: str  # of the result, below the directory of results, without suffix: figures/figure_3
+    files: list[str]  # outputs of the rule, which people open
     results: str  # the directory of results
-    call: str  # the function that makes it, MODULE:NAME; empty of a batch, which is its parts
+    call: str  # the function that makes it, MODULE:NAME; empty for a batch without a table
     loads: list[str]  # modules that this function loads by name
     values: dict[str, Any]  # its other arguments
     sources: Sources
-    parts: "list[Recipe]"  # of a batch: the recipes of what its job makes
+    parts: "list[Recipe]"  # recipes of a batch
 
 
 class Recipe(_Ingredients):
@@ -41,11 +43,11 @@ class Recipe(_Ingredients):
 
     @cached_property
     def key(self) -> str:
-        """The key of the result; of a recipe that was read the one that was planned."""
+        """The key of the result; a recipe that was read from a file has its planned key."""
         return self.key_now()
 
     def key_now(self) -> str:
-        """A digest of its code, its arguments and its sources' keys, as they are now."""
+        """Digest of the present code, the arguments and the present keys of the sources."""
         if not self.call:
             return key("", {}, {"parts": [part.key for part in self.parts]})
         function = self.call.partition(":")[2]
@@ -53,13 +55,18 @@ class Recipe(_Ingredients):
 
     @property
     def source_keys(self) -> dict[str, list[str]]:
-        """Keys of what it is made from, by their role."""
-        return {role: [*map(of_file, listed(paths))] for role, paths in self.sources.items()}
+        """Keys of the sources, by the function's argument."""
+        found = {}
+        for role, paths in self.sources.items():
+            found[role] = [key_of_file(path) for path in listed(paths)]
+        return found
 
     @property
     def roots(self) -> tuple[str, ...]:
         """The modules that its code begins with."""
-        return (self.call.partition(":")[0], *code.ALWAYS, *self.loads) if self.call else ()
+        if not self.call:
+            return ()
+        return (self.call.partition(":")[0], *code.ALWAYS, *self.loads)
 
     @property
     def code(self) -> str:
@@ -73,21 +80,33 @@ class Recipe(_Ingredients):
 
     @property
     def needed(self) -> "list[Recipe]":
-        """The recipes of the results that a store must have: of a batch those of its parts."""
+        """The recipes of the results that must be in the store: for a batch its parts."""
         return [self] if self.call else self.parts
 
     def stored(self, file: str) -> str:
-        """Where the store has one of the result's files."""
+        """The path in the store of one of the result's files."""
         suffix = file.removeprefix(f"{self.results}/{self.name}")
         return f"{self.results}/store/{self.key}/{STEM}{suffix}"
 
     def manifest(self) -> str:
-        """The text that the file of a batch has: the keys of its parts, by their names."""
-        return plain({part.name: part.key for part in self.parts}) + "\n"
+        """The text in the file of a batch: the keys of its parts, by their names."""
+        return as_json({part.name: part.key for part in self.parts}) + "\n"
 
     def text(self, planned: str = "") -> str:
-        """All of it as JSON, the key first; `planned` tells files of one recipe apart."""
-        return plain({"key": self.key, "planned": planned, **self._plain()}, sort_keys=False)
+        """The recipe as JSON, the key first.
+
+        Parameters
+        ----------
+        planned : str
+            Distinguishes two files of the same recipe.
+
+        Returns
+        -------
+        str
+            The text.
+        """
+        values = {"key": self.key, "planned": planned, **self._plain()}
+        return as_json(values, sort_keys=False)
 
     def _plain(self) -> dict[str, Any]:
         parts = [{"key": part.key, **part._plain()} for part in self.parts]
@@ -95,22 +114,25 @@ class Recipe(_Ingredients):
 
 
 def is_manifest(text: str | None) -> bool:
-    """Whether a text is that of :meth:`Recipe.manifest`, of whatever batch."""
-    return text is not None and re.fullmatch(MANIFEST, text) is not None
+    """Whether a text has the form of :meth:`Recipe.manifest`."""
+    return text is not None and re.fullmatch(_MANIFEST, text) is not None
 
 
-def listed(paths: Any) -> list[str]:
+def listed(paths: str | Iterable[object]) -> list[str]:
     """One path, or several, as a list of plain texts."""
-    return [str(paths)] if isinstance(paths, str) else [str(path) for path in paths]
+    if isinstance(paths, str):
+        return [str(paths)]
+    return [str(path) for path in paths]
 
 
 def read(path: str | Path) -> Recipe:
-    """The recipe in a file; it and its parts have the keys with which they were planned."""
-    return _made(json.loads(Path(path).read_text("utf-8")))
+    """Read a recipe; it and its parts have the keys with which they were planned."""
+    return _from_plain(json.loads(Path(path).read_text("utf-8")))
 
 
-def _made(values: Mapping[str, Any]) -> Recipe:
+def _from_plain(values: Mapping[str, Any]) -> Recipe:
     given = {name: values[name] for name in Recipe._fields}
-    recipe = Recipe(**given | {"parts": [*map(_made, values["parts"])]})
+    given["parts"] = [_from_plain(part) for part in values["parts"]]
+    recipe = Recipe(**given)
     vars(recipe)["key"] = values["key"]
     return recipe

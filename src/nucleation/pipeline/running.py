@@ -1,9 +1,8 @@
-"""Simulations of jobs and commands: from a checkpoint on, to a record in a file."""
+"""Simulations of jobs and commands: start from a checkpoint, write the record to a file."""
 
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import xarray as xr
 
@@ -12,31 +11,45 @@ from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
+from ..simulation.control import Instant
 from ..simulation.run import simulate
 from . import code
+from .messages import LOGGER
 from .recipes import PartFailed, Recipe
 
 SIMULATE = "nucleation.simulation.run:simulate"
-UNFINISHED = "unfinished"  # directory with checkpoints, and records of runs that failed
+UNFINISHED = "unfinished"  # directory of checkpoints, and of records of runs that failed
 
 
 def run_of(
-    recipe: Recipe, put: Callable[[Recipe, xr.Dataset], None], origin: Mapping[str, str]
+    recipe: Recipe,
+    put: Callable[[Recipe, xr.Dataset], None],
+    origin: Mapping[str, str],
 ) -> xr.Dataset:
-    """The record of a simulation, made from its checkpoint on if there is one, and put away.
+    """Make the record of a simulation, from its checkpoint if there is one.
 
-    A signal ends the process, after a checkpoint.
+    A signal ends the process after it has written a checkpoint.
 
     Parameters
     ----------
-    recipe : of the simulation.
-    put : puts the record of a finished run into the store.
-    origin : attributes of the record of one that has failed.
+    recipe : Recipe
+        Recipe of the simulation.
+    put : callable
+        Puts the record of a finished run into the store.
+    origin : mapping
+        Attributes for the record of a failed run.
+
+    Returns
+    -------
+    Dataset
+        The record.
 
     Raises
     ------
     PartFailed
-        If the run has failed; its record is among the unfinished.
+        If the run has failed; its record is among the unfinished ones.
+    SystemExit
+        If a signal stops the run.
     """
     name = recipe.name.rpartition("/")[2]
     parameters = Parameters.from_dict(recipe.values["parameters"])
@@ -55,9 +68,10 @@ def run_of(
             dataset, path = run_to_file(simulate, parameters, place, write, checkpoint, progress)
     except Stopped as stopped:
         sys.exit(f"{name}: {stopped}")
+    status = dataset.attrs["status"]
     if path != place:
-        raise PartFailed(f"{name}: {dataset.attrs['status']}; its record is in {path}")
-    print(f"{name}: {dataset.attrs['status']}", file=sys.stderr)
+        raise PartFailed(f"{name}: {status}; its record is in {path}")
+    LOGGER.info(f"{name}: {status}")
     return dataset
 
 
@@ -67,14 +81,45 @@ def run_to_file(
     output: Path,
     write: Callable[[xr.Dataset, Path], None],
     checkpoint: Checkpoint,
-    progress: Callable[[Any], None],
+    progress: Callable[[Instant], None],
 ) -> tuple[xr.Dataset, Path]:
-    """Simulate, from the checkpoint if there is one, and write the record; it, and where it is.
+    """Run a simulation, from the checkpoint if there is one, and write its record.
 
-    The record of a failed run goes beside `output`, as ``.failed.nc``. The checkpoint is removed
-    once the record is written; a signal that stops the run leaves it, and raises Stopped.
+    The checkpoint is removed after the record was written. A signal that stops the run leaves it.
+
+    Parameters
+    ----------
+    simulate : callable
+        Runs the simulation, as :func:`nucleation.simulation.run.simulate`.
+    parameters : Parameters
+        Its parameters.
+    output : Path
+        File for the record; that of a failed run has the suffix ``.failed.nc`` instead.
+    write : callable
+        Writes a record to a path.
+    checkpoint : Checkpoint
+        State of an earlier, unfinished run, and the place for new ones.
+    progress : callable
+        It is called after every step.
+
+    Returns
+    -------
+    Dataset
+        The record.
+    Path
+        Its file.
+
+    Raises
+    ------
+    Stopped
+        If a signal stops the run.
     """
-    dataset = simulate(parameters, progress=progress, start=checkpoint.load(), keep=checkpoint.keep)
+    dataset = simulate(
+        parameters,
+        progress=progress,
+        start=checkpoint.load(),
+        keep=checkpoint.keep,
+    )
     failed = output.with_suffix(".failed.nc")
     path = output if dataset.attrs["completed"] else failed
     write(dataset, path)
@@ -85,11 +130,27 @@ def run_to_file(
 
 
 def checkpoint_of(parameters: Parameters, output: Path, code_digest: str) -> Checkpoint:
-    """The checkpoint of a run, beside the place of its result."""
+    """The checkpoint of a run.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run.
+    output : Path
+        File for its record; the checkpoint is in the same directory.
+    code_digest : str
+        Digest of its code; a checkpoint of other code is refused.
+
+    Returns
+    -------
+    Checkpoint
+        Its file need not exist.
+    """
     fingerprint = provenance.fingerprint(parameters.to_dict(), code_digest)
     return Checkpoint(output.with_suffix(".checkpoint.npz"), fingerprint)
 
 
 def simulation_code(parameters: Parameters) -> str:
-    """Digest of the code that a simulation runs, as in the workflow."""
-    return code.digest(SIMULATE.partition(":")[0], *code.ALWAYS, *plugins(parameters))
+    """Digest of the code of a simulation, as in the workflow."""
+    module = SIMULATE.partition(":")[0]
+    return code.digest(module, *code.ALWAYS, *plugins(parameters))

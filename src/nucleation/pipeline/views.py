@@ -1,21 +1,30 @@
-"""Files that people open: links into a store, or copies where links can't be.
+"""The files that people open: links into a store, or copies where links are impossible.
 
-What is no such file is somebody's own. It is never overwritten, but moved aside.
+Any other file belongs to the user. It is never overwritten, but moved aside.
 """
 
 import contextlib
 import itertools
 import os
 import shutil
-import sys
 from pathlib import Path
 
+from .keys import digest_of_file, key_in
+from .messages import LOGGER
 from .recipes import Recipe, is_manifest
-from .store import Store, content, key_in
+from .store import Store
 
 
 def lay(file: Path, target: Path) -> None:
-    """Put a relative link to a file of a store in place, or a copy where links can't be."""
+    """Make a relative link to a file of a store, or a copy where links are impossible.
+
+    Parameters
+    ----------
+    file : Path
+        The link; an older file is replaced.
+    target : Path
+        The file in the store.
+    """
     file.parent.mkdir(parents=True, exist_ok=True)
     new = _beside(file)
     new.unlink(missing_ok=True)
@@ -27,7 +36,15 @@ def lay(file: Path, target: Path) -> None:
 
 
 def write(file: Path, text: str) -> None:
-    """Put a text in place, whole or not at all."""
+    """Write a text completely or not at all.
+
+    Parameters
+    ----------
+    file : Path
+        The file; an older one is replaced.
+    text : str
+        Its content.
+    """
     file.parent.mkdir(parents=True, exist_ok=True)
     new = _beside(file)
     new.write_text(text, "utf-8")
@@ -39,29 +56,56 @@ def _beside(file: Path) -> Path:
 
 
 def shows(file: Path, target: Path) -> bool:
-    """Whether a file is a link to a file of a store, or a copy of it."""
+    """Whether a file is a link to a file of a store, or a copy of it.
+
+    Parameters
+    ----------
+    file : Path
+        A file that people open.
+    target : Path
+        The file in the store.
+
+    Returns
+    -------
+    bool
+        False also if either is missing.
+    """
     if file.is_symlink():
         return os.path.realpath(file) == os.path.realpath(target)
     try:
         same_size = file.stat().st_size == target.stat().st_size
     except OSError:
         return False
-    return file.is_file() and same_size and content(file) == content(target)
+    return file.is_file() and same_size and digest_of_file(file) == digest_of_file(target)
 
 
 def show(recipe: Recipe) -> None:
-    """Lay the files of a result; of a batch a list of the keys of its parts."""
+    """Make the links to a result; for a batch write the list of its parts' keys."""
     for file in recipe.files:
         if recipe.call:
             lay(Path(file), Path(recipe.stored(file)))
         else:
             write(Path(file), recipe.manifest())
-            newest = max(os.stat(part.stored(part.files[0])).st_mtime for part in recipe.parts)
-            os.utime(file, (newest, newest))  # what was made of the parts is newer than the list
+            times = [os.stat(part.stored(part.files[0])).st_mtime for part in recipe.parts]
+            newest = max(times)
+            os.utime(file, (newest, newest))  # results that were made of the parts are newer
 
 
 def is_shown(recipe: Recipe, store: Store) -> bool:
-    """Whether the files of a rule are those of its result, which is in the store."""
+    """Whether the files of a rule show its result, and the store has it.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Recipe of the result.
+    store : Store
+        Store of the directory of results.
+
+    Returns
+    -------
+    bool
+        False also if a part of a batch is missing in the store.
+    """
     if not all(store.note(one.key) for one in recipe.needed):
         return False
     if not recipe.call:
@@ -70,12 +114,12 @@ def is_shown(recipe: Recipe, store: Store) -> bool:
 
 
 def is_linked(recipe: Recipe) -> bool:
-    """Whether the files of a result are links, of which Snakemake sees the result's time."""
+    """Whether the files are links; then Snakemake sees the time of the result."""
     return not recipe.call or all(map(os.path.islink, recipe.files))
 
 
 def can_link(directory: Path) -> bool:
-    """Whether a directory can have links."""
+    """Whether links are possible in a directory."""
     link = directory / f".link.{os.getpid()}.tmp"
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -93,26 +137,45 @@ def _text(file: Path) -> str | None:
         return None
 
 
-def leads_nowhere(file: Path) -> bool:
-    """Whether it is a link into a store that has lost what it leads to."""
+def is_broken(file: Path) -> bool:
+    """Whether it is a link to a missing file."""
     return file.is_symlink() and not file.exists()
 
 
-def withdraw(file: Path, earlier: Path | None = None) -> None:
-    """Take away a file that shows another result than it should.
+def withdraw(file: Path, earlier: Path) -> None:
+    """Remove a file that shows an outdated result.
 
-    A link into a store goes, as does a copy of `earlier`, which it showed before; both are still in
-    the store. Anything else is somebody's own, and is moved aside.
+    A link into a store, a copy of `earlier` or a list of a batch is deleted; the store still has
+    the result. Any other file belongs to the user, and is moved aside.
+
+    Parameters
+    ----------
+    file : Path
+        A file that people open; it may be missing.
+    earlier : Path
+        The file in the store that it showed before; it may be missing.
     """
     if not os.path.lexists(file):
         return
     with contextlib.suppress(FileNotFoundError):  # another process was faster
-        is_link = file.is_symlink() and key_in(os.readlink(file)) is not None
-        is_copy = earlier is not None and shows(file, earlier)
-        if is_link or is_copy or leads_nowhere(file) or is_manifest(_text(file)):
+        if _is_view(file, earlier):
             file.unlink()
             return
-        names = (file.with_name(f"{file.name}~{number or ''}") for number in itertools.count())
-        kept = next(name for name in names if not os.path.lexists(name))
+        kept = _free_name(file)
         file.rename(kept)
-        print(f"{file} is not of the workflow: it is now {kept}", file=sys.stderr)
+        LOGGER.warning(f"{file} is not of the workflow: it is now {kept}")
+
+
+def _is_view(file: Path, earlier: Path) -> bool:
+    if file.is_symlink() and key_in(os.readlink(file)) is not None:
+        return True
+    return shows(file, earlier) or is_broken(file) or is_manifest(_text(file))
+
+
+def _free_name(file: Path) -> Path:
+    """A name for a file that is moved aside: with ``~``, or ``~1``, ``~2``, ..."""
+    for number in itertools.count():
+        name = file.with_name(f"{file.name}~{number or ''}")
+        if not os.path.lexists(name):
+            return name
+    raise AssertionError  # the count does not end

@@ -1,10 +1,10 @@
-"""The report: one HTML file that holds everything a reader needs and works without a network.
+"""The report: one HTML file with everything that a reader needs, which works without a network.
 
-:func:`.page.build` puts it together from datasets, figures and captions. The lengths of any fault
-are computed in the page, by ``theory.js``, ``stability.js`` and ``lengths.js``, as in the page of
-:mod:`.calculator`, which has nothing else.
+:func:`.page.build` makes it from datasets, figures and captions. The page computes the lengths of
+any fault with ``theory.js``, ``stability.js`` and ``lengths.js``. The page of :mod:`.calculator`
+has only that part.
 """
 
-from ..datasets.installed import require
+from ..installed import require
 
 require("report")

@@ -2,12 +2,13 @@
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.contour import QuadContourSet
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -19,64 +20,94 @@ from ...figures import style
 from ...model.parameters import Parameters
 from ..paper import figure_s2
 
-LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
-LEVELS = 25  # of the stress: few colours make a small file
-SPAN = 0.995  # part of the stress's values that the colours tell apart
-DOTS = 125.0  # per inch
-COLOURS = 128
-PAUSE = 80  # ms that a frame is shown
-LAST_PAUSE = 1500
-KILO = 1e3
+_LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
+_LEVELS = 25  # of the stress: few colours make a small file
+_SPAN = 0.995  # part of the stress's values within the range of colours
+_DOTS = 125.0  # per inch
+_COLOURS = 128
+_PAUSE = 80  # ms for each frame
+_LAST_PAUSE = 1500
+_KILO = 1e3
 
-Update = Callable[[int], object]
-"""Changes one panel to the frame of a number."""
+_Update = Callable[[int], object]
+"""Changes one panel to the frame with this number."""
 
 
 def frames(film: xr.Dataset, row: xr.Dataset) -> Iterator[Image.Image]:
-    """Draw one image for every time of a film, :func:`nucleation.analysis.film.film_dataset`.
+    """Draw one image for every time of a film.
 
-    `row` is its simulation's entry of the table of lengths, of which ``onset_time`` (s) and
-    ``length`` (m) are marked.
+    Parameters
+    ----------
+    film : Dataset
+        From :func:`nucleation.analysis.film.film_dataset`.
+    row : Dataset
+        Its simulation's entry of the table of lengths, with ``onset_time`` (s) and ``length`` (m).
+
+    Yields
+    ------
+    Image
+        One frame.
     """
     with mpl.rc_context(style.STYLE):
         figure, updates = _panels(film, row)
+        canvas = figure.canvas
+        assert isinstance(canvas, FigureCanvasAgg)
         for i in range(film.sizes["time"]):
             for update in updates:
                 update(i)
-            figure.set_dpi(DOTS)
-            figure.canvas.draw()
+            figure.set_dpi(_DOTS)
+            canvas.draw()
             if i == 0:
                 figure.set_layout_engine("none")  # nothing may move from frame to frame
-            yield Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")  # type: ignore[attr-defined]
+            pixels = np.asarray(canvas.buffer_rgba())
+            yield Image.fromarray(pixels).convert("RGB")
 
 
 def save(images: Iterable[Image.Image], path: str | os.PathLike[str]) -> None:
-    """Write a GIF that repeats for ever, whole or not at all."""
+    """Write a GIF that repeats for ever, completely or not at all.
+
+    Parameters
+    ----------
+    images : iterable of Image
+        The frames.
+    path : path
+        The file; an older one is replaced.
+    """
     images = list(images)
-    palette = images[-1].quantize(COLOURS, Image.Quantize.MAXCOVERAGE)  # keeps white white
+    palette = images[-1].quantize(_COLOURS, Image.Quantize.MAXCOVERAGE)  # keeps white white
     first, *others = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    film: Any = {"append_images": others, "duration": [PAUSE] * len(others) + [LAST_PAUSE]}
+    pauses = [_PAUSE] * len(others) + [_LAST_PAUSE]
     with replacing(path) as temporary:
-        first.save(temporary, format="GIF", save_all=True, loop=0, optimize=True, **film)
+        first.save(
+            temporary,
+            format="GIF",
+            save_all=True,
+            loop=0,
+            optimize=True,
+            append_images=others,
+            duration=pauses,
+        )
 
 
-def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
-    """Slip rate above the stress in the bodies above the force: whole, and near the event."""
+def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[_Update]]:
+    """Slip rate, stress in the bodies, and force: the whole run, and near the event."""
     parameters = parameters_of(film)
     bodies = 1.0 if parameters.below is None else 1.5  # height of their panel
     figure = style.new_figure(7.2, 4.5 * (2.15 + bodies) / 3.15)
     panels = figure.subplot_mosaic("aa;bb;cd", height_ratios=(1.15, bodies, 1.0))
     rate, block, whole, near = panels.values()
     onset = float(row["onset_time"])
-    interval = event_interval(film, onset)
+    start, end = event_interval(film, onset)
     title = rate.set_title("", loc="left")
     times = film["time"].values
-    updates = [
+    run = figure_s2.Window(0.0, float(times[-1]), 0.0, 1.0)
+    event = figure_s2.Window(start, end, onset if np.isfinite(onset) else 0.0, _KILO)
+    updates: list[_Update] = [
         lambda i: title.set_text(_clock(float(times[i]), onset)),
         _rate_panel(rate, film, float(row["length"])),
         _block_panel(block, film, parameters),
-        _force_panel(whole, film, (0.0, float(times[-1]), 0.0, 1.0)),
-        _force_panel(near, film, (*interval, onset if np.isfinite(onset) else 0.0, KILO)),
+        _force_panel(whole, film, run),
+        _force_panel(near, film, event),
     ]
     whole.set_xlabel("$t$ (s)", labelpad=1.0)
     whole.set_ylabel("$-f_d$ (kN/m)")
@@ -85,51 +116,64 @@ def _panels(film: xr.Dataset, row: xr.Dataset) -> tuple[Figure, list[Update]]:
 
 
 def _clock(time: float, onset: float) -> str:
-    """The time, and near the onset how far that is."""
+    """The time, and near the onset the time from it."""
     if not np.isfinite(onset) or time < onset - 0.1:
         return f"$t$ = {time:.2f} s"
-    return f"$t$ = {time:.4f} s: {KILO * (time - onset):+.2f} ms from the onset"
+    return f"$t$ = {time:.4f} s: {_KILO * (time - onset):+.2f} ms from the onset"
 
 
-def _rate_panel(axes: Axes, film: xr.Dataset, length: float) -> Update:
+def _rate_panel(axes: Axes, film: xr.Dataset, length: float) -> _Update:
     """The slip rate on a logarithmic axis, the critical length dashed."""
-    x, values = film["x"].values, np.maximum(film["slip_rate"].values, 1e-3 * LOWEST_RATE)
+    x = film["x"].values
+    values = np.maximum(film["slip_rate"].values, 1e-3 * _LOWEST_RATE)
     (line,) = axes.plot(x, values[0], color=style.VERMILLION)
     if np.isfinite(length):
         axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9)
-        axes.annotate("$L_c$", (length, 0.06), (4, 0), axes.get_xaxis_transform(), "offset points")
+        up = axes.get_xaxis_transform()
+        axes.annotate("$L_c$", (length, 0.06), (4, 0), up, "offset points")
     axes.set_yscale("log")
-    axes.set_ylim(LOWEST_RATE, 3.0 * values.max())
+    axes.set_ylim(_LOWEST_RATE, 3.0 * values.max())
     axes.set_xlim(x[0], x[-1])
     axes.set_ylabel("Slip rate (m/s)")
     axes.tick_params(labelbottom=False)
     return lambda i: line.set_ydata(values[i])
 
 
-def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> Update:
+def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> _Update:
     """Filled contours of the shear stress over the normal stress; heights are stretched.
 
-    Of two bodies each is drawn on its own side of the interface, which is a line then.
+    Each of two bodies is drawn separately, with a line for the interface between them.
     """
-    x, y = film["x"].values, film["y"].values
+    x = film["x"].values
+    y = film["y"].values
     ratio = film["block_shear_stress"].values / parameters.loading.normal_stress
-    colours = np.linspace(0.0, float(np.quantile(ratio, SPAN)), LEVELS)
-    first = int(np.searchsorted(y, 0.0, side="right")) - 1  # of the upper body: y = 0 is its last
+    colours = np.linspace(0.0, float(np.quantile(ratio, _SPAN)), _LEVELS)
+    first = int(np.searchsorted(y, 0.0, side="right")) - 1  # the last of two y = 0: upper body
     bodies = [slice(0, first), slice(first, None)] if first else [slice(None)]
 
-    def draw(i: int) -> Any:
+    def draw(i: int) -> QuadContourSet:
         while axes.collections:
             axes.collections[0].remove()
         for own in bodies:
-            field = x, y[own], ratio[i, own]
-            drawn = axes.contourf(*field, colours, extend="both", cmap=style.SEQUENCE)
+            drawn = axes.contourf(
+                x,
+                y[own],
+                ratio[i, own],
+                colours,
+                extend="both",
+                cmap=style.SEQUENCE,
+            )
         return drawn
 
-    bar = axes.figure.colorbar(draw(0), ax=axes, pad=0.01, aspect=8, ticks=colours[:: LEVELS // 2])
-    bar.ax.set_yticklabels([f"{level:.2f}" for level in colours[:: LEVELS // 2]])
+    ticks = colours[:: _LEVELS // 2]
+    bar = axes.figure.colorbar(draw(0), ax=axes, pad=0.01, aspect=8, ticks=ticks)
+    bar.ax.set_yticklabels([f"{level:.2f}" for level in ticks])
     bar.set_label(r"$\sigma_{xy}/\sigma_0$")
     below = parameters.below
-    axes.set_ylim(-below.geometry.height if below else 0.0, parameters.geometry.height)
+    axes.set_ylim(
+        -below.geometry.height if below else 0.0,
+        parameters.geometry.height,
+    )
     if below:
         axes.axhline(0.0, color="white", linewidth=1.2)
     axes.set_xlabel("$x$ (m)", labelpad=1.0)
@@ -137,16 +181,31 @@ def _block_panel(axes: Axes, film: xr.Dataset, parameters: Parameters) -> Update
     return draw
 
 
-def _force_panel(axes: Axes, film: xr.Dataset, window: figure_s2.Window) -> Update:
-    """The driving force over a window, with a point at the moment if it is in there."""
+def _force_panel(axes: Axes, film: xr.Dataset, window: figure_s2.Window) -> _Update:
+    """The driving force in a window, with a point at the present time if it is inside."""
     figure_s2.draw_force(axes, film, window)
     drawn = np.asarray(axes.lines[0].get_xydata())
     (point,) = axes.plot([], [], "o", color=style.VERMILLION)
-    now = (film["time"].values - window[2]) * window[3]
+    now = window.shown(film["time"].values)
     return lambda i: point.set_data([now[i]], [np.interp(now[i], *drawn.T)])
 
 
-def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Any]:
-    """The step ``draw_animation``: a GIF."""
+def of_run(film: xr.Dataset, lengths: xr.Dataset, id: str) -> dict[str, Callable[[str], None]]:
+    """The GIF by suffix, as a function that writes it (rule ``draw_animation``).
+
+    Parameters
+    ----------
+    film : Dataset
+        From :func:`nucleation.analysis.film.film_dataset`.
+    lengths : Dataset
+        Table of lengths.
+    id : str
+        Name of the run in the table.
+
+    Returns
+    -------
+    dict
+        It is called with the path.
+    """
     images = frames(film, row(lengths, id))
     return {".gif": lambda path: save(images, path)}

@@ -1,7 +1,5 @@
 """The literature's lengths: simulated in their own settings, over their formulas."""
 
-from typing import Any
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -18,50 +16,84 @@ KINDS = {
 }
 """Label, marker and colour of each simulated length."""
 
-SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
+_SHOWN_AT = 1e3  # m/s, in the panel over a/b: nearest to the asymptotes
+_TICKS = (0.1, 0.2, 0.5, 1.0, 2.0)
 
 
 @style.styled
 def draw(table: xr.Dataset) -> Figure:
     """Draw simulated lengths over formulas (a) against a/b and (b) against the slip rate.
 
-    `table` is that of :func:`nucleation.analysis.literature.literature_table`.
+    Parameters
+    ----------
+    table : Dataset
+        From :func:`nucleation.analysis.literature.literature_table`.
+
+    Returns
+    -------
+    Figure
+        Two panels.
     """
     figure, (left, right) = style.panels(1, 2, 7.6, sharey=True)
     table = laws.where(table, np.isfinite(table["simulated_length"]))
     for name, (label, marker, colour) in KINDS.items():
         rows = laws.where(table, name=name)
-        at = laws.where(rows, np.isclose(rows["read_at"], SHOWN_AT))
-        look: Any = {"marker": marker, "color": colour, "mfc": "none"}
-        left.plot(at["a_over_b"], at["difference"] + 1.0, linestyle="none", label=label, **look)
+        at = laws.where(rows, np.isclose(rows["read_at"], _SHOWN_AT))
+        look: style.Options = {
+            "marker": marker,
+            "color": colour,
+            "mfc": "none",
+        }
+        left.plot(
+            at["a_over_b"],
+            at["difference"] + 1.0,
+            linestyle="none",
+            label=label,
+            **look,
+        )
         _draw_growth(right, rows, look)
-    left.axvspan(LOCALISED_LIMIT, CRACK_LIMIT, color="0.9", lw=0, label="neither formula holds")
-    left.set(xlabel="$a/b$", ylabel="Simulated length / formula", xlim=(0.0, 1.0))
-    left.set_title(f"(a) read at {SHOWN_AT:g} m/s", loc="left")
+    left.axvspan(
+        LOCALISED_LIMIT,
+        CRACK_LIMIT,
+        color="0.9",
+        lw=0,
+        label="neither formula holds",
+    )
+    left.set(
+        xlabel="$a/b$",
+        ylabel="Simulated length / formula",
+        xlim=(0.0, 1.0),
+    )
+    left.set_title(f"(a) read at {_SHOWN_AT:g} m/s", loc="left")
     right.set(xscale="log", xlabel="Largest slip rate (m/s)")
     right.set_title("(b) as slip accelerates; labels: $a/b$", loc="left")
     right.set_xlim(right=5e4)  # with room for the labels
     for axes in (left, right):
         axes.set_yscale("log")
         style.level(axes, 1.0)
-    ticks = (0.1, 0.2, 0.5, 1.0, 2.0)
-    left.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    left.set_yticks(_TICKS, [f"{tick:g}" for tick in _TICKS])
     left.minorticks_off()
     left.legend(loc="center left")
     return figure
 
 
-def _draw_growth(axes: Axes, rows: xr.Dataset, look: Any) -> None:
-    """One line for each a/b, of its first run; dashed the formula at that slip rate."""
+def _draw_growth(axes: Axes, rows: xr.Dataset, look: style.Options) -> None:
+    """One line for each a/b, of its first run; dashed: the formula at that slip rate."""
     rows = rows.assign(ratio=rows["a_over_b"].round(6)).sortby("ratio")
     for same in laws.groups(rows, "ratio"):
         first = next(laws.groups(same, "id"))
-        x, y = first["read_at"].values, first["difference"].values + 1.0
+        x = first["read_at"].values
+        y = first["difference"].values + 1.0
         axes.plot(x, y, **look)
         at_this_rate = first["finite_speed_length"].values / first["formula_length"].values
         axes.plot(x, at_this_rate, color=look["color"], linestyle="--", lw=0.8)
-        if abs(y[-1] - 1.0) > 0.12:  # near 1 they lie on one another
-            side = "bottom" if float(same["ratio"][0]) < 0.5 else "top"
-            text: Any = {"va": side, "color": look["color"], "fontsize": style.SMALL}
-            end, label = (x[-1], y[-1]), f"{float(same['ratio'][0]):.2g}"
-            axes.annotate(label, end, (5, 0), textcoords="offset points", **text)
+        if abs(y[-1] - 1.0) > 0.12:  # near 1 the lines coincide
+            axes.annotate(
+                f"{float(same['ratio'][0]):.2g}",
+                (x[-1], y[-1]),
+                (5, 0),
+                textcoords="offset points",
+                va="bottom" if float(same["ratio"][0]) < 0.5 else "top",
+                color=look["color"],
+                fontsize=style.SMALL,
+            )

@@ -7,7 +7,13 @@ from matplotlib.figure import Figure
 
 from ...figures import style
 
-DASHES = ("-", (0, (5, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1.2, 1.2)), (0, (9, 1.5, 1, 1.5, 1, 1.5)))
+DASHES = (
+    "-",
+    (0, (5, 1.5)),
+    (0, (5, 1.5, 1, 1.5)),
+    (0, (1.2, 1.2)),
+    (0, (9, 1.5, 1, 1.5, 1, 1.5)),
+)
 
 
 @style.styled
@@ -18,20 +24,36 @@ def draw(theory: xr.Dataset) -> Figure:
     ----------
     theory : Dataset
         With ``bimaterial_length_ratio(zeta_over_a, f_beta)``, dimensionless.
+
+    Returns
+    -------
+    Figure
+        One panel.
     """
     figure, axes = style.column(6.6)
     ratio = theory["bimaterial_length_ratio"].sortby("zeta_over_a", ascending=False)
     values = ratio["zeta_over_a"].values
-    for shade, dashes, value in zip(
-        style.shades(values.size, 0.82), cycle(DASHES), values, strict=False
-    ):
+    shades = style.shades(values.size, 0.82)
+    f_beta = ratio["f_beta"]
+    for shade, dashes, value in zip(shades, cycle(DASHES), values, strict=False):
         curve = ratio.sel(zeta_over_a=value).transpose("f_beta").values
-        axes.plot(ratio["f_beta"], curve, color=shade, linestyle=dashes, label=f"${value:.3g}$")
+        axes.plot(
+            f_beta,
+            curve,
+            color=shade,
+            linestyle=dashes,
+            label=f"${value:.3g}$",
+        )
     axes.set_xlabel(r"Bimaterial contrast $f\beta$")
     axes.set_ylabel(r"Critical length $L_c/L_c^{\mathcal{M}}$")
-    axes.set_xlim(float(ratio["f_beta"].min()), float(ratio["f_beta"].max()))
+    axes.set_xlim(float(f_beta.min()), float(f_beta.max()))
     axes.set_ylim(0.0, 1.04)
     axes.minorticks_on()
-    # The curves fall from one, highest zeta/a on top: the legend has their order.
-    axes.legend(title=r"$\zeta/a$", loc="lower left", title_fontsize=9.0, labelspacing=0.3)
+    # the curves decrease from one, the highest zeta/a on top: the legend has their order
+    axes.legend(
+        title=r"$\zeta/a$",
+        loc="lower left",
+        title_fontsize=9.0,
+        labelspacing=0.3,
+    )
     return figure

@@ -1,7 +1,5 @@
 """Figure 3: the critical length against the block's height, theory and simulations."""
 
-from typing import Any
-
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -11,26 +9,35 @@ from numpy.typing import NDArray
 from ...analysis.lengths import over_realisations, row
 from ...figures import laws, style
 
-BESIDE = 1.8
-"""Points (1/72 inch) by which the bars of filled and open markers stand apart, of one height."""
+_BESIDE = 1.8
+"""Points (1/72 inch) by which filled and open markers of one height are moved apart."""
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
-INSET_LEFT, INSET_BOTTOM, INSET_WIDTH = 0.515, 0.1, 0.315
-INSET_HEIGHTS = (0.2, 0.4)
+_INSET_LEFT = 0.515
+_INSET_BOTTOM = 0.1
+_INSET_WIDTH = 0.315
+_INSET_HEIGHTS = (0.2, 0.4)
 
-# Roles of the studies drawn, whether their markers are filled, and what the legend adds.
-STUDIES = (("paper", True, ""), ("converged", False, r", load $\pm 10^{-5}$"))
+# Roles of the drawn studies, whether their markers are filled, and an addition to the legend.
+_STUDIES = (
+    ("paper", True, ""),
+    ("converged", False, r", load $\pm 10^{-5}$"),
+)
 
 CREEP_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the onset time
-EVENT_FRACTIONS = (0.4, 0.8)  # of the way, in log slip rate, from the onset to the peak
-EVENT_LOOKS = ((style.ORANGE, "--"), (style.VERMILLION, "-."))
+# of the way, in log slip rate, from the onset to the peak
+EVENT_FRACTIONS = (0.4, 0.8)
+_EVENT_LOOKS = ((style.ORANGE, "--"), (style.VERMILLION, "-."))
 LOWEST_RATE = 1e-9  # m/s: below this the interface sticks
-SHOWN_LENGTHS = 1.4  # width of the panel in critical lengths
+_SHOWN_LENGTHS = 1.4  # width of the inset in critical lengths
 
 
 @style.styled
 def draw(
-    theory: xr.Dataset, lengths: xr.Dataset, inset_simulation: xr.Dataset, inset_row: xr.Dataset
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    inset_simulation: xr.Dataset,
+    inset_row: xr.Dataset,
 ) -> Figure:
     """Draw ``L_c(H)`` with the simulations as points, and slip-rate snapshots as an inset.
 
@@ -40,70 +47,122 @@ def draw(
         With ``critical_length(height)`` and ``thin_limit_length(height)`` (m).
     lengths : Dataset
         One entry on dimension ``run`` per simulation, with ``role``, ``evolution``, ``height`` (m),
-        ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m); entries without a
-        finite length are left out, and realisations of one fault drawn by their mean.
+        ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m). Entries without a finite
+        length are left out; of the realisations of one fault the mean is drawn.
     inset_simulation : Dataset
-        The simulation whose slip rate the inset shows.
+        The simulation in the inset, with its slip rate.
     inset_row : Dataset
-        Its entry of `lengths`, of which ``onset_time`` (s) and ``length`` (m) are marked.
+        Its entry of `lengths`, with ``onset_time`` (s) and ``length`` (m).
+
+    Returns
+    -------
+    Figure
+        One panel with an inset.
     """
     figure, axes = style.panels(1, 1, 12.4)
-    draw_theory(axes, theory)
+    _draw_theory(axes, theory)
     means = over_realisations(lengths)
-    usable = np.isfinite(means["length"].values)
-    usable &= np.isin(means["role"].values, [role for role, *_ in STUDIES])
+    roles = [role for role, _, _ in _STUDIES]
+    usable = np.isfinite(means["length"].values) & np.isin(means["role"].values, roles)
     drawn = laws.where(means, usable)
     _draw_points(axes, drawn)
-    # from zero to a little beyond the highest block that was simulated
+    # from zero to slightly more than the highest simulated block
     simulated = drawn if drawn.sizes["run"] else theory
     highest = 1.12 * float(simulated["height"].max())
-    longest = np.interp(highest, theory["height"].values, theory["thin_limit_length"].values)
+    longest = np.interp(
+        highest,
+        theory["height"].values,
+        theory["thin_limit_length"].values,
+    )
     axes.set(xlim=(0.0, highest), ylim=(0.0, 1.04 * float(longest)))
     axes.minorticks_on()
-    axes.set(xlabel="Height $H$ (m)", ylabel="Critical nucleation length $L_c$ (m)")
+    axes.set(
+        xlabel="Height $H$ (m)",
+        ylabel="Critical nucleation length $L_c$ (m)",
+    )
     axes.legend(loc="upper left", labelspacing=0.35)
-    inset = axes.inset_axes((INSET_LEFT, INSET_BOTTOM, INSET_WIDTH, _inset_height(axes, drawn)))
-    _draw_snapshots(inset, inset_simulation, inset_row)
+    place = (
+        _INSET_LEFT,
+        _INSET_BOTTOM,
+        _INSET_WIDTH,
+        _inset_height(axes, drawn),
+    )
+    _draw_snapshots(axes.inset_axes(place), inset_simulation, inset_row)
     return figure
 
 
-def draw_theory(axes: Axes, theory: xr.Dataset) -> None:
+def _draw_theory(axes: Axes, theory: xr.Dataset) -> None:
     """The prediction, solid, and its limit for thin blocks, dashed."""
-    for name, look in (
-        ("critical_length", {"label": "theory"}),
-        ("thin_limit_length", {"label": r"theory, $Hk\to 0$", "linestyle": "--", "linewidth": 1.1}),
-    ):
-        axes.plot(theory["height"].values, theory[name].values, color=style.THEORY, **look)
+    height = theory["height"].values
+    axes.plot(
+        height,
+        theory["critical_length"].values,
+        color=style.THEORY,
+        label="theory",
+    )
+    axes.plot(
+        height,
+        theory["thin_limit_length"].values,
+        color=style.THEORY,
+        label=r"theory, $Hk\to 0$",
+        linestyle="--",
+        linewidth=1.1,
+    )
 
 
 def _inset_height(axes: Axes, drawn: xr.Dataset) -> float:
     """Height of the inset, in parts of the axes: up to the lowest point above it."""
-    left, top = (INSET_LEFT - 0.02) * axes.get_xlim()[1], axes.get_ylim()[1]
+    left = (_INSET_LEFT - 0.02) * axes.get_xlim()[1]
+    top = axes.get_ylim()[1]
     above = drawn["length_low"].values[drawn["height"].values > left]
-    room = np.nanmin([*above, top]) / top - INSET_BOTTOM - 0.03
-    return float(np.clip(room, *INSET_HEIGHTS))
+    room = np.nanmin([*above, top]) / top - _INSET_BOTTOM - 0.03
+    return float(np.clip(room, *_INSET_HEIGHTS))
 
 
 def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
     """Points of one role, law and initial state, with bars from the lowest to the highest."""
-    for role, filled, suffix in STUDIES:
+    for role, filled, suffix in _STUDIES:
         for (_, old), kind, runs in laws.kinds(lengths):
-            look: Any = {"marker": kind.marker, "markersize": kind.size, "color": kind.colour}
-            look["markerfacecolor"] = kind.colour if filled else "white"
-            look["transform"] = style.aside(axes, -BESIDE if filled else BESIDE)
-            look["zorder"] = 4.0 - 0.1 * kind.size
-            for same in laws.groups(laws.where(runs, role=role).sortby("phi0"), "phi0"):
+            look: style.Options = {
+                "marker": kind.marker,
+                "markersize": kind.size,
+                "color": kind.colour,
+                "markerfacecolor": kind.colour if filled else "white",
+                "transform": style.aside(axes, -_BESIDE if filled else _BESIDE),
+                "zorder": 4.0 - 0.1 * kind.size,
+            }
+            own = laws.where(runs, role=role).sortby("phi0")
+            for same in laws.groups(own, "phi0"):
                 age = _number(float(same["phi0"][0]))
                 state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
                 label = f"FEM, {kind.label}{state}{suffix}"
-                laws.draw(axes, same["height"].values, same, "length", label=label, **look)
+                laws.draw(
+                    axes,
+                    same["height"].values,
+                    same,
+                    "length",
+                    label=label,
+                    **look,
+                )
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
-    """Indices of the output times to show, up to the onset (s) and after it, each once.
+    """Choose the output times that are shown.
 
-    Outputs nearest to :data:`CREEP_FRACTIONS` of the onset time; and the first outputs after it
-    whose largest slip rate has made :data:`EVENT_FRACTIONS` of its rise to the first peak.
+    Parameters
+    ----------
+    simulation : Dataset
+        With ``slip_rate(time, x)`` (m/s).
+    onset : float
+        Onset time (s).
+
+    Returns
+    -------
+    array of int
+        Up to the onset: the outputs nearest to :data:`CREEP_FRACTIONS` of the onset time.
+    array of int
+        After it: the first outputs at which the largest slip rate has made
+        :data:`EVENT_FRACTIONS` of its rise to the first peak.
     """
     time = simulation["time"].values
     creep = [int(np.abs(time - fraction * onset).argmin()) for fraction in CREEP_FRACTIONS]
@@ -111,14 +170,17 @@ def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray
     largest = np.maximum(simulation["slip_rate"].max("x").values[start:], LOWEST_RATE)
     rise = np.log(largest / largest[0])
     event = [start + int(np.argmax(rise >= part * rise.max())) for part in EVENT_FRACTIONS]
-    return np.unique(creep), np.unique([i for i in event if i > start]).astype(int)
+    after = [i for i in event if i > start]
+    return np.unique(creep), np.unique(after).astype(int)
 
 
 def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None:
     """The slip rate along the interface from creep to the event, and the extracted length."""
-    time, x = simulation["time"].values, simulation["x"].values
-    onset, length = float(row["onset_time"]), float(row["length"])
-    if not np.isfinite(onset):  # nothing happened: only the creep can be shown
+    time = simulation["time"].values
+    x = simulation["x"].values
+    onset = float(row["onset_time"])
+    length = float(row["length"])
+    if not np.isfinite(onset):  # without an event only the creep can be shown
         onset = float(time[-1])
     creep, event = choose_times(simulation, onset)
     start = time[creep[-1]]
@@ -126,39 +188,92 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     labels = [f"{time[i]:.{decimals}f} s" for i in creep[:-1]]
     labels += [f"$t_c={start:.{decimals}f}$ s"]
     labels += [f"$t_c+{1e3 * (time[i] - start):#.3g}$ ms" for i in event]
-    looks: Any = [(shade, "-") for shade in style.shades(creep.size)]
+    looks = [
+        *((shade, "-") for shade in style.shades(creep.size)),
+        *_EVENT_LOOKS,
+    ]
     shown = np.concatenate([creep, event])
-    for i, (colour, dashes), label in zip(shown, [*looks, *EVENT_LOOKS], labels, strict=False):
+    for i, (colour, dashes), label in zip(shown, looks, labels, strict=False):
         rate = simulation["slip_rate"].values[i]
-        moving = np.where(rate > 0.0, rate, np.nan)  # where nothing slips there is a gap
+        moving = np.where(rate > 0.0, rate, np.nan)  # a gap where nothing slips
         axes.plot(x, moving, dashes, color=colour, linewidth=1.1, label=label)
     highest = float(simulation["slip_rate"].isel(time=shown).max())
     top = 10.0 ** np.ceil(np.log10(max(3.0 * highest, 10.0 * LOWEST_RATE)))
     axes.set(yscale="log", ylim=(LOWEST_RATE, top))
-    axes.set_xlim(0.0, np.nanmin([SHOWN_LENGTHS * length, x.max()]))
+    axes.set_xlim(0.0, np.nanmin([_SHOWN_LENGTHS * length, x.max()]))
     axes.tick_params(labelsize=style.SMALL)
     axes.set_xlabel("$x$ (m)", fontsize=8.5, labelpad=1.0)
     axes.set_ylabel("$v$ (m/s)", fontsize=8.5, labelpad=1.0)
-    if np.isfinite(length):  # a dashed line there, and an arrow from x = 0 to it
-        axes.axvline(length, color=style.GUIDE, linestyle="--", linewidth=0.9, zorder=1.0)
-        up: Any = axes.get_xaxis_transform()
-        ends = (0.0, 0.12), (length, 0.12)
-        style.arrow(axes, *ends, kind="<->", xycoords=up, textcoords=up)
-        # The creeping patch's first snapshots end right of this.
-        axes.text(0.2 * length, 0.15, "$L_c$", transform=up, ha="center", fontsize=8.5)
-    look: Any = {"fontsize": style.SMALL, "title_fontsize": style.SMALL, "labelspacing": 0.35}
-    place: Any = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "handlelength": 1.8}
-    axes.legend(title="time $t$", **place, **look)
+    if np.isfinite(length):
+        _mark_length(axes, length)
+    axes.legend(
+        title="time $t$",
+        loc="center left",
+        bbox_to_anchor=(1.0, 0.5),
+        handlelength=1.8,
+        fontsize=style.SMALL,
+        title_fontsize=style.SMALL,
+        labelspacing=0.35,
+    )
+
+
+def _mark_length(axes: Axes, length: float) -> None:
+    """A dashed line at the length, and an arrow from x = 0 to it."""
+    axes.axvline(
+        length,
+        color=style.GUIDE,
+        linestyle="--",
+        linewidth=0.9,
+        zorder=1.0,
+    )
+    up = axes.get_xaxis_transform()
+    style.arrow(
+        axes,
+        (0.0, 0.12),
+        (length, 0.12),
+        kind="<->",
+        xycoords=up,
+        textcoords=up,
+    )
+    # the first snapshots of the patch end right of this text
+    axes.text(
+        0.2 * length,
+        0.15,
+        "$L_c$",
+        transform=up,
+        ha="center",
+        fontsize=8.5,
+    )
 
 
 def _number(value: float) -> str:
-    """A number as TeX, a power of ten where that is shorter."""
+    """A number as TeX, as a power of ten if that is shorter."""
     exponent = np.log10(value)
     if exponent >= 3.0 and exponent == round(exponent):
         return f"10^{{{exponent:.0f}}}"
     return f"{value:g}"
 
 
-def draw_run(theory: xr.Dataset, lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
-    """The step ``draw_figure_3``: with one of the runs in the inset."""
+def draw_run(
+    theory: xr.Dataset,
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> Figure:
+    """Draw the figure with one run in the inset (rule ``draw_figure_3``).
+
+    Parameters
+    ----------
+    theory, lengths : Dataset
+        As of :func:`draw`.
+    simulation : Dataset
+        Record of the run.
+    id : str
+        Its name in `lengths`.
+
+    Returns
+    -------
+    Figure
+        As of :func:`draw`.
+    """
     return draw(theory, lengths, simulation, row(lengths, id))

@@ -15,15 +15,30 @@ def draw(theory: xr.Dataset) -> Figure:
     theory : Dataset
         With ``steady_friction(slip_rate)`` and ``steady_friction_logarithmic(slip_rate)``,
         dimensionless, the slip rate in m/s, and ``velocity`` (m/s).
+
+    Returns
+    -------
+    Figure
+        One panel.
     """
     figure, axes = style.column(6.4)
     rate = theory["slip_rate"].values
     full = theory["steady_friction"].values
-    velocity = float(theory["velocity"])
-    axes.semilogx(rate, full, color=style.FULL_LAW, linewidth=2.2, label="full law")
     logarithmic = theory["steady_friction_logarithmic"].values
+    velocity = float(theory["velocity"])
     axes.semilogx(
-        rate, logarithmic, color=style.LOGARITHMIC_LAW, linewidth=1.1, label="logarithmic law"
+        rate,
+        full,
+        color=style.FULL_LAW,
+        linewidth=2.2,
+        label="full law",
+    )
+    axes.semilogx(
+        rate,
+        logarithmic,
+        color=style.LOGARITHMIC_LAW,
+        linewidth=1.1,
+        label="logarithmic law",
     )
     axes.axvline(velocity, color=style.GUIDE, linestyle="--", linewidth=0.9)
     across = axes.get_xaxis_transform()

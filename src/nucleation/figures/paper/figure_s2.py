@@ -1,10 +1,11 @@
 """Figure S2: space-time image of the interfacial shear stress, and the driving force."""
 
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -12,21 +13,32 @@ from numpy.typing import NDArray
 from ...analysis.lengths import row
 from ...analysis.record import parameters_of
 from ...figures import style
+from ...types import Array
 
-PIXELS = 1200  # pixel columns of the widest image: more could not be seen
+_PIXELS = 1200  # pixel columns of the widest image: more are invisible
 EVENT_LEVEL = 0.01  # the event's panel shows slip rates above this part of the highest
-KILO = 1e3
+_KILO = 1e3
 
-Window = tuple[float, float, float, float]
-"""What a time axis shows: from, to and origin (s), and scale."""
+
+class Window(NamedTuple):
+    """The limits of a time axis."""
+
+    start: float  # s
+    end: float  # s
+    origin: float  # s
+    scale: float  # units of the axis in a second
+
+    def shown(self, time: Array) -> Array:
+        """Times (s) on the axis."""
+        return (time - self.origin) * self.scale
 
 
 @style.styled
 def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     """Draw ``tau / sigma_0`` over time and x, and the applied force below it.
 
-    On the left all of the record, on the right the event in milliseconds; only x that the slip
-    reached, and some beyond.
+    The left column shows the whole record, the right column the event in milliseconds. Positions
+    that the slip did not reach are left out, except a margin.
 
     Parameters
     ----------
@@ -37,30 +49,55 @@ def draw(simulation: xr.Dataset, row: xr.Dataset) -> Figure:
     row : Dataset
         The simulation's entry of the lengths: ``onset_time`` (s), and ``length``,
         ``length_low`` and ``length_high`` (m).
+
+    Returns
+    -------
+    Figure
+        Four panels.
     """
     figure, panels = style.panels(2, 2, 10.2, sharex="col", width_ratios=(2.1, 1.0))
     panels[0, 1].sharey(panels[0, 0])
     ratio = simulation["shear_stress"] / parameters_of(simulation).loading.normal_stress
     ratio = ratio.sel(x=slice(None, slipped_extent(simulation)))
-    norm = Normalize(min(0.0, float(ratio.quantile(0.001))), float(ratio.quantile(0.999)))
+    norm = Normalize(
+        min(0.0, float(ratio.quantile(0.001))),
+        float(ratio.quantile(0.999)),
+    )
     time = simulation["time"].values
     start, peak, end = event_window(simulation, float(row["onset_time"]))
-    windows = ((time[0], time[-1], 0.0, 1.0), (start, end, peak, KILO))  # seconds, milliseconds
-    for (image, force), window in zip(panels.T, windows, strict=True):
-        first, last, origin, scale = window
-        part = ratio.isel(time=thin(time, first, last, PIXELS)).transpose("x", "time")
-        # cells end half way between their centres, and at the outer centres
-        at, x = (
-            np.r_[own[0], (own[1:] + own[:-1]) / 2.0, own[-1]]
-            for own in (part["time"].values, part["x"].values)
-        )
-        edges = (at - origin) * scale, x
-        mesh = image.pcolormesh(*edges, part.values, norm=norm, rasterized=True)
-        draw_force(force, simulation, window, 0.0 if origin == 0.0 else np.inf)
+    record = Window(time[0], time[-1], 0.0, 1.0)  # seconds
+    event = Window(start, end, peak, _KILO)  # milliseconds
+    for (image, force), window in zip(panels.T, (record, event), strict=True):
+        mesh = _draw_image(image, ratio, window, norm)
+        least = 0.0 if window.origin == 0.0 else np.inf
+        draw_force(force, simulation, window, least)
         _mark(image, force, row, window)
-    figure.colorbar(mesh, ax=panels[0, :], label=r"$\tau/\sigma_0$", pad=0.01, extend="both")
+    figure.colorbar(
+        mesh,
+        ax=panels[0, :],
+        label=r"$\tau/\sigma_0$",
+        pad=0.01,
+        extend="both",
+    )
     _label(panels, row)
     return figure
+
+
+def _draw_image(axes: Axes, ratio: xr.DataArray, window: Window, norm: Normalize) -> QuadMesh:
+    times = thin(ratio["time"].values, window.start, window.end, _PIXELS)
+    part = ratio.isel(time=times).transpose("x", "time")
+    return axes.pcolormesh(
+        window.shown(_edges(part["time"].values)),
+        _edges(part["x"].values),
+        part.values,
+        norm=norm,
+        rasterized=True,
+    )
+
+
+def _edges(centres: Array) -> Array:
+    """Edges of cells: half way between their centres, and at the outer centres."""
+    return np.r_[centres[0], (centres[1:] + centres[:-1]) / 2.0, centres[-1]]
 
 
 def slipped_extent(simulation: xr.Dataset) -> float:
@@ -74,24 +111,54 @@ def slipped_extent(simulation: xr.Dataset) -> float:
 
 
 def event_window(simulation: xr.Dataset, onset: float) -> tuple[float, float, float]:
-    """Start (with a margin), time of the highest slip rate, and end of the first event (s)."""
+    """The time window of the first event.
+
+    Parameters
+    ----------
+    simulation : Dataset
+        With ``step_time(step)`` (s) and ``maximal_slip_rate(step)`` (m/s).
+    onset : float
+        Onset time (s); if it is NaN, the whole record is searched.
+
+    Returns
+    -------
+    tuple of float
+        Start with a margin, time of the highest slip rate, and end with a margin (s).
+    """
     time = simulation["step_time"].values
     rate = simulation["maximal_slip_rate"].values
-    after = ~(time < onset)  # all of the record if there is no onset
+    after = ~(time < onset)
     fast = np.flatnonzero(after & (rate >= EVENT_LEVEL * np.max(rate[after])))
-    # The first run of fast steps: a later event, or a reflection, starts after a gap.
+    # only the first run of fast steps: a later event, or a reflection, begins after a gap
     gap = np.flatnonzero(np.diff(time[fast]) > 0.1)
-    fast = fast[: gap[0] + 1] if gap.size else fast
-    start, end = float(time[fast[0]]), float(time[fast[-1]])
+    if gap.size:
+        fast = fast[: gap[0] + 1]
+    start = float(time[fast[0]])
+    end = float(time[fast[-1]])
+    peak = float(time[fast[np.argmax(rate[fast])]])
     margin = max(0.5 * (end - start), 1e-6)
-    return start - margin, float(time[fast[np.argmax(rate[fast])]]), end + margin
+    return start - margin, peak, end + margin
 
 
-def thin(time: NDArray, start: float, end: float, columns: int) -> NDArray:
-    """Indices of the increasing times to draw from `start` to `end` with so many columns of pixels.
+def thin(time: Array, start: float, end: float, columns: int) -> NDArray[np.intp]:
+    """Choose the times that are drawn, at most one for each column of pixels.
 
-    Of the times that fall into one column the first is kept, so that a fast event stays a step at
-    its true time. One time beyond either end is kept, to fill the panel.
+    The first time in a column is kept, so that a fast event stays a step at its true time. One time
+    beyond either end is kept to fill the panel.
+
+    Parameters
+    ----------
+    time : array
+        Increasing times (s).
+    start, end : float
+        Limits of the panel (s).
+    columns : int
+        Number of columns of pixels.
+
+    Returns
+    -------
+    array of int
+        Indices of the times.
     """
     first = max(int(np.searchsorted(time, start, side="right")) - 1, 0)
     last = min(int(np.searchsorted(time, end, side="left")) + 1, time.size)
@@ -99,36 +166,59 @@ def thin(time: NDArray, start: float, end: float, columns: int) -> NDArray:
     return first + np.flatnonzero(np.diff(column, prepend=-np.inf) > 0.0)
 
 
-def draw_force(axes: Axes, record: xr.Dataset, window: Window, least: float = np.inf) -> None:
-    """The driving force, counted positive in compression (kN/m), with limits for a window.
+def draw_force(
+    axes: Axes,
+    record: xr.Dataset,
+    window: Window,
+    least: float = np.inf,
+) -> None:
+    """Draw the driving force (kN/m), positive in compression, with limits for a window.
 
-    `least` is a force that is shown as well.
+    Parameters
+    ----------
+    axes : Axes
+        The panel.
+    record : Dataset
+        With ``step_time(step)`` (s) and ``driving_force(step)`` (N/m, negative in compression).
+    window : Window
+        Limits of the time axis.
+    least : float
+        A force (kN/m) that is within the limits, too.
     """
-    start, end, origin, scale = window
-    time, force = record["step_time"].values, -record["driving_force"].values / KILO
-    axes.plot((time - origin) * scale, force, color=style.DRIVE, linewidth=1.2)
-    seen = force[(time >= start) & (time <= end)]
-    low, high = min(least, seen.min()), seen.max()
+    time = record["step_time"].values
+    force = -record["driving_force"].values / _KILO
+    axes.plot(window.shown(time), force, color=style.DRIVE, linewidth=1.2)
+    seen = force[(time >= window.start) & (time <= window.end)]
+    low = min(least, seen.min())
+    high = seen.max()
     margin = 0.08 * (high - low)
     if margin > 0.0:
         axes.set_ylim(low - (margin if low else 0.0), high + margin)
-    if end > start:
-        axes.set_xlim((start - origin) * scale, (end - origin) * scale)
+    if window.end > window.start:
+        axes.set_xlim(*window.shown(np.array([window.start, window.end])))
 
 
 def _mark(image: Axes, force: Axes, row: xr.Dataset, window: Window) -> None:
     """The onset, dotted; the critical length, dashed, and its error bar at the onset."""
-    onset = (float(row["onset_time"]) - window[2]) * window[3]
-    length, low, high = (float(row[key]) for key in ("length", "length_low", "length_high"))
-    thin_line: Any = {"color": "white", "linewidth": 0.9}
-    image.axhline(length, linestyle="--", **thin_line)
-    image.axvline(onset, linestyle=":", **thin_line)
-    bars = [[length - low], [high - length]]
-    image.errorbar([onset], [length], bars, marker="o", ms=3.5, color="white", elinewidth=0.9)
+    onset = (float(row["onset_time"]) - window.origin) * window.scale
+    length = float(row["length"])
+    below = length - float(row["length_low"])
+    above = float(row["length_high"]) - length
+    image.axhline(length, linestyle="--", color="white", linewidth=0.9)
+    image.axvline(onset, linestyle=":", color="white", linewidth=0.9)
+    image.errorbar(
+        [onset],
+        [length],
+        [[below], [above]],
+        marker="o",
+        ms=3.5,
+        color="white",
+        elinewidth=0.9,
+    )
     force.axvline(onset, color=style.GUIDE, linestyle=":", linewidth=0.9)
 
 
-def _label(panels: NDArray, row: xr.Dataset) -> None:
+def _label(panels: NDArray[np.object_], row: xr.Dataset) -> None:
     """Axis labels, panel letters, and the names of the marks on the left."""
     (image, zoom), (force, last) = panels
     image.set_ylabel("Position $x$ (m)")
@@ -137,18 +227,43 @@ def _label(panels: NDArray, row: xr.Dataset) -> None:
     zoom.tick_params(labelleft=False)
     last.yaxis.set_ticks_position("both")
     last.tick_params(labelleft=False, labelright=True)
-    for axes in (image, zoom):  # ticks inside would be lost on the dark image
+    for axes in (image, zoom):  # ticks inside are invisible on the dark image
         axes.tick_params(direction="out", top=False, right=False)
     style.letters(*panels.flat, pad=3.0)
-    beside: Any = {"textcoords": "offset points", "va": "bottom"}
+    beside: style.Options = {
+        "textcoords": "offset points",
+        "va": "bottom",
+    }
     if np.isfinite(row["length"]):
-        place = (0.0, float(row["length"])), (5.0, 1.0), image.get_yaxis_transform()
-        image.annotate("$L_c$", *place, color="white", **beside)
+        place = (0.0, float(row["length"]))
+        across = image.get_yaxis_transform()
+        image.annotate("$L_c$", place, (5.0, 1.0), across, color="white", **beside)
     if np.isfinite(row["onset_time"]):
-        place = (float(row["onset_time"]), 0.0), (-4.0, 5.0), force.get_xaxis_transform()
-        force.annotate("onset", *place, color=style.GUIDE, ha="right", **beside)
+        place = (float(row["onset_time"]), 0.0)
+        up = force.get_xaxis_transform()
+        look: style.Options = {
+            "color": style.GUIDE,
+            "ha": "right",
+            **beside,
+        }
+        force.annotate("onset", place, (-4.0, 5.0), up, **look)
 
 
 def draw_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> Figure:
-    """The step ``draw_figure_s2``: one of the runs of a table."""
+    """Draw the figure for one run of a table (rule ``draw_figure_s2``).
+
+    Parameters
+    ----------
+    lengths : Dataset
+        Table of lengths.
+    simulation : Dataset
+        Record of the run, as of :func:`draw`.
+    id : str
+        Its name in the table.
+
+    Returns
+    -------
+    Figure
+        As of :func:`draw`.
+    """
     return draw(simulation, row(lengths, id))

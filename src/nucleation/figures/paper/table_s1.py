@@ -8,7 +8,7 @@ from typing import NamedTuple
 from ...model.friction.law import Friction
 from ...model.quantities import declarations
 
-ORDER = (
+_ORDER = (
     "characteristic_slip_distance",
     "aging_coefficient",
     "slip_rate_scale",
@@ -18,11 +18,18 @@ ORDER = (
     "rate_coefficient",
 )
 
-PRINTED = {"theta": "θ", "phi*": "φ*", "v0": "v₀", "xi": "ξ"}  # symbols spelled out elsewhere
+# symbols that are declared in ASCII
+_PRINTED = {
+    "theta": "θ",
+    "phi*": "φ*",
+    "v0": "v₀",
+    "xi": "ξ",
+}
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-class Row(NamedTuple):
-    """One parameter: paper symbol, value in SI units, its unit, and what it is."""
+class Parameter(NamedTuple):
+    """One row of the table: the paper's symbol, value in SI units, unit and description."""
 
     symbol: str
     value: float
@@ -30,19 +37,20 @@ class Row(NamedTuple):
     description: str
 
 
-def rows(friction: Friction) -> list[Row]:
-    """The rows of the table for a friction law, dimensionless units written as ``-``."""
+def rows(friction: Friction) -> list[Parameter]:
+    """The rows of the table for a friction law; ``-`` is the unit of dimensionless numbers."""
     entries = declarations(type(friction))
-    return [
-        Row(
-            PRINTED.get(entries[name].symbol, entries[name].symbol),
-            float(getattr(friction, name)),
-            "-" if entries[name].unit == "1" else entries[name].unit,
-            entries[name].description,
-        )
-        for name in (ORDER if set(ORDER) <= set(entries) else entries)
-        if not entries[name].choices
-    ]
+    names = _ORDER if set(_ORDER) <= set(entries) else entries
+    found = []
+    for name in names:
+        entry = entries[name]
+        if entry.choices:
+            continue
+        symbol = _PRINTED.get(entry.symbol, entry.symbol)
+        unit = "-" if entry.unit == "1" else entry.unit
+        value = float(getattr(friction, name))
+        found.append(Parameter(symbol, value, unit, entry.description))
+    return found
 
 
 def value_text(value: float) -> str:
@@ -53,14 +61,17 @@ def value_text(value: float) -> str:
     mantissa, exponent = f"{value:.6e}".split("e")
     if value == 0.0 or -4 < int(exponent) < 5:
         return f"{value:.6g}"
-    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    raised = str(int(exponent)).translate(_SUPERSCRIPTS)
     factor = f"{float(mantissa):g}"
     return f"10{raised}" if factor == "1" else f"{factor}×10{raised}"
 
 
-def to_markdown(table: list[Row]) -> str:
+def to_markdown(table: list[Parameter]) -> str:
     """The table as Markdown, ending in a newline."""
-    lines = ["| Parameter | Value | Units | Description |", "|---|---|---|---|"]
+    lines = [
+        "| Parameter | Value | Units | Description |",
+        "|---|---|---|---|",
+    ]
     for row in table:
         symbol = row.symbol.replace("*", r"\*")
         lines.append(f"| {symbol} | {value_text(row.value)} | {row.unit} | {row.description} |")
@@ -68,7 +79,10 @@ def to_markdown(table: list[Row]) -> str:
 
 
 def files(friction: Friction) -> dict[str, str]:
-    """The step ``table_s1``: CSV and Markdown."""
-    found, text = rows(friction), io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([Row._fields, *found])
+    """The table as CSV and Markdown, by suffix (rule ``write_table_s1``)."""
+    found = rows(friction)
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["symbol", "value", "unit", "description"])
+    writer.writerows(found)
     return {".csv": text.getvalue(), ".md": to_markdown(found)}

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
 from ...types import Array
+from ..status import BEYOND
 from .lengths import NoPatch, Patches, require_contact
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import MORE_MODES, Creep, EdgeSlip, edge_slip, mirror_modes, response
@@ -314,7 +315,11 @@ def _bracket(
         if growing.any():
             break
     else:
-        raise NoPatch(f"no patch up to {lengths[-1] / critical:.2g} L_c has a growing mode")
+        longest = lengths[-1]
+        raise NoPatch(
+            f"no patch up to {longest / critical:.2g} L_c = {longest:.4g} m has a growing mode",
+            BEYOND,
+        )
     i = int(np.argmax(growing))
     if i == 0:
         first = lengths[0] / critical

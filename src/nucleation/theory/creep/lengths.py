@@ -18,6 +18,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from ...model.friction.constants import full_law
@@ -33,6 +34,7 @@ from ..crossings import largest_crossings
 from ..estimates import loading_rate
 from ..fault import Fault, takes_fault
 from ..spectrum import Systems
+from ..status import BEYOND, STABLE, UNKNOWN, VALUE
 from ..transfer import bodies_of
 from ..values import Values
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
@@ -46,7 +48,19 @@ STEP = 1e-3  # of log L, in the derivative of the growth rate
 
 
 class NoPatch(ValueError):
-    """No patch of the lengths tried turns unstable, or none keeps contact."""
+    """No patch of the lengths tried turns unstable, or none keeps contact.
+
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    status : {"stable", "beyond", "unknown"}
+        The kind of reason, of :mod:`nucleation.theory.status`.
+    """
+
+    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
+        super().__init__(reason)
+        self.status = status
 
 
 class StabilityPoint(NamedTuple):
@@ -229,7 +243,7 @@ def stability_point(
         creep opens the fault.
     """
     if not math.isfinite(critical):
-        raise NoPatch("homogeneous sliding is stable")
+        raise NoPatch("homogeneous sliding is stable", STABLE)
 
     def growth(log_length: float) -> float:
         return patches.growth(math.exp(log_length))
@@ -244,7 +258,10 @@ def stability_point(
         low = high
         high += step
         if low > longest:
-            raise NoPatch(f"no patch up to {LONGEST:g} L_c has a growing mode")
+            raise NoPatch(
+                f"no patch up to {LONGEST:g} L_c = {LONGEST * critical:.4g} m has a growing mode",
+                BEYOND,
+            )
     log_length = brentq(growth, low, high, xtol=PRECISION)
     return _point(patches, math.exp(log_length))
 
@@ -309,7 +326,7 @@ def stability_length(
         then.
     """
     own = fault_of(fault)
-    length, _, _ = stability_values(own, friction_law, loading)
+    length = stability_values(own, friction_law, loading)[0]
     return named(length, "stability_length", "m", "stability length of the creeping patch", own)
 
 
@@ -339,15 +356,45 @@ def stability_values(
     ParameterError
         As :func:`stability_length`.
     """
+    return stability_answers(fault, friction_law, loading)[:3]
+
+
+def stability_answers(
+    fault: Fault,
+    friction_law: Friction | None = None,
+    loading: str = "edge",
+) -> tuple[Any, Any, Any, Any, Any]:
+    """The values of :func:`stability_values`, and the status of L_s with its reason.
+
+    Parameters
+    ----------
+    fault : Fault
+        One or many faults.
+    friction_law : Friction, optional
+        The full law, as for :func:`stability_length`.
+    loading : {"edge", "top", "remote"}
+        Where the patch begins.
+
+    Returns
+    -------
+    length, frequency, error, status, reason : ndarray or DataArray
+        In SI units, broadcast shape; the last two are of texts. The reason is empty where there is
+        L_s.
+
+    Raises
+    ------
+    ParameterError
+        If the loading is unknown, or the law is not allowed with it or lacks a constant.
+    """
     _require_known(fault, friction_law, loading)
     velocity = 1.0 if fault.velocity is None else fault.velocity
 
     def points(
         systems: Systems,
         velocity: Array,
-    ) -> Array:
+    ) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((3, critical.size), np.nan)
+        found = np.full((5, critical.size), np.nan, dtype=object)
         for i, length in enumerate(critical):
             one = systems.at(np.array([i]))
             patches = Patches(one, velocity=float(velocity[i]), loading=loading)
@@ -355,13 +402,15 @@ def stability_values(
                 patches = _with_law(patches, friction_law)
             try:
                 point = stability_point(patches, float(length))
-            except NoPatch:
+            except NoPatch as none:
+                found[3:, i] = none.status, str(none)
                 continue
-            found[:, i] = point.length, point.frequency, point.error
+            found[:, i] = point.length, point.frequency, point.error, VALUE, ""
         return found
 
-    length, frequency, error = fault.evaluate(points, velocity, rows=3)
-    return length, frequency, error
+    rows = fault.evaluate(points, velocity, rows=5, dtype=object)
+    length, frequency, error = rows[:3].astype(float)
+    return length, frequency, error, rows[3], rows[4]
 
 
 def _require_known(

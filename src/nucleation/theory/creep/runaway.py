@@ -26,6 +26,7 @@ from ..arrays import fault_of, named
 from ..crossings import largest_crossings
 from ..fault import Fault, takes_fault
 from ..spectrum import Systems
+from ..status import BEYOND
 from ..values import Values
 from .lengths import NoPatch, Patches, stability_point
 from .modes import MODES
@@ -137,7 +138,9 @@ def runaway_point(
     low = stability_point(patches, critical).length
     high = LONGEST * critical
     if not runs_away(patches, high, evolution):
-        raise NoPatch(f"the slow slip of patches up to {LONGEST:g} L_c has no runaway")
+        raise NoPatch(
+            f"no slow slip of a patch up to {LONGEST:g} L_c = {high:.4g} m runs away", BEYOND
+        )
     while high > low * (1.0 + PRECISION):
         middle = math.sqrt(low * high)
         if runs_away(patches, middle, evolution):

@@ -1,7 +1,7 @@
-"""What is installed: which extra brings what, and whether the package is this project's own.
+"""The extras that bring optional libraries, and the check that the package is this project's.
 
-The library alone needs no more than ``dependencies`` in pyproject.toml. What needs an extra asks
-for it here, so that whoever lacks it reads its name.
+The library alone needs only the ``dependencies`` in pyproject.toml. Code that needs an extra calls
+:func:`require`, so that its user reads the name of the missing extra.
 """
 
 import importlib.util
@@ -16,22 +16,22 @@ EXTRAS = {
     "report": ("jinja2", "markupsafe", "docutils"),
     "article": ("pypandoc", "typst"),
 }
-"""Modules that an extra brings."""
+"""Modules of each extra."""
 
 _OWN = "How long must a slipping patch of a frictional fault grow"
 
 
 class MissingExtra(ModuleNotFoundError):
-    """A library that belongs to an extra is not installed; the message names the extra."""
+    """A library of an extra is not installed; the message names the extra."""
 
 
 def require(extra: str) -> None:
-    """Make sure of the modules of an extra.
+    """Check that the modules of an extra are installed.
 
     Raises
     ------
     MissingExtra
-        Naming what is missing, and what to install.
+        If one is missing; the message names it and the command that installs it.
     """
     missing = [name for name in EXTRAS[extra] if importlib.util.find_spec(name) is None]
     if missing:
@@ -42,12 +42,12 @@ def require(extra: str) -> None:
 
 
 def require_own() -> None:
-    """Make sure that ``nucleation`` is this package and not the other of that name.
+    """Check that ``nucleation`` is this package and not another project's of the same name.
 
     Raises
     ------
     ImportError
-        Saying how to get rid of the other one.
+        If it is the other one; the message says how to remove it.
     """
     package = sys.modules[__name__.partition(".")[0]]
     if package.__doc__ is not None and not package.__doc__.startswith(_OWN):

@@ -1,0 +1,137 @@
+"""The first section of the report: the answer on the paper, or the user's own studies."""
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from ..analysis.lengths import over_realisations
+from ..analysis.rows import rows_of, without_event
+from ..configuration.roles import JUDGED, PAPERS
+from .tables import RUN_COLUMNS, run_rows
+
+Row = dict[str, Any]
+
+
+class OwnStudies(NamedTuple):
+    """Studies of the user.
+
+    Attributes
+    ----------
+    descriptions : dict
+        The description of each study.
+    warnings : dict
+        Warnings about each study before its runs (:mod:`nucleation.configuration.advice`).
+    """
+
+    descriptions: dict[str, str]
+    warnings: dict[str, list[str]]
+
+
+def of_paper(lengths: xr.Dataset) -> dict[str, Any] | None:
+    """Numbers of the answer, as text; None if no run of the paper had an event.
+
+    Returns
+    -------
+    dict
+        For the lowest block: ``height``, ``length`` at the drop with its range ``low`` and
+        ``high`` over the definitions of edge and drop, ``theory`` (L_c) and ``stability`` (L_s),
+        all in m. For all runs: ``thickest``, the largest height (m); ``ratios``, the range of
+        length over L_c by role; ``creep``, the range of L_s/L_c. ``declared``: the same fault with
+        a declared perturbation, its ``kind`` and relative ``strength`` (%), or None.
+    """
+    rows = _with_event(rows_of(over_realisations(lengths)))
+    paper = [row for row in rows if row["role"] == PAPERS]
+    judged = [row for row in rows if row["role"] == JUDGED]
+    if not paper:
+        return None
+    first = min(paper, key=lambda row: row["height"])
+    declared = [row for row in judged if row["fault"] == first["fault"]]
+    ratios = {PAPERS: _over_theory(paper, "length")}
+    if judged:
+        ratios[JUDGED] = _over_theory(judged, "length")
+    return {
+        **_numbers(first),
+        "thickest": f"{max(row['height'] for row in paper):g}",
+        "declared": _numbers(declared[0]) if declared else None,
+        "ratios": ratios,
+        "creep": _over_theory(paper, "creep_length"),
+    }
+
+
+def _with_event(rows: Iterable[Row]) -> list[Row]:
+    return [row for row in rows if np.isfinite(row["length"])]
+
+
+def _numbers(row: Row) -> dict[str, str]:
+    return {
+        "height": f"{row['height']:g}",
+        "kind": row["kind"].replace("_", " "),
+        "strength": f"{100.0 * row['strength']:g}",
+        "length": f"{row['length']:.3g}",
+        "low": f"{row['length_low']:.3g}",
+        "high": f"{row['length_high']:.3g}",
+        "theory": f"{row['theory_length']:.3g}",
+        "stability": f"{row['creep_length']:.3g}",
+    }
+
+
+def of_studies(own: OwnStudies, lengths: xr.Dataset) -> list[dict[str, Any]]:
+    """Texts and rows of each study, for the page's template.
+
+    Parameters
+    ----------
+    own : OwnStudies
+        The studies.
+    lengths : Dataset
+        Table of their lengths.
+
+    Returns
+    -------
+    list of dict
+        For each study ``name``, ``description``, ``rows`` (:data:`.tables.RUN_COLUMNS`), ``quiet``
+        (runs without an event), ``answer`` (ranges) and ``warnings``.
+    """
+    studies = []
+    shown = run_rows(lengths, RUN_COLUMNS)
+    for study, description in own.descriptions.items():
+        chosen = np.flatnonzero(lengths["study"].values == study).tolist()
+        rows = rows_of(lengths, chosen)
+        studies.append(
+            {
+                "name": study,
+                "description": description,
+                "rows": [shown[i] for i in chosen],
+                "quiet": without_event(rows),
+                "answer": _answer(_with_event(rows)),
+                "warnings": own.warnings.get(study, []),
+            }
+        )
+    return studies
+
+
+def _answer(rows: list[Row]) -> dict[str, str] | None:
+    """Ranges of length, L_c and L_s (m) and of length over L_c; None without an event."""
+    if not rows:
+        return None
+    return {
+        "length": _range((row["length"] for row in rows), ".3g"),
+        "critical": _range((row["theory_length"] for row in rows), ".3g"),
+        "stability": _range((row["creep_length"] for row in rows), ".3g"),
+        "ratio": _over_theory(rows, "length"),
+    }
+
+
+def _over_theory(rows: list[Row], column: str) -> str:
+    return _range((row[column] / row["theory_length"] for row in rows), ".2f")
+
+
+def _range(values: Iterable[float], form: str) -> str:
+    """The smallest and the largest finite value; one of them if both look the same."""
+    known = [value for value in values if np.isfinite(value)]
+    if not known:
+        return ""
+    low = format(min(known), form)
+    high = format(max(known), form)
+    return low if low == high else f"{low} to {high}"
