@@ -23,7 +23,7 @@ class Run:
     id: str
     study: str
     parameters: Parameters
-    theory_length: float
+    theory_length: float = dataclasses.field(compare=False)  # follows from the others; NaN != NaN
     interface: InterfaceState = InterfaceState()
     """Friction of the theory."""
 

@@ -6,9 +6,8 @@
 So `width` is the width of the step, or of the bump at half its height. The properties are the
 normal stress at the interface, without the changes that slip causes; D; and f, a, b and
 zeta = b - a of sliding at V. For these the friction law's own parameters are determined at each
-node (``with_expansion``). With a change
-below -1, zeta has one sign within and the other one elsewhere: a weakening patch in surroundings
-that strengthen.
+node (``with_expansion``). With a change below -1, zeta has one sign within and the other one
+elsewhere: a weakening patch in surroundings that strengthen.
 """
 
 import copy

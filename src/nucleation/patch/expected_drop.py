@@ -12,7 +12,7 @@ from ..model.parameters import Geometry, Parameters
 from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
 from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
-from ..theory.status import UNKNOWN
+from ..theory.status import UNKNOWN, VALUE
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
@@ -55,6 +55,8 @@ class ExpectedDrop(NamedTuple):
     closed_form: ClosedForm
     doubt: str  # why the answer is uncertain, empty if it is not
     runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
+    runaway_status: str = VALUE  # "value", "stable", "beyond" or "unknown"
+    runaway_reason: str = ""  # why there is no L_run, empty where there is
 
     @property
     def length(self) -> float:
@@ -112,12 +114,15 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     except (NoInstability, NoPatch) as error:
         raise NoDrop(str(error), error.status) from None
     found = growth(history, declared)
+    runaway, status, reason = _runaway_length(parameters, critical)
     known = ExpectedDrop(
         stability_length=stability_length_of(parameters, critical),
         drop=found.drop(declared.strength),
         closed_form=found.closed_form(history, declared.strength),
         doubt="",
-        runaway_length=_runaway_length(parameters, critical),
+        runaway_length=runaway,
+        runaway_status=status,
+        runaway_reason=reason,
     )
     return known._replace(doubt="; ".join(_doubts(history, known, critical)))
 
@@ -125,16 +130,18 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
 def _runaway_length(
     parameters: Parameters,
     critical: float,
-) -> float:
-    """L_run (m) of a fault that weakens little; NaN of others, and where no patch runs away."""
+) -> tuple[float, str, str]:
+    """L_run (m) with status and reason; NaN where weakening is strong or no patch runs away."""
     interface = interface_state(parameters)
     if interface.zeta >= WEAK * interface.a:
-        return math.nan
+        ratio = interface.zeta / interface.a
+        return math.nan, UNKNOWN, f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
     patches = dataclasses.replace(Patches.of(parameters), law=None)
     try:
-        return runaway_point(patches, critical, parameters.friction.evolution)
-    except NoPatch:
-        return math.nan
+        length = runaway_point(patches, critical, parameters.friction.evolution)
+    except NoPatch as none:
+        return math.nan, none.status, str(none)
+    return length, VALUE, ""
 
 
 def _doubts(
