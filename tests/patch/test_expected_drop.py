@@ -121,7 +121,7 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     found = expected_drop(fault)
     start = found.closed_form.front_length
     assert 0.4 * critical < start < found.drop.low < found.drop.length < 1.3 * start
-    assert "whose mode could be followed" in found.doubt
+    assert "with a mode that could be followed" in found.doubt
 
 
 @pytest.mark.parametrize(

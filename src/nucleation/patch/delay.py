@@ -36,7 +36,7 @@ from .mode_history import ModeHistory
 NEAR = 1.3  # lengths over L_s to which the closed form fits its straight lines
 SAMPLED = 8.0  # points of a roughness in its correlation length
 TINY = 1e-300  # in place of zero, which has no logarithm
-LARGEST = 700.0  # exponent whose exponential does not overflow
+LARGEST = 700.0  # exponent without overflow of its exponential
 MEDIAN, EARLY, LATE = 0.5, 0.16, 0.84  # parts of the realisations that have dropped by then
 ROOT_OF_MEDIAN = np.sqrt(np.log(2.0))  # sigma times this is 1 where half have reached one
 

@@ -194,7 +194,7 @@ def _doubts_of_law(
         )
     if closed.front_length > LATEST_GROWTH * longest:
         yield (
-            "growth begins near the longest patch whose mode could be followed, at "
+            "growth begins near the longest patch with a mode that could be followed, at "
             f"{closed.front_length / longest:.2g} of its length: its further growth is not known"
         )
     if not np.isfinite([drop.length, drop.low, drop.high]).all():
@@ -209,7 +209,7 @@ def _doubts_of_law(
         )
     if drop.high > longest:
         yield (
-            "the drop is beyond the patches whose mode could be followed, "
+            "the drop is beyond the patches with a mode that could be followed, "
             f"{longest / critical:.2g} L_c"
         )
 

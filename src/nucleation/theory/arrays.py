@@ -217,7 +217,7 @@ def aliases() -> dict[str, str]:
 
 
 def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Keywords by the names of :class:`Fault`, of which some may be :func:`aliases`."""
+    """Keywords with the names of :class:`Fault` in place of :func:`aliases`."""
     found: dict[str, Any] = {}
     for key, value in parameters.items():
         name = aliases().get(key, key)

@@ -19,7 +19,7 @@ _Interval: TypeAlias = tuple[Array, Array]
 """Lower and upper bounds."""
 
 
-class TransferBounds(NamedTuple):
+class _TransferBounds(NamedTuple):
     """``g1_low <= |G1| <= g1_high`` and ``|G2| <= g2_high`` over each interval."""
 
     g1_low: Array
@@ -81,7 +81,7 @@ def transfer_bounds(
     k_low: Array,
     k_high: Array,
     pair: LayerPair,
-) -> TransferBounds:
+) -> _TransferBounds:
     """Bounds of the transfer functions over intervals ``0 < k_low <= k <= k_high``.
 
     Parameters
@@ -93,14 +93,14 @@ def transfer_bounds(
 
     Returns
     -------
-    TransferBounds
+    _TransferBounds
         Dimensionless, shape (n,).
     """
     if pair.upper is None or pair.lower is None:
         (body,) = pair.deformable
         low, high = _stiffness_bounds(k_low, k_high, body)
         coupling = np.maximum(np.abs(low.xy), np.abs(high.xy))
-        return TransferBounds(low.xx, high.xx, coupling)
+        return _TransferBounds(low.xx, high.xx, coupling)
     r = pair.ratio
     a, a_high = _stiffness_bounds(k_low, k_high, pair.upper)
     b, b_high = _stiffness_bounds(k_low, k_high, pair.lower)
@@ -120,7 +120,7 @@ def transfer_bounds(
     coupling = np.maximum(from_a_high - from_b, from_b_high - from_a)
     xx = share_a[0] * a.xx + share_b[0] * b.xx
     xx_high = share_a[1] * a_high.xx + share_b[1] * b_high.xx
-    return TransferBounds(
+    return _TransferBounds(
         g1_low=xx / joint_high,
         g1_high=xx_high / joint,
         g2_high=coupling / joint,

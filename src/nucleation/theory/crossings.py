@@ -189,7 +189,7 @@ def _heights(systems: Systems) -> list[Array]:
 
 
 def _half_space_crossings(systems: Systems) -> Array:
-    """The largest crossings if all layers were half-spaces, whose g is proportional to k."""
+    """The largest crossings of half-spaces of the same materials: their g is proportional to k."""
     one = np.ones(np.shape(systems.a))  # any k has the same G1 and G2: q is infinite
     pair = systems.pair.with_heights(lambda height: np.inf * one)
     g, rho = systems._replace(pair=pair).load_and_coupling(one)

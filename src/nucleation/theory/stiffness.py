@@ -39,7 +39,7 @@ SATURATION = 25.0
 """A layer with ``q = |k| H`` above this is a half-space: ``q^2 exp(-2q) < 2e-19``."""
 
 
-class StiffnessTerms(NamedTuple):
+class _StiffnessTerms(NamedTuple):
     """Numerators of ``A_xx, A_xy, A_yy, det A`` and their denominator, all times ``exp(-2q)``.
 
     Each is a sum of :class:`~.waves.Waves` with positive coefficients; the numerator of ``A_xy`` is
@@ -66,9 +66,9 @@ class Stiffness(NamedTuple):
 def _velocity_terms(
     w: Waves,
     nu: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """``u_x = sigma_yy = 0``: the inverse of the paper's M (Eq. S-general_M)."""
-    return StiffnessTerms(
+    return _StiffnessTerms(
         denominator=(3.0 - 4.0 * nu) * w.sinh_2q + w.linear,
         xx=8.0 * (1.0 - nu) * w.cosh_squared,
         xy=2.0 * (w.linear + (1.0 - 2.0 * nu) * w.sinh_2q),
@@ -81,12 +81,12 @@ def _velocity_terms(
 def _roller_terms(
     w: Waves,
     nu: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """``u_y = sigma_xy = 0``: symmetric fields where those of `velocity` are antisymmetric.
 
     ``A_xy D = 2 [(1 - 2 nu) sinh 2q - 2q]`` with ``D = (3 - 4 nu) sinh 2q - 2q``.
     """
-    return StiffnessTerms(
+    return _StiffnessTerms(
         denominator=2.0 * (1.0 - 2.0 * nu) * w.sinh_2q + w.excess,
         xx=8.0 * (1.0 - nu) * w.sinh_squared,
         xy=2.0 * (w.excess + 2.0 * np.maximum(-nu, 0.0) * w.sinh_2q),
@@ -99,11 +99,11 @@ def _roller_terms(
 def _traction_terms(
     w: Waves,
     nu: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """``sigma_xy = sigma_yy = 0``: the first column is Eq. (10)."""
     compression = 4.0 * (1.0 - nu)
     constant = compression**2 / 2.0 * w.decay
-    return StiffnessTerms(
+    return _StiffnessTerms(
         denominator=constant + 2.0 * w.square + 2.0 * (3.0 - 4.0 * nu) * w.sinh_squared,
         xx=compression * (w.sinh_2q + w.linear),
         xy=4.0 * (w.square + (1.0 - 2.0 * nu) * w.sinh_squared),
@@ -116,7 +116,7 @@ def _traction_terms(
 def _clamped_terms(
     w: Waves,
     nu: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """``u_x = u_y = 0``, with ``kappa = 3 - 4 nu > 1``.
 
     ``A_xx, A_yy = 2 (1 - nu) (kappa sinh 2q -+ 2q) / D``,
@@ -127,7 +127,7 @@ def _clamped_terms(
     kappa_less = 2.0 * (1.0 - 2.0 * nu)  # kappa - 1
     coupling = 2.0 * (1.0 - nu) * (1.0 - 4.0 * nu)  # (1 - 2 nu) kappa - 1
     constant = 4.0 * (1.0 - nu) ** 2 * w.decay
-    return StiffnessTerms(
+    return _StiffnessTerms(
         denominator=4.0 * (1.0 - nu) * kappa_less * w.sinh_squared + w.square_excess,
         xx=2.0 * (1.0 - nu) * (kappa_less * w.sinh_2q + w.excess),
         xy=2.0 * (np.maximum(coupling, 0.0) * w.sinh_squared + w.square_excess),
@@ -137,7 +137,7 @@ def _clamped_terms(
     )
 
 
-_Terms: TypeAlias = Callable[[Waves, Array], StiffnessTerms]
+_Terms: TypeAlias = Callable[[Waves, Array], _StiffnessTerms]
 
 FAR_SIDES: dict[str, _Terms] = {
     "velocity": _velocity_terms,
@@ -152,7 +152,7 @@ FAR_SIDES: dict[str, _Terms] = {
 def _antiplane_free_terms(
     w: Waves,
     nu: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """``sigma_yz = 0``: ``tanh q = sinh 2q/(2 cosh^2 q)``; the other entry of A is 1."""
     return _antiplane_terms(w.sinh_2q, 2.0 * w.cosh_squared)
 
@@ -160,7 +160,7 @@ def _antiplane_free_terms(
 def _antiplane_held_terms(
     w: Waves,
     nu: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """``u_z = 0``: ``coth q = sinh 2q/(2 sinh^2 q)``."""
     return _antiplane_terms(w.sinh_2q, 2.0 * w.sinh_squared)
 
@@ -168,9 +168,9 @@ def _antiplane_held_terms(
 def _antiplane_terms(
     numerator: Array,
     denominator: Array,
-) -> StiffnessTerms:
+) -> _StiffnessTerms:
     """A quotient for ``A_xx`` and ``det A``; ``A_yy = 1`` and ``A_xy = 0``."""
-    return StiffnessTerms(
+    return _StiffnessTerms(
         denominator=denominator,
         xx=numerator,
         xy=0.0 * denominator,
@@ -240,7 +240,7 @@ class Layers(NamedTuple):
         k = np.abs(np.asarray(wavenumber, dtype=float))
         return np.minimum(k * self.height, SATURATION)
 
-    def terms(self, waves: Waves) -> StiffnessTerms:
+    def terms(self, waves: Waves) -> _StiffnessTerms:
         """Scaled numerators and denominator of the stiffness."""
         known = OF_ANTIPLANE if self.antiplane else FAR_SIDES
         return known[self.far_side](waves, self.poisson_ratio)

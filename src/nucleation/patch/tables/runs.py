@@ -15,7 +15,7 @@ STABILITY = some(FITTED, "stability_length", "stability_length_error")
 """The length at which the patch turns unstable, and its standard error."""
 
 
-class Records(Protocol):
+class _Records(Protocol):
     """The records of some runs, one after another."""
 
     def map(self, function: Callable[[int, xr.Dataset], xr.Dataset]) -> list[xr.Dataset]:
@@ -24,7 +24,7 @@ class Records(Protocol):
 
 def measured_runs(
     runs: Sequence[dict[str, Any]],
-    records: Records,
+    records: _Records,
     settings: ExtractionSettings,
     measure: str,
 ) -> xr.Dataset:
@@ -34,7 +34,7 @@ def measured_runs(
     ----------
     runs : sequence of dict
         From :meth:`nucleation.configuration.runs.Run.to_dict`.
-    records : Records
+    records : _Records
         Their records.
     settings : ExtractionSettings
         Definitions of the lengths.

@@ -38,7 +38,7 @@ vanishes below it, and contacts there are as if at rest."""
 
 SHORTEST = 0.3  # where the search for L_s starts, over L_c
 TRIED = 14  # number of patches that are tried
-NEAR = np.array([-0.05, 0.0, 0.05])  # log(L/L_s) of the patches whose Re Lambda is fitted
+NEAR = np.array([-0.05, 0.0, 0.05])  # log(L/L_s) of the patches to which a parabola is fitted
 CLOSE = 2e-3  # relative, within which the parabola's L_s must have decay and growth
 NARROW = 1e-4  # relative width of a bracket at which bisection ends
 OSCILLATING = 0.01  # angular frequency over V/D below which a mode counts as not oscillating

@@ -128,7 +128,7 @@ def log_state_derivatives(
     return by_rate, by_log_state
 
 
-class LinearFriction(NamedTuple):
+class _LinearFriction(NamedTuple):
     """Friction linearised at each place, (N,); slip in D, time in D/V.
 
     ``df = by_rate dv + by_state dpsi`` and ``d(dpsi)/dt = evolution_by_rate dv +
@@ -147,7 +147,7 @@ def constant_coefficients(
     friction: float,
     a: float,
     zeta: float,
-) -> LinearFriction:
+) -> _LinearFriction:
     """Friction with constant a and b about steady sliding at each place.
 
     Parameters
@@ -159,11 +159,11 @@ def constant_coefficients(
 
     Returns
     -------
-    LinearFriction
+    _LinearFriction
         Its coefficients, (N,).
     """
     ones = np.ones_like(rate)
-    return LinearFriction(
+    return _LinearFriction(
         friction=friction * ones,
         by_rate=a / rate,
         by_state=(a + zeta) * ones,
@@ -177,7 +177,7 @@ def local_coefficients(
     velocity: float,
     rate: Array,
     log_state: Array | None = None,
-) -> LinearFriction:
+) -> _LinearFriction:
     """A friction law linearised at each place.
 
     Parameters
@@ -193,7 +193,7 @@ def local_coefficients(
 
     Returns
     -------
-    LinearFriction
+    _LinearFriction
         Its coefficients, (N,).
     """
     v = velocity * rate
@@ -202,7 +202,7 @@ def local_coefficients(
     g_v, g_psi = log_state_derivatives(law, v, np.exp(psi))
     distance = law.characteristic_slip_distance
     memory = distance / velocity
-    return LinearFriction(
+    return _LinearFriction(
         friction=f,
         by_rate=velocity * f_v,
         by_state=f_psi,
@@ -213,7 +213,7 @@ def local_coefficients(
 
 def creeping_patch(
     creep: Creep,
-    friction: LinearFriction,
+    friction: _LinearFriction,
 ) -> FrozenPatch:
     """The patch linearised about its creep: slip in D, time in D/V.
 
@@ -223,7 +223,7 @@ def creeping_patch(
     ----------
     creep : Creep
         The creeping patch.
-    friction : LinearFriction
+    friction : _LinearFriction
         Friction linearised at the same places.
 
     Returns

@@ -77,7 +77,7 @@ class Modes:
 
 
 @dataclasses.dataclass(frozen=True)
-class MirrorModes(Modes):
+class _MirrorModes(Modes):
     """Modes that are even or odd about x = 0, and their tables on a grid of `kappa`."""
 
     gradients: Array  # L u', (N, N + 1)
@@ -93,7 +93,7 @@ def mirror_modes(
     number: int,
     slimmest: float = 0.0,
     even: bool = False,
-) -> MirrorModes:
+) -> _MirrorModes:
     """The modes of one symmetry about x = 0.
 
     Parameters
@@ -107,7 +107,7 @@ def mirror_modes(
 
     Returns
     -------
-    MirrorModes
+    _MirrorModes
         The modes at N angles, and their tables.
     """
     n = np.arange(number + 1)
@@ -130,7 +130,7 @@ def mirror_modes(
     bessel = jv(orders, kappa[:, None]) * shares[:, None]
     phase = np.outer(kappa, np.cos(theta))
     sine, cosine = np.sin(phase), np.cos(phase)
-    return MirrorModes(
+    return _MirrorModes(
         theta=theta,
         values=values,
         smoothing=np.exp(-36.0 * (n / (number + 1)) ** 6),
@@ -156,7 +156,7 @@ def _quadrature(largest: float) -> tuple[Array, Array]:
 
 
 @dataclasses.dataclass(frozen=True)
-class PatchResponse:
+class _PatchResponse:
     """Stress over sigma0 at theta by slip over D in each mode, (N, N + 1)."""
 
     modes: Modes
@@ -172,7 +172,7 @@ class PatchResponse:
         self,
         shear: float,
         normal: float,
-    ) -> "PatchResponse":
+    ) -> "_PatchResponse":
         """The response with both stresses multiplied."""
         return dataclasses.replace(self, shear=shear * self.shear, normal=normal * self.normal)
 
@@ -189,7 +189,7 @@ def response(
     length: float,
     number: int = MODES,
     loading: str = "edge",
-) -> PatchResponse:
+) -> _PatchResponse:
     """The response of one fault's bodies to slip of a patch.
 
     Parameters
@@ -205,7 +205,7 @@ def response(
 
     Returns
     -------
-    PatchResponse
+    _PatchResponse
         Column 0 is for the imposed quantity: the edge's displacement, or under the other loadings a
         shear stress of sigma0 on all of the interface.
     """
@@ -223,7 +223,7 @@ def response(
         values=_on_both_sides(odd.modes.values, even.modes.values, 1.0),
         smoothing=np.append(odd.modes.smoothing, even.modes.smoothing[1:]),
     )
-    return PatchResponse(
+    return _PatchResponse(
         modes=modes,
         length=length,
         shear=_on_both_sides(odd.shear, even.shear, 1.0, imposed=-1.0),
@@ -261,7 +261,7 @@ def _mirror_response(
     length: float,
     number: int,
     even: bool,
-) -> PatchResponse:
+) -> _PatchResponse:
     """The response in the modes of one symmetry about x = 0, at x > 0.
 
     A layer that is slimmer than the tables reach is extrapolated, linearly in H/L, from the
@@ -307,7 +307,7 @@ def _resolved(
     length: float,
     number: int,
     even: bool,
-) -> PatchResponse:
+) -> _PatchResponse:
     """The same of layers that are not slimmer than the tables reach."""
     slim = _slimness(one, length)
     reach = min(reach for reach in REACHES if slim <= reach * ROUNDING)
@@ -321,7 +321,7 @@ def _resolved(
     more_shear = modes.shear[:used].T @ (more_g1 * slip)
     more_normal = modes.normal[:used].T @ (more_g2 * slip)
     scale = float(one.softness[0]) / length
-    return PatchResponse(
+    return _PatchResponse(
         modes=modes,
         length=length,
         shear=scale * (far_g1 * modes.half_space + more_shear),
@@ -335,7 +335,7 @@ def _thickened(
     number: int,
     even: bool,
     factor: float,
-) -> PatchResponse:
+) -> _PatchResponse:
     """The response of layers made thicker by a factor, corrected by the ratio of G at ``kL = pi``.
 
     Where ``kH`` is small G1 and G2 are powers of k, and thickness only scales them.
@@ -366,7 +366,7 @@ class Creep(NamedTuple):
     Slip rates are relative to `fastest`: V at an edge that is pushed, else the largest one.
     """
 
-    response: PatchResponse  # of the bodies, and L
+    response: _PatchResponse  # of the bodies, and L
     slip_rate: Array  # over `fastest`, (N,)
     normal_stress: Array  # compression over sigma0, (N,)
     loaded: float  # imposed at L: displacement of the edge over D, or shear stress over sigma0
@@ -374,7 +374,7 @@ class Creep(NamedTuple):
 
 
 def creep(
-    response: PatchResponse,
+    response: _PatchResponse,
     friction: float,
     load_rate: float | None = None,
 ) -> Creep:
@@ -382,7 +382,7 @@ def creep(
 
     Parameters
     ----------
-    response : PatchResponse
+    response : _PatchResponse
         Of the fault's bodies.
     friction : float
         f, the strength over the normal stress.
@@ -428,7 +428,7 @@ class EdgeSlip(NamedTuple):
 
 
 def edge_slip(
-    response: PatchResponse,
+    response: _PatchResponse,
     friction: Array | float,
     strength: Array | float,
 ) -> EdgeSlip:
@@ -440,7 +440,7 @@ def edge_slip(
 
     Parameters
     ----------
-    response : PatchResponse
+    response : _PatchResponse
         Of the fault's bodies.
     friction : ndarray or float
         Friction coefficient f at the angles of the modes, (N,), or a uniform one.
