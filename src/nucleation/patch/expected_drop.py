@@ -9,7 +9,8 @@ import numpy as np
 
 from ..model.linearised import interface_state
 from ..model.parameters import Geometry, Parameters
-from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
+from ..theory.creep.lengths import stability_length_of
+from ..theory.creep.patches import NoPatch, Patches
 from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
 from ..theory.status import UNKNOWN, VALUE

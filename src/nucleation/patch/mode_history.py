@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
 from ..theory.creep.front import Advance, advance, first_growing, oscillating
-from ..theory.creep.lengths import NoPatch, Patches
 from ..theory.creep.linearised import local_coefficients
-from ..theory.creep.modes import edge_slip
+from ..theory.creep.patches import NoPatch, Patches
+from ..theory.creep.steady import edge_slip
 from ..theory.status import STABLE
 from ..types import Array, ComplexArray
 

@@ -20,7 +20,7 @@ from ...datasets.variables import Variable, some, table
 from ...model.identity import fault
 from ...model.parameters import Parameters
 from ...model.perturbation import Perturbation
-from ...theory.creep.lengths import NoPatch
+from ...theory.creep.patches import NoPatch
 from ..delay import Growth, growth
 from ..growth import FITTED
 from ..mode_history import ModeHistory, mode_history

@@ -17,7 +17,8 @@ from ...model.linearised import linearised
 from ...model.parameters import Parameters
 from ...theory.closed_forms import bimaterial_contrast
 from ...theory.creep.front import advance, first_growing, oscillating
-from ...theory.creep.lengths import NoPatch, Patches, stability_point
+from ...theory.creep.lengths import stability_point
+from ...theory.creep.patches import NoPatch, Patches
 from ...theory.creep.thin import thin_limit
 from ..growth import FITTED
 

@@ -23,9 +23,11 @@ from numpy.typing import ArrayLike, NDArray
 from ...model.friction.law import Friction
 from ...types import Array
 from ..status import BEYOND
-from .lengths import NoPatch, Patches, require_contact
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import MORE_MODES, Creep, EdgeSlip, edge_slip, mirror_modes, response
+from .modes import mirror_modes
+from .patches import NoPatch, Patches, require_contact
+from .response import MORE_MODES, response
+from .steady import Creep, EdgeSlip, edge_slip
 
 ROUNDS = 4  # of the three equations: each removes more than nine tenths of the error
 FINE = 400  # angles at which the state behind the front is followed

@@ -19,7 +19,7 @@ from scipy.linalg import lu_factor, lu_solve
 
 from ...model.friction.law import Friction
 from ...types import Array, ComplexArray
-from .modes import Creep
+from .steady import Creep
 
 OSCILLATING = 0.1  # modes of a smaller angular frequency, over V/D, count as not oscillating
 INVERSE_ITERATIONS = 3  # towards the null vector of a matrix that is singular to round-off

@@ -8,9 +8,9 @@ A patch of fixed length in steady creep ``v_c(x)`` with the whole logarithmic la
 
     -(K1 + f S2)(v - v_c) = s (a dv/dt / v + b dphi/dt / phi),      dphi/dt = g(phi v/D),
 
-with the compression s over sigma0 and the stiffness of :mod:`.modes`. It is integrated from a small
-perturbation of the state; L_run is the shortest L at which the slip rate grows without bound. In a
-thin layer it depends on zeta/a alone, and is about ``1.9 (1/pi) sqrt(b/zeta) L_c``. The factor is 1
+with the compression s over sigma0 and the stiffness of :mod:`.response`. It is integrated from a
+small perturbation of the state; L_run is the shortest L at which the slip rate grows without bound.
+In a thin layer it depends on zeta/a alone, and is about ``1.9 (1/pi) sqrt(b/zeta) L_c``. The factor is 1
 where the strain energy released by a patch equals the fracture energy of its front.
 """
 
@@ -28,8 +28,9 @@ from ..fault import Fault, takes_fault
 from ..spectrum import Systems
 from ..status import BEYOND
 from ..values import Values
-from .lengths import NoPatch, Patches, stability_point
-from .modes import MODES
+from .lengths import stability_point
+from .patches import NoPatch, Patches
+from .response import MODES
 
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
 PRECISION = 4e-3  # relative, of L_run
