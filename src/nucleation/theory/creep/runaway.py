@@ -10,8 +10,8 @@ A patch of fixed length in steady creep ``v_c(x)`` with the whole logarithmic la
 
 with the compression s over sigma0 and the stiffness of :mod:`.response`. It is integrated from a
 small perturbation of the state; L_run is the shortest L at which the slip rate grows without bound.
-In a thin layer it depends on zeta/a alone, and is about ``1.9 (1/pi) sqrt(b/zeta) L_c``. The factor is 1
-where the strain energy released by a patch equals the fracture energy of its front.
+In a thin layer it depends on zeta/a alone, and is about ``1.9 (1/pi) sqrt(b/zeta) L_c``. The factor
+is 1 where the strain energy released by a patch equals the fracture energy of its front.
 """
 
 import math
