@@ -32,7 +32,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.weakening_table.gather`.
+        From :func:`nucleation.patch.tables.weakening.gather_weakening`.
 
     Returns
     -------
