@@ -15,7 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from nucleation import installed
+from nucleation.configuration import installed
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"

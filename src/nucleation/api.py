@@ -26,7 +26,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
-from .installed import require, require_own
+from .configuration.installed import require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material

@@ -14,7 +14,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..installed import MissingExtra, require
+from ..configuration.installed import MissingExtra, require
 
 DONE = 0
 FAILED = 1

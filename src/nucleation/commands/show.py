@@ -19,7 +19,7 @@ from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.text import require_writable
 from ..datasets import netcdf
-from ..installed import require
+from ..configuration.installed import require
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..pipeline.running import simulation_code
