@@ -54,8 +54,8 @@ from nucleation.configuration.roles import PAIRS as PAIR_ROLES
 from nucleation.configuration.runs import first_realisations, varied
 from nucleation.configuration.settings import estimated_megabytes
 from nucleation.configuration.strict_yaml import read_yaml
-from nucleation.configuration.studies import theory_curves
 from nucleation.configuration.study_names import study_parameters
+from nucleation.configuration.theory_curves import theory_curves
 from nucleation.datasets import provenance
 from nucleation.datasets.variables import DatasetError
 from nucleation.figures import catalogue

@@ -1,8 +1,8 @@
 """The same finite-element problem by its assembled sparse matrices: the reference.
 
-The ordinary way to solve the problem, kept as an independent check of the separable solver and
-as the yardstick of the benchmark. Element matrices come from 2x2 Gauss quadrature, exact for
-bilinear elements on rectangles.
+The ordinary way to solve the problem is an independent check of the separable solver, and the
+benchmark compares their times. Element matrices come from 2x2 Gauss quadrature, exact for bilinear
+elements on rectangles.
 """
 
 import numpy as np
@@ -13,62 +13,135 @@ from nucleation.fem.grid import Grid
 from nucleation.model.material import Material
 from nucleation.types import Array
 
+CORNERS = ((0, 0), (1, 0), (0, 1), (1, 1))
+"""Nodes of an element along x and y; its unknowns are x and y of each."""
 
-def _element_matrices(dx: float, dy: float, material: Material) -> tuple[Array, Array]:
-    """Stiffness and consistent mass of one element; unknowns (x, y) of nodes 00, 10, 01, 11."""
+
+def _element_matrices(
+    dx: float,
+    dy: float,
+    material: Material,
+) -> tuple[Array, Array]:
+    """Stiffness and consistent mass of one element, (8, 8) each."""
     point = 1.0 / np.sqrt(3.0)
-    stiffness, mass = np.zeros((8, 8)), np.zeros((8, 8))
-    lame, shear = material.lame_modulus, material.shear_modulus
-    elastic = np.array(
-        [[lame + 2 * shear, lame, 0.0], [lame, lame + 2 * shear, 0.0], [0.0, 0.0, shear]]
-    )
-    signs = np.array([[-1, -1], [1, -1], [-1, 1], [1, 1]])
+    stiffness = np.zeros((8, 8))
+    mass = np.zeros((8, 8))
+    side_x, side_y = 2 * np.array(CORNERS).T - 1
     area = 0.25 * dx * dy
-    for xi, eta in ((a, b) for a in (-point, point) for b in (-point, point)):
-        shape = 0.25 * (1 + signs[:, 0] * xi) * (1 + signs[:, 1] * eta)
-        by_x = 0.25 * signs[:, 0] * (1 + signs[:, 1] * eta) * 2 / dx
-        by_y = 0.25 * signs[:, 1] * (1 + signs[:, 0] * xi) * 2 / dy
-        if material.plane == "antiplane":  # u_x stands for u_z; u_y only bears the load on the top
-            for own in (slice(0, None, 2), slice(1, None, 2)):
-                gradients = np.zeros((2, 8))
-                gradients[0, own], gradients[1, own] = by_x, by_y
-                stiffness += area * shear * gradients.T @ gradients
+    for xi in (-point, point):
+        for eta in (-point, point):
+            along_x = 1 + side_x * xi
+            along_y = 1 + side_y * eta
+            shape = 0.25 * along_x * along_y
+            by_x = 0.25 * side_x * along_y * 2 / dx
+            by_y = 0.25 * side_y * along_x * 2 / dy
             values = np.zeros((2, 8))
-            values[0, 0::2] = values[1, 1::2] = shape
+            values[0, 0::2] = shape
+            values[1, 1::2] = shape
+            stiffness += _stiffness(by_x, by_y, area, material)
             mass += area * material.density * values.T @ values
-            continue
-        strain = np.zeros((3, 8))
-        strain[0, 0::2], strain[1, 1::2] = by_x, by_y
-        strain[2, 0::2], strain[2, 1::2] = by_y, by_x
-        stiffness += area * strain.T @ elastic @ strain
-        values = np.zeros((2, 8))
-        values[0, 0::2] = values[1, 1::2] = shape
-        mass += area * material.density * values.T @ values
     return stiffness, mass
 
 
-def unknown(grid: Grid, i: ArrayLike, j: ArrayLike, component: int) -> Array:
-    """Number of the unknown of node (i, j), component 0 (x) or 1 (y)."""
-    return 2 * (np.asarray(j) * (grid.n_x + 1) + np.asarray(i)) + component
+def _stiffness(
+    by_x: Array,
+    by_y: Array,
+    area: float,
+    material: Material,
+) -> Array:
+    """Stiffness of one element from one Gauss point, by the gradients of the shape functions.
+
+    In antiplane shear u_x is the displacement along z, and u_y bears only the load on the top.
+    """
+    lame = material.lame_modulus
+    shear = material.shear_modulus
+    if material.plane == "antiplane":
+        gradients = np.zeros((4, 8))
+        gradients[0, 0::2] = by_x
+        gradients[1, 0::2] = by_y
+        gradients[2, 1::2] = by_x
+        gradients[3, 1::2] = by_y
+        return area * shear * gradients.T @ gradients
+    strain = np.zeros((3, 8))
+    strain[0, 0::2] = by_x
+    strain[1, 1::2] = by_y
+    strain[2, 0::2] = by_y
+    strain[2, 1::2] = by_x
+    stretch = lame + 2 * shear
+    elastic = np.array(
+        [
+            [stretch, lame, 0.0],
+            [lame, stretch, 0.0],
+            [0.0, 0.0, shear],
+        ]
+    )
+    return area * strain.T @ elastic @ strain
+
+
+def unknown(
+    grid: Grid,
+    i: ArrayLike,
+    j: ArrayLike,
+    component: int,
+) -> Array:
+    """Number the unknowns.
+
+    Parameters
+    ----------
+    grid : Grid
+        The mesh.
+    i, j : array_like of int
+        Nodes along x and y.
+    component : int
+        0 for x and 1 for y.
+
+    Returns
+    -------
+    ndarray of int
+        Number of the unknown of each node.
+    """
+    in_row = grid.n_x + 1
+    node = np.asarray(j) * in_row + np.asarray(i)
+    return 2 * node + component
 
 
 def assemble(grid: Grid, material: Material) -> tuple[sparse.csr_matrix, sparse.csr_matrix]:
-    """Stiffness (Pa) and mass matrix (kg/m) of all nodes, without boundary conditions."""
-    size = 2 * (grid.n_x + 1) * (grid.n_y + 1)
+    """Assemble the matrices of all nodes, without boundary conditions.
+
+    Parameters
+    ----------
+    grid : Grid
+        The mesh.
+    material : Material
+        Elastic moduli and density.
+
+    Returns
+    -------
+    stiffness, mass : csr_matrix
+        In Pa and kg/m.
+    """
     columns = np.arange(grid.n_x)
-    parts = []
+    rows_of_entries = []
+    columns_of_entries = []
+    stiffness = []
+    mass = []
     for j, dy in enumerate(np.diff(grid.y)):
-        local = _element_matrices(grid.dx, dy, material)
-        corners = ((0, 0), (1, 0), (0, 1), (1, 1))
+        own_stiffness, own_mass = _element_matrices(grid.dx, dy, material)
         numbers = np.stack(
-            [unknown(grid, columns + a, j + b, c) for a, b in corners for c in (0, 1)],
+            [
+                unknown(grid, columns + along_x, j + along_y, component)
+                for along_x, along_y in CORNERS
+                for component in (0, 1)
+            ],
             axis=1,
         )
-        rows = np.repeat(numbers, 8, axis=1).ravel()
-        cols = np.tile(numbers, (1, 8)).ravel()
-        parts.append((rows, cols, *(np.tile(m.ravel(), grid.n_x) for m in local)))
-    rows, cols, stiffness, mass = (np.concatenate(p) for p in zip(*parts, strict=True))
-    return tuple(
-        sparse.csr_matrix((values, (rows, cols)), shape=(size, size))
-        for values in (stiffness, mass)
+        rows_of_entries.append(np.repeat(numbers, 8, axis=1).ravel())
+        columns_of_entries.append(np.tile(numbers, (1, 8)).ravel())
+        stiffness.append(np.tile(own_stiffness.ravel(), grid.n_x))
+        mass.append(np.tile(own_mass.ravel(), grid.n_x))
+    places = (np.concatenate(rows_of_entries), np.concatenate(columns_of_entries))
+    size = 2 * (grid.n_x + 1) * (grid.n_y + 1)
+    return (
+        sparse.csr_matrix((np.concatenate(stiffness), places), shape=(size, size)),
+        sparse.csr_matrix((np.concatenate(mass), places), shape=(size, size)),
     )

@@ -1,4 +1,4 @@
-"""A run's processor time here over that at an earlier commit, the two taking turns.
+"""A run's processor time here over that at an earlier commit, both measured in turns.
 
 ``python -m benchmarks.paired 8b1871d [--run ID] [--turns N]``, in a checkout with its history. Both
 codes run in the present environment, each on its own configuration.
@@ -25,7 +25,7 @@ from nucleation.simulation.run import simulate
 
 runs = {run.id: run for run in load("config/config.yaml").runs}
 parameters = runs[sys.argv[1]].parameters
-simulate(parameters.replaced({"n_x": 16, "n_y": 4, "end_time": 1e-3}))  # compiles what is compiled
+simulate(parameters.replaced({"n_x": 16, "n_y": 4, "end_time": 1e-3}))  # compiles the kernels
 start = time.process_time()
 record = simulate(parameters)
 seconds = time.process_time() - start
@@ -37,41 +37,84 @@ print(json.dumps({
 """
 
 
-def measured(source: Path, run: str) -> dict[str, float]:
+def _measured(source: Path, run: str) -> dict[str, float]:
     """Processor time (s), steps, onset (s) and length (m) of one run by the code in a directory."""
     environment = os.environ | {"PYTHONPATH": str(source / "src"), "OMP_NUM_THREADS": "1"}
-    said = subprocess.run(
-        [sys.executable, "-c", MEASURE, run], cwd=source, env=environment, check=True,
-        stdout=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    found: dict[str, float] = json.loads(said.stdout)
+    done = subprocess.run(
+        [sys.executable, "-c", MEASURE, run],
+        cwd=source,
+        env=environment,
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    found: dict[str, float] = json.loads(done.stdout)
     return found
 
 
-def paired(commit: str, run: str = RUN, turns: int = TURNS) -> dict[str, Any]:
-    """The fastest run of each code and the ratio of a step's time, here over there.
+def _unpack(commit: str, directory: str) -> None:
+    """Write the code and the configuration of a commit into a directory."""
+    archive = subprocess.run(
+        ["git", "archive", commit, "src", "config"],
+        cwd=CHECKOUT,
+        check=True,
+        stdout=subprocess.PIPE,
+    )
+    subprocess.run(
+        ["tar", "-x", "-C", directory],
+        input=archive.stdout,
+        check=True,
+    )
+
+
+def paired(
+    commit: str,
+    run: str = RUN,
+    turns: int = TURNS,
+) -> dict[str, Any]:
+    """Compare the time of a step here with that at an earlier commit.
+
+    Parameters
+    ----------
+    commit : str
+        The earlier commit.
+    run : str
+        Identifier of a run in both configurations.
+    turns : int
+        Number of runs of each code.
+
+    Returns
+    -------
+    dict
+        The fastest run of each code as ``before`` and ``now``, and ``step_now_over_before``.
 
     Raises
     ------
     subprocess.CalledProcessError
         If there is no such commit or run, or a run fails.
     """
-    with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as name:
-        earlier = Path(name)
-        archive = subprocess.run(
-            ["git", "archive", commit, "src", "config"],
-            cwd=CHECKOUT,
-            check=True,
-            stdout=subprocess.PIPE,
-        )
-        subprocess.run(["tar", "-x", "-C", name], input=archive.stdout, check=True)
-        found: dict[str, list[dict[str, float]]] = {"before": [], "now": []}
+    before = []
+    now = []
+    with tempfile.TemporaryDirectory(prefix="nucleation-bench-") as directory:
+        _unpack(commit, directory)
         for _ in range(turns):
-            found["before"].append(measured(earlier, run))
-            found["now"].append(measured(CHECKOUT, run))
-    best = {name: min(each, key=lambda one: one["seconds"]) for name, each in found.items()}
-    per_step = {name: one["seconds"] / one["steps"] for name, one in best.items()}
-    return best | {"step_now_over_before": per_step["now"] / per_step["before"]}
+            before.append(_measured(Path(directory), run))
+            now.append(_measured(CHECKOUT, run))
+    best_before = min(before, key=_seconds)
+    best_now = min(now, key=_seconds)
+    return {
+        "before": best_before,
+        "now": best_now,
+        "step_now_over_before": _per_step(best_now) / _per_step(best_before),
+    }
+
+
+def _seconds(run: dict[str, float]) -> float:
+    return run["seconds"]
+
+
+def _per_step(run: dict[str, float]) -> float:
+    return run["seconds"] / run["steps"]
 
 
 def main() -> None:
@@ -81,7 +124,8 @@ def main() -> None:
     parser.add_argument("--run", default=RUN, help="identifier of a run of config/config.yaml")
     parser.add_argument("--turns", type=int, default=TURNS)
     arguments = parser.parse_args()
-    print(json.dumps(paired(arguments.commit, arguments.run, arguments.turns), indent=2))
+    found = paired(arguments.commit, arguments.run, arguments.turns)
+    print(json.dumps(found, indent=2))
 
 
 if __name__ == "__main__":

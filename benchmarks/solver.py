@@ -1,4 +1,4 @@
-"""What a step and a run cost: on the paper's mesh, over meshes, of pairs, under perturbations."""
+"""The cost of a step and of a run: on the paper's mesh, over meshes, of pairs, if perturbed."""
 
 import os
 import time
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from scipy.sparse.linalg import splu
 
 from nucleation.analysis.extraction import extract
@@ -24,128 +25,166 @@ from .assembled import assemble
 CREEP_TIME = 1.0  # s, at which steps are timed
 BLOCKS, STEPS = 8, 40  # of timed steps
 END_TIME = 16.0  # s, of the whole run
-MESHES_ALONG_X, ROWS = (400, 800, 1600, 3200), 20  # n_x, with so many n_y
-MESHES_ALONG_Y, COLUMNS = (20, 40, 80, 150), 400  # n_y, with so many n_x
+MESHES_ALONG_X, ROWS = (400, 800, 1600, 3200), 20  # values of n_x, and their n_y
+MESHES_ALONG_Y, COLUMNS = (20, 40, 80, 150), 400  # values of n_y, and their n_x
 PAIR = {"n_x": 400, "n_y": 16, "height": 0.02, "length": 0.7}  # of each block
 STRENGTH = 1e-3  # of the perturbed steps
 PRECISIONS = (
-    (1e-1, 0.4), (1e-2, 0.4), (1e-2, 0.2), (1e-2, 0.1), (1e-2, 0.05), (1e-3, 0.1), (1e-3, 0.05),
-)  # fmt: skip
-"""Tolerances and longest steps (D/V) of which the error is measured, against the next."""
+    (1e-1, 0.4),
+    (1e-2, 0.4),
+    (1e-2, 0.2),
+    (1e-2, 0.1),
+    (1e-2, 0.05),
+    (1e-3, 0.1),
+    (1e-3, 0.05),
+)
+"""Tolerances and longest steps (D/V) for which the error is measured."""
+
 REFERENCE = (1e-4, 0.02)
+"""Those of the run against which the error is measured."""
+
+Task = Callable[[], Any]
 
 
 def of_figure_s2(settings: Configuration) -> Parameters:
-    """The simulation that is measured."""
+    """Return the simulation that is measured."""
     return settings.shown(settings.figures.space_time_height).parameters
 
 
-def measured(parameters: Parameters) -> dict[str, Any]:
-    """All measurements of one simulation."""
-    simulate(parameters.replaced({"n_x": 16, "n_y": 4}))  # compiles what is compiled
-    whole = whole_run(parameters)  # first: the memory is that of the process
+def measure_solver(parameters: Parameters) -> dict[str, Any]:
+    """Return all measurements of one simulation."""
+    simulate(parameters.replaced({"n_x": 16, "n_y": 4}))  # compiles the kernels
+    whole = _whole_run(parameters)  # first: the memory is that of the process
     return {
         **whole,
-        **step_over_solve(parameters),
-        **speedup_over_sparse(parameters, whole),
-        **scaling(parameters),
-        **pair_steps(parameters),
-        "perturbed_over_quiet": perturbed(parameters),
-        "work_precision": precisions(parameters),
+        **_step_over_solve(parameters),
+        **_speedup_over_sparse(parameters, whole),
+        **_scaling(parameters),
+        **_pair_steps(parameters),
+        "perturbed_over_quiet": _perturbed(parameters),
+        "work_precision": _precisions(parameters),
         "threads": os.environ.get("OMP_NUM_THREADS", "not set"),
     }
 
 
-def table(result: dict[str, Any]) -> str:
-    """The measurements as text."""
+def solver_table(result: dict[str, Any]) -> str:
+    """Return the measurements as text."""
     lines = []
     for name, value in result.items():
         if isinstance(value, list):
             lines.append("  ".join(f"{key:>12}" for key in value[0]))
-            lines += ["  ".join(f"{entry:12.3g}" for entry in row.values()) for row in value]
+            for row in value:
+                lines.append("  ".join(f"{entry:12.3g}" for entry in row.values()))
         elif isinstance(value, dict):
-            lines.append(f"{name:32}" + "  ".join(f"{k}: {v:.3g}" for k, v in value.items()))
+            entries = "  ".join(f"{key}: {entry:.3g}" for key, entry in value.items())
+            lines.append(f"{name:32}{entries}")
+        elif isinstance(value, str):
+            lines.append(f"{name:32}{value}")
         else:
-            lines.append(f"{name:32}{value if isinstance(value, str) else format(value, '.4g')}")
+            lines.append(f"{name:32}{value:.4g}")
     return "\n".join(lines)
 
 
-def fastest(*tasks: Callable[[], Any], blocks: int | None = None) -> list[float]:
-    """Wall time (s) of each task's fastest execution, the tasks taking turns."""
+def _fastest(*tasks: Task, blocks: int = BLOCKS) -> list[float]:
+    """Wall time (s) of each task's fastest execution; the tasks take turns."""
     best = [np.inf] * len(tasks)
-    for _ in range(blocks or BLOCKS):
+    for _ in range(blocks):
         for i, task in enumerate(tasks):
             start = time.perf_counter()
             task()
-            best[i] = min(best[i], time.perf_counter() - start)
+            seconds = time.perf_counter() - start
+            best[i] = min(best[i], seconds)
     return best
 
 
-def timed_steps(parameters: Parameters) -> Callable[[], None]:
-    """A task that goes on by :data:`STEPS` longest steps, from the middle of the creep."""
+def _longest_rung(parameters: Parameters) -> int:
+    """The rung of the longest steps."""
+    longest = parameters.stepping.longest_step * parameters.memory_time
+    return BDF().steady_rung(longest)
+
+
+def _timed_steps(parameters: Parameters) -> Task:
+    """A task that makes the next :data:`STEPS` longest steps, from the middle of the creep."""
     for instant in run(parameters.replaced({"tolerance": 0.1, "longest_step": 0.4})):
         if instant.state.time > CREEP_TIME:
             break
-    dynamics, state = composed(parameters), instant.state
-    longest = parameters.stepping.longest_step * parameters.memory_time
-    rung = dynamics.scheme.steady_rung(longest)
-    for _ in range(10):
-        state, _ = dynamics.advance(state, rung)
+    dynamics = composed(parameters)
+    state = instant.state
+    rung = _longest_rung(parameters)
 
-    def task() -> None:
+    def task(steps: int = STEPS) -> None:
         nonlocal state
-        for _ in range(STEPS):
+        for _ in range(steps):
             state, _ = dynamics.advance(state, rung)
 
+    task(steps=10)
     return task
 
 
-def step_over_solve(parameters: Parameters) -> dict[str, float]:
+def _step_over_solve(parameters: Parameters) -> dict[str, float]:
     """A whole step against the one solve of the block that it needs at least."""
-    body = Block(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
-    longest = parameters.stepping.longest_step * parameters.memory_time
-    operator = body.operator(1.0 / rung_value(BDF().steady_rung(longest)) ** 2)
-    load, at_rest = body.top_load(1e6), np.zeros(body.grid.n_x)
-    edge = np.zeros(body.grid.n_y + 1)
-    steps, solve = fastest(timed_steps(parameters), lambda: operator.solve(load, at_rest, edge))
+    grid = Grid.of(parameters.geometry, parameters.mesh)
+    body = Block(grid, parameters.material)
+    beta = rung_value(_longest_rung(parameters))
+    operator = body.operator(1.0 / beta**2)
+    load = body.top_load(1e6)
+    at_rest = np.zeros(grid.n_x)
+    edge = np.zeros(grid.n_y + 1)
+
+    def solve() -> None:
+        operator.solve(load, at_rest, edge)
+
+    steps, solve_seconds = _fastest(_timed_steps(parameters), solve)
+    step_seconds = steps / STEPS
     return {
-        "step_milliseconds": 1e3 * steps / STEPS,
-        "own_solve_milliseconds": 1e3 * solve,
-        "step_over_own_solve": steps / STEPS / solve,
+        "step_milliseconds": 1e3 * step_seconds,
+        "own_solve_milliseconds": 1e3 * solve_seconds,
+        "step_over_own_solve": step_seconds / solve_seconds,
     }
 
 
-def whole_run(parameters: Parameters) -> dict[str, float]:
+def _whole_run(parameters: Parameters) -> dict[str, float]:
     """The whole run through the event to :data:`END_TIME`, and its memory."""
-    record = simulate(parameters.replaced({"end_time": END_TIME, "time_after_event": 1e3}))
+    whole = parameters.replaced({"end_time": END_TIME, "time_after_event": 1e3})
+    record = simulate(whole)
     sizes = record["step_size"].values[1:]
+    changed = np.abs(np.diff(sizes)) > 1e-9 * sizes[1:]
     return {
         "run_seconds": record.attrs["wall_seconds"],
         "peak_mb": record.attrs["peak_megabytes"],
         "run_steps": record.attrs["steps"],
         "run_rejected_steps": record.attrs["rejected_steps"],
-        "run_step_size_changes": int(np.count_nonzero(np.abs(np.diff(sizes)) > 1e-9 * sizes[1:])),
+        "run_step_size_changes": int(np.count_nonzero(changed)),
         "run_onset_time": extract(record)["onset_time"],
     }
 
 
-def speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dict[str, float]:
-    """The same steps with the assembled sparse matrix, LU reused while the step size stays.
+def _speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dict[str, float]:
+    """The same steps with the assembled sparse matrix; its LU serves while the step size is kept.
 
     One factorisation and two solves are timed and multiplied by the run's counts: two solves in
-    each step, accepted or not, and a factorisation whenever the step size changed. That leaves
-    out the interface's Newton iterations, so it is a lower bound for the ordinary way.
+    each step, accepted or not, and a factorisation whenever the step size changed. The interface's
+    Newton iterations are left out, so the result is a lower bound for the ordinary way.
     """
     grid = Grid.of(parameters.geometry, parameters.mesh)
     stiffness, mass = assemble(grid, parameters.material)
-    level, below = 2 * np.arange(grid.n_y + 1) * (grid.n_x + 1), np.arange(2 * (grid.n_x + 1))
-    free = np.setdiff1d(np.arange(stiffness.shape[0]), np.append(level, below))
+    nodes = grid.n_x + 1
+    driven = 2 * np.arange(grid.n_y + 1) * nodes
+    interface = np.arange(2 * nodes)
+    free = np.setdiff1d(
+        np.arange(stiffness.shape[0]),
+        np.append(driven, interface),
+    )
     matrix = (stiffness + 1e6 * mass)[free][:, free].tocsc()
     start = time.perf_counter()
-    factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+    factors = splu(
+        matrix,
+        permc_spec="MMD_AT_PLUS_A",
+        options={"SymmetricMode": True},
+    )
     factorisation = time.perf_counter() - start
     right = np.ones(free.size)
-    (solve,) = fastest(lambda: factors.solve(right), blocks=3)
+    (solve,) = _fastest(lambda: factors.solve(right), blocks=3)
     steps = whole["run_steps"] + whole["run_rejected_steps"]
     total = 2 * steps * solve + whole["run_step_size_changes"] * factorisation
     return {
@@ -156,52 +195,84 @@ def speedup_over_sparse(parameters: Parameters, whole: dict[str, float]) -> dict
     }
 
 
-def scaling(parameters: Parameters) -> dict[str, Any]:
+def _scaling(parameters: Parameters) -> dict[str, Any]:
     """Time per step against the number of elements along x and y, with fitted exponents."""
-    result: dict[str, Any] = {}
-    for axis, numbers, other in (
-        ("n_x", MESHES_ALONG_X, {"n_y": ROWS}), ("n_y", MESHES_ALONG_Y, {"n_x": COLUMNS}),
-    ):  # fmt: skip
-        meshes = [parameters.replaced({axis: n, **other}) for n in numbers]
-        times = np.array(fastest(*map(timed_steps, meshes))) / STEPS
-        result[f"exponent_{axis}"] = float(np.polyfit(np.log(numbers), np.log(times), 1)[0])
-        result[f"step_milliseconds_by_{axis}"] = dict(
-            zip(map(str, numbers), (1e3 * times).tolist(), strict=True)
-        )
-    return result
+    along_x = [parameters.replaced({"n_x": n, "n_y": ROWS}) for n in MESHES_ALONG_X]
+    along_y = [parameters.replaced({"n_y": n, "n_x": COLUMNS}) for n in MESHES_ALONG_Y]
+    return {
+        **_scaling_along("n_x", MESHES_ALONG_X, along_x),
+        **_scaling_along("n_y", MESHES_ALONG_Y, along_y),
+    }
 
 
-def pair_steps(parameters: Parameters) -> dict[str, float]:
+def _scaling_along(
+    axis: str,
+    numbers: tuple[int, ...],
+    meshes: list[Parameters],
+) -> dict[str, Any]:
+    """Time per step on some meshes with these numbers of elements along one axis."""
+    tasks = [_timed_steps(mesh) for mesh in meshes]
+    seconds = np.array(_fastest(*tasks)) / STEPS
+    exponent, _ = np.polyfit(np.log(numbers), np.log(seconds), 1)
+    milliseconds = (1e3 * seconds).tolist()
+    return {
+        f"exponent_{axis}": float(exponent),
+        f"step_milliseconds_by_{axis}": dict(zip(map(str, numbers), milliseconds, strict=True)),
+    }
+
+
+def _pair_steps(parameters: Parameters) -> dict[str, float]:
     """A step of two identical blocks over a step of one, on the same mesh in each."""
     one = parameters.replaced(PAIR)
     pairs = [
         one.replaced({"second_body": "deformable", "second_bottom": bottom}) for bottom in BOTTOMS
     ]
-    base, *times = fastest(*map(timed_steps, (one, *pairs)))
-    own, of_pair = (body_of(parts).operator(1e6).megabytes for parts in (one, pairs[0]))
-    return {
-        **{f"pair_step_over_one_{b}": t / base for b, t in zip(BOTTOMS, times, strict=True)},
-        "pair_operator_over_one_mb": of_pair / own,
-    }
+    base, *times = _fastest(*map(_timed_steps, (one, *pairs)))
+    found = {}
+    for bottom, seconds in zip(BOTTOMS, times, strict=True):
+        found[f"pair_step_over_one_{bottom}"] = seconds / base
+    of_pair = body_of(pairs[0]).operator(1e6).megabytes
+    own = body_of(one).operator(1e6).megabytes
+    found["pair_operator_over_one_mb"] = of_pair / own
+    return found
 
 
-def perturbed(parameters: Parameters) -> dict[str, float]:
-    """Time of a step under each kind of perturbation over that of a quiet one."""
+def _perturbed(parameters: Parameters) -> dict[str, float]:
+    """Time of a step under each kind of perturbation over that of an unperturbed one."""
+    kinds = KINDS[1:]
     values = {"strength": STRENGTH, "seed": 1}
-    runs = [parameters, *(parameters.replaced({"kind": k, **values}) for k in KINDS[1:])]
-    quiet, *times = fastest(*map(timed_steps, runs))
-    return {kind: t / quiet for kind, t in zip(KINDS[1:], times, strict=True)}
+    runs = [parameters.replaced({"kind": kind, **values}) for kind in kinds]
+    unperturbed, *times = _fastest(*map(_timed_steps, (parameters, *runs)))
+    return {kind: seconds / unperturbed for kind, seconds in zip(kinds, times, strict=True)}
 
 
-def precisions(parameters: Parameters) -> list[dict[str, float]]:
+def _precisions(parameters: Parameters) -> list[dict[str, float]]:
     """Error of the onset time and wall time, by tolerance and longest step."""
+    reference = _simulated(parameters, *REFERENCE)
+    exact = extract(reference)["onset_time"]
+    rows = []
+    for tolerance, longest_step in PRECISIONS:
+        record = _simulated(parameters, tolerance, longest_step)
+        ratio = extract(record)["onset_time"] / exact
+        row = {
+            "tolerance": tolerance,
+            "longest_step": longest_step,
+            "steps": record.attrs["steps"],
+            "seconds": record.attrs["wall_seconds"],
+            "onset_error": abs(ratio - 1.0),
+        }
+        rows.append(row)
+    return rows
 
-    def row(tolerance: float, longest_step: float) -> dict[str, float]:
-        values = {"tolerance": tolerance, "longest_step": longest_step}
-        record = simulate(parameters.replaced({**values, "time_after_event": 0.0}))
-        said = {"steps": record.attrs["steps"], "seconds": record.attrs["wall_seconds"]}
-        return values | said | {"onset_error": extract(record)["onset_time"]}
 
-    rows = [row(*setting) for setting in (REFERENCE, *PRECISIONS)]
-    exact = rows.pop(0)["onset_error"]
-    return [row | {"onset_error": abs(row["onset_error"] / exact - 1.0)} for row in rows]
+def _simulated(
+    parameters: Parameters,
+    tolerance: float,
+    longest_step: float,
+) -> xr.Dataset:
+    values = {
+        "tolerance": tolerance,
+        "longest_step": longest_step,
+        "time_after_event": 0.0,
+    }
+    return simulate(parameters.replaced(values))

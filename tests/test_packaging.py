@@ -43,7 +43,8 @@ CORE = named(PROJECT["dependencies"])
 BEYOND = {
     "report": "report", "claims/article.py": "report", "claims/printing.py": "article",
     "pipeline": "workflow",
-    "figures": "figures", "commands/show.py": "figures", "analysis": "solver", "fem": "solver",
+    "figures": "figures", "commands/show.py": "figures", "commands/plot.py": "figures",
+    "analysis": "solver", "fem": "solver",
     "simulation": "solver", "verification": "solver", "claims/table.py": "solver",
 }  # fmt: skip
 """Parts of the package that need one of the extras as well."""
@@ -121,6 +122,7 @@ def wheel(tmp_path_factory):
         shutil.copy(ROOT / name, copy)
     ignored = shutil.ignore_patterns("__pycache__")
     shutil.copytree(SOURCE, copy / SOURCE.relative_to(ROOT), ignore=ignored)
+    shutil.copytree(ROOT / "docs", copy / "docs", ignore=ignored)
     pip = (sys.executable, "-m", "pip", "--disable-pip-version-check")
     run(*pip, "wheel", "--no-deps", "--no-build-isolation", "--no-index", "-w", built, copy)
     (path,) = built.iterdir()
@@ -204,10 +206,20 @@ fault = dict(shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, a=0.010
 for function in api.critical_length, api.stability_length:
     print(round(float(function(**fault, slip_distance=5e-6)), 3))
 print(api.lengths_in_use(**fault, slip_distance=5e-6).sizes, api.Parameters().geometry.height)
+from nucleation.api import *
 try:
-    from nucleation.api import simulate
+    simulate()
 except ImportError as error:
     print(error)
+"""
+
+COMMANDS = ("length", "specimen", "drop", "plot", "simulate", "show")
+COMPLETED = """
+from click.shell_completion import ShellComplete
+from nucleation.commands import COMMANDS, main
+shell = ShellComplete(main, {}, "nucleation", "_NUCLEATION_COMPLETE")
+for command in COMMANDS:
+    print(*(item.value for item in shell.get_completions([command], "--js")))
 """
 
 
@@ -217,11 +229,33 @@ def test_library_alone_has_lengths_and_names_the_extra_for_the_rest(light, tmp_p
     *lengths, said = outside(light, tmp_path, "-c", THEORY).splitlines()
     assert lengths == ["2.513", "1.947", "Frozen({}) 0.005"] and said.startswith(advice)
     assert "2.513 m" in outside(light, tmp_path, *LENGTH)
-    for words in (["simulate", "run.nc"], ["drop"], ["show", "run.nc"]):
+    (tmp_path / "run.nc").touch()
+    for words in (["simulate", "new.nc"], ["show", "run.nc"], ["length", "--parameters", "run.nc"]):
         said = outside(light, tmp_path, "-m", "nucleation", *words, code=2)
-        assert said.startswith(f"Error: {advice}") and len(said.splitlines()) == 1
+        assert said.splitlines()[-1].startswith(f"Error: {advice}")
+        assert "Traceback" not in said
     report = outside(light, tmp_path, "-c", "import nucleation.report", code=1)
     assert "nucleation-length[report]" in report.splitlines()[-1]
+
+
+@pytest.mark.slow
+def test_library_alone_has_the_help_of_every_command(light, tmp_path):
+    """Help and completion load no extra, and `drop` and a dry run need none."""
+    for command in COMMANDS:
+        assert "Exit codes:" in outside(light, tmp_path, "-m", "nucleation", command, "--help")
+    assert outside(light, tmp_path, "-c", COMPLETED).split() == ["--json"] * len(COMMANDS)
+    dry = ["simulate", "new.nc", "--paper", "--dry-run"]
+    assert "critical length" in outside(light, tmp_path, "-m", "nucleation", *dry)
+
+
+@pytest.mark.slow
+def test_pages_are_cited_by_an_address_that_is_there(light, tmp_path):
+    """Far from a checkout too: by the path of the page that the wheel has brought."""
+    said = outside(light, tmp_path, "-m", "nucleation", "drop", "--paper", "--height", "2cm")
+    said += outside(light, tmp_path, *LENGTH)
+    pages = re.findall(r"[^\s(]*doc[^\s(]*\.md", said)
+    assert {Path(page).name for page in pages} == {"drop.md", "patch_theory.md"}
+    assert all(Path(page).is_absolute() and Path(page).is_file() for page in pages)
 
 
 def tried(python, directory):

@@ -10,23 +10,26 @@ array([2.51327412, 1.25663706])
 Plain numbers are in SI units. Functions of the linear theory take the parameters of
 :class:`~nucleation.theory.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
 broadcast as NumPy's do, DataArrays by the names of their dimensions, and what comes in as
-DataArray goes out as one. Where homogeneous sliding is stable, lengths are NaN.
+DataArray goes out as one. Where there is no length it is NaN, and ``length_statuses`` has the
+reason: sliding is stable, the length is longer than searched, or a formula does not apply.
 
 What carries a unit is converted to SI units: a DataArray by its attribute ``units``, and pint
 quantities, of which the results are quantities too. A text is read as the command line reads it,
 ``slip_distance="0.5um"``, in simulations as in the theory.
 
-Simulations, extraction and datasets are imported when first used, since that takes a while; they
-need the extra ``solver``, pictures and films (``plot_...``, ``film``) the extra ``figures``.
+Simulations, extraction and datasets are imported when first used, since that takes a while. They
+need the extra ``solver``, pictures and films (``plot_...``, ``film``) also the extra ``figures``:
+without it a call raises an ImportError that names the extra.
 """
 
 from __future__ import annotations
 
 import importlib
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
-from .configuration.installed import require, require_own
+from .configuration.installed import MissingExtra, require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material
@@ -49,14 +52,18 @@ if TYPE_CHECKING:
     from .analysis.extraction import extract
     from .analysis.progress import simulate
     from .answers.specimen import specimen_fit
+    from .answers.specimen_quantiles import specimen_quantiles
+    from .answers.status import length_statuses
     from .answers.uncertainty import length_quantiles
     from .configuration.samples import read_samples
     from .datasets.netcdf import read, write
     from .figures.overview import film, plot_length, plot_run, plot_spectrum
+    from .patch.drop_quantiles import drop_quantiles
     from .patch.expected_drop import NoDrop, expected_drop
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.creep.runaway import runaway_length
+    from .theory.weakening_patch import weakening_patch_length
 
 __all__ = [
     "CriticalMode",
@@ -77,10 +84,12 @@ __all__ = [
     "Stepping",
     "critical_length",
     "critical_mode",
+    "drop_quantiles",
     "expected_drop",
     "extract",
     "film",
     "length_quantiles",
+    "length_statuses",
     "lengths_in_use",
     "plot_length",
     "plot_run",
@@ -91,9 +100,11 @@ __all__ = [
     "runaway_length",
     "simulate",
     "specimen_fit",
+    "specimen_quantiles",
     "spectrum",
     "stability_length",
     "transfer_functions",
+    "weakening_patch_length",
     "write",
 ]
 
@@ -107,33 +118,46 @@ _LATER = {
     ".configuration.samples": ("read_samples",),
     ".datasets.netcdf": ("read", "write"),
     ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),
+    ".patch.drop_quantiles": ("drop_quantiles",),
     ".patch.expected_drop": ("NoDrop", "expected_drop"),
     ".simulation.run": ("run",),
     ".theory.creep.lengths": ("stability_length",),
     ".theory.creep.runaway": ("runaway_length",),
+    ".theory.weakening_patch": ("weakening_patch_length",),
     ".answers.specimen": ("specimen_fit",),
+    ".answers.specimen_quantiles": ("specimen_quantiles",),
+    ".answers.status": ("length_statuses",),
     ".answers.uncertainty": ("length_quantiles",),
 }
 _MODULES = {name: module for module, names in _LATER.items() for name in names}
 
-_LIGHT = {
-    "length_quantiles",
-    "read_samples",
-    "runaway_length",
-    "specimen_fit",
-    "stability_length",
+_EXTRAS = {
+    **dict.fromkeys(("extract", "read", "run", "simulate", "write"), ("solver",)),
+    **dict.fromkeys(("film", "plot_length", "plot_run", "plot_spectrum"), ("solver", "figures")),
 }
-"""Those that need no extra."""
+"""The extras that some of them need."""
 
 
 def __getattr__(name: str) -> Any:
-    if name in _MODULES:
-        if name not in _LIGHT:
-            require("solver")
-        if _MODULES[name].startswith(".figures"):
-            require("figures")
-        return getattr(importlib.import_module(_MODULES[name], __package__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    try:
+        for extra in _EXTRAS.get(name, ()):
+            require(extra)
+    except MissingExtra as missing:
+        return _without_extra(name, str(missing))
+    return getattr(importlib.import_module(_MODULES[name], __package__), name)
+
+
+def _without_extra(name: str, message: str) -> Callable[..., Any]:
+    """A function in place of one whose extra is not installed: a call names the extra."""
+
+    def unavailable(*_: Any, **__: Any) -> Any:
+        raise MissingExtra(message)
+
+    unavailable.__name__ = unavailable.__qualname__ = name
+    unavailable.__doc__ = f"Not installed: {message}."
+    return unavailable
 
 
 def __dir__() -> list[str]:

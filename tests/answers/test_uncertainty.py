@@ -7,7 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.stats import norm
 
-from nucleation.answers.uncertainty import QUANTILES, draw
+from nucleation.answers.draws import draw
+from nucleation.answers.uncertainty import QUANTILES
 from nucleation.api import (
     critical_length,
     length_quantiles,
@@ -151,6 +152,36 @@ def test_a_file_of_samples(tmp_path):
     assert found["friction"].tolist() == [0.6, 0.5] and found["a"].tolist() == [0.01, 0.01]
 
 
+PLAIN = "slip_distance (um),a\n5,0.01\n4.5,0.02\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        PLAIN.replace(",", ";"),
+        PLAIN.replace(",", "\t"),
+        PLAIN.replace(",", ";").replace(".", ","),
+        PLAIN.replace(",", "\t").replace(".", ","),
+        "# of a chain, made on Monday\n" + PLAIN.replace("\n4.5", "\n  # warm\n\n4.5"),
+        ",slip_distance (um),a\n0,5,0.01\n1,4.5,0.02\n",
+        "Unnamed: 0;slip_distance (um);a\n0;5;0,01\n1;4,5;0,02\n",
+        '"","slip_distance (um)","a"\n"1",5,0.01\n"2",4.5,0.02\n',
+        "slip_distance (um),a,\n5,0.01,\n4.5,0.02,\n",
+        PLAIN.replace("\n", "\r\n"),
+        PLAIN.replace("(um)", "(µm)"),
+    ],
+    ids=["semicolons", "tabs", "semicolons, commas", "tabs, commas", "comments", "pandas' index",
+         "named index", "R's index", "empty column", "CRLF", "micro"],
+)  # fmt: skip
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_files_of_other_programs(tmp_path, text, encoding):
+    path = tmp_path / "posterior.csv"
+    path.write_bytes(text.encode(encoding))
+    found = read_samples(path)
+    assert found.keys() == {"slip_distance", "a"}
+    assert found["slip_distance"].tolist() == [5e-6, 4.5e-6] and found["a"].tolist() == [0.01, 0.02]
+
+
 @pytest.mark.parametrize(
     "text, message",
     [
@@ -158,10 +189,25 @@ def test_a_file_of_samples(tmp_path):
         ("a,b\n", "no row of samples"),
         ("slip_distnce (um)\n5\n", "column 'slip_distnce .um.' is unknown.*mean slip_distance"),
         ("slip_distance (MPa)\n5\n", "column 'slip_distance .MPa.'.*stress, but m is needed"),
-        ("slip_distance (um),a\n5,.01\n\n6,\n", "row 4, column 'a': the cell is empty"),
-        ("slip_distance (um)\n5 um\n", "row 2, column 'slip_distance .um.': '5 um' is no number"),
-        ("a,b\n1,2,3\n", "row 2: 3 cells, but the header has 2"),
-        ("f,friction\n1,2\n", "friction is there twice"),
+        ("slip_distance (um),a\n5,.01\n\n6,\n", "line 4, column 'a': the cell is empty"),
+        (
+            "slip_distance (um)\n5 um\n",
+            "line 2, column 'slip_distance .um.': '5 um' is.*uni",
+        ),
+        ("a,b\n1,2,3\n", "line 2: 3 cells, but the header has 2"),
+        ("f,friction\n1,2\n", "line 1: column friction is there twice"),
+        ("a\n1,5\n2,5\n", "line 2: 2 cells, but the header has 1; with decimal commas"),
+        ("a,b\n0,01,0,02\n", "line 2: 4 cells, but the header has 2; with decimal commas"),
+        ("a;b\n0.01;0.02\n0,01;0.02\n", "line 3 has a decimal comma and line 2 a decimal point"),
+        ("slip_distance;a\n1.234,5;0.01\n", "line 2, column 'slip_distance'.*thousands"),
+        ("a\n1_0\n", "line 2, column 'a': '1_0' is no number"),
+        ("a\n1e999\n", "line 2, column 'a': '1e999' is no number"),
+        ("# a b\n0.01,0.02\n0.01,0.02\n", "line 2: there is no header"),
+        ("a b\n0.01 0.02\n", "line 1: the columns are separated by blanks"),
+        ("a;b\n0.01,0.02\n", "line 2: 1 cells.*columns are separated by semicolons"),
+        (",a\n7,0.01\n9,0.02\n", "line 1: column 1 has no name, but a value in line 2"),
+        ('a,b\n"0.01,0.02\n', "line 2: unexpected end of data"),
+        ("a,b\n0.01\0,0.02\n", "is no text file"),
     ],
 )
 def test_a_file_that_is_wrong(tmp_path, text, message):

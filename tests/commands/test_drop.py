@@ -73,6 +73,7 @@ def test_text(nucleation, law):
 def test_json(nucleation, law):
     found = json.loads(nucleation(*WORDS, "--json").out)
     assert found["stability_length"] == 0.25
+    assert (found["status"], found["reason"]) == ("value", "")
     assert found["drop"]["length"] == 0.32 and found["closed_form"]["effective"] == 1e-5
     assert found["trusted"] is True and found["doubt"] == ""
     assert found["perturbation"]["kind"] == "normal_load"
@@ -86,12 +87,50 @@ def test_a_stable_fault_is_told_with_its_system(nucleation, law):
     ended = nucleation(*WORDS, "--zeta", "-0.001", "--json")
     found = json.loads(ended.out)
     assert ended.code == 3 and found["theory"]["critical_length"] is None
-    assert "sliding is stable" in found["unknown"] and "v0" not in found["unknown"]
+    assert "sliding is stable" in found["reason"] and "v0" not in found["reason"]
+    assert found["status"] == "stable"
 
 
 @pytest.mark.parametrize("words", [(), ("--json",)])
 def test_a_fault_that_the_law_does_not_reach(nucleation, law, words):
-    law.answer = NoDrop("no mode grows")
+    law.answer = NoDrop("no patch up to 3 L_c has a growing mode", "beyond")
     ended = nucleation(*WORDS, *words)
     assert ended.code == 4
-    assert "no mode grows" in ended.out
+    assert "no patch up to 3 L_c has a growing mode" in ended.out
+    assert ('"status": "beyond"' in ended.out) == bool(words)
+
+
+def test_it_answers_in_any_directory(nucleation, law, monkeypatch):
+    """Nothing is written, so it does not matter whether a run could write its results there."""
+    monkeypatch.chdir("/")
+    assert nucleation(*WORDS).code == 0
+
+
+@pytest.mark.slow
+def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_path):
+    """Each draw is a fault of its own, with a block of its own length."""
+    from nucleation.patch import drop_quantiles
+
+    seen = []
+
+    def expected(parameters):
+        seen.append(parameters)
+        return law.answer
+
+    monkeypatch.setattr(drop_quantiles, "expected_drop", expected)
+    own = ("drop", "--strength", "1e-4", "--second-body", "rigid", "--draws", "20")
+    ended = nucleation(*own, "--height", "2cm (1 to 4)", "--json")
+    found = json.loads(ended.out)
+    heights = [parameters.geometry.height for parameters in seen]
+    assert ended.code == 0 and len(set(heights)) == 20 and 0.019 < sorted(heights)[10] < 0.022
+    lengths = [p.geometry.length / run_length(p, interface_state(p)) for p in seen]
+    assert lengths == pytest.approx([6.0] * 20, rel=1e-3)  # lengths are rounded
+    assert (found["draws"], found["invalid"], found["uncertain"]) == (20, 0, ["height"])
+    assert [one["key"] for one in found["lengths"]][-1] == "drop_length"
+    path = tmp_path / "heights.csv"
+    path.write_text("height (cm)\n1\n2\n4\n")
+    text = nucleation(*own, "--samples", path).out
+    assert "3 draws of height: 0 left out, 0 of the others stable" in text
+    assert "length at the drop L" in text
+    twice = nucleation(*WORDS, "--samples", path)
+    assert twice.code == 2 and "height is given twice" in twice.err

@@ -140,3 +140,29 @@ def test_stable_sliding(nucleation):
     assert "L_b" in ended.out and "0.2667 m" in ended.out  # others are still given
     told = nucleation(*words, "--json")
     assert told.code == 3 and json.loads(told.out)["theory"]["critical_length"] is None
+
+
+def test_a_weakening_patch(nucleation, found):
+    """W_c, what a patch of a width does and its cells; refused without its surroundings."""
+    around = ("--outside-zeta", "-0.005")
+    smallest = float(api.weakening_patch_length(outside_zeta=-0.005, **FAULT))
+    told = found(*around, "--width", "2m")["weakening_patch"]
+    assert told["smallest_width"] == pytest.approx(smallest)
+    assert told["width_ratio"] == pytest.approx(2.0 / smallest)
+    assert told["outcome"] == "it nucleates"
+    text = nucleation(*WORDS, *around, "--width", "1m").out
+    assert "W_c    1.106 m     0.44 L_c" in text
+    assert "it creeps" in text
+    assert "cells  0.0444 m" in text
+    assert max(map(len, text.splitlines())) <= 100
+    assert found()["weakening_patch"] is None
+    for alone in (("--width", "1m"), ("--outside-a", "0.01")):
+        ended = nucleation(*WORDS, *alone)
+        assert "outside_zeta is missing" in ended.err
+    ranges = nucleation(*WORDS, *around, "--friction", "0.6 (0.5 to 0.7)")
+    assert "outside_zeta is not allowed beside ranges" in ranges.err
+
+
+def test_patches_that_never_nucleate(nucleation):
+    ended = nucleation(*WORDS, "--outside-zeta", "0.001", "--width", "1m")
+    assert "no W_c: the patch is stable, or its surroundings are not" in ended.out

@@ -70,9 +70,11 @@ def test_ranges_in_a_file(nucleation, samples, tmp_path):
     given, one = ["--parameters", file], ["specimen", "--length", "1m"]
     from_file = nucleation("length", *given, *samples)
     assert from_file == nucleation(*WORDS, *samples) and from_file.code == 0
-    for command in (["drop", *given], ["simulate", tmp_path / "x.nc", *given], one + WORDS[1:]):
-        ended = nucleation(*command)
-        assert ended.code == 2 and "only `nucleation length` takes a range" in ended.err
+    ended = nucleation("simulate", tmp_path / "x.nc", *given)
+    assert ended.code == 2 and "a range is not allowed here" in ended.err
+    own = [*given, "--a", "0.01", "--draws", "20"]
+    assert "20 draws of poisson_ratio" in nucleation("length", *own).out
+    assert "in  50% of the draws" in nucleation(*one, *own).out
 
 
 def test_a_law_that_is_named(nucleation, samples, tmp_path):

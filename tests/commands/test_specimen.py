@@ -23,7 +23,8 @@ def test_json_has_the_library_s_numbers(nucleation, criterion):
     assert found["intervals"] == [list(interval) for interval in fit.intervals]
     forward = {"critical": api.critical_length, "stability": api.stability_length}[criterion]
     now = float(forward(**FAULT, normal_stress=1e6))
-    assert found["given"] == {"value": 1e6, "length": pytest.approx(now)}
+    given = {"value": 1e6, "length": pytest.approx(now), "status": "value", "reason": ""}
+    assert found["given"] == given
     assert found["unknown"] == "normal_stress" and found["plane"] == "stress"
 
 
@@ -47,7 +48,19 @@ def test_several_intervals_and_none(nucleation):
     assert ended.code == 0 and "there is no L_c: it does not nucleate" in ended.out
     assert "shear_modulus < 1.952e+09 Pa\n  shear_modulus > 5.124e+10 Pa" in ended.out
     ended = nucleation(*contrast, "--zeta=-9e-3")
-    assert ended.code == 3 and "never: there is none at all values" in ended.out
+    assert ended.code == 3 and "never: there is none at all values; sliding is stable" in ended.out
+
+
+def test_a_specimen_that_is_too_short_at_every_value(nucleation):
+    """It is told how short the length is at best, and at which value."""
+    short = [*WORDS[:2], "1nm", *WORDS[3:]]
+    ended = nucleation(*short, "--json")
+    found = json.loads(ended.out)
+    assert (ended.code, found["status"], found["intervals"]) == (0, "beyond", [])
+    best = float(api.critical_length(**FAULT, normal_stress=1e10))
+    assert found["reason"] == f"L_c is {best:.4g} m at least, at normal_stress = 1e+10 Pa"
+    text = nucleation(*short).out
+    assert f"never: it is longer at all values; {found['reason']}" in text
 
 
 def test_what_is_refused(nucleation):

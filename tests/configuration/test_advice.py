@@ -7,8 +7,9 @@ import pytest
 import square_evolution
 from configurations import messages, papers, study
 
-from nucleation.configuration.advice import advise, element_sizes
+from nucleation.configuration.advice import advise
 from nucleation.configuration.load import configure
+from nucleation.configuration.mesh_advice import element_sizes
 from nucleation.fem.grid import Grid
 from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
@@ -55,6 +56,25 @@ def weakening(growth, omega):
 def test_steepness_is_the_mean_weakening_along_the_slip(omega, square):
     expected = max(weakening(square_evolution.growth, omega), 1.0)
     assert steepness(Friction(), omega) == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.filterwarnings("error")
+def test_round_off_of_steady_sliding_is_no_age():
+    for evolution in ("aging", "slip"):
+        assert steepness(Friction(evolution=evolution), 1.0000000000000002) == 1.0
+
+
+@pytest.mark.parametrize(("change", "warned"), [(-0.5, True), (-2.0, False)])
+def test_a_patch_may_weaken_in_a_fault_that_strengthens(change, warned):
+    defaults = {
+        "length": 12.0, "n_x": 201, "n_y": 16, "grading": 64.0,
+        "loading": "remote", "stress_rate": 1e-3, "second_body": "deformable",
+        "law": "dieterich_ruina", "friction_coefficient": 0.4, "direct_effect": 0.0068,
+        "velocity_weakening": -0.0034, "end_time": 10.0,
+        "varies": "zeta", "shape": "step", "width": 1.2, "change": change,
+    }  # fmt: skip
+    given = advice({"height": 1.0}, defaults=defaults)
+    assert any("nothing will nucleate" in text for text in given) == warned
 
 
 @pytest.mark.parametrize("omega", [0.1, 1.0, 1.5, 20.0, 1e8])
@@ -125,13 +145,13 @@ WARNED = {
     "steps' noise": (
         {"height": 0.02, "n_x": 1600, "perturbation": "drive_velocity", "strength": 1e-5},
         "strength = 1e-05 while the front passes 4.6 % of an element in the longest step, which "
-        "shakes the patch as much; recommended is longest_step = 0.09 or less",
+        "perturbs the patch as much; recommended is longest_step = 0.09 or less",
     ),
     "roughness": (
         GOOD | {"perturbation": "state", "strength": 1e-3, "correlation_length": 0.01},
         "roughness not resolved (s-aging-H0.005-phi1-n_x400-perturbationstate-"
         "correlation_length0.01-strength0.001): correlation_length = 0.01 m has 2.8 elements of "
-        "0.00352 m, which sample some other roughness; recommended is n_x = 564 or more",
+        "0.00352 m, which represent another roughness; recommended is n_x = 564 or more",
     ),
 }
 

@@ -81,7 +81,7 @@ BAD = {
     ),
     "too many runs": (
         with_run(**{name: {"start": 1, "stop": 9, "num": 1000} for name in ("height", "phi0")}),
-        [f"{LAST} stands for 1000000 simulations, more than 10000"],
+        [f"{LAST} has 1000000 simulations, more than 10000"],
     ),
     "nothing to nucleate": (
         changed("studies.x", {"runs": [{"height": 0.1, "aging_coefficient": 0.0}]}),
@@ -130,7 +130,9 @@ BAD = {
         [f"{RUN}: s-aging-H0.1", "characters, more than 200"],
     ),
     "braces": (changed("results", "out/{x}"), ["results = 'out/{x}'", "without braces"]),
-    "code by a detour": (changed("results", "results/../src"), ["results = 'src'", "what makes"]),
+    "code by a detour": (
+        changed("results", "results/../src"), ["results = 'src'", "code that makes results"],
+    ),
     "the directory itself": (changed("results", "a/.."), ["results = '.'", "of its own"]),
     "root": (changed("results", "/"), ["results = '/'", "of its own"]),
     "star": (changed("results", "out*"), ["results = 'out*'", "wildcards"]),
@@ -199,12 +201,12 @@ def test_all_problems_are_reported_together():
 
 
 YAML = {
-    "key twice": (b"a: 1\nb: 2\na: 3\n", "the key a stands twice, in lines 1 and 3"),
-    "key twice in a mapping": (b"m: {density: 1, density: 2}\n", "key density stands twice"),
+    "key twice": (b"a: 1\nb: 2\na: 3\n", "the key a is given twice, in lines 1 and 3"),
+    "key twice in a mapping": (b"m: {density: 1, density: 2}\n", "key density is given twice"),
     "code": (b"x: !!python/object/apply:os.getcwd []\n", "is not valid YAML"),
     "a list as a key": (b"? [a, b]\n: 1\n", "line 1: a key must be a word"),
-    "octal": (b"n_x: 0400\n", "line 1: YAML takes 0400 for 256"),
-    "sexagesimal": (b"a: 1\nend_time: 1:30\n", "line 2: YAML takes 1:30 for 90"),
+    "octal": (b"n_x: 0400\n", "line 1: YAML reads 0400 as 256"),
+    "sexagesimal": (b"a: 1\nend_time: 1:30\n", "line 2: YAML reads 1:30 as 90"),
     "no such date": (b"a: 2001-99-99\n", "is not valid YAML"),
     "integer without end": (b"a: " + b"9" * 5000, "is not valid YAML"),
     "binary": (b"\x00\x01\xff\xfe", "is not valid YAML"),

@@ -10,7 +10,7 @@ from configurations import CONFIG, PAPER, papers, study
 from nucleation.configuration import schema
 from nucleation.configuration.load import configure, load
 from nucleation.configuration.runs import first_realisations
-from nucleation.configuration.studies import theory_curves
+from nucleation.configuration.theory_curves import theory_curves
 from nucleation.model.friction.law import Friction
 from nucleation.model.linearised import InterfaceState, interface_state
 from nucleation.model.material import Material
@@ -106,7 +106,7 @@ def test_quick_configuration_has_what_the_figures_show():
     for height in (quick.figures.inset_height, quick.figures.space_time_height):
         assert quick.shown(height).labels.items() >= {"evolution": "aging", "phi0": 1.0}.items()
     laws = {(run.labels["evolution"], run.labels["phi0"]) for run in quick.runs}
-    assert laws == {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
+    assert laws >= {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
 
 
 def test_grid_and_identifiers():

@@ -9,7 +9,7 @@ from fem.assembled_pair import AssembledPair
 from nucleation.fem import pair
 from nucleation.fem.block import Block
 from nucleation.fem.grid import Grid, Motion
-from nucleation.fem.pair import Pair
+from nucleation.fem.pair import BlockPair
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.model.second_body import SecondBody
@@ -27,7 +27,7 @@ STATIC, SLOW, FAST = 0.0, 1e6, 1e13  # s in 1/s^2: statics, elasticity and inert
 
 
 def pair_of(grids, bottom="free", upper=UPPER, lower=LOWER):
-    return Pair(Block(grids[0], upper), Block(grids[1], lower, bottom))
+    return BlockPair(Block(grids[0], upper), Block(grids[1], lower, bottom))
 
 
 def random_field(body, rng):

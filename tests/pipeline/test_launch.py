@@ -30,7 +30,7 @@ BAD = {
     "missing": (None, "can't be read: No such file"),
     "binary": (b"\x80\xff", "is not valid YAML"),
     "code": (f"__use_yte__: true\n{GOOD}".encode(), "__use_yte__ = True is not allowed"),
-    "twice": (b"results: a\nresults: b\n", "the key results stands twice, in lines 1 and 2"),
+    "twice": (b"results: a\nresults: b\n", "the key results is given twice, in lines 1 and 2"),
 }
 
 

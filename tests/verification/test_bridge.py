@@ -22,9 +22,9 @@ from nucleation.theory.critical import critical_wavenumber
 from nucleation.theory.spectrum import growth_rates
 from nucleation.theory.transfer import RIGID, bodies_of, transfer_functions
 from nucleation.theory.transfer import Body as Layer
-from nucleation.verification import dispersion, pair_modes
-from nucleation.verification.dispersion import sliding_period, sliding_state
+from nucleation.verification import dispersion, pair_modes, single_mode
 from nucleation.verification.orders import orders
+from nucleation.verification.single_mode import sliding_period, sliding_state
 
 REFERENCE = Path(__file__).parents[2] / "results" / "reference"
 MATERIAL = Material(poisson_ratio=0.29)
@@ -151,7 +151,7 @@ def test_modes_grow_as_the_theory_says(setting, ratio):
     parameters = SETTINGS[setting]
     assert bodies_of(parameters)[0].far_side == ("velocity" if setting == "top" else "free")
     k, expected = theory(parameters, ratio)
-    found = dispersion.measured_rates(parameters, parameters.geometry.height, k)
+    found = single_mode.measured_rates(parameters, parameters.geometry.height, k)
     found, expected = (rates[np.argsort(rates.imag)] for rates in (found, expected))
     assert np.abs(found - expected).max() < AGREEMENT * np.abs(expected).min()
     assert (found.real.max() > 0.0) == (ratio < 1.0)
@@ -171,7 +171,7 @@ def test_table_of_modes_is_that_of_the_reference_and_the_theorys(height, ratio):
     curves = dataset["curve_frequency"].values
     assert np.abs(np.diff(curves, axis=1)).max() < 0.1 * np.ptp(curves)  # continuous
     k, expected = theory(PARAMETERS.replaced({"height": height}), ratio)
-    now = pd.read_csv(io.StringIO(dispersion.to_csv(dataset)))
+    now = pd.read_csv(io.StringIO(dispersion.dispersion_csv(dataset)))
     np.testing.assert_allclose(now["mode_wavenumber"], k, rtol=1e-6)
     # the wave along +x, of the larger frequency, comes first
     rates = now["theory_growth"] + 1j * now["theory_frequency"]
@@ -190,11 +190,11 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
     """Second order in h; the step is small enough not to be seen."""
     fine = {"ROWS": (1, 100), "GRADING": 1.0, "STEP": 0.002, "DURATION": 1.0, "SKIPPED": 120}
     for name, value in (fine | {"INTERVAL": 30}).items():
-        monkeypatch.setattr(dispersion, name, value)
+        monkeypatch.setattr(single_mode, name, value)
     height, errors, sizes = 0.5, [], (17, 33, 65)
     k, expected = theory(PARAMETERS.replaced({"height": height}), 0.9)
     for nodes in sizes:
-        found = dispersion.measured_rates(PARAMETERS, height, k, nodes)
+        found = single_mode.measured_rates(PARAMETERS, height, k, nodes)
         errors.append(np.abs(found - expected).max() / np.abs(expected).max())
     ratio = np.array(sizes[1:]) / np.array(sizes[:-1])
     order = np.log(np.array(errors[:-1]) / errors[1:]) / np.log(ratio)
@@ -205,7 +205,7 @@ def test_growth_rates_converge_with_the_mesh(monkeypatch):
 # -- two layers ----------------------------------------------------------------------------------
 
 KINDS = ("measured", "theory")
-LAYERS = {layers.name: layers for layers in pair_modes.HELD + pair_modes.HALF_SPACES}
+LAYERS = {layers.name: layers for layers in pair_modes.THIN_LAYERS + pair_modes.HALF_SPACES}
 QUICK = ("stiff above, free", "stiff below, clamped", "stiff above, roller")
 
 
@@ -233,7 +233,7 @@ SLIDING = {
 @pytest.mark.parametrize("parameters", SLIDING.values(), ids=SLIDING)
 def test_homogeneous_sliding_persists(parameters):
     """With sigma0 on the interface, also where nothing holds the mean."""
-    parameters = dispersion.one_wavelength(parameters, 0.2, 20.0, nodes=17)
+    parameters = single_mode.one_wavelength(parameters, 0.2, 20.0, nodes=17)
     dynamics = sliding_period(parameters)
     state = sliding_state(dynamics, np.zeros(17))
     for _ in range(40):

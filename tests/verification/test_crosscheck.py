@@ -52,7 +52,7 @@ def solved_by_freefem(directory, parameters=PARAMETERS):
     """The record of FreeFem++. It may be missing on a developer's machine, but not in CI."""
     if not freefem.installed() and os.environ.get("CI") != "true":
         pytest.skip(freefem.MISSING)
-    return freefem.run(SCRIPTS, directory, parameters, CrosscheckSettings())
+    return freefem.solve(SCRIPTS, directory, parameters, CrosscheckSettings())
 
 
 @pytest.fixture(scope="module")
@@ -217,7 +217,7 @@ def test_runs_by_both_solvers_are_rows_and_one_that_failed_is_named():
 def test_without_the_other_program_it_is_said_how_to_get_it(tmp_path, monkeypatch):
     monkeypatch.setattr(freefem, "installed", lambda: False)
     with pytest.raises(freefem.FreeFemError, match=re.escape(freefem.MISSING)):
-        freefem.run(Path(), tmp_path, PARAMETERS, CrosscheckSettings(), ExtractionSettings())
+        freefem.solve(Path(), tmp_path, PARAMETERS, CrosscheckSettings(), ExtractionSettings())
 
 
 def test_the_solvers_agree_on_the_drop():

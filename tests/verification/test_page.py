@@ -36,7 +36,7 @@ def test_orders_on_the_finest_level_are_those_of_the_reference():
 @pytest.mark.slow
 def test_reference_orders_are_measured_today(convergence):
     """To two digits of the errors: they are no round-off."""
-    now = pd.read_csv(io.StringIO(orders.to_csv(convergence)))
+    now = pd.read_csv(io.StringIO(orders.convergence_csv(convergence)))
     names = ["problem", "refinement", *orders.ERRORS]
     pd.testing.assert_frame_equal(now[names], CONVERGENCE[names], rtol=5e-3, atol=0.0)
 

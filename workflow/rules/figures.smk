@@ -218,6 +218,29 @@ rule draw_figure_weakening:
         JOB
 
 
+rule draw_figure_weakening_patches:
+    """Weakening patches among strengthening surroundings"""
+    input:
+        table=f"{RESULTS}/weakening_patches.nc",
+        recipe=recipe("draw_figure_weakening_patches"),
+    output:
+        report(
+            f"{RESULTS}/figures/figure_weakening_patches.png",
+            caption="../report/figure_weakening_patches.rst",
+            category="Beyond the paper",
+        ),
+        f"{RESULTS}/figures/figure_weakening_patches.pdf",
+    log:
+        f"{RESULTS}/logs/figures/figure_weakening_patches.log",
+    localrule: True
+    params:
+        call="nucleation.figures.beyond.figure_weakening_patches:draw",
+    message:
+        "Weakening patches among strengthening surroundings"
+    shell:
+        JOB
+
+
 rule draw_figure_map:
     """Lengths over height and weakening: a map"""
     input:

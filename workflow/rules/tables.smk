@@ -189,3 +189,25 @@ rule gather_literature:
         "The literature's lengths, simulated"
     shell:
         JOB
+
+
+rule gather_weakening_patches:
+    """Weakening patches among strengthening surroundings, beside theory"""
+    input:
+        after=needed(
+            lambda: batches(runs_for("weakening_patches")), "study with role: weakening_patches"
+        ),
+        recipe=recipe("gather_weakening_patches"),
+    output:
+        multiext(f"{RESULTS}/weakening_patches", ".csv", ".nc"),
+    log:
+        f"{RESULTS}/logs/weakening_patches.log",
+    params:
+        call="nucleation.analysis.weakening_patches:gather",
+        loads=lambda wildcards: laws_of(runs_for("weakening_patches")),
+        reads=lambda wildcards: {"simulations": simulations(runs_for("weakening_patches"))},
+        runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),
+    message:
+        "Weakening patches among strengthening surroundings, beside theory"
+    shell:
+        JOB

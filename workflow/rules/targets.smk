@@ -108,6 +108,12 @@ rule figure_weakening:
         rules.draw_figure_weakening.output,
 
 
+rule figure_weakening_patches:
+    """Weakening patches among strengthening surroundings"""
+    input:
+        rules.draw_figure_weakening_patches.output,
+
+
 rule figure_map:
     """Lengths over height and weakening: a map"""
     input:

@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..datasets.variables import Variable, annotate
-from ..fem.condensed import Body
+from ..fem.condensed import ElasticBody
 from ..model.material import Material
 from ..simulation.recorded import RECORDED
 from ..simulation.run import composed, run
@@ -62,7 +62,7 @@ FILMED = {**RECORDED, "block_shear_stress": Variable("Pa", "shear stress in the 
 SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
 
 
-def shear_stress(body: Body, state: State, materials: Sequence[Material]) -> Array:
+def shear_stress(body: ElasticBody, state: State, materials: Sequence[Material]) -> Array:
     """Shear stress (Pa) at the nodes by differences of neighbours, (levels, n_x + 1).
 
     Levels as of :func:`levels`: both bodies have one of their own on the interface, whose stresses
@@ -79,7 +79,7 @@ def shear_stress(body: Body, state: State, materials: Sequence[Material]) -> Arr
     return np.concatenate([*(stress[::-1] for stress in found[1:]), found[0]])
 
 
-def levels(body: Body) -> tuple[Array, Indices]:
+def levels(body: ElasticBody) -> tuple[Array, Indices]:
     """Heights y (m) of the nodes from the lowest to the highest, and which of them a film shows.
 
     The interface's ``y = 0`` is there twice if there is a second body, whose nodes come first.

@@ -72,7 +72,7 @@ ELSEWHERE = {
     "dieterich_longest": SPRING_BLOCK,
     "uenishi_rice": "the limit a -> 0 of the pinned patch; with a direct effect, which every law "
     "here has, an accelerating zone widens beyond it to the fixed length",
-    "creeping_asperity": "not simulated: it needs velocity strengthening around the patch",
+    "creeping_asperity": "rigid surroundings are a limit: others are in weakening_patches.csv",
     "loaded_patch": "pinned ends; equal to the theory of the creeping patch under remote",
     "thin_limit": "the limit of homogeneous sliding in low blocks",
 }

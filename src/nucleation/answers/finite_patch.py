@@ -9,8 +9,8 @@ linearised about steady sliding at a rate ``V(x)``, weakens by the slip of a per
 
 Two base states slide steadily:
 
-- an **asperity** whose surroundings creep at the same V, and go on to: V is uniform, each mode of K
-  is a spring block, and the patch is unstable from the length on at which the softest one has the
+- an **asperity** whose surroundings creep at the same V, and keep to it: V is uniform, each mode of
+  K is a spring block, and the patch is unstable from the length on at which the softest one has the
   critical stiffness ``zeta sigma0/D``, ``zeta = b - a``. That eigenvalue is the one of Uenishi and
   Rice (2003), so ``L = 1.158 mu* D/(zeta sigma0)``, whatever a/b.
 - a **loaded patch** between ends that do not slip, under a shear stress that rises steadily:

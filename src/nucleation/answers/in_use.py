@@ -62,6 +62,21 @@ class Length:
         value = self.compute(Setting(*(own[n] if n in own else getattr(fault, n) for n in names)))
         return valid(coupling < formulas.NEGLIGIBLE, value) if two else value
 
+    def facts(self, fault: Fault) -> dict[str, Any]:
+        """The quantities of a fault on which the validity of the length depends, by their name.
+
+        The height H is in metres.
+        """
+        with np.errstate(divide="ignore", invalid="ignore"):
+            known = {
+                "a/b": fault.a / fault.b,
+                "zeta": fault.zeta,
+                "b": fault.b,
+                "f |beta|": of_two_materials(fault)[1],
+                "H": fault.height,
+            }
+        return {name: known[name] for mark, name in _FACTS.items() if mark in self.needs}
+
     def of_two(self) -> Length:
         """The same for two materials, with M in the place of mu*."""
         return dataclasses.replace(
@@ -78,6 +93,10 @@ class Length:
         """Unit, title, formula, source, validity, system and condition, as attributes."""
         names = ("title", "formula", "source", "validity", "system", "needs", "beyond")
         return {"units": "m", **{name: getattr(self, name) for name in names}}
+
+
+_FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L": "H"}
+"""Which quantity a condition depends on, by a part of :attr:`Length.needs`."""
 
 
 def of_two_materials(fault: Fault) -> tuple[Any, Any]:
@@ -201,11 +220,11 @@ _OF_ONE_MATERIAL = (
     ),
     Length(
         key="creeping_asperity",
-        title="asperity, creep around it",
+        title="asperity, rigid surroundings",
         formula="1.158 mu* D/(zeta sigma0)",
         source="Viesca and Garagash (2025), first scenario, by our derivation; "
         "Uenishi and Rice (2003)",
-        validity="velocity weakening, patch of fixed length in steady creep, either law",
+        validity="patch in steady creep whose surroundings keep to V; else W_c by --outside-zeta",
         compute=lambda s: s.plane(formulas.FINITE_PATCH),
     ),
     Length(
@@ -280,14 +299,20 @@ def lengths_of(fault: Fault, weakening_rate: Values | None = None) -> xr.Dataset
     """The same for a :class:`~nucleation.theory.fault.Fault`."""
     import xarray as xr
 
-    found = values_of(fault, weakening_rate)
-    plain = {k: x for k, x in found.items() if not labelled(x)}
-    shape = np.broadcast_shapes(*map(np.shape, plain.values()))
-    dims = [f"axis_{n}" for n in range(len(shape))]
-    found |= {k: xr.DataArray(np.broadcast_to(x, shape), dims=dims) for k, x in plain.items()}
+    found = with_dimensions(values_of(fault, weakening_rate))
     return xr.Dataset(
         {length.key: found[length.key].assign_attrs(length.words()) for length in LENGTHS}
     )
+
+
+def with_dimensions(found: dict[str, Any]) -> dict[str, xr.DataArray]:
+    """Arrays by key as DataArrays; those without named dimensions have ``axis_0``, ``axis_1``..."""
+    import xarray as xr
+
+    plain = {k: x for k, x in found.items() if not labelled(x)}
+    shape = np.broadcast_shapes(*map(np.shape, plain.values()))
+    dims = [f"axis_{n}" for n in range(len(shape))]
+    return found | {k: xr.DataArray(np.broadcast_to(x, shape), dims=dims) for k, x in plain.items()}
 
 
 def values_of(

@@ -10,15 +10,20 @@ from scipy.optimize import brentq
 from ..model.parameters import Geometry
 from ..model.plausible import RANGES
 from ..model.quantities import ParameterError, Quantity, declarations
-from ..theory.arrays import critical_length
+from ..theory.arrays import critical_length, fault_of
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES, Values, checked, takes_fault
+from ..theory.status import BEYOND, VALUE
+from ..types import Array
+from .status import answers_of_theory
 
 UNKNOWNS = Quantity(
     "what is looked for", choices=("normal_stress", "slip_distance", "shear_modulus"), kind="str"
 )
 CRITERIA = {"critical": critical_length, "stability": stability_length}
 """The lengths that can be asked to fit: L_c of homogeneous sliding, L_s of the creeping patch."""
+
+NAMES = {"critical": "L_c", "stability": "L_s"}
 
 SPECIMEN = dataclasses.replace(
     declarations(Geometry)["length"], description="length of the specimen along the fault"
@@ -32,7 +37,8 @@ FAR = 4.0
 class Fit(NamedTuple):
     """Where a nucleation length fits into a specimen.
 
-    An end of `intervals` that is one of `searched` is none of the specimen's.
+    Where an end of `intervals` is one of `searched`, the length may fit beyond it too. The status
+    is ``beyond`` where the length is longer than the specimen at all values.
     """
 
     unknown: str  # the parameter that was looked for
@@ -41,6 +47,8 @@ class Fit(NamedTuple):
     searched: tuple[float, float]  # values that were looked at
     exists: bool  # whether there is a nucleation length at any of them, of whatever length
     monotonic: bool  # whether the length rises or falls all along, wherever it exists
+    status: str  # "value" where it fits; else "beyond", "stable" or "unknown"
+    reason: str  # why it fits nowhere, empty where it fits
 
 
 @takes_fault
@@ -120,7 +128,23 @@ def specimen_fit(
         ends.append(math.exp(brentq(excess, *np.log(values[i : i + 2]), xtol=1e-12)))
     ends += [high] if fits[-1] else []
     steps = np.diff(found[np.isfinite(found)])
-    return Fit(
-        unknown, entry.unit, tuple(zip(ends[::2], ends[1::2], strict=True)), (low, high),
-        bool((found > 0.0).any()), bool((steps > 0.0).all() or (steps < 0.0).all()),
-    )  # fmt: skip
+    intervals = tuple(zip(ends[::2], ends[1::2], strict=True))
+    exists = bool((found > 0.0).any())
+    monotonic = bool((steps > 0.0).all() or (steps < 0.0).all())
+    status, reason = VALUE, ""
+    if not intervals and exists:
+        status, reason = BEYOND, _of_shortest(criterion, found, values, unknown)
+    elif not intervals:
+        middle = fault_of({**fault, unknown: values[values.size // 2]})
+        answer = answers_of_theory(middle)[criterion]
+        status, reason = str(answer.status), str(answer.reason)
+    return Fit(unknown, entry.unit, intervals, (low, high), exists, monotonic, status, reason)
+
+
+def _of_shortest(criterion: str, found: Array, values: Array, unknown: str) -> str:
+    """How short the length is at best, where it fits at no value."""
+    name, unit = NAMES[criterion], QUANTITIES[unknown].unit
+    if not np.isfinite(found).any():
+        return f"L_c is more than {FAR:g} times the specimen at all values"
+    best = np.nanargmin(found)
+    return f"{name} is {found[best]:.4g} m at least, at {unknown} = {values[best]:.4g} {unit}"

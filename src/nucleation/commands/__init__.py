@@ -5,6 +5,7 @@
 
 import difflib
 import importlib
+import io
 import os
 import signal
 import sys
@@ -14,7 +15,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..configuration.installed import MissingExtra, require
+from ..configuration.installed import MissingExtra
+from .pages import with_addresses
 
 DONE = 0
 FAILED = 1
@@ -43,13 +45,11 @@ COMMANDS = {
     "specimen": "Normal stress, slip distance or modulus at which a nucleation length fits into a "
     "specimen.",
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
+    "plot": "Draw L_c, L_s and the length at the drop over one or two parameters of a fault.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
     "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
 }
 """The commands, each with the first sentence of its help: listing them imports none of them."""
-
-LIGHT = {"length", "specimen"}
-"""Commands that need no extra; the others need ``solver``."""
 
 
 class LazyGroup(click.Group):
@@ -63,8 +63,6 @@ class LazyGroup(click.Group):
             close = difflib.get_close_matches(name, COMMANDS, n=1)
             hint = f"; did you mean {close[0]}?" if close else ""
             ctx.fail(f"there is no command {name!r}{hint}")
-        if name not in LIGHT:
-            require("solver")
         return importlib.import_module(f".{name}", __package__).command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -99,7 +97,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
             moment()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
-        error.show()
+        shown = io.StringIO()
+        error.show(shown)
+        click.echo(with_addresses(shown.getvalue()), err=True, nl=False)
         return error.exit_code
     except click.Abort:
         click.echo("Interrupted", err=True)
@@ -112,5 +112,5 @@ def run(arguments: Sequence[str] | None = None) -> int:
         message = place + (error.strerror or str(error))
     except (ParameterError, DatasetError, MissingExtra, MemoryError) as error:
         message = str(error) or "not enough memory"
-    click.echo(f"Error: {message}", err=True)
+    click.echo(f"Error: {with_addresses(message)}", err=True)
     return REFUSED

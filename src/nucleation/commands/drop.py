@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,12 +15,16 @@ from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
 from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
+from ..theory import status as status_words
 from ..theory.arrays import critical_length, reason_of_stability
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .fault_options import of_parameters, plane_in_words, told
 from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
+from .pages import with_addresses
 from .text import to_json
+from .uncertain_drop import print_drop_quantiles, uncertain_of
+from .uncertainty import draws_option, samples_option
 
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
@@ -48,9 +51,15 @@ def _counts(name: str) -> bool:
     return known and name not in OWN
 
 
+COUNTING = tuple(filter(_counts, study_parameters()))
+"""The parameters that decide on the drop, by their names in studies."""
+
+
 @click.command("drop", epilog=EXIT_CODES)
-@parameter_options(list(filter(_counts, study_parameters())), USUAL)
+@parameter_options(COUNTING, USUAL, ranges=True)
 @source_options
+@samples_option
+@draws_option(50)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
     as_json: bool,
@@ -58,32 +67,39 @@ def command(
     run_id: str | None,
     config: str | None,
     paper: bool,
+    samples: Path | None,
+    draws: int,
     **options: Any,
 ) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 
     A block is pushed from its side, as by `simulate`. Its creeping patch becomes unstable at L_s.
     The force drops once the unstable mode has grown to the size of the loading, so the weaker the
-    perturbation, the later. The growth follows from the theory of the patch.
+    perturbation, the later. The growth follows from the theory of the patch. A range "5um (3 to
+    10)", the median and the quantiles of 5 and 95 %, or --samples give quantiles of the length.
 
     \b
     Example:
       nucleation drop --height 2cm --perturbation normal_load --strength 1e-4
     """
-    base, given = sourced(file, run_id, config, paper, options)
+    base, given = sourced(file, run_id, config, paper, options, ranges=True)
     values = merged(base, USUAL | given if base is None else given)
     if values["perturbation"] == "none":
         raise ParameterError(
             "perturbation = 'none' is not allowed: without one the drop depends on round-off; it "
             f"must be one of {', '.join(KINDS[1:])}"
         )
+    uncertain = uncertain_of(given, samples)
+    if uncertain:
+        return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
     parameters = merged_parameters(None, values)
-    fault, found, reason = of_parameters(parameters), None, ""
+    fault, found, status, reason = of_parameters(parameters), None, status_words.VALUE, ""
     critical = float(critical_length(**fault))
     if math.isnan(critical):
-        code, reason = STABLE, reason_of_stability(Fault(**fault)) + _cure(parameters)
+        code, status = STABLE, status_words.STABLE
+        reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
     else:
-        run = planned(values, {}, results=os.getcwd())
+        run = planned(values, {}, results="results")  # not used
         critical = run.theory_length
         # with the solver, which takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
@@ -91,19 +107,22 @@ def command(
         try:
             found, code = expected_drop(run.parameters), DONE
         except NoDrop as error:
-            code, reason = UNKNOWN, str(error)
+            code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
-            click.echo(f"Warning: {topic}: {text}", err=True)
+            click.echo(f"Warning: {topic}: {with_addresses(text)}", err=True)
     said = told(parameters, base, given)
     if as_json:
         known = {
             "system": said,
+            "status": status,
+            "reason": reason,
             "theory": {"critical_length": critical, "plane": parameters.material.plane},
             "perturbation": dataclasses.asdict(parameters.perturbation),
         }
-        click.echo(to_json(known | (_described(found) if found else {"unknown": reason})))
+        click.echo(to_json(known | (_described(found) if found else {})))
     else:
-        click.echo("\n".join([*said, *_lines(parameters, critical, found, reason)]))
+        lines = [*said, *_lines(parameters, critical, found, reason)]
+        click.echo(with_addresses("\n".join(lines)))
     return code
 
 

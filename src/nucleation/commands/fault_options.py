@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import click
 
+from ..answers.draws import Range, parse_range
 from ..answers.in_use import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
-from ..answers.uncertainty import Range, parse_range
 from ..model.friction.constants import CONSTANTS
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS, law_declarations

@@ -8,24 +8,27 @@ from typing import Any
 import click
 
 from ..answers import formulas
+from ..answers.draws import Range, parse_range
 from ..answers.in_use import (
     HALF_SPACES,
     LENGTHS,
+    THIS_FAULT,
     TWO_MATERIALS,
     WEAKENING_RATE,
     Length,
     of_two_materials,
-    values_of,
 )
-from ..answers.uncertainty import Range, parse_range
+from ..answers.status import Answers, answers_of
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
-from ..theory.arrays import critical_mode, reason_of_stability
-from ..theory.creep.lengths import stability_values
+from ..theory.arrays import critical_mode
+from ..theory.creep.lengths import stability_answers, stability_values
 from ..theory.fault import Fault
-from . import DONE, EXIT_CODES, STABLE
+from ..theory.status import BEYOND, STABLE, UNKNOWN
+from . import DONE, EXIT_CODES
+from . import STABLE as CODE_OF_STABLE
 from .fault_options import (
     BEGINS,
     doubts_told,
@@ -39,11 +42,20 @@ from .fault_options import (
     systems_of_lengths,
 )
 from .options import option
-from .text import to_json, wrapped
-from .uncertainty import print_quantiles, samples_option, take_uncertain
+from .pages import with_addresses
+from .text import as_plain, to_json, wrapped
+from .uncertainty import draws_option, print_quantiles, samples_option, take_uncertain
+from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
 
 NOTEWORTHY = 0.03
 """Relative change of L_s by the scales of the friction law from which on it is told."""
+
+NO_LENGTH = {
+    STABLE: "NO LENGTH, STABLE: ",
+    BEYOND: "LONGER THAN SEARCHED: ",
+    UNKNOWN: "NOT VALID HERE, ",
+}
+"""How a line begins that has a reason in place of a length, by its status."""
 
 DENSITY = declarations(Material)["density"]
 
@@ -63,10 +75,12 @@ DENSITY = declarations(Material)["density"]
     help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
     "or interior; a top that moves has --far-side velocity",
 )  # fmt: skip
+@patch_options
 @samples_option
+@draws_option(1000)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
-    density: float | None, loading: str, as_json: bool, samples: Path | None,
+    density: float | None, loading: str, as_json: bool, samples: Path | None, draws: int,
     **options: Any,
 ) -> int:  # fmt: skip
     """Critical nucleation length of a fault: the theory's, and others in use.
@@ -83,40 +97,57 @@ def command(
     """
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
+    of_patch = {name: options.pop(name) for name in OPTIONS}
     given, law, papers = fault_values(**options, ranges=True)
     uncertain = {k: v for k, v in given.items() if isinstance(v, Range)} | uncertain
     if uncertain:
         if density is not None:
             raise ParameterError("density is not allowed beside ranges and samples")
-        usual = {"weakening_rate": weakening_rate, "loading": loading}
+        for name in OPTIONS:
+            if of_patch[name] is not None:
+                raise ParameterError(f"{name} is not allowed beside ranges and samples")
+        usual = {"weakening_rate": weakening_rate, "loading": loading, "draws": draws}
         return print_quantiles(given, uncertain, options | usual, as_json)
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
     with doubts_told():
         fault = Fault(**given)
-        theory = _theory(given, fault, density, loading, law)
-    lengths = {key: float(value) for key, value in values_of(fault, weakening_rate).items()}
+        found = answers_of(fault, weakening_rate)
+        theory = _theory(given, fault, density, loading, law, found["critical_length"])
+        patch = patch_of(fault, of_patch)
+    answers = {
+        length.key: found["stability_length" if length.system == THIS_FAULT else length.key]
+        for length in LENGTHS
+    }
     said = said_of(fault, given, loading) + papers
     if as_json:
-        found = {
+        everything = {
             "system": said,
             "parameters": parameters_of(fault),
             "theory": theory,
+            "weakening_patch": patch and patch._asdict(),
             "lengths": [
-                {"key": length.key, "length": lengths[length.key], **length.words()}
+                {"key": length.key, **as_plain(answers[length.key]), **length.words()}
                 for length in LENGTHS
             ],
         }
-        click.echo(to_json(found))
+        click.echo(to_json(everything))
     else:
-        click.echo(_as_text(said, fault, theory, lengths, law))
-    return DONE if math.isfinite(theory["critical_length"]) else STABLE
+        more = patch_lines(patch, of_patch["width"], theory["critical_length"]) if patch else []
+        text = _as_text(said, fault, theory, answers, law, more)
+        click.echo(with_addresses(text))
+    return DONE if math.isfinite(theory["critical_length"]) else CODE_OF_STABLE
 
 
 def _theory(
-    given: dict[str, Any], fault: Fault, density: float | None, loading: str, law: Friction | None
+    given: dict[str, Any],
+    fault: Fault,
+    density: float | None,
+    loading: str,
+    law: Friction | None,
+    critical: Answers,
 ) -> dict[str, Any]:
-    """What JSON has of the theory, in SI units; NaN where sliding is stable."""
+    """The theory's numbers for JSON, in SI units; NaN where there is none, with status."""
     velocity = fault.velocity or fault.slip_distance  # at which V/D is one per second
     mode = critical_mode(**{**given, "velocity": velocity})
     length, wavenumber, frequency = map(float, mode)
@@ -126,16 +157,21 @@ def _theory(
         ratio = abs(frequency) / wavenumber / shear_wave
     if loading != "edge":
         law = None
-    stability_length, own_frequency, error = map(float, stability_values(fault, law, loading))
+    *numbers, status, reason = stability_answers(fault, law, loading)
+    stability_length, own_frequency, error = map(float, numbers)
     constant = float(stability_values(fault, None, loading)[0]) if law else stability_length
     return {
         "critical_length": length,
+        "critical_length_status": str(critical.status),
+        "critical_length_reason": str(critical.reason),
         "critical_wavenumber": wavenumber,
         "critical_frequency": fault.velocity and frequency,
         "critical_frequency_over_rate": frequency / float(velocity / fault.slip_distance),
         "speed_over_shear_wave": ratio,
         "loading": loading,
         "stability_length": stability_length,
+        "stability_length_status": str(status),
+        "stability_length_reason": str(reason),
         "stability_frequency_over_rate": own_frequency,
         "stability_length_error": error,
         "stability_length_of_constant_a_and_b": constant,
@@ -146,8 +182,9 @@ def _as_text(
     said: list[str],
     fault: Fault,
     theory: dict[str, Any],
-    lengths: dict[str, float],
+    answers: dict[str, Answers],
     law: Friction | None,
+    patch: list[str],
 ) -> str:
     lines = [
         *wrapped(*said),
@@ -157,14 +194,15 @@ def _as_text(
     if math.isfinite(theory["critical_length"]):
         lines += [*_mode_lines(theory), "", *_patch_lines(theory, fault, law)]
     else:
-        reason = textwrap.wrap(reason_of_stability(fault), 90)
+        reason = textwrap.wrap(theory["critical_length_reason"], 90)
         lines += ["  no critical length:", *(f"  {line}" for line in reason)]
+    lines += ["", *patch] if patch else []
     for system in systems_of_lengths(fault):
         lines += ["", f"Lengths in use, for {system}:"]
         for length in LENGTHS:
             if length.system == system:
-                value = lengths[length.key]
-                lines += _length_lines(length, value, fault, theory["critical_length"])
+                critical = theory["critical_length"]
+                lines += _length_lines(length, answers[length.key], fault, critical)
     modulus = "" if one_material(fault) else f", M = {float(of_two_materials(fault)[0]):.4g} Pa"
     star = {"strain": "mu/(1 - nu)", "stress": "mu (1 + nu)", "antiplane": "mu"}[fault.plane]
     plane = plane_in_words(fault.plane)
@@ -204,7 +242,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
     )
     head = f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"
     if not math.isfinite(length):
-        return [head, "  no L_s: no patch up to 3 L_c turns unstable, or its creep opens it"]
+        return [head, f"  no L_s: {theory['stability_length_reason']}"]
     later = "it turns unstable; an event follows later"
     later += ", docs/drop.md" if loading == "edge" else ""
     lines = [head, f"  L_s    {f'{length:.4g} m':<11} {f'{length / critical:.3g} L_c':<10} {later}"]
@@ -218,10 +256,10 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
     return lines
 
 
-def _length_lines(length: Length, value: float, fault: Fault, critical: float) -> list[str]:
+def _length_lines(length: Length, answer: Answers, fault: Fault, critical: float) -> list[str]:
     """One length: value and formula, source, validity."""
-    said, ratio = "-", ""
-    valid = f"NOT VALID HERE, needs {length.needs}: {_why(length, fault)}"
+    value, said, ratio = float(answer.length), "-", ""
+    valid = f"{NO_LENGTH.get(str(answer.status), '')}{answer.reason}"
     if math.isfinite(value):
         said, valid = f"{value:.4g} m", f"valid: {length.validity}"
         ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
@@ -236,16 +274,3 @@ def _length_lines(length: Length, value: float, fault: Fault, critical: float) -
     if length.beyond and formulas.between_localised_and_crack(fault.a, fault.b):
         lines += textwrap.wrap(length.beyond, 94, initial_indent=6 * " ", subsequent_indent=6 * " ")
     return lines
-
-
-def _why(length: Length, fault: Fault) -> str:
-    """What of the fault decides on the validity of a length."""
-    a, b = float(fault.a), float(fault.b)
-    facts = {
-        "a/b": f"a/b = {a / b:.4g}" if b > 0.0 else f"b = {b:.4g}",
-        "zeta": f"zeta = {float(fault.zeta):.4g}",
-        "b > 0": f"b = {b:.4g}",
-        "beta": f"f |beta| = {float(of_two_materials(fault)[1]):.4g}",
-        "H/L": f"H = {float(fault.height):g} m",
-    }
-    return ", ".join(fact for condition, fact in facts.items() if condition in length.needs)

@@ -8,7 +8,8 @@ from typing import Any
 
 import click
 
-from ..answers.uncertainty import Range, parse_range
+from ..answers.draws import Range, parse_range
+from ..configuration.installed import require
 from ..configuration.load import configure, load
 from ..configuration.runs import Run
 from ..configuration.strict_yaml import read_yaml
@@ -100,8 +101,13 @@ def flat(parameters: Parameters) -> dict[str, Any]:
     return {known.short(full): value for full, value in given if value is not None}
 
 
-def parameter_options(chosen: Collection[str], changed: Mapping[str, Any] = {}) -> Decorator:
-    """Options for parameters by their names in studies, some with `changed` defaults."""
+def parameter_options(
+    chosen: Collection[str], changed: Mapping[str, Any] = {}, ranges: bool = False
+) -> Decorator:
+    """Options for parameters by their names in studies, some with `changed` defaults.
+
+    Their values may be ranges if `ranges` says so.
+    """
     usual: dict[str, Any] = {}
     for law in (*LAWS, Friction().law):
         usual |= flat(Parameters(friction=Friction(law=law)))
@@ -113,7 +119,13 @@ def parameter_options(chosen: Collection[str], changed: Mapping[str, Any] = {}) 
     entries = {name: entry for name, entry in study_parameters().items() if name in chosen}
     return together(*(
         second_body_option if name == "second_body"
-        else option(*words(name), key=name, entry=entry, note=notes.get(name, ""))
+        else option(
+            *words(name),
+            key=name,
+            entry=entry,
+            note=notes.get(name, ""),
+            read=parse_range if ranges and not entry.worded else parse,
+        )
         for name, entry in entries.items()
     ))  # fmt: skip
 
@@ -165,7 +177,10 @@ def sourced(
     found |= _with_second_body(given_of(options))
     uncertain = [name for name, value in found.items() if isinstance(value, Range)]
     if uncertain and not ranges:
-        raise ParameterError(f"{uncertain[0]}: only `nucleation length` takes a range")
+        raise ParameterError(
+            f"{uncertain[0]}: a range is not allowed here, a simulation has one value of each "
+            "parameter; `nucleation drop`, `length` and `specimen` take ranges"
+        )
     if base is None and not paper and not uncertain:
         found |= follows_from(found)
     return base, found
@@ -181,6 +196,7 @@ def _of_run(config: str | None, run_id: str) -> Parameters:
 
 def _of_dataset(path: Path) -> Parameters:
     # with the libraries of arrays on disk, which takes a second
+    require("solver")
     from ..analysis.record import parameters_of
     from ..datasets import netcdf
 
@@ -204,6 +220,11 @@ def _of_file(path: Path) -> dict[str, Any]:
     except ParameterError as error:
         raise ParameterError(f"{path}: {error}") from None
     return given
+
+
+def name_in_studies(name: str) -> str:
+    """The name in studies of a parameter by any of its names."""
+    return _name_in_file(name, name, "...")
 
 
 def _name_in_file(full: str, field: str, value: Any) -> str:
@@ -250,7 +271,13 @@ def _with_second_body(given: dict[str, Any]) -> dict[str, Any]:
             f"in {bounds(entries[keys[0]])}, Poisson's ratio in {bounds(entries[keys[1]])} and "
             "perhaps a height, with commas between"
         )
-    own = {k: parse(k, part, entries[k]) for k, part in zip(keys, parts, strict=False)}
+    try:
+        own = {k: parse(k, part, entries[k]) for k, part in zip(keys, parts, strict=False)}
+    except ParameterError as error:
+        raise ParameterError(
+            f"second_body = {text!r} is not allowed: commas separate its values, which have a "
+            f"decimal point; {error}"
+        ) from None
     return given | {"second_body": "deformable", **own}
 
 

@@ -18,11 +18,10 @@ from ..analysis.record import parameters_of
 from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.text import require_writable
-from ..datasets import netcdf
 from ..configuration.installed import require
+from ..datasets import netcdf
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
-from ..pipeline.running import simulation_code
 from ..theory.critical import NoInstability, run_length
 
 SHOWN_ROWS = 60
@@ -43,6 +42,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     Example:
       nucleation show run.nc --plot run.png
     """
+    require("solver")
     dataset = netcdf.read(file)
     kind = next(kind for kind in KINDS if set(kind.marks) <= set(map(str, dataset.variables)))
     if plot:
@@ -114,6 +114,8 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
     if "code_digest" in attributes:
         digest, verdict = attributes["code_digest"], ""
         if kind.name == SIMULATION:
+            from ..pipeline.running import simulation_code  # with the solver, which is an extra
+
             differs = digest != simulation_code(parameters_of(dataset))
             verdict = f", {'NOT ' if differs else ''}that of this installation"
         lines.append(f"code: {digest[:16]}{verdict}")

@@ -9,9 +9,9 @@ from typing import Any
 import click
 
 from ..configuration.advice import advise
+from ..configuration.installed import require
 from ..configuration.runs import Run
-from ..configuration.settings import Limits, estimated_megabytes
-from ..configuration.studies import StudySettings
+from ..configuration.settings import Limits, StudySettings, estimated_megabytes
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
@@ -30,6 +30,7 @@ from .options import (
     source_options,
     sourced,
 )
+from .pages import with_addresses
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]
@@ -88,12 +89,13 @@ def command(
     said = told(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
-        click.echo(f"Warning: {text}", err=True)
+        click.echo(f"Warning: {with_addresses(text)}", err=True)
     said += _plan_lines(run)
     if dry_run:
         text = "\n".join([*parameter_lines(run.parameters), *said])
         click.echo(to_json(_planned(run)) if as_json else text)
         return DONE
+    require("solver")
     click.echo("\n".join(said), err=as_json)
     return _simulate(run, output, as_json)
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from ..answers.status import Answers
 from ..model.parameters import GROUPS, Parameters
 from ..model.quantities import ParameterError, Quantity, declarations
 
@@ -65,6 +66,15 @@ def outcome(dataset: Any) -> dict[str, Any]:
         "wall_seconds": float(dataset.attrs["wall_seconds"]),
         "simulated_time": float(dataset["step_time"][-1]),
         "event": extract(dataset),
+    }
+
+
+def as_plain(answer: Answers) -> dict[str, Any]:
+    """A length of one fault with its status, for JSON."""
+    return {
+        "length": float(answer.length),
+        "status": str(answer.status),
+        "reason": str(answer.reason),
     }
 
 

@@ -1,4 +1,4 @@
-"""What ``nucleation length`` does with parameters that are ranges or samples."""
+"""Parameters that are ranges or samples, and the quantiles of lengths that follow from them."""
 
 import math
 import textwrap
@@ -9,19 +9,29 @@ from typing import Any
 import click
 import numpy as np
 
+from ..answers.draws import DRAWS, Range
 from ..answers.in_use import LENGTHS, THIS_FAULT, TWO_MATERIALS
-from ..answers.uncertainty import QUANTILES, Range, length_quantiles
+from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
 from ..theory.fault import Fault
 from . import DONE, STABLE
 from .fault_options import doubts_told, parameters_of, said_of, systems_of_lengths
+from .options import Decorator, option
+from .progress import Progress
 from .text import to_json, wrapped
 
 samples_option = click.option(
-    "--samples", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--samples",
+    type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
-)  # fmt: skip
+)
+
+
+def draws_option(usual: int) -> Decorator:
+    """The option for the number of draws, with a command's usual number."""
+    note = f"of uncertain parameters, and most rows of --samples; default {usual}"
+    return option("--draws", key="draws", entry=DRAWS, note=note, default=str(usual))
 
 
 def take_uncertain(
@@ -51,21 +61,34 @@ def take_uncertain(
     return medians, uncertain
 
 
+def varying(
+    given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any]
+) -> dict[str, Any]:
+    """The parameters of a median fault with those that are uncertain in their place.
+
+    If b was given it stays when a varies, and a second body like the first varies with it.
+    """
+    known = dict(given)
+    if options["b"] is not None and "zeta" in known:
+        known["b"] = known["a"] + known.pop("zeta")
+    if options["second_body"] in (None, "same"):
+        for name in ("shear_modulus", "poisson_ratio", "height"):
+            if known.get(f"second_{name}") == known.get(name):
+                known.pop(f"second_{name}", None)
+    return known | uncertain
+
+
 def print_quantiles(
     given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any], as_json: bool
 ) -> int:
     """Print the quantiles of all lengths, and return the exit code; `given` is the median fault."""
-    known = dict(given)
-    if options["b"] is not None and "zeta" in known:
-        known["b"] = known["a"] + known.pop("zeta")  # b is what stays when a varies
-    if options["second_body"] in (None, "same"):
-        for name in ("shear_modulus", "poisson_ratio", "height"):
-            if known.get(f"second_{name}") == known.get(name):
-                known.pop(f"second_{name}", None)  # it varies with the first body's
-    known |= {name: options[name] for name in ("weakening_rate", "loading")} | uncertain
+    known = varying(given, uncertain, options)
+    known |= {name: options[name] for name in ("weakening_rate", "loading", "draws")}
+    if "weakening_rate" in uncertain:
+        known["weakening_rate"] = uncertain["weakening_rate"]
     with doubts_told():
         middle = Fault(**given)
-        found = length_quantiles(**known)
+        found = length_quantiles(progress=Progress("draws"), **known)
     said = said_of(middle, given, options["loading"])
     click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
     return DONE if found["share"][0] > 0.0 else STABLE
@@ -95,6 +118,7 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
     drawn = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
     drawn += f" ({count['outside']} not allowed)" if count["invalid"] else ""
     drawn += f", {count['stable']} of the others stable, without L_c"
+    drawn += f", {count['beyond']} with an L_s beyond 3 L_c" if count["beyond"] else ""
     head = "".join(f"{share:>10.0%}" for share in QUANTILES)
     lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
     systems, nowhere = {length.key: length.system for length in LENGTHS}, []
@@ -112,8 +136,9 @@ def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, An
         lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
     lines += [
         "",
-        "stable: no patch nucleates, which counts as an infinite length; digits as far as the",
-        "number of draws tells. share: of the draws in which the length exists; full lengths",
+        "stable: no patch nucleates, or none that was searched, which counts as an infinite",
+        "length; digits as far as the number of draws tells. share: of the draws that have the",
+        "length; full lengths",
     ]
     return "\n".join(lines)
 

@@ -1,8 +1,8 @@
-"""The checked configuration, whose studies are expanded into runs when they are asked for."""
+"""The checked configuration; a study is expanded into runs when one of them is first used."""
 
 import dataclasses
 import difflib
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, TypeVar
 
 from ..analysis.definitions import ExtractionSettings
@@ -13,16 +13,17 @@ from ..theory.settings import Curves
 from ..verification.crosscheck.plan import CrosscheckSettings
 from .contradictions import run_problems
 from .refusals import stop_on
-from .roles import problems_of_runs, shown
-from .runs import Run
-from .settings import FigureSettings, Limits
-from .studies import StudySettings, study_runs
+from .role_problems import problems_of_runs
+from .roles import PAPERS
+from .runs import Run, shown
+from .settings import FigureSettings, Limits, StudySettings
+from .studies import study_runs
 
-Named = TypeVar("Named")
+_Named = TypeVar("_Named")
 
 
-class Expanded(NamedTuple):
-    """The runs that a study stands for."""
+class _Expanded(NamedTuple):
+    """The runs of a study."""
 
     runs: dict[str, Run]  # by their ids
     batches: dict[str, list[Run]]  # by their names
@@ -33,8 +34,8 @@ class Expanded(NamedTuple):
 class Configuration:
     """Everything the workflow does.
 
-    A study is expanded into its runs when one of them is first asked for, and the runs are kept.
-    What gives runs raises a ParameterError with all problems of the study if it has any.
+    A study is expanded into its runs when one of them is first used, and the runs are kept.
+    Methods that return runs raise a ParameterError with all problems of the study if it has any.
     """
 
     results: str
@@ -48,20 +49,28 @@ class Configuration:
     studies: dict[str, StudySettings]
     sections: Mapping[str, dict[str, Any]] = dataclasses.field(repr=False)
     """The section of each study in the configuration."""
+
     stepping: Collection[str] = ()
-    """The keys that the section ``stepping`` gives."""
-    _kept: dict[str, Expanded] = dataclasses.field(
-        default_factory=dict, init=False, repr=False, compare=False
+    """The keys in the section ``stepping``."""
+
+    _kept: dict[str, _Expanded] = dataclasses.field(
+        default_factory=dict,
+        init=False,
+        repr=False,
+        compare=False,
     )
 
     @property
     def runs(self) -> tuple[Run, ...]:
         """The runs of all studies, in the configuration's order."""
-        return tuple(run for study in self.studies for run in self.runs_of(study))
+        return tuple(self._runs_of_all(self.studies))
 
     def runs_of(self, study: str) -> list[Run]:
         """The runs of one study, none if there is no such study."""
-        return list(self._checked(study).runs.values()) if study in self.studies else []
+        if study not in self.studies:
+            return []
+        expanded = self._checked(study)
+        return list(expanded.runs.values())
 
     def studies_for(self, *roles: str) -> list[str]:
         """The names of the studies with some roles, in the configuration's order."""
@@ -69,7 +78,14 @@ class Configuration:
 
     def runs_for(self, *roles: str) -> list[Run]:
         """The runs of the studies with some roles."""
-        return [run for study in self.studies_for(*roles) for run in self.runs_of(study)]
+        studies = self.studies_for(*roles)
+        return self._runs_of_all(studies)
+
+    def _runs_of_all(self, studies: Iterable[str]) -> list[Run]:
+        runs = []
+        for study in studies:
+            runs += self.runs_of(study)
+        return runs
 
     def run(self, identifier: str) -> Run:
         """The run with an identifier such as ``paper-aging-H0.005-phi1``.
@@ -77,21 +93,23 @@ class Configuration:
         Raises
         ------
         ParameterError
-            If there is none, naming those with similar identifiers.
+            If there is none; the message names similar identifiers.
         """
         study = self._study_in(identifier, "run")
-        return _found("run", identifier, self._checked(study).runs, study)
+        runs = self._checked(study).runs
+        return _found("run", identifier, runs, study)
 
     def batch(self, name: str) -> list[Run]:
-        """The runs of the batch with a name such as ``paper-0``: those that one job makes.
+        """The runs of the batch with a name such as ``paper-0``; one job makes them.
 
         Raises
         ------
         ParameterError
-            If there is none, naming those with similar names.
+            If there is none; the message names similar names.
         """
         study = self._study_in(name, "batch")
-        return list(_found("batch", name, self._checked(study).batches, study))
+        batches = self._checked(study).batches
+        return list(_found("batch", name, batches, study))
 
     def shown(self, height: float) -> Run:
         """The run with the role ``paper`` of a height (m) that figures show.
@@ -101,42 +119,62 @@ class Configuration:
         ParameterError
             If there is none.
         """
-        run = shown(self.runs_for("paper"), height, self.base)
+        runs = self.runs_for(PAPERS)
+        run = shown(runs, height, self.base)
         if run is None:
             raise ParameterError(f"no study with role: paper has a run with height {height:g} m")
         return run
 
     def problems_of(self, study: str) -> list[str]:
-        """What is wrong with the runs of a study, a line for each problem."""
+        """The problems with the runs of a study, one line for each."""
         return self._expanded(study).problems
 
-    def _checked(self, study: str) -> Expanded:
+    def _checked(self, study: str) -> _Expanded:
         expanded = self._expanded(study)
         stop_on(expanded.problems)
         return expanded
 
-    def _expanded(self, study: str) -> Expanded:
+    def _expanded(self, study: str) -> _Expanded:
         if study not in self._kept:
             self._kept[study] = self._expand(study)
         return self._kept[study]
 
-    def _expand(self, study: str) -> Expanded:
-        section, interface = self.sections[study], self.main_text_interface
-        found = list(study_runs(study, section, self.base, interface, self.stepping))
-        runs = [run for _, run in found if isinstance(run, Run)]
-        problems = [*self._run_problems(found)]
+    def _expand(self, study: str) -> _Expanded:
+        runs = []
+        found = []
+        for place, run in study_runs(
+            study,
+            self.sections[study],
+            self.base,
+            self.main_text_interface,
+            self.stepping,
+        ):
+            found.append((place, run))
+            if isinstance(run, Run):
+                runs.append(run)
+        problems = list(self._run_problems(found))
         if not problems:
-            settings = self.studies[study]
-            problems += problems_of_runs(study, settings, runs, self.figures, self.base)
+            problems += problems_of_runs(
+                study,
+                self.studies[study],
+                runs,
+                self.figures,
+                self.base,
+            )
         batches: dict[str, list[Run]] = {}
         for run in runs:
             if run.batch:
-                batches.setdefault(run.batch, []).append(run)
-        return Expanded({run.id: run for run in runs}, batches, problems)
+                batches.setdefault(run.batch, [])
+                batches[run.batch].append(run)
+        by_id = {run.id: run for run in runs}
+        return _Expanded(by_id, batches, problems)
 
-    def _run_problems(self, found: list[tuple[str, Run | str]]) -> Iterator[str]:
-        """Runs that can't be made, stand twice or contradict themselves."""
-        seen: dict[Any, str] = {}
+    def _run_problems(
+        self,
+        found: Iterable[tuple[str, Run | str]],
+    ) -> Iterator[str]:
+        """Runs that are invalid, repeated or contradictory."""
+        seen: dict[Hashable, str] = {}
         for key, run in found:
             if isinstance(run, str):
                 yield f"{key}: {run}"
@@ -147,25 +185,32 @@ class Configuration:
                 seen[mark] = key
             yield from run_problems(key, run, self.limits, self.extraction)
 
-    def _study_in(self, name: str, what: str) -> str:
-        """The study that the name of a run or of a batch begins with."""
+    def _study_in(self, name: str, kind: str) -> str:
+        """The study at the start of the name of a run or of a batch."""
         study = name.partition("-")[0]
-        if study not in self.studies:
-            close = difflib.get_close_matches(study, self.studies, n=1)
-            hint = f"did you mean {close[0]}?" if close else f"studies: {', '.join(self.studies)}"
-            raise ParameterError(f"there is no {what} {name}, as there is no study {study}; {hint}")
-        return study
+        if study in self.studies:
+            return study
+        close = difflib.get_close_matches(study, self.studies, n=1)
+        listed = ", ".join(self.studies)
+        hint = f"did you mean {close[0]}?" if close else f"studies: {listed}"
+        raise ParameterError(f"there is no {kind} {name}, as there is no study {study}; {hint}")
 
 
-def _found(what: str, name: str, known: Mapping[str, Named], study: str) -> Named:
+def _found(
+    kind: str,
+    name: str,
+    known: Mapping[str, _Named],
+    study: str,
+) -> _Named:
     """The run or the batch of a study with a name."""
-    if name not in known:
-        close = difflib.get_close_matches(name, known, n=3)
-        if not known:
-            hint = f"the study {study} has none"
-        elif close:
-            hint = f"did you mean {' or '.join(close)}?"
-        else:
-            hint = f"those of the study {study} are called like {next(iter(known))}"
-        raise ParameterError(f"there is no {what} {name}; {hint}")
-    return known[name]
+    if name in known:
+        return known[name]
+    close = difflib.get_close_matches(name, known, n=3)
+    if not known:
+        hint = f"the study {study} has none"
+    elif close:
+        hint = f"did you mean {' or '.join(close)}?"
+    else:
+        example = next(iter(known))
+        hint = f"those of the study {study} have names like {example}"
+    raise ParameterError(f"there is no {kind} {name}; {hint}")

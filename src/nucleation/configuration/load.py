@@ -1,11 +1,12 @@
-"""The configuration of the workflow: read, checked as a whole, turned into settings and runs.
+"""The configuration of the workflow: read, checked as a whole, converted to settings and runs.
 
 All problems of a configuration are reported together, each with key, value, unit and range.
 """
 
 import dataclasses
+import functools
 import os
-from collections.abc import Iterable
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,19 +16,26 @@ from ..model.quantities import ParameterError
 from ..model.units import parse
 from . import schema
 from .configuration import Configuration
-from .contradictions import results_directory, results_problems, rounding_problems, setting_problems
+from .contradictions import results_directory, results_problems
 from .refusals import range_problems, stop_on, value_problems
-from .roles import problems_of_studies
+from .role_problems import problems_of_studies
+from .setting_problems import rounding_problems, setting_problems
+from .settings import StudySettings
 from .strict_yaml import read_yaml
-from .studies import study_settings
 from .study_names import in_type
 
 CHECKOUT = Path(__file__).parents[3]
-DEFAULTS = (CHECKOUT / "config" / "config.yaml", CHECKOUT / "config" / "beyond.yaml")
+DEFAULTS = (
+    CHECKOUT / "config" / "config.yaml",
+    CHECKOUT / "config" / "beyond.yaml",
+)
 """The default configuration: the paper's, and the studies beyond it."""
 
 
-def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
+def load(
+    *paths: str | os.PathLike[str],
+    lazy: bool = False,
+) -> Configuration:
     """The configuration in YAML files, or the default one.
 
     Parameters
@@ -38,118 +46,170 @@ def load(*paths: str | os.PathLike[str], lazy: bool = False) -> Configuration:
     lazy : bool
         See :func:`configure`.
 
+    Returns
+    -------
+    Configuration
+
     Raises
     ------
     ParameterError
         With one line for each problem found.
     """
-    return configure(_merged(map(read_yaml, paths)) if paths else {}, lazy=lazy)
+    layers = map(read_yaml, paths)
+    values = functools.reduce(_merged, layers) if paths else {}
+    return configure(values, lazy=lazy)
 
 
-def _merged(layers: Iterable[Any]) -> Any:
-    """Configurations as one, as Snakemake merges its files: later values replace earlier ones."""
-    first, *others = layers
-    for other in others:
-        if not isinstance(first, dict) or not isinstance(other, dict):
-            first = other
-            continue
-        both = first.keys() & other.keys()
-        first = {**first, **other, **{key: _merged((first[key], other[key])) for key in both}}
-    return first
+def _merged(first: Any, later: Any) -> Any:
+    """Two configurations as one, as Snakemake merges its files: later values replace earlier."""
+    if not isinstance(first, dict) or not isinstance(later, dict):
+        return later
+    merged = {**first, **later}
+    for key in first.keys() & later.keys():
+        merged[key] = _merged(first[key], later[key])
+    return merged
 
 
 def completed(values: Any) -> Any:
-    """A configuration that has studies: those of the default one if it gives none itself."""
+    """A configuration with studies: those of the default one if it has none itself.
+
+    Raises
+    ------
+    ParameterError
+        If there is no default configuration, because the library is not in a checkout.
+    """
     if not isinstance(values, dict) or "studies" in values:
         return values
-    if not all(path.is_file() for path in DEFAULTS):
+    in_checkout = all(path.is_file() for path in DEFAULTS)
+    if not in_checkout:
         raise ParameterError(
             "the configuration lacks the key studies: only a checkout of the project has the "
             "paper's, in config/config.yaml"
         )
-    default = _merged(map(read_yaml, DEFAULTS))
-    if {"friction", "loading"} & values.keys():
-        del default["main_text_interface"]  # which rounds the paper's own friction law
-    return _merged((default, values))
+    default = functools.reduce(_merged, map(read_yaml, DEFAULTS))
+    if "friction" in values or "loading" in values:
+        del default["main_text_interface"]  # the rounded values of the paper's own friction law
+    return _merged(default, values)
 
 
-def configure(values: Any, *, lazy: bool = False) -> Configuration:
-    """The configuration in plain dictionaries, as read from YAML.
+def configure(
+    values: Any,
+    *,
+    lazy: bool = False,
+) -> Configuration:
+    """Check a configuration and convert it to settings and runs.
 
     Parameters
     ----------
     values : dict
-        The configuration. A key that it leaves out has the value of the default configuration,
-        ``studies`` too.
+        The configuration in plain dictionaries, as read from YAML. A missing key, also
+        ``studies``, has the value of the default configuration.
     lazy : bool
-        Whether the runs of a study are checked only once they are asked for.
+        Whether the runs of a study are checked only when they are first used.
+
+    Returns
+    -------
+    Configuration
 
     Raises
     ------
     ParameterError
         With one line for each problem found.
     """
-    values = _with_numbers(completed(values))
+    values = completed(values)
+    values = _with_numbers(values)
     stop_on(value_problems(values))
-    stop_on([*range_problems(values), *results_problems(results_directory(values))])
-    try:
-        groups = {name: _group(name, values.get(name, {})) for name in schema.GROUPS}
-    except ParameterError as error:  # what the chosen friction law does not have
-        stop_on([str(error)])
-    own = [f.name for f in dataclasses.fields(Parameters) if f.name in groups]
-    base = Parameters(**{name: groups.pop(name) for name in own})
-    drop = max(base.stepping.event_drop, groups["extraction"].drop)  # is to be recorded
-    base = dataclasses.replace(base, stepping=dataclasses.replace(base.stepping, event_drop=drop))
-    sections = values["studies"]
-    settings = Configuration(
-        results=results_directory(values),
-        base=base,
-        main_text_interface=_main_text(values.get("main_text_interface"), groups, base),
-        studies={name: study_settings(section) for name, section in sections.items()},
-        sections=sections,
-        stepping=tuple(values.get("stepping", {})),
-        **groups,
-    )
-    stop_on([*rounding_problems(settings)])
-    expanded = [] if lazy else settings.studies
-    problems = [problem for study in expanded for problem in settings.problems_of(study)]
+    problems = list(range_problems(values))
+    problems += results_problems(results_directory(values))
+    stop_on(problems)
+    settings = _settings(values)
+    stop_on(rounding_problems(settings))
+    problems = []
+    if not lazy:
+        for study in settings.studies:
+            problems += settings.problems_of(study)
     problems += problems_of_studies(settings.studies)
     problems += setting_problems(settings)
     stop_on(problems)
     return settings
 
 
-def _main_text(given: Any, groups: dict[str, Any], base: Parameters) -> InterfaceState:
-    """The friction on which the theory's curves stand.
+def _settings(values: Mapping[str, Any]) -> Configuration:
+    """The settings in a configuration with allowed values."""
+    groups = {}
+    for name in schema.GROUPS:
+        section = values.get(name, {})
+        try:
+            groups[name] = _group(name, section)
+        except ParameterError as error:  # a parameter that the chosen friction law does not have
+            stop_on([str(error)])
+    own = {}
+    for field in dataclasses.fields(Parameters):
+        if field.name in groups:
+            own[field.name] = groups.pop(field.name)
+    drop = groups["extraction"].drop
+    base = _recording_the_drop(Parameters(**own), drop)
+    main_text = groups.pop("main_text_interface")
+    main_text = loaded(main_text, base.loading)
+    if not values.get("main_text_interface"):
+        main_text = _own_unless_rounded(main_text, base)
+    studies = {}
+    for name, section in values["studies"].items():
+        studies[name] = StudySettings.of(section)
+    return Configuration(
+        results=results_directory(values),
+        base=base,
+        main_text_interface=main_text,
+        studies=studies,
+        sections=values["studies"],
+        stepping=tuple(values.get("stepping", ())),
+        **groups,
+    )
 
-    Without a section of its own the paper's rounded values, if they are roundings of the friction
-    law; of any other law its own values.
+
+def _recording_the_drop(base: Parameters, drop: float) -> Parameters:
+    """Parameters of runs that do not end before the force has dropped by a fraction."""
+    event_drop = max(base.stepping.event_drop, drop)
+    stepping = dataclasses.replace(base.stepping, event_drop=event_drop)
+    return dataclasses.replace(base, stepping=stepping)
+
+
+def _own_unless_rounded(rounded: InterfaceState, base: Parameters) -> InterfaceState:
+    """The default friction of the theory's curves.
+
+    The paper's rounded values if they are roundings of the friction law; for any other law its own
+    values.
     """
-    rounded = loaded(groups.pop("main_text_interface"), base.loading)
     exact = linearised(base.friction, base.loading)
-    if not given and not_rounded_from(rounded, exact):
-        return exact
-    return rounded
+    return exact if not_rounded_from(rounded, exact) else rounded
 
 
-def _group(name: str, values: dict[str, Any]) -> Any:
-    """The dataclass of a section, numbers in their declared type."""
+def _group(name: str, values: Mapping[str, Any]) -> Any:
+    """The dataclass of a section, with numbers in their declared type."""
+    cls = schema.GROUPS[name]
     entries = schema.group_entries(name)
-    return schema.GROUPS[name](**{key: in_type(entries[key], own) for key, own in values.items()})
+    typed = {}
+    for key, value in values.items():
+        typed[key] = in_type(entries[key], value)
+    return cls(**typed)
 
 
-def _with_numbers(value: Any, path: tuple[Any, ...] = ()) -> Any:
-    """A configuration as read from YAML, copied, with numbers in place of texts that are such.
+def _with_numbers(value: Any, path: tuple[object, ...] = ()) -> Any:
+    """A copy of a configuration as read from YAML, with texts such as ``30 GPa`` as numbers.
 
-    Such are ``30 GPa``, ``1/3`` and ``1e-8``, which YAML takes for text. What is no allowed number
-    stays, to be refused.
+    YAML reads ``30 GPa``, ``1/3`` and ``1e-8`` as text. A text that is not an allowed number is
+    kept; a later check refuses it.
     """
     if isinstance(value, dict):
         return {key: _with_numbers(own, (*path, key)) for key, own in value.items()}
     if isinstance(value, list):
         return [_with_numbers(own, (*path, number)) for number, own in enumerate(value)]
-    entry = schema.entry_at(path) if isinstance(value, str) else None
+    if not isinstance(value, str):
+        return value
+    entry = schema.entry_at(path)
+    if entry is None:
+        return value
     try:
-        return parse("", value, entry) if entry else value
+        return parse("", value, entry)
     except ParameterError:
         return value

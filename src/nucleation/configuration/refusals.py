@@ -1,18 +1,17 @@
-"""What is wrong with the values of a configuration, in words: a line for each problem."""
+"""Problems with the values of a configuration, one line for each."""
 
-import dataclasses
 import difflib
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cache
-from typing import Any
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from functools import cache, partial
+from typing import Any, cast
 
 from ..model.friction.registry import EVOLUTIONS
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
 from ..model.units import parse
 from .schema import GROUPS, RESULTS, STUDY_NAME, group_entries, has_range
-from .studies import StudySettings
+from .settings import StudySettings
 from .study_names import (
     LARGEST_GRID,
     RANGE,
@@ -22,9 +21,17 @@ from .study_names import (
     study_parameters,
 )
 
-Place = tuple[Any, ...]
-Check = Callable[[Place, Any], Iterator[str]]
-"""What is wrong with a value at a place of the configuration."""
+_Place = tuple[object, ...]
+"""Keys and numbers of items from the top of the configuration to a value."""
+
+_Check = Callable[[_Place, object], Iterator[str]]
+"""A function that yields the problems with a value at a place of the configuration."""
+
+_Problems = Iterator[str]
+"""Messages, one for each problem."""
+
+_LONGEST_QUOTE = 80
+"""Characters of a value in a message; longer values are cut."""
 
 
 def stop_on(problems: Iterable[str]) -> None:
@@ -36,19 +43,22 @@ def stop_on(problems: Iterable[str]) -> None:
         raise ParameterError(f"the configuration has {count}:{listing}")
 
 
-def value_problems(values: Any) -> Iterator[str]:
+def value_problems(values: object) -> _Problems:
     """Unknown keys, missing keys and values that are not allowed, in a whole configuration."""
-    checks = {"results": _single(RESULTS)}
+    checks: dict[str, _Check] = {}
+    checks["results"] = partial(_single, RESULTS)
     for group in GROUPS:
-        entries = group_entries(group)
-        keys = {k: _several(e) if e.many else _single(e) for k, e in entries.items()}
-        checks[group] = _mapping(keys)
+        keys: dict[str, _Check] = {}
+        for key, entry in group_entries(group).items():
+            check = _several if entry.many else _single
+            keys[key] = partial(check, entry)
+        checks[group] = partial(_mapping, keys)
     checks["studies"] = _studies
-    yield from _mapping(checks)((), values)
+    yield from _mapping(checks, (), values)
 
 
-def _studies(place: Place, given: Any) -> Iterator[str]:
-    """What is wrong with the section ``studies``."""
+def _studies(place: _Place, given: object) -> _Problems:
+    """Problems with the section ``studies``."""
     if not isinstance(given, dict):
         yield _no_mapping(place, given)
         return
@@ -56,122 +66,141 @@ def _studies(place: Place, given: Any) -> Iterator[str]:
         yield _empty(place, given)
     for name, study in given.items():
         if isinstance(name, str) and re.fullmatch(STUDY_NAME, name):
-            yield from _study()((*place, name), study)
+            check = _check_of_study()
+            yield from check((*place, name), study)
         else:
             yield (
-                f"{key_text(place)}: {name!r} is not allowed as a name: it must be made of at most "
-                "60 letters, digits and _, beginning with a letter"
+                f"{_key_text(place)}: {name!r} is not allowed as a name: it must be made of at "
+                "most 60 letters, digits and _, beginning with a letter"
             )
 
 
 @cache
-def _study() -> Check:
+def _check_of_study() -> _Check:
     """The check of one study."""
-    declared, others = study_parameters(), other_names()
-    single = {name: _single(entry) for name, entry in declared.items()}
-    varied = {name: _several(entry) for name, entry in declared.items()}
-    for checks in (single, varied):
-        checks |= {other: checks[name] for other, name in others.items()}
-    defaults = _mapping(single)
-    entry = _mapping({**varied, "defaults": defaults}, filled=True)
-    settings = {name: _single(entry) for name, entry in declarations(StudySettings).items()}
-    return _mapping({**settings, "defaults": defaults, "runs": _list(entry)}, needed=["runs"])
+    single: dict[str, _Check] = {}
+    varied: dict[str, _Check] = {}
+    for name, entry in study_parameters().items():
+        single[name] = partial(_single, entry)
+        varied[name] = partial(_several, entry)
+    for other, name in other_names().items():
+        single[other] = single[name]
+        varied[other] = varied[name]
+    defaults = partial(_mapping, single)
+    varied["defaults"] = defaults
+    entry_of_runs = partial(_mapping, varied, filled=True)
+
+    keys: dict[str, _Check] = {}
+    for name, entry in declarations(StudySettings).items():
+        keys[name] = partial(_single, entry)
+    keys["defaults"] = defaults
+    keys["runs"] = partial(_list, entry_of_runs)
+    return partial(_mapping, keys, needed=["runs"])
 
 
 def _mapping(
-    checks: Mapping[str, Check], needed: Iterable[str] = (), filled: bool = False
-) -> Check:
-    """The check of a mapping whose keys have these checks."""
-
-    def check(place: Place, given: Any) -> Iterator[str]:
-        if not isinstance(given, dict):
-            yield _no_mapping(place, given)
-            return
-        missing = [key for key in needed if key not in given]
-        if missing:
-            yield f"{key_text(place)} lacks the key {', '.join(missing)}"
-        if filled and not given:
-            yield _empty(place, given)
-        yield from _unknown_keys(place, given, list(checks))
-        for key, value in given.items():
-            if key in checks:
-                yield from checks[key]((*place, key), value)
-
-    return check
-
-
-def _list(item: Check) -> Check:
-    """The check of a list whose items have this check."""
-
-    def check(place: Place, given: Any) -> Iterator[str]:
-        if not isinstance(given, list):
-            yield f"{key_text(place)} = {_short(given)} must be a list"
-            return
-        if not given:
-            yield _empty(place, given)
-        for number, value in enumerate(given):
-            yield from item((*place, number), value)
-
-    return check
+    checks: Mapping[str, _Check],
+    place: _Place,
+    given: object,
+    *,
+    needed: Iterable[str] = (),
+    filled: bool = False,
+) -> _Problems:
+    """Problems with a mapping; `checks` are those of its keys."""
+    if not isinstance(given, dict):
+        yield _no_mapping(place, given)
+        return
+    missing = [key for key in needed if key not in given]
+    if missing:
+        yield f"{_key_text(place)} lacks the key {', '.join(missing)}"
+    if filled and not given:
+        yield _empty(place, given)
+    for key in given:
+        if key not in checks:
+            yield _unknown_key((*place, key), given[key], checks)
+    for key, value in given.items():
+        if key in checks:
+            check = checks[key]
+            yield from check((*place, key), value)
 
 
-def _single(entry: Quantity) -> Check:
-    """The check of one value."""
-
-    def check(place: Place, value: Any) -> Iterator[str]:
-        if not _allowed(value, entry):
-            meant = place[0] == "studies" and "law" in place and value in list(EVOLUTIONS)
-            hint = "; the evolution of the state is called evolution" if meant else ""
-            yield f"{_refusal(key_text(place), value, entry)}{hint}"
-
-    return check
-
-
-def _several(entry: Quantity) -> Check:
-    """The check of a value, a list of different values or a range."""
-    single = _single(dataclasses.replace(entry, kind="float") if entry.many else entry)
-    several = _list(single)
-    ends = {"start": single, "stop": single}
-    keys = ends | {name: _single(declared) for name, declared in RANGE.items()}
-    spaced = _mapping(keys, needed=["start", "stop", "num"])
-
-    def check(place: Place, value: Any) -> Iterator[str]:
-        if isinstance(value, list):
-            yield from several(place, value)
-            if any(value[i] in value[:i] for i in range(len(value))):
-                yield f"{key_text(place)} = {_short(value)} has a value twice"
-        elif isinstance(value, dict) and has_range(entry):
-            yield from spaced(place, value)
-        else:
-            yield from single(place, value)
-
-    return check
+def _list(
+    check: _Check,
+    place: _Place,
+    given: object,
+) -> _Problems:
+    """Problems with a list; `check` is that of its items."""
+    if not isinstance(given, list):
+        yield f"{_key_text(place)} = {_quoted(given)} must be a list"
+        return
+    if not given:
+        yield _empty(place, given)
+    for number, value in enumerate(given):
+        yield from check((*place, number), value)
 
 
-def _allowed(value: Any, entry: Quantity) -> bool:
-    """Whether a configuration may have a value, of which none is infinite."""
+def _single(
+    entry: Quantity,
+    place: _Place,
+    value: object,
+) -> _Problems:
+    """Problems with one value."""
+    if _allowed(value, entry):
+        return
+    text = _refusal(_key_text(place), value, entry)
+    in_law = place[0] == "studies" and "law" in place
+    if in_law and value in list(EVOLUTIONS):
+        text += "; the evolution of the state is called evolution"
+    yield text
+
+
+def _several(
+    entry: Quantity,
+    place: _Place,
+    value: object,
+) -> _Problems:
+    """Problems with a value, a list of different values or a range."""
+    check = partial(_single, entry.element)
+    if isinstance(value, list):
+        yield from _list(check, place, value)
+        if _has_repeats(value):
+            yield f"{_key_text(place)} = {_quoted(value)} has a value twice"
+    elif isinstance(value, dict) and has_range(entry):
+        ends = ("start", "stop")
+        keys: dict[str, _Check] = dict.fromkeys(ends, check)
+        for name, declared in RANGE.items():
+            keys[name] = partial(_single, declared)
+        yield from _mapping(keys, place, value, needed=[*ends, "num"])
+    else:
+        yield from check(place, value)
+
+
+def _has_repeats(values: list[object]) -> bool:
+    """Whether a list, possibly of lists and mappings, has a value twice."""
+    seen: list[object] = []
+    for value in values:
+        if value in seen:
+            return True
+        seen.append(value)
+    return False
+
+
+def _allowed(value: object, entry: Quantity) -> bool:
+    """Whether a configuration may have a value; no value may be infinite."""
+    if not entry.allows(value):
+        return False
+    if value is None:
+        return True
     if entry.worded:
-        return (value is None or isinstance(value, str)) and entry.allows(value)
-    return entry.allows(value) and (value is None or _is_finite(value))
-
-
-def _is_finite(number: Any) -> bool:
+        return isinstance(value, str)
     try:
-        return math.isfinite(number)
-    except OverflowError:  # of an integer beyond the largest float
+        return math.isfinite(cast(float, value))
+    except OverflowError:  # an integer beyond the largest float
         return False
 
 
-def _no_mapping(place: Place, value: Any) -> str:
-    return f"{key_text(place)} = {_short(value)} must be a mapping (lines of key: value)"
-
-
-def _empty(place: Place, value: Any) -> str:
-    return f"{key_text(place)} = {value!r} is empty: it needs at least one entry"
-
-
-def _refusal(key: str, value: Any, entry: Quantity) -> str:
-    """Why a value is not allowed, be it of its unit."""
+def _refusal(key: str, value: object, entry: Quantity) -> str:
+    """The reason why a value or its unit is not allowed."""
     try:
         if isinstance(value, str):
             parse(key, value, entry)
@@ -180,42 +209,67 @@ def _refusal(key: str, value: Any, entry: Quantity) -> str:
     return refusal(key, value, entry)
 
 
-def _unknown_keys(path: tuple[Any, ...], given: dict[Any, Any], known: list[str]) -> Iterator[str]:
-    in_study = path[:1] == ("studies",)
-    for name in given:
-        if name in known:
-            continue
-        value = _short(given[name])
-        place = f"{key_text((*path, name))} = {value} is not allowed"
-        close = difflib.get_close_matches(str(name), known, n=1)
-        listed = [key for key in known if "." not in key] if in_study else known
-        hint = f"did you mean {close[0]}?" if close else f"known keys: {', '.join(listed)}"
-        yield f"{place}: unknown key; {hint}"
+def _no_mapping(place: _Place, value: object) -> str:
+    return f"{_key_text(place)} = {_quoted(value)} must be a mapping (lines of key: value)"
 
 
-def key_text(path: tuple[Any, ...]) -> str:
+def _empty(place: _Place, value: object) -> str:
+    return f"{_key_text(place)} = {value!r} is empty: it needs at least one entry"
+
+
+def _unknown_key(
+    place: _Place,
+    value: object,
+    known: Collection[str],
+) -> str:
+    key = str(place[-1])
+    close = difflib.get_close_matches(key, known, n=1)
+    if close:
+        hint = f"did you mean {close[0]}?"
+    else:
+        listed = list(known)
+        if place[0] == "studies":  # without full names, which repeat the short ones
+            listed = [name for name in known if "." not in name]
+        hint = f"known keys: {', '.join(listed)}"
+    return f"{_key_text(place)} = {_quoted(value)} is not allowed: unknown key; {hint}"
+
+
+def _key_text(place: _Place) -> str:
     """A place in the configuration as text, ``studies.paper.runs[0].height``."""
-    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
     return text.lstrip(".") or "the configuration"
 
 
-def _short(value: Any) -> str:
+def _quoted(value: object) -> str:
     text = repr(value)
-    return text if len(text) <= 80 else f"{text[:76]} ..."
+    if len(text) <= _LONGEST_QUOTE:
+        return text
+    return f"{text[: _LONGEST_QUOTE - 4]} ..."
 
 
-def range_problems(values: dict[str, Any]) -> Iterator[str]:
-    """Ranges that can't be expanded, wherever they stand, and grids that are far too large."""
-    places = [((g, k), v) for g in GROUPS for k, v in values.get(g, {}).items()]
+def range_problems(values: Mapping[str, Any]) -> _Problems:
+    """Ranges that can't be expanded, and entries of studies with too many simulations."""
+    for group in GROUPS:
+        section = values.get(group, {})
+        yield from _ranges_in((group,), section)
     for name, study in values["studies"].items():
         for number, entry in enumerate(study["runs"]):
-            path = ("studies", name, "runs", number)
-            varied = [(k, v) for k, v in entry.items() if k != "defaults"]
-            places += [((*path, k), v) for k, v in varied]  # type: ignore[misc]
+            place = ("studies", name, "runs", number)
             size = grid_size(entry)
             if size > LARGEST_GRID:
-                yield f"{key_text(path)} stands for {size} simulations, more than {LARGEST_GRID}"
-    for path, value in places:  # type: ignore[assignment]
+                yield f"{_key_text(place)} has {size} simulations, more than {LARGEST_GRID}"
+            yield from _ranges_in(place, entry)
+
+
+def _ranges_in(
+    place: _Place,
+    section: Mapping[str, Any],
+) -> _Problems:
+    for key, value in section.items():
+        if key == "defaults":  # single values, no ranges
+            continue
         problem = range_problem(value)
         if problem:
-            yield f"{key_text(path)}: {problem}"
+            yield f"{_key_text((*place, key))}: {problem}"

@@ -1,93 +1,153 @@
-"""What studies are for: the roles that figures, tables and verdicts ask for, and what each needs.
+"""Roles of studies: how figures, tables and verdicts use a study, and what each role requires.
 
-A study says its role in its section of the configuration; names are the user's, and say nothing.
+A study has its role in its section of the configuration. The names of studies are the user's and
+have no meaning.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from ..model.parameters import Parameters
-from .settings import FigureSettings
-
-Run = Any
-"""Of :mod:`.runs`, which knows this module."""
-
 OWN = "own"
-JUDGED, PAPERS = "converged", "paper"
-"""The role that verdicts on lengths stand on, and that of the runs on the paper's own mesh."""
+"""The role of the user's own studies."""
+
+JUDGED = "converged"
+"""The role of the runs for verdicts on lengths."""
+
+PAPERS = "paper"
+"""The role of the runs on the paper's own mesh."""
+
 LITERATURE = "literature"
-"""The role of runs whose zones are read while they accelerate, not at the drop."""
+"""The role of runs with lengths that are measured during acceleration, not at the drop."""
+
 LONGER = "long_blocks"
-"""Runs in longer blocks than those with the role :data:`JUDGED`; in tables of lengths also of the
-runs that they are compared with."""
+"""The role of runs in longer blocks than those with the role :data:`JUDGED`.
+
+Tables of lengths give it also to the runs of the comparison.
+"""
 
 
-class Need(NamedTuple):
-    """What a role asks of a key of the study, or of a parameter of each of its runs."""
+class _Need(NamedTuple):
+    """A requirement of a role on a key of the study, or on a parameter of each of its runs."""
 
     name: str
     allowed: Callable[[Any], bool]
-    words: str  # what it must be
+    rule: str  # the allowed values, in words
+
+    def refusal(self, key: str, value: object, role: str) -> str:
+        """The message for a value at a key that does not fulfil the requirement."""
+        return f"{key} = {value} is not allowed with role = {role}: it must be {self.rule}"
 
 
-LENGTHS = Need("table", "lengths".__eq__, "lengths")
-STABILITY = Need("measure", "stability".__eq__, "stability")
-BATCHES = Need("runs_per_job", (1).__lt__, "more than 1")
-INTERFACE = Need("record", lambda level: level != "lengths", "interface or everything")
-QUIET = Need("perturbation", "none".__eq__, "none")
-PAIR = Need("second_body", "deformable".__eq__, "deformable")
-REMOTE = Need("loading", "remote".__eq__, "remote")
+_LENGTHS = _Need("table", "lengths".__eq__, "lengths")
+_STABILITY = _Need("measure", "stability".__eq__, "stability")
+_BATCHES = _Need("runs_per_job", (1).__lt__, "more than 1")
+_INTERFACE = _Need("record", "lengths".__ne__, "interface or everything")
+_UNPERTURBED = _Need("perturbation", "none".__eq__, "none")
+_PAIR = _Need("second_body", "deformable".__eq__, "deformable")
+_REMOTE = _Need("loading", "remote".__eq__, "remote")
+_ZETA_VARIES = _Need("varies", "zeta".__eq__, "zeta")
 
 
-class Role(NamedTuple):
-    """What studies with a role are for, and what they need for it."""
+class _Role(NamedTuple):
+    """The purpose of studies with a role, and its requirements."""
 
     purpose: str
-    several: bool = False  # whether studies may share it
-    one_by_one: bool = True  # whether other results are made of its simulations one by one
-    study: tuple[Need, ...] = ()
-    runs: tuple[Need, ...] = ()
-    heights: tuple[str, ...] = ()  # keys of the section figures: of each height a run is shown
+    several: bool = False  # whether several studies may have the role
+    one_by_one: bool = True  # whether other results use single simulations of the study
+    study: tuple[_Need, ...] = ()
+    runs: tuple[_Need, ...] = ()
+    heights: tuple[str, ...] = ()  # keys of the section figures: each height needs a run
 
 
 ROLES = {
-    OWN: Role("a study of your own: lengths, a figure, its part of the report", True, False),
-    PAPERS: Role(
-        "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts", study=(LENGTHS,),
-        runs=(INTERFACE,), heights=("inset_height", "space_time_height"),
+    OWN: _Role(
+        "a study of your own: lengths, a figure, its part of the report",
+        several=True,
+        one_by_one=False,
     ),
-    JUDGED: Role(
-        "the runs on which verdicts about lengths stand", study=(LENGTHS,), runs=(INTERFACE,),
+    PAPERS: _Role(
+        "the paper's runs on its mesh, for Figures 3 and S2 and the verdicts",
+        study=(_LENGTHS,),
+        runs=(_INTERFACE,),
+        heights=("inset_height", "space_time_height"),
     ),
-    LONGER: Role(
-        "those in longer blocks, for the claim that the length plays no role", several=True,
-        runs=(INTERFACE,),
+    JUDGED: _Role(
+        "the runs for verdicts about lengths",
+        study=(_LENGTHS,),
+        runs=(_INTERFACE,),
     ),
-    "noisy": Role("a stronger perturbation, for the band of `figure_3_extended`", False, False),
-    "patch_convergence": Role("refined runs whose patches are followed", several=True),
-    "drop": Role("declared perturbations, for `figure_drop`", True, False),
-    "weakening": Role("weak to strong weakening, for `figure_weakening`", True, False),
-    "map": Role("heights and weakenings, for `figure_map`", False, False, (STABILITY, BATCHES)),
-    "patch_theory": Role(
-        "faults to hold the theory of the patch against, for `figure_patch_theory`", True, False,
-        (STABILITY, BATCHES),
+    LONGER: _Role(
+        "runs in longer blocks, for the claim that the block length has no effect",
+        several=True,
+        runs=(_INTERFACE,),
     ),
-    "convergence": Role("mesh and steps refined, for `figure_convergence`", True, False),
-    "convergence_quiet": Role(
-        "the same without a perturbation, for the noise of meshes", True, False, runs=(QUIET,)
+    "noisy": _Role(
+        "a stronger perturbation, for the band of `figure_3_extended`",
+        one_by_one=False,
     ),
-    "sensitivity": Role("one parameter changed at a time; the first run of a height is the base"),
-    "pairs": Role("two deformable bodies, for the table of pairs", several=True, runs=(PAIR,)),
-    "pairs_identical": Role(
-        "the same, identical blocks, for `figure_pairs`", several=True, runs=(PAIR,)
+    "patch_convergence": _Role(
+        "refined runs with patches over time",
+        several=True,
     ),
-    "figure_2_simulated": Role(
-        "the same, half-spaces in contrast, for `figure_2_simulated`", several=True, runs=(PAIR,)
+    "drop": _Role(
+        "declared perturbations, for `figure_drop`",
+        several=True,
+        one_by_one=False,
     ),
-    LITERATURE: Role(
-        "the literature's lengths in their own settings, for `figure_literature`", runs=(REMOTE,)
+    "weakening": _Role(
+        "weak to strong weakening, for `figure_weakening`",
+        several=True,
+        one_by_one=False,
     ),
-}  # fmt: skip
+    "weakening_patches": _Role(
+        "weakening patches in a fault that strengthens, for `figure_weakening_patches`",
+        runs=(_REMOTE, _ZETA_VARIES),
+    ),
+    "map": _Role(
+        "heights and weakenings, for `figure_map`",
+        one_by_one=False,
+        study=(_STABILITY, _BATCHES),
+    ),
+    "patch_theory": _Role(
+        "faults for the test of the patch theory, for `figure_patch_theory`",
+        several=True,
+        one_by_one=False,
+        study=(_STABILITY, _BATCHES),
+    ),
+    "convergence": _Role(
+        "mesh and steps refined, for `figure_convergence`",
+        several=True,
+        one_by_one=False,
+    ),
+    "convergence_quiet": _Role(
+        "the same without a perturbation, for the noise of meshes",
+        several=True,
+        one_by_one=False,
+        runs=(_UNPERTURBED,),
+    ),
+    "sensitivity": _Role(
+        "one parameter changed at a time; the first run of a height is the base",
+    ),
+    "pairs": _Role(
+        "two deformable bodies, for the table of pairs",
+        several=True,
+        runs=(_PAIR,),
+    ),
+    "pairs_identical": _Role(
+        "the same, identical blocks, for `figure_pairs`",
+        several=True,
+        runs=(_PAIR,),
+    ),
+    "figure_2_simulated": _Role(
+        "the same, half-spaces in contrast, for `figure_2_simulated`",
+        several=True,
+        runs=(_PAIR,),
+    ),
+    LITERATURE: _Role(
+        "the literature's lengths in their own settings, for `figure_literature`",
+        runs=(_REMOTE,),
+    ),
+}
 """All roles, by name."""
 
 PAIRS = ("pairs", "pairs_identical", "figure_2_simulated")
@@ -95,68 +155,3 @@ PAIRS = ("pairs", "pairs_identical", "figure_2_simulated")
 
 REFINEMENTS = ("convergence", "convergence_quiet")
 """Roles of studies in the table of refinement."""
-
-
-def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
-    """The run of a height (m) with the configuration's own evolution law and initial state."""
-    usual = {
-        "height": height,
-        "evolution": base.friction.evolution,
-        "phi0": base.loading.initial_state,
-    }
-    return next((run for run in runs if usual.items() <= run.labels.items()), None)
-
-
-def problems_of_studies(studies: Mapping[str, Any]) -> Iterator[str]:
-    """What studies declare that does not go with their roles, a line for each, without their runs.
-
-    Parameters
-    ----------
-    studies : dict
-        The settings of each study, by its name.
-    """
-    having: dict[str, str] = {}
-    for name, settings in studies.items():
-        role = settings.role
-        first = having.setdefault(role, name)
-        if first != name and not ROLES[role].several:
-            yield (
-                f"studies.{name}.role = {role} is not allowed: studies.{first} has it, "
-                "and it must be one study's alone"
-            )
-        for need in ROLES[role].study:
-            value = getattr(settings, need.name)
-            if not need.allowed(value):
-                yield _refusal(f"studies.{name}.{need.name}", value, role, need)
-
-
-def problems_of_runs(
-    name: str, settings: Any, runs: Sequence[Run], figures: FigureSettings, base: Parameters
-) -> Iterator[str]:
-    """What the runs of a study lack for its role, a line for each, with key and value.
-
-    Parameters
-    ----------
-    name, settings : the study's.
-    runs : all runs of the study.
-    figures : which heights (m) figures show.
-    base : values of what no study sets.
-    """
-    role = settings.role
-    for need in ROLES[role].runs:
-        bad = next((run for run in runs if not need.allowed(run.value(need.name))), None)
-        if bad is not None:
-            key = f"studies.{name}: {bad.id}: {need.name}"
-            yield _refusal(key, bad.value(need.name), role, need)
-    for key in ROLES[role].heights:
-        height = getattr(figures, key)
-        if shown(runs, height, base) is None:
-            law, age = base.friction.evolution, base.loading.initial_state
-            yield (
-                f"studies.{name}.role = {role} needs a run with height = {height:g} m"
-                f", evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
-            )
-
-
-def _refusal(key: str, value: Any, role: str, need: Need) -> str:
-    return f"{key} = {value} is not allowed with role = {role}: it must be {need.words}"

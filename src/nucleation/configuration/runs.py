@@ -1,7 +1,7 @@
-"""A simulation of a study, with what the study and the theory say of it."""
+"""Simulations of studies, with the data that the study and the theory give for them."""
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ..model.friction.constants import CONSTANTS, constants
@@ -15,7 +15,7 @@ from .study_names import study_parameters
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """One simulation of a study, with the length the linear theory predicts for it (m).
+    """One simulation of a study, with the length that the linear theory predicts for it (m).
 
     The length is NaN where homogeneous sliding is stable: a control run.
     """
@@ -23,14 +23,21 @@ class Run:
     id: str
     study: str
     parameters: Parameters
-    theory_length: float
-    interface: InterfaceState = InterfaceState()  # friction of the theory
-    given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)  # by the study
-    batch: str = dataclasses.field(default="", compare=False)  # of runs made by one job
-    role: str = OWN  # of its study
+    theory_length: float = dataclasses.field(compare=False)  # follows from the others; NaN != NaN
+    interface: InterfaceState = InterfaceState()
+    """Friction of the theory."""
+
+    given: dict[str, Any] = dataclasses.field(default_factory=dict, compare=False)
+    """Values that the study gives, by name."""
+
+    batch: str = dataclasses.field(default="", compare=False)
+    """Name of the batch of runs that one job makes."""
+
+    role: str = OWN
+    """Role of the study."""
 
     def to_dict(self) -> dict[str, Any]:
-        """The run as plain nested dictionaries: what it is, not who asks for it."""
+        """The run as plain nested dictionaries, without its batch."""
         return {
             "id": self.id,
             "study": self.study,
@@ -41,17 +48,21 @@ class Run:
         }
 
     def value(self, name: str) -> Any:
-        """What a parameter of studies is in this run, also if its study doesn't give it."""
+        """The value of a parameter of studies, given by the study or not.
+
+        None if the run's friction law does not have the parameter.
+        """
         if name in self.given:
             return self.given[name]
-        friction, loading = self.parameters.friction, self.parameters.loading
         if name in CONSTANTS:
-            return constants(friction, loading.velocity)[name]
-        return self.parameters.named().get(names().full(name))  # None: its law has no such thing
+            velocity = self.parameters.loading.velocity
+            return constants(self.parameters.friction, velocity)[name]
+        full = names().full(name)
+        return self.parameters.named().get(full)
 
     @property
     def labels(self) -> dict[str, Any]:
-        """What tells runs apart: study, law, height (m) and phi0 (s)."""
+        """Study, evolution law, height (m) and phi0 (s), which label the run in tables."""
         return {
             "study": self.study,
             "evolution": self.parameters.friction.evolution,
@@ -61,20 +72,53 @@ class Run:
 
 
 def varied(runs: Iterable[Run]) -> dict[str, list[Any]]:
-    """The parameters that differ among runs of a study, each with its values in their order.
+    """The parameters that differ among runs of a study, each with the values of the runs in order.
 
-    Only what the study gives is looked at: a block's length that follows from the theory is not.
+    Only parameters that the study gives count, not a block length that follows from the theory.
     """
     runs = list(runs)
     given = [name for name in study_parameters() if any(name in run.given for run in runs)]
-    given.sort(key=lambda name: name != "height")  # first
-    values = {name: [run.value(name) for run in runs] for name in given}
-    return {name: found for name, found in values.items() if len(set(found)) > 1}
+    given.sort(key=lambda name: name != "height")  # the height comes first
+    found = {}
+    for name in given:
+        values = [run.value(name) for run in runs]
+        if len(set(values)) > 1:
+            found[name] = values
+    return found
 
 
 def first_realisations(runs: Iterable[Run]) -> list[Run]:
-    """The runs of each study without those that differ from an earlier one in the seed alone."""
+    """The runs of each study without those that differ from an earlier one only in the seed."""
     first: dict[tuple[str, str], Run] = {}
     for run in runs:
-        first.setdefault((run.study, ensemble(run.parameters)), run)
+        key = run.study, ensemble(run.parameters)
+        first.setdefault(key, run)
     return list(first.values())
+
+
+def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
+    """The run of a height that figures show.
+
+    Parameters
+    ----------
+    runs : sequence of Run
+        Candidates.
+    height : float
+        Block height (m).
+    base : Parameters
+        The configuration's own values.
+
+    Returns
+    -------
+    Run or None
+        The first run with the configuration's own evolution law and initial state.
+    """
+    wanted = {
+        "height": height,
+        "evolution": base.friction.evolution,
+        "phi0": base.loading.initial_state,
+    }
+    for run in runs:
+        if wanted.items() <= run.labels.items():
+            return run
+    return None

@@ -1,204 +1,194 @@
 """Studies: named sets of simulations over lists or ranges of parameters, one `Run` for each."""
 
-import dataclasses
 import itertools
 import math
 import random
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..model.checked import Checked
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
-from ..model.quantities import ParameterError, quantity
+from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, run_length, theory_lengths
 from ..theory.estimates import growth_time
 from ..theory.transfer import bodies_of
-from .roles import OWN, ROLES
-from .runs import Run, varied
-from .study_names import by_study_name, expand, identifier, study_parameters
+from .runs import Run
+from .settings import StudySettings
+from .study_names import by_study_name, expand, identifier
 
-LATE = 1.5
-"""Latest end of a run that is given none, over the estimated time until the critical length."""
+_LATEST_END = 1.5
+"""Default end of a run over the estimated time until the critical length."""
 
-AFTER = 10.0
-"""Time that such a run goes on after its event, over D/V."""
-
-
-@dataclasses.dataclass(frozen=True)
-class StudySettings(Checked):
-    """What a study says once for all of its runs."""
-
-    description: str = quantity("what the study is for", default="a set of simulations")
-    role: str = quantity(
-        "what figures, tables and verdicts use it for (docs/studies.md); own: it has its own",
-        choices=tuple(ROLES), default=OWN,
-    )  # fmt: skip
-    length_over_critical: float = quantity(
-        "block length over the theory's critical length, unless a run gives its length",
-        low=1.0, high=1000.0, default=6.0, symbol="L/L_c",
-    )  # fmt: skip
-    interface: str = quantity(
-        "linearised friction of the theory: the rounded values of the group main_text_interface, "
-        "which must be those of the run's friction law, or that law expanded at the run's velocity",
-        choices=("main_text", "friction_law"), default="friction_law",
-    )  # fmt: skip
-    table: str = quantity(
-        "where its lengths go: with the other studies into lengths.csv, and so into the targets "
-        "lengths and simulations; or into its own table alone",
-        choices=("lengths", "own"), default="lengths",
-    )  # fmt: skip
-    runs_per_job: int = quantity(
-        "simulations that one job makes, one after another; more than one where runs take seconds",
-        low=1, high=10000, closed="both", default=1,
-    )  # fmt: skip
-    measure: str = quantity(
-        "what is measured of each run: lengths at the drop, or the length at which the patch turns "
-        "unstable too; the latter if runs_per_job is more than one",
-        choices=("lengths", "stability"), default="lengths",
-    )  # fmt: skip
+_AFTER_EVENT = 10.0
+"""Default time after the event over D/V."""
 
 
-CURVE_POINTS = 81
-"""Values of a varied number at which a study's figure has the theory."""
+_Section = Mapping[str, Any]
+"""The section of a study in the configuration."""
+
+_Place = str
+"""Place of a run in the configuration, such as ``studies.paper.runs[0]``."""
+
+_Parts = tuple[dict[str, Any], ...]
+"""Values of the study, of the entry and of the run itself."""
 
 
-def theory_curves(
-    runs: list[Run], settings: StudySettings, base: Parameters, main_text: InterfaceState
-) -> dict[str, dict[str, list[float]]]:
-    """The theory's length over the one number that a study varies, closely spaced.
+class _Prepared(NamedTuple):
+    """A run whose block length is not yet known."""
 
-    Parameters
-    ----------
-    runs, settings : the study's.
-    base, main_text : of the configuration, see :func:`study_runs`.
-
-    Returns
-    -------
-    dict
-        By the words that runs differ in (``"slip"``, or ``""``): the number (``x``) and the lengths
-        there (``length``, m; NaN where sliding is stable), to eight digits. Empty if the study
-        varies several numbers or none, or one that counts things.
-    """
-    declared, found = study_parameters(), varied(runs)
-    numbers = [name for name in found if not declared[name].choices]
-    if len(numbers) != 1 or declared[numbers[0]].kind != "float":
-        return {}
-    (name,), words = numbers, [word for word in found if word not in numbers]
-    kinds = [", ".join(str(found[word][i]) for word in words) for i in range(len(runs))]
-    curves = {}
-    for run, kind in zip(runs, kinds, strict=True):
-        ends = [x for x, other in zip(found[name], kinds, strict=True) if other == kind]
-        if kind in curves or name not in run.given or len(ends) < 2:
-            continue
-        low, high = min(ends), max(ends)
-        spaced = np.geomspace if low > 0.0 else np.linspace
-        x = spaced(low, high, CURVE_POINTS).tolist()
-        faults = (_fault(settings, run.given | {name: value}, base, main_text) for value in x)
-        rounded = [float(f"{length:.8g}") for length in _theory_lengths(faults)]
-        curves[kind] = {"x": [float(f"{value:.8g}") for value in x], "length": rounded}
-    return curves
-
-
-def study_settings(study: dict[str, Any]) -> StudySettings:
-    """The settings in a study's section of the configuration."""
-    return StudySettings(**{k: v for k, v in study.items() if k not in ("defaults", "runs")})
+    parameters: Parameters
+    interface: InterfaceState
+    varied: dict[str, Any]
+    values: dict[str, Any]  # all values that the study gives
 
 
 def study_runs(
     name: str,
-    study: dict[str, Any],
+    study: _Section,
     base: Parameters,
     main_text: InterfaceState,
     stepping: Collection[str] = (),
-) -> Iterator[tuple[str, Run | str]]:
-    """The runs of a study, each with the key it comes from; a string in place of a bad run.
+) -> Iterator[tuple[_Place, Run | str]]:
+    """The runs of a study.
 
     Parameters
     ----------
     name : str
         The study's name.
-    study : dict
-        Its section of the configuration, whose values are allowed.
+    study : mapping
+        Its section of the configuration, with allowed values.
     base : Parameters
-        Values of all that the study does not set.
+        Values of the parameters that the study does not set.
     main_text : InterfaceState
         The main text's rounded interface.
     stepping : collection of str
-        What the section of that name gives. If neither it nor the study has an end time, the
-        theory says when an event is overdue.
+        Keys in the section ``stepping``. If neither it nor the study has an end time, it follows
+        from the theory's estimate of the event's time.
+
+    Yields
+    ------
+    key : str
+        Place of the run in the configuration.
+    run : Run or str
+        The run; of a bad run the error message.
     """
-    settings, asked = study_settings(study), list(_given(name, study))
+    settings = StudySettings.of(study)
+    given = list(_given(name, study))
     prepared: list[_Prepared | ParameterError] = []
-    for _, parts in asked:
+    for _, parts in given:
         try:
-            of_study, of_entry, varied = map(by_study_name, parts)
-            values = of_study | of_entry | varied
-            fault = _fault(settings, values, base, main_text)
-            prepared.append(_Prepared(*fault, varied, values))
+            prepared.append(_prepared(settings, parts, base, main_text))
         except ParameterError as error:
             prepared.append(error)
-    lengths = _theory_lengths(run[:2] for run in prepared if isinstance(run, _Prepared))
-    batches = _batches(name, len(asked), settings.runs_per_job)
-    for (key, _), batch, run in zip(asked, batches, prepared, strict=True):
+    faults = []
+    for run in prepared:
+        if isinstance(run, _Prepared):
+            faults.append((run.parameters, run.interface))
+    lengths = iter(lengths_of(faults))
+    batches = _batches(name, len(given), settings.runs_per_job)
+    for i, run in enumerate(prepared):
+        key, _ = given[i]
+        if isinstance(run, ParameterError):
+            yield key, str(run)
+            continue
+        critical = next(lengths)
         try:
-            if isinstance(run, ParameterError):
-                raise run
-            yield key, _run(name, settings, run, next(lengths), batch, stepping)
+            yield key, _run(name, settings, run, critical, batches[i], stepping)
         except ParameterError as error:
             yield key, str(error)
+
+
+def _given(
+    name: str,
+    study: _Section,
+) -> Iterator[tuple[_Place, _Parts]]:
+    """Place of each run, with its values."""
+    of_study = study.get("defaults", {})
+    for number, entry in enumerate(study["runs"]):
+        of_entry = entry.get("defaults", {})
+        lists = {}
+        for key, value in entry.items():
+            if key != "defaults":
+                lists[key] = expand(value)
+        place = f"studies.{name}.runs[{number}]"
+        for chosen in itertools.product(*lists.values()):
+            own = dict(zip(lists, chosen, strict=True))
+            yield place, (of_study, of_entry, own)
 
 
 def _batches(study: str, runs: int, per_job: int) -> list[str]:
     """The name of the batch of each run, empty if it has a job of its own.
 
-    Runs are drawn, so that all batches take about the same time: neighbours in a study are alike,
-    and so are runs at any fixed distance.
+    Runs are assigned at random, so that all batches take about the same time: neighbours in a
+    study are similar, and so are runs at any fixed distance.
     """
     if per_job == 1:
         return [""] * runs
-    batches = -(-runs // per_job)
-    draw = random.Random(runs).random  # the same numbers in every Python
-    drawn = sorted((draw(), number) for number in range(runs))
-    place = {number: rank % batches for rank, (_, number) in enumerate(drawn)}
-    return [f"{study}-{place[number]:0{len(str(batches - 1))}d}" for number in range(runs)]
+    number = math.ceil(runs / per_job)
+    digits = len(str(number - 1))
+    generator = random.Random(runs)
+    draws = [generator.random() for _ in range(runs)]  # equal in every Python version
+    shuffled = sorted(range(runs), key=draws.__getitem__)
+    batches = [""] * runs
+    for rank, run in enumerate(shuffled):
+        batch = rank % number
+        batches[run] = f"{study}-{batch:0{digits}d}"
+    return batches
 
 
-def _given(name: str, study: dict[str, Any]) -> Iterator[tuple[str, tuple[dict[str, Any], ...]]]:
-    """Place of each run, with what the study, the entry and the run itself give for it."""
-    for number, entry in enumerate(study["runs"]):
-        usual = study.get("defaults", {}), entry.get("defaults", {})
-        values = {name: expand(value) for name, value in entry.items() if name != "defaults"}
-        for chosen in itertools.product(*values.values()):
-            own = dict(zip(values, chosen, strict=True))
-            yield f"studies.{name}.runs[{number}]", (*usual, own)
+def _prepared(
+    settings: StudySettings,
+    parts: _Parts,
+    base: Parameters,
+    main_text: InterfaceState,
+) -> _Prepared:
+    """A run from its values."""
+    of_study, of_entry, own = map(by_study_name, parts)
+    values = of_study | of_entry | own
+    parameters, interface = fault_of(settings, values, base, main_text)
+    return _Prepared(parameters, interface, own, values)
 
 
-class _Prepared(NamedTuple):
-    """A run whose block has no length yet."""
-
-    parameters: Parameters
-    interface: InterfaceState
-    varied: dict[str, Any]
-    values: dict[str, Any]  # all that the study gives
-
-
-def _fault(
-    settings: StudySettings, values: dict[str, Any], base: Parameters, main_text: InterfaceState
+def fault_of(
+    settings: StudySettings,
+    values: dict[str, Any],
+    base: Parameters,
+    main_text: InterfaceState,
 ) -> tuple[Parameters, InterfaceState]:
-    """Parameters with values of a study, by their names there, and the theory's interface."""
+    """The fault with values of a study.
+
+    Parameters
+    ----------
+    settings : StudySettings
+        The study's settings.
+    values : dict
+        Values by the standard names of parameters.
+    base, main_text
+        As in :func:`study_runs`.
+
+    Returns
+    -------
+    parameters : Parameters
+        The run's parameters, with the block length of `base` unless it is given.
+    interface : InterfaceState
+        The linearised friction for the theory.
+
+    Raises
+    ------
+    ParameterError
+        If the height is missing or the values contradict each other.
+    """
     if "height" not in values:
         raise ParameterError("the run has no height: give it here or in the study's defaults")
-    parameters = base.replaced({k: v for k, v in values.items() if k not in CONSTANTS})
+    others = [name for name in values if name not in CONSTANTS]
+    parameters = base.replaced({name: values[name] for name in others})
     loading = parameters.loading
     friction = with_constants(parameters.friction, loading.velocity, values)
     parameters = replace(parameters, friction=friction)
-    _ = friction.evolution_law  # a file that can't be loaded is told of before any work
-    own = linearised(parameters.friction, loading)
+    _ = friction.evolution_law  # raises the error of a file that can't be loaded
+    own = linearised(friction, loading)
     if settings.interface != "main_text":
         return parameters, own
     foreign = not_rounded_from(main_text, own)
@@ -210,50 +200,83 @@ def _fault(
     return parameters, loaded(main_text, loading)
 
 
-def _theory_lengths(faults: Iterable[tuple[Any, ...]]) -> Iterator[float]:
-    """The theory's lengths (m) of all runs of a study in one call, NaN where sliding is stable."""
-    cases = [(*bodies_of(parameters), interface) for parameters, interface in faults]
-    return iter(theory_lengths(cases).tolist() if cases else [])
+def lengths_of(
+    faults: Iterable[tuple[Parameters, InterfaceState]],
+) -> list[float]:
+    """The theory's lengths (m) of all faults in one call, NaN where sliding is stable."""
+    cases = []
+    for parameters, interface in faults:
+        upper, lower = bodies_of(parameters)
+        cases.append((upper, lower, interface))
+    return theory_lengths(cases).tolist() if cases else []
 
 
 def _run(
-    study: str, settings: StudySettings, prepared: _Prepared, critical: float, batch: str,
+    study: str,
+    settings: StudySettings,
+    prepared: _Prepared,
+    critical: float,
+    batch: str,
     stepping: Collection[str],
-) -> Run:  # fmt: skip
-    """One run; its length, unless given, is a multiple of the theory's critical length."""
-    parameters, interface, varied, values = prepared
+) -> Run:
+    """One run; its length, unless given, is a multiple of the theory's critical length (m)."""
+    values = prepared.values
     if math.isnan(critical) and "length" not in values:
-        reason = "the theory has no critical length"
-        try:
-            run_length(parameters, interface)
-        except NoInstability as error:
-            reason = str(error)
+        reason = _reason_of_stability(prepared)
         raise ParameterError(
             f"{reason}; a control run, in which nothing is to nucleate, needs its length (m)"
         )
-    length = values.get("length", float(f"{settings.length_over_critical * critical:.4g}"))
+    usual = float(f"{settings.length_over_critical * critical:.4g}")
+    length = values.get("length", usual)
     if length <= critical:
         raise ParameterError(
             f"length = {length:g} m is not allowed: the block must be longer than the critical "
             f"nucleation length of the theory, {critical:.3g} m, better 6 times as long; "
-            f"`nucleation specimen --length {length:g}m` says at which stress it would nucleate"
+            f"`nucleation specimen --length {length:g}m` computes the stress at which it would "
+            "nucleate"
         )
-    geometry = replace(parameters.geometry, length=float(length))
-    parameters = replace(parameters, geometry=geometry)
+    geometry = replace(prepared.parameters.geometry, length=float(length))
+    parameters = replace(prepared.parameters, geometry=geometry)
     parameters.require_consistent()
-    if "end_time" not in {*stepping, *values} and not math.isnan(critical):
-        parameters = _until_overdue(parameters, critical, {*stepping, *values})
-    name = identifier(study, parameters, varied)
-    return Run(name, study, parameters, critical, interface, values, batch, settings.role)
+    given = {*stepping, *values}
+    if "end_time" not in given and not math.isnan(critical):
+        parameters = _with_late_end(parameters, critical, given)
+    return Run(
+        id=identifier(study, parameters, prepared.varied),
+        study=study,
+        parameters=parameters,
+        theory_length=critical,
+        interface=prepared.interface,
+        given=values,
+        batch=batch,
+        role=settings.role,
+    )
 
 
-def _until_overdue(parameters: Parameters, critical: float, given: Collection[str]) -> Parameters:
-    """With an end that is late enough for an event, and soon after it, whenever that comes.
+def _reason_of_stability(prepared: _Prepared) -> str:
+    """Why the theory has no critical length."""
+    try:
+        run_length(prepared.parameters, prepared.interface)
+    except NoInstability as error:
+        return str(error)
+    return "the theory has no critical length"
 
-    An estimate of the time for a patch of the theory's critical length is an upper one
+
+def _with_late_end(
+    parameters: Parameters,
+    critical: float,
+    given: Collection[str],
+) -> Parameters:
+    """Parameters with an end time after the latest event, and an early end after the event.
+
+    The estimated time until the theory's critical length (m) is an upper bound of the event's time
     (:func:`nucleation.theory.estimates.growth_time`).
     """
-    end = float(f"{LATE * growth_time(parameters, critical):.2g}")
-    found = {"end_time": end, "time_after_event": min(AFTER * parameters.memory_time, end)}
-    own = {name: value for name, value in found.items() if name not in given}
-    return replace(parameters, stepping=replace(parameters.stepping, **own))
+    end = float(f"{_LATEST_END * growth_time(parameters, critical):.2g}")
+    after = min(_AFTER_EVENT * parameters.memory_time, end)
+    stepping = parameters.stepping
+    if "end_time" not in given:
+        stepping = replace(stepping, end_time=end)
+    if "time_after_event" not in given:
+        stepping = replace(stepping, time_after_event=after)
+    return replace(parameters, stepping=stepping)

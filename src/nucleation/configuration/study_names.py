@@ -1,7 +1,7 @@
-"""Names of parameters in studies: which there are, what they stand for, identifiers made of them.
+"""Parameters of studies: their names, their values in lists and ranges, identifiers of runs.
 
-A parameter goes by one name there, the short one (:class:`nucleation.model.names.Names`), however
-a configuration calls it: identifiers and tables do not depend on that.
+Each parameter has one standard name, the short one (:class:`nucleation.model.names.Names`).
+Identifiers and tables use it, so that they do not depend on the name in a configuration.
 """
 
 import math
@@ -16,76 +16,102 @@ from ..model.parameters import GROUPS, Parameters, names
 from ..model.quantities import ParameterError, Quantity
 
 RANGE: dict[str, Quantity] = {
-    "num": Quantity("number of values", low=2, high=10000, closed="both", kind="int"),
-    "scale": Quantity("spacing of the values", choices=("linear", "log")),
+    "num": Quantity(
+        "number of values",
+        low=2,
+        high=10000,
+        closed="both",
+        kind="int",
+    ),
+    "scale": Quantity(
+        "spacing of the values",
+        choices=("linear", "log"),
+    ),
 }
 """Keys of a range beside ``start`` and ``stop``, which have the parameter's own declaration."""
 
 LARGEST_GRID = 10000
-"""Simulations that one entry of a study may stand for."""
+"""Most simulations of one entry of a study."""
 
 
 def expand(value: Any) -> tuple[Any, ...]:
-    """The values meant by a value, a list of values or a range, in the order given.
+    """The values of a value, a list of values or a range, in the order given.
 
-    Values of a range are rounded to six significant digits, which identifiers then state exactly.
+    Values of a range are rounded to six significant digits, so that identifiers have them exactly.
     """
     if isinstance(value, list):
         return tuple(value)
     if not isinstance(value, dict):
         return (value,)
-    spaced = np.geomspace if value.get("scale", "linear") == "log" else np.linspace
-    return tuple(float(f"{x:.6g}") for x in spaced(value["start"], value["stop"], value["num"]))
+    logarithmic = value.get("scale") == "log"
+    spaced = np.geomspace if logarithmic else np.linspace
+    numbers = spaced(value["start"], value["stop"], value["num"])
+    return tuple(float(f"{number:.6g}") for number in numbers)
 
 
-def grid_size(entry: dict[str, Any]) -> int:
-    """The number of simulations that an entry of a study stands for."""
-    return math.prod(
-        value["num"] if isinstance(value, dict) else len(value) if isinstance(value, list) else 1
-        for key, value in entry.items()
-        if key != "defaults"
-    )
+def grid_size(entry: Mapping[str, Any]) -> int:
+    """The number of simulations of an entry of a study."""
+    sizes = []
+    for key, value in entry.items():
+        if key == "defaults":
+            continue
+        if isinstance(value, dict):
+            sizes.append(value["num"])
+        elif isinstance(value, list):
+            sizes.append(len(value))
+    return math.prod(sizes)
 
 
 def range_problem(value: Any) -> str | None:
-    """Why a range can't be expanded, or None."""
+    """The reason why a range can't be expanded, or None."""
     if not isinstance(value, dict):
         return None
-    if not value["start"] < value["stop"]:
-        return f"start {value['start']!r} must be less than stop {value['stop']!r}"
-    if value.get("scale") == "log" and not value["start"] > 0.0:
-        return f"start {value['start']!r} must be positive on a log scale"
-    if len(set(expand(value))) < value["num"]:
-        return f"its {value['num']} values from {value['start']!r} on are not all different"
+    start = value["start"]
+    stop = value["stop"]
+    number = value["num"]
+    if not start < stop:
+        return f"start {start!r} must be less than stop {stop!r}"
+    if value.get("scale") == "log" and not start > 0.0:
+        return f"start {start!r} must be positive on a log scale"
+    if len(set(expand(value))) < number:
+        return f"its {number} values from {start!r} on are not all different"
     return None
 
 
-@cache  # asked for each run of thousands
+@cache  # each run of thousands needs it
 def study_parameters() -> Mapping[str, Quantity]:
-    """Everything a study may vary, by the name it goes by: fields of runs, and constants."""
+    """The parameters that a study may vary, by standard name: those of runs, and constants."""
     known = names()
-    return MappingProxyType({known.short(full): entry for full, entry in known.items()})
+    found = {}
+    for full, entry in known.items():
+        name = known.short(full)
+        found[name] = entry
+    return MappingProxyType(found)
 
 
 @cache
 def other_names() -> Mapping[str, str]:
-    """The names that stand for another one: full names, and short ones beside an alias."""
+    """Standard names by the other names of the same parameter, full and short ones."""
     known = names()
-    others = {other: known.short(full) for full in known for other in known.others(full)}
-    return MappingProxyType(others)
+    found = {}
+    for full in known:
+        for other in known.others(full):
+            found[other] = known.short(full)
+    return MappingProxyType(found)
 
 
-def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
-    """Values by the names that their parameters go by, in the declared type.
+def by_study_name(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values by the standard names of their parameters, in the declared type.
 
-    So 1 and 1.0 give one and the same simulation.
+    So 1 and 1.0 give the same simulation.
 
     Raises
     ------
     ParameterError
-        If a name stands for no parameter, or one is given twice.
+        If no parameter has a name, or one is given twice.
     """
-    known, declared = names(), study_parameters()
+    known = names()
+    declared = study_parameters()
     found: dict[str, Any] = {}
     for given, value in values.items():
         name = known.short(known.full(given))
@@ -96,32 +122,77 @@ def by_study_name(values: dict[str, Any]) -> dict[str, Any]:
 
 
 def in_type(entry: Quantity, value: Any) -> Any:
-    """An allowed value in its declared type; a tuple of what a list or a range means."""
+    """Convert an allowed value to its declared type.
+
+    Parameters
+    ----------
+    entry : Quantity
+        The declaration.
+    value : object
+        A value; for a tuple also a list or a range.
+
+    Returns
+    -------
+    float, int, str, None or tuple of float
+    """
     if entry.many:
         return tuple(map(float, expand(value)))
-    return float(value) if entry.kind == "float" and value is not None else value
+    if entry.kind == "float" and value is not None:
+        return float(value)
+    return value
 
 
-def identifier(study: str, parameters: Parameters, varied: dict[str, Any]) -> str:
+def identifier(
+    study: str,
+    parameters: Parameters,
+    varied: Mapping[str, Any],
+) -> str:
     """Readable, file-name-safe name of a run, such as ``paper-aging-H0.005-phi1-n_x800``.
 
-    What is varied comes in the order of the groups of parameters, whatever that of the
-    configuration; within a group words before numbers, then by name. Constants come last.
-    """
-    groups, declared, known = list(GROUPS), study_parameters(), names()
+    Parameters
+    ----------
+    study : str
+        The study's name.
+    parameters : Parameters
+        The run's parameters.
+    varied : mapping
+        The values that the study varies, by standard name.
 
-    def key(name: str) -> tuple[int, bool, str]:
-        group, _, field = known.full(name).rpartition(".")
+    Returns
+    -------
+    str
+        Study, evolution law, height (m), initial state (s) and other varied values.
+
+    Notes
+    -----
+    The order of the varied values does not depend on the configuration: groups of parameters are
+    in their declared order; in a group words come before numbers, then the names are sorted.
+    Constants come last.
+    """
+    groups = list(GROUPS)
+    declared = study_parameters()
+    known = names()
+
+    def position(name: str) -> tuple[int, bool, str]:
+        full = known.full(name)
+        group, _, field = full.rpartition(".")
         if not group:
             return len(groups), True, name
-        return groups.index(group), not declared[name].choices, field
+        number = not declared[name].choices
+        return groups.index(group), number, field
 
-    height, age = parameters.geometry.height, parameters.loading.initial_state
-    others = sorted(varied.keys() - {"evolution", "height", "phi0"}, key=key)
-    return "-".join(
-        [study, parameters.friction.evolution, f"H{_text(height)}", f"phi{_text(age)}"]
-        + [f"{name}{_text(varied[name])}" for name in others]
-    )
+    height = parameters.geometry.height
+    age = parameters.loading.initial_state
+    parts = [
+        study,
+        parameters.friction.evolution,
+        f"H{_text(height)}",
+        f"phi{_text(age)}",
+    ]
+    others = varied.keys() - {"evolution", "height", "phi0"}
+    for name in sorted(others, key=position):
+        parts.append(f"{name}{_text(varied[name])}")
+    return "-".join(parts)
 
 
 def _text(value: Any) -> str:

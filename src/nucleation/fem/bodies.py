@@ -1,59 +1,92 @@
-"""The elastic body that parameters ask for: on a rigid base, or a pair; finite, or periodic."""
+"""The elastic body of a simulation: on a rigid base, or a pair; finite, or periodic."""
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any, TypeAlias
 
 from ..model.parameters import Parameters
-from .block import Block, BlockOperator
-from .free_block import EvenHalf, FreeBlock
+from .block import Block
+from .condensed import ElasticBody
+from .even_half import EvenHalf
+from .free_block import FreeBlock
 from .grid import Grid
-from .pair import Pair, PairOperator
+from .pair import BlockPair
 from .periodic import PeriodicBlock
 from .periodic_pair import PeriodicPair
 
-BodyOperator: TypeAlias = BlockOperator | PairOperator
 
+def body_of(parameters: Parameters) -> ElasticBody:
+    """Make the body of a run, by its kind of loading.
 
-def body_of(parameters: Parameters) -> Any:
-    """The body of a run, by its loading: here a further kind of loading has its body.
+    Parameters
+    ----------
+    parameters : Parameters
+        Those of the run.
 
-    ParameterError if the parameters are not for one another.
+    Returns
+    -------
+    ElasticBody
+
+    Raises
+    ------
+    ParameterError
+        If the parameters contradict each other.
     """
     parameters.require_consistent()
-    return LOADED[parameters.loading.kind](parameters)
+    return BODIES[parameters.loading.kind](parameters)
 
 
-def pushed_block(parameters: Parameters) -> Block | Pair:
-    """What is pushed at its left edge."""
-    upper = Block(Grid.of(parameters.geometry, parameters.mesh), parameters.material)
+def _pushed_block(parameters: Parameters) -> Block | BlockPair:
+    """The body that is pushed at its left edge."""
+    grid = Grid.of(parameters.geometry, parameters.mesh)
+    upper = Block(grid, parameters.material)
     below = parameters.below
     if below is None:
         return upper
     grid = Grid.of(below.geometry, below.mesh)
-    return Pair(upper, Block(grid, below.material, below.bottom))
+    lower = Block(grid, below.material, below.bottom)
+    return BlockPair(upper, lower)
 
 
-def free_block(parameters: Parameters) -> FreeBlock:
-    """What is moved at its top, its side edges free: either half of it, a block or a pair."""
-    grid, below = Grid.of(parameters.geometry, parameters.mesh), parameters.below
+def _free_block(parameters: Parameters) -> FreeBlock:
+    """The body that is moved at its top, with free side edges."""
+    grid = Grid.of(parameters.geometry, parameters.mesh)
+    odd = _half_block(parameters, Block)
+    even = _half_block(parameters, EvenHalf)
+    return FreeBlock(grid, odd, even)
 
-    def half(kind: type[Block]) -> Block | Pair:
-        upper = kind(_half(grid), parameters.material, "velocity")
-        if below is None:
-            return upper
-        lower = kind(_half(Grid.of(below.geometry, below.mesh)), below.material, below.bottom)
-        return Pair(upper, lower)
 
-    return FreeBlock(grid, half(Block), half(EvenHalf))
+def _half_block(parameters: Parameters, kind: type[Block]) -> Block | BlockPair:
+    """The odd or even half of a free block or pair."""
+    grid = Grid.of(parameters.geometry, parameters.mesh)
+    upper = kind(_half(grid), parameters.material, "velocity")
+    below = parameters.below
+    if below is None:
+        return upper
+    grid = Grid.of(below.geometry, below.mesh)
+    lower = kind(_half(grid), below.material, below.bottom)
+    return BlockPair(upper, lower)
 
 
 def _half(grid: Grid) -> Grid:
-    return dataclasses.replace(grid, length=grid.length / 2.0, n_x=grid.n_x // 2)
+    return dataclasses.replace(
+        grid,
+        length=grid.length / 2.0,
+        n_x=grid.n_x // 2,
+    )
 
 
 def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
-    """One period, as long as the block, of the layers that a run's body or bodies are."""
+    """Make one period, as long as the block, of the layers of a run's body or bodies.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Those of the run; ``mesh.n_x`` is odd.
+
+    Returns
+    -------
+    PeriodicBlock or PeriodicPair
+    """
     far_side = "velocity" if parameters.loading.kind == "top" else "free"
     grid = Grid.of(parameters.geometry, parameters.mesh)
     upper = PeriodicBlock(grid, parameters.material, far_side)
@@ -61,10 +94,13 @@ def period_of(parameters: Parameters) -> PeriodicBlock | PeriodicPair:
     if below is None:
         return upper
     grid = Grid.of(below.geometry, below.mesh)
-    return PeriodicPair(upper, PeriodicBlock(grid, below.material, below.bottom))
+    lower = PeriodicBlock(grid, below.material, below.bottom)
+    return PeriodicPair(upper, lower)
 
 
-LOADED: dict[str, Callable[[Parameters], Any]] = {
-    "edge": pushed_block, "top": free_block, "remote": period_of,
-}  # fmt: skip
-"""The body that each kind of loading acts on."""
+BODIES: dict[str, Callable[[Parameters], ElasticBody]] = {
+    "edge": _pushed_block,
+    "top": _free_block,
+    "remote": period_of,
+}
+"""The body for each kind of loading; a further kind adds its own."""

@@ -1,7 +1,7 @@
-"""Functions compiled by numba, and kept for other processes: written by one at a time.
+"""Functions compiled by numba, and cached on disk; one process at a time writes the cache.
 
-Two processes that compile a function for different arguments at once may each count the other's
-code as their own (numba 0.68 numbers its files without a lock), and run it on other arrays.
+Two processes that compile a function for different arguments at once may each load the other's code
+as their own (numba 0.68 numbers its files without a lock), and run it on the wrong arrays.
 """
 
 import contextlib
@@ -10,16 +10,25 @@ import hashlib
 import os
 import time
 from collections.abc import Callable, Iterator, Set
-from typing import Any, cast
+from typing import Any, TypeVar
 
 from numba import njit
 from numba.core.caching import FunctionCache
 
+Result = TypeVar("Result")
 
-class SharedCache(FunctionCache):
-    """What numba keeps of a function and some content, read and written by many processes."""
+LOCK_ATTEMPTS = 1000  # ten seconds: a process that is stopped keeps its lock
+LOCK_INTERVAL = 0.01  # s
 
-    def __init__(self, function: Callable[..., Any], content: str) -> None:
+
+class _SharedCache(FunctionCache):
+    """Numba's cache of a function and some content, shared by many processes."""
+
+    def __init__(
+        self,
+        function: Callable[..., Any],
+        content: str,
+    ) -> None:
         super().__init__(function)
         self._digest = hashlib.sha256(content.encode()).hexdigest()
 
@@ -32,33 +41,67 @@ class SharedCache(FunctionCache):
             super().save_overload(sig, data)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The code for some types of arguments, None if it is not kept."""
+        """Return the code for some types of arguments, None if there is none."""
         with self._locked(fcntl.LOCK_SH):
             return super().load_overload(sig, target_context)
 
     @contextlib.contextmanager
     def _locked(self, kind: int) -> Iterator[None]:
-        """Hold the directory's lock, where the disk has any: many may read, or one may write."""
+        """Hold a lock of the directory, if the disk has locks: many may read, or one may write."""
         with contextlib.ExitStack() as held:
             with contextlib.suppress(OSError):
                 self._impl.locator.ensure_cache_path()
-                file = held.enter_context(open(os.path.join(self.cache_path, "lock"), "a"))
-                for _ in range(1000):  # ten seconds: a process that is stopped may hold it for ever
-                    with contextlib.suppress(BlockingIOError):
-                        fcntl.flock(file, kind | fcntl.LOCK_NB)
-                        break
-                    time.sleep(0.01)
+                path = os.path.join(self.cache_path, "lock")
+                file = held.enter_context(open(path, "a"))
+                _acquire(file.fileno(), kind)
             yield
 
 
-def compiled(
-    function: Callable[..., Any], fastmath: Set[str] = frozenset(), content: str = ""
-) -> Callable[..., Any]:
-    """Compile a function, with numpy's errors and, without `fastmath`, numpy's last bits.
+def _acquire(descriptor: int, kind: int) -> None:
+    """Lock a file, or give up after some time."""
+    for _ in range(LOCK_ATTEMPTS):
+        with contextlib.suppress(BlockingIOError):
+            fcntl.flock(descriptor, kind | fcntl.LOCK_NB)
+            return
+        time.sleep(LOCK_INTERVAL)
 
-    `content` is the text of what it calls in other files, which numba does not look at.
+
+def compiled(
+    function: Callable[..., Result],
+    fastmath: Set[str] = frozenset(),
+    content: str = "",
+) -> Callable[..., Result]:
+    """Compile a function, with numpy's treatment of errors.
+
+    Parameters
+    ----------
+    function : callable
+        The function.
+    fastmath : set of str
+        LLVM's liberties with floating-point numbers. Without any, the last bits are numpy's.
+    content : str
+        Text of the code that it calls in other files; numba does not look at them. If it
+        changes, the function is compiled again.
+
+    Returns
+    -------
+    callable
+        The compiled function.
     """
-    made: Any = njit(function, error_model="numpy", fastmath=set(fastmath) or False)
-    with contextlib.suppress(RuntimeError):  # no place to keep it
-        made._cache = SharedCache(function, content)
-    return cast(Callable[..., Any], made)
+    dispatcher: Any = njit(
+        function,
+        error_model="numpy",
+        fastmath=set(fastmath) or False,
+    )
+    with contextlib.suppress(RuntimeError):  # there is no place for a cache
+        dispatcher._cache = _SharedCache(function, content)
+    made: Callable[..., Result] = dispatcher
+    return made
+
+
+FUSED_AND_REORDERED = frozenset({"contract", "reassoc", "nsz"})
+
+
+def compiled_loop(function: Callable[..., Result]) -> Callable[..., Result]:
+    """Compile a loop over modes; LLVM may fuse products with sums and reorder sums."""
+    return compiled(function, FUSED_AND_REORDERED)

@@ -11,14 +11,27 @@ import numpy as np
 from ..model.parameters import Geometry, Mesh
 from ..types import Array
 
+Components = tuple[Array, Array]
+"""Values along x and along y, or the tangential and the normal component."""
+
 
 @dataclasses.dataclass(frozen=True)
 class Grid:
     """A rectangle ``[0, length] x [0, height]`` of ``n_x`` by ``n_y`` elements.
 
     The spacing is uniform along x. Along y the element heights grow geometrically from the
-    interface y = 0 to the top; the top one is ``grading`` times as high as the bottom one. If it is
-    periodic, node 0 is node n_x.
+    interface y = 0 to the top.
+
+    Parameters
+    ----------
+    length, height : float
+        Size of the rectangle (m).
+    n_x, n_y : int
+        Number of elements along x and y.
+    grading : float
+        Height of the top row of elements over that of the bottom row.
+    periodic : bool
+        Whether node 0 is node n_x.
     """
 
     length: float
@@ -30,8 +43,26 @@ class Grid:
 
     @classmethod
     def of(cls, geometry: Geometry, mesh: Mesh) -> Grid:
-        """The grid of a simulation's block."""
-        return cls(geometry.length, geometry.height, mesh.n_x, mesh.n_y, mesh.grading)
+        """Make the grid of a simulation's block.
+
+        Parameters
+        ----------
+        geometry : Geometry
+            Height and length of the block.
+        mesh : Mesh
+            Number of elements and their grading.
+
+        Returns
+        -------
+        Grid
+        """
+        return cls(
+            geometry.length,
+            geometry.height,
+            mesh.n_x,
+            mesh.n_y,
+            mesh.grading,
+        )
 
     @property
     def dx(self) -> float:
@@ -40,7 +71,7 @@ class Grid:
 
     @property
     def own(self) -> slice:
-        """The nodes 0..n_x without the one that only repeats another."""
+        """The nodes 0..n_x, without node 0 if that repeats node n_x."""
         return slice(1 if self.periodic else 0, None)
 
     @cached_property
@@ -51,13 +82,14 @@ class Grid:
     @cached_property
     def y(self) -> Array:
         """Node positions along y (m), shape (n_y + 1,)."""
-        heights = self.grading ** (np.arange(self.n_y) / max(self.n_y - 1, 1))
+        row = np.arange(self.n_y) / max(self.n_y - 1, 1)
+        heights = self.grading**row
         nodes = np.concatenate(([0.0], np.cumsum(heights)))
         return self.height * nodes / nodes[-1]
 
     @cached_property
     def nodal_lengths(self) -> Array:
-        """Length of interface that each interface node stands for (m), shape (n_x + 1,)."""
+        """Length of the interface that belongs to each node (m), shape (n_x + 1,)."""
         lengths = np.full(self.n_x + 1, self.dx)
         if not self.periodic:
             lengths[[0, -1]] *= 0.5
@@ -66,55 +98,104 @@ class Grid:
 
 @dataclasses.dataclass(frozen=True)
 class Field:
-    """A displacement-like field: mode amplitudes and the values of u_y on the right edge.
+    """A displacement, a velocity or a load: mode amplitudes, and values on the right edge.
 
-    `modes` has shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
-    `edge` has shape (n_y + 1,); ``edge[0]`` is always zero.
+    Parameters
+    ----------
+    modes : ndarray
+        Amplitudes, shape (n_y + 1, 2, n_x): level from the interface up, component (x, y), mode.
+    edge : ndarray
+        Values of u_y on the right edge, shape (n_y + 1,). The first one is zero in one body.
     """
 
     modes: Array
     edge: Array
 
     def plus(self, other: Field) -> Field:
-        """The sum of two fields."""
+        """Return the sum of two fields."""
         return Field(self.modes + other.modes, self.edge + other.edge)
 
     def times(self, factor: float) -> Field:
-        """The field times a number."""
+        """Return the field times a number."""
         return Field(factor * self.modes, factor * self.edge)
 
     def to_arrays(self, name: str) -> dict[str, Array]:
-        """The field as plain arrays, their names beginning with `name`."""
-        return {f"{name}_modes": self.modes, f"{name}_edge": self.edge}
+        """Return the field as plain arrays; their names begin with `name`."""
+        return {
+            f"{name}_modes": self.modes,
+            f"{name}_edge": self.edge,
+        }
 
     @classmethod
-    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Field:
-        """The inverse of :meth:`to_arrays`."""
+    def from_arrays(
+        cls,
+        name: str,
+        arrays: Mapping[str, Array],
+    ) -> Field:
+        """Read a field from the arrays of :meth:`to_arrays`.
+
+        Parameters
+        ----------
+        name : str
+            Beginning of the names of its arrays.
+        arrays : mapping
+            Arrays by name; further ones are ignored.
+
+        Returns
+        -------
+        Field
+        """
         return cls(arrays[f"{name}_modes"], arrays[f"{name}_edge"])
 
 
 Terms = Sequence[tuple[float, Field]]
+"""Coefficients and fields of a linear combination."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Motion:
-    """Where a body is at one instant, and how fast: (w_x, u_y) with u_x = U(t) + w_x."""
+    """Displacement and velocity of a body at one instant, ``u_x = U(t) + w_x``.
 
-    displacement: Field  # m
-    velocity: Field  # m/s
-    momentum: float  # kg/s, along x, of the velocity w_t
+    Parameters
+    ----------
+    displacement : Field
+        (w_x, u_y) in m.
+    velocity : Field
+        Rate of the displacement (m/s).
+    momentum : float
+        Momentum along x of that velocity (kg/s per unit depth).
+    """
+
+    displacement: Field
+    velocity: Field
+    momentum: float
 
     def to_arrays(self, name: str) -> dict[str, Array]:
-        """The motion as plain arrays, their names beginning with `name`; exact."""
-        return {
-            **self.displacement.to_arrays(f"{name}_displacement"),
-            **self.velocity.to_arrays(f"{name}_velocity"),
-            f"{name}_momentum": np.asarray(self.momentum),
-        }
+        """Return the motion as plain arrays, without loss; their names begin with `name`."""
+        displacement = self.displacement.to_arrays(f"{name}_displacement")
+        velocity = self.velocity.to_arrays(f"{name}_velocity")
+        momentum = {f"{name}_momentum": np.asarray(self.momentum)}
+        return displacement | velocity | momentum
 
     @classmethod
-    def from_arrays(cls, name: str, arrays: Mapping[str, Array]) -> Motion:
-        """The inverse of :meth:`to_arrays`."""
+    def from_arrays(
+        cls,
+        name: str,
+        arrays: Mapping[str, Array],
+    ) -> Motion:
+        """Read a motion from the arrays of :meth:`to_arrays`.
+
+        Parameters
+        ----------
+        name : str
+            Beginning of the names of its arrays.
+        arrays : mapping
+            Arrays by name; further ones are ignored.
+
+        Returns
+        -------
+        Motion
+        """
         return cls(
             Field.from_arrays(f"{name}_displacement", arrays),
             Field.from_arrays(f"{name}_velocity", arrays),
@@ -123,4 +204,4 @@ class Motion:
 
 
 Motions = tuple[Motion, ...]
-"""Of a body at some instants, the newest first."""
+"""Motions of a body at some instants, the newest first."""

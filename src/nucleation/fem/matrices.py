@@ -1,77 +1,95 @@
-"""One-dimensional matrices of linear elements, of which the bilinear ones are products."""
+"""One-dimensional matrices of linear elements; the bilinear elements' matrices are products.
 
-from __future__ import annotations
-
-import dataclasses
-from functools import cached_property
+A tridiagonal matrix A of size n is an array (3, n) of its diagonals: ``A[i, i-1]``, ``A[i, i]`` and
+``A[i, i+1]`` in row i. The first entry of the first diagonal and the last entry of the last one are
+zero.
+"""
 
 import numpy as np
 
 from ..types import Array
 
 
-@dataclasses.dataclass(frozen=True)
-class Tridiagonal:
-    """A tridiagonal matrix by its diagonals: ``lower[i] = A[i, i-1]``, ``upper[i] = A[i, i+1]``.
+def element_matrices(nodes: Array) -> tuple[Array, Array, Array]:
+    """Integrate products of the hat functions psi_i of a line of nodes.
 
-    All three have the length of the matrix; ``lower[0]`` and ``upper[-1]`` are zero.
-    """
+    Parameters
+    ----------
+    nodes : ndarray
+        Positions of the nodes (m), shape (n,).
 
-    lower: Array
-    diagonal: Array
-    upper: Array
-
-    def __matmul__(self, vector: Array) -> Array:
-        """Product with an array along its first axis."""
-        lower, diagonal, upper = (d.reshape(-1, *[1] * (vector.ndim - 1)) for d in self.stacked)
-        product = diagonal * vector
-        product[1:] += lower[1:] * vector[:-1]
-        product[:-1] += upper[:-1] * vector[1:]
-        return product
-
-    @cached_property
-    def stacked(self) -> Array:
-        """The three diagonals as one array for the kernels: lower, diagonal, upper."""
-        return np.array([self.lower, self.diagonal, self.upper])
-
-    @cached_property
-    def transposed(self) -> Tridiagonal:
-        """The transposed matrix."""
-        return Tridiagonal(
-            np.concatenate(([0.0], self.upper[:-1])),
-            self.diagonal,
-            np.concatenate((self.lower[1:], [0.0])),
-        )
-
-    def scaled(self, factor: float) -> Tridiagonal:
-        """The matrix times a number."""
-        return Tridiagonal(factor * self.lower, factor * self.diagonal, factor * self.upper)
-
-    def __add__(self, other: Tridiagonal) -> Tridiagonal:
-        return Tridiagonal(
-            self.lower + other.lower, self.diagonal + other.diagonal, self.upper + other.upper
-        )
-
-    def dense(self) -> Array:
-        """The matrix as a dense array."""
-        return np.diag(self.diagonal) + np.diag(self.lower[1:], -1) + np.diag(self.upper[:-1], 1)
-
-
-def element_matrices(nodes: Array) -> tuple[Tridiagonal, Tridiagonal, Tridiagonal]:
-    """Mass, stiffness and derivative matrix of linear elements on a line of nodes (m).
-
-    ``M[i, j] = int psi_i psi_j`` (m), ``K[i, j] = int psi_i' psi_j'`` (1/m) and
-    ``C[i, j] = int psi_i psi_j'`` (dimensionless).
+    Returns
+    -------
+    mass, stiffness, derivative : ndarray
+        ``int psi_i psi_j`` (m), ``int psi_i' psi_j'`` (1/m) and ``int psi_i psi_j'``
+        (dimensionless), shape (3, n) each.
     """
     h = np.diff(nodes)
-    zero = np.zeros(1)
-    left, right = np.concatenate((zero, h)), np.concatenate((h, zero))  # element left, right of i
-    mass = Tridiagonal(left / 6.0, (left + right) / 3.0, right / 6.0)
-    inverse = 1.0 / h
-    left, right = np.concatenate((zero, inverse)), np.concatenate((inverse, zero))
-    stiffness = Tridiagonal(-left, left + right, -right)
-    half = np.full(h.size, 0.5)
+    left, right = _beside_nodes(h)
+    mass = np.array(
+        [
+            left / 6.0,
+            (left + right) / 3.0,
+            right / 6.0,
+        ]
+    )
+    left, right = _beside_nodes(1.0 / h)
+    stiffness = np.array([-left, left + right, -right])
+    halves = np.full(h.size, 0.5)
+    left, right = _beside_nodes(halves)
     diagonal = np.zeros(nodes.size)
-    diagonal[0], diagonal[-1] = -0.5, 0.5
-    derivative = Tridiagonal(-np.concatenate((zero, half)), diagonal, np.concatenate((half, zero)))
+    diagonal[0] = -0.5
+    diagonal[-1] = 0.5
+    derivative = np.array([-left, diagonal, right])
     return mass, stiffness, derivative
+
+
+def _beside_nodes(values: Array) -> tuple[Array, Array]:
+    """Values of the elements on the left and on the right of each node, zero without one."""
+    left = np.concatenate(([0.0], values))
+    right = np.concatenate((values, [0.0]))
+    return left, right
+
+
+def product(matrix: Array, values: Array) -> Array:
+    """Multiply a tridiagonal matrix with an array along its first axis.
+
+    Parameters
+    ----------
+    matrix : ndarray
+        Diagonals, shape (3, n).
+    values : ndarray
+        Shape (n, ...).
+
+    Returns
+    -------
+    ndarray
+        Shape (n, ...).
+    """
+    further_axes = [1] * (values.ndim - 1)
+    lower, diagonal, upper = matrix.reshape(3, -1, *further_axes)
+    out = diagonal * values
+    out[1:] += lower[1:] * values[:-1]
+    out[:-1] += upper[:-1] * values[1:]
+    return out
+
+
+def transposed(matrix: Array) -> Array:
+    """Return the diagonals of the transposed matrix, (3, n)."""
+    lower, diagonal, upper = matrix
+    return np.array(
+        [
+            np.roll(upper, 1),
+            diagonal,
+            np.roll(lower, -1),
+        ]
+    )
+
+
+def dense(matrix: Array) -> Array:
+    """Return a tridiagonal matrix as a dense array, (n, n)."""
+    lower, diagonal, upper = matrix
+    out = np.diag(diagonal)
+    out += np.diag(lower[1:], -1)
+    out += np.diag(upper[:-1], 1)
+    return out

@@ -1,9 +1,9 @@
 """Two elastic blocks on one another, condensed on their common interface y = 0.
 
 Both blocks have the modes of :mod:`.block_modes`, on grids with the same elements along x, and are
-put in series (:mod:`.series`). The upper one is driven at its left edge, the lower one held there.
-On the right edge, free in both, the corner ``u_y(L, 0)`` is an unknown that both blocks share. With
-it all of ``u_y`` may shift if no far side holds it: inertia fixes that in motion, and in statics,
+put in series (:mod:`.series`). The upper block is driven at its left edge, the lower one is held
+there. The right edge of both is free; at its corner both share the unknown ``u_y(L, 0)``. If no far
+side is held, all of ``u_y`` may shift with it: in motion inertia determines the shift; in statics,
 where no force acts on it, the corner stays.
 """
 
@@ -17,179 +17,264 @@ import numpy as np
 from ..types import Array
 from .block import Block
 from .condensed_nodes import CondensedOnNodes
-from .grid import Field, Motions
+from .grid import Components, Field, Motion, Motions
 from .right_edge import EdgeValues, inverse_within
-from .series import Series, TwoBodies
+from .series import SeriesStiffness, TwoBodies
 
-LIFTED = 100.0  # times what has slid: a translation along y that has grown from rounding
+LIFTED = 100.0  # times the slip: a translation along y that has grown from round-off
 
 
-class Pair(TwoBodies[Block]):
-    """Two blocks; where the lower one's far side is ``free``, it bears the same normal stress."""
+class BlockPair(TwoBodies[Block]):
+    """Two blocks. If the lower far side is ``free``, it bears the same normal stress."""
 
-    def operator(self, s: float) -> PairOperator:
-        """The dynamic stiffness ``K + s M`` (`s` in 1/s^2), condensed on the interface."""
-        return PairOperator(self, s)
+    @property
+    def is_held(self) -> bool:
+        """Whether the lower far side is held along y."""
+        return self.lower.far_side != "free"
+
+    def operator(self, s: float) -> _PairOperator:
+        """Factorise the dynamic stiffness ``K + s M`` (`s` in 1/s^2)."""
+        return _PairOperator(self, s)
 
     def top_load(self, normal_stress: float) -> Field:
-        """Nodal forces (N/m) of the compressive stress (Pa) on the far sides that are free."""
-        below = self.lower.top_load(normal_stress)
-        if self.lower.far_side != "free":
-            below = self.lower.zero_field()
-        return self.joined(self.upper.top_load(normal_stress), below)
+        """Return the nodal forces (N/m) of a compressive stress (Pa) on free far sides."""
+        above = self.upper.top_load(normal_stress)
+        if self.is_held:
+            return self.joined(above, self.lower.zero_field())
+        return self.joined(above, self.lower.top_load(normal_stress))
 
     @cached_property
     def _risen(self) -> Field:
         """Both blocks moved up by one metre."""
         level = self.upper.cosine_amplitudes(np.ones(self.grid.n_x))
-        fields = []
-        for block, sign in ((self.upper, 1.0), (self.lower, -1.0)):  # that one is mirrored
-            field = block.zero_field()
-            field.modes[:, 1], field.edge[:] = sign * level, sign
-            fields.append(field)
-        return self.joined(*fields)
+        upper = self.upper.zero_field()
+        upper.modes[:, 1] = level
+        upper.edge[:] = 1.0
+        lower = self.lower.zero_field()
+        lower.modes[:, 1] = -level
+        lower.edge[:] = -1.0
+        return self.joined(upper, lower)
 
-    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
-        """The same motions seen from a corner that does not rise, if no far side holds the pair.
+    def settled(
+        self,
+        motions: Motions,
+        step: float,
+        slid: float,
+    ) -> Motions:
+        """Remove a translation along y that has grown from round-off, if no far side is held.
 
-        Nothing feels a translation along y, so that rounding is all that acts on it, and makes it
-        grow without end over minutes. Once it is :data:`LIFTED` times what has slid (m), it is
-        taken out with its velocity; the second motion is a step (s) older than the first.
+        No force acts on such a translation but round-off, which makes it grow without bound over
+        minutes. Once it exceeds :data:`LIFTED` times the slip, it is removed with its velocity: the
+        motions are seen from a corner that does not rise.
+
+        Parameters
+        ----------
+        motions, step, slid
+            As in :meth:`.condensed.ElasticBody.settled`.
         """
-        rise, rate = (float(f.edge[0]) for f in (motions[0].displacement, motions[0].velocity))
-        if self.lower.far_side != "free" or not abs(rise) > LIFTED * slid:
+        rise = float(motions[0].displacement.edge[0])
+        rate = float(motions[0].velocity.edge[0])
+        if self.is_held or not abs(rise) > LIFTED * slid:
             return motions
+        ages = (0.0, step)
         return tuple(
-            dataclasses.replace(
-                motion,
-                displacement=motion.displacement.plus(self._risen.times(age * rate - rise)),
-                velocity=motion.velocity.plus(self._risen.times(-rate)),
-            )
-            for motion, age in zip(motions, (0.0, step), strict=False)
+            self._raised(motion, age * rate - rise, -rate)
+            for motion, age in zip(motions, ages, strict=False)
         )
 
+    def _raised(
+        self,
+        motion: Motion,
+        distance: float,
+        rate: float,
+    ) -> Motion:
+        """A motion with both blocks moved up by a distance (m), at a rate (m/s)."""
+        displacement = motion.displacement.plus(self._risen.times(distance))
+        velocity = motion.velocity.plus(self._risen.times(rate))
+        return dataclasses.replace(motion, displacement=displacement, velocity=velocity)
 
-class PairOperator(CondensedOnNodes):
-    """``K + s M`` of a :class:`Pair` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
-    def __init__(self, body: Pair, s: float) -> None:
-        self.body, self.s = body, s
-        self.upper, self.lower = body.upper.operator(s), body.lower.operator(s)
-        self.series = Series(self.upper, self.lower)
-        self.edge: PairEdge = PairEdge(self)
+class _PairOperator(CondensedOnNodes):
+    """``K + s M`` of a :class:`BlockPair` for one ``s`` (1/s^2), with ``s = 0`` for statics."""
 
-    @property
-    def along_x(self) -> Block:
-        """The upper block."""
-        return self.body.upper
+    body: BlockPair
 
-    @property
-    def modal(self) -> Array:
-        """D and N per mode, the right edge held, times 2/n_x (N/m per m), (2, n_x)."""
-        return self.series.modal
+    def __init__(self, body: BlockPair, s: float) -> None:
+        self.body = body
+        self.s = s
+        self.upper = body.upper.operator(s)
+        self.lower = body.lower.operator(s)
+        self.series = SeriesStiffness(self.upper, self.lower)
+        self.along_x = body.upper
+        self.modal = self.series.modal
+        self.levels_above = body.grid.n_y + 1  # in a field, the lower block's levels follow them
+        self.edge = _PairEdge(self)
 
     @property
     def megabytes(self) -> float:
-        """Memory that this operator holds once all of its parts are in use (MB)."""
-        levels = self.body.grid.n_y + self.body.lower.grid.n_y + 2
+        """Memory that the operator holds once all of its parts are in use (MB)."""
+        levels = self.levels_above + self.body.lower.grid.n_y + 1
         own = 8e-6 * (13 * self.body.grid.n_x + 2 * levels**2)
         return self.upper.megabytes + self.lower.megabytes + own
 
     def swept_down(self, load: Field, edge: Array) -> Array:
-        """The forward sweep of a load to the interface in both blocks, with given edge values."""
+        """Sweep a load (N/m) down to the interface in both blocks, with given edge values (m).
+
+        Parameters
+        ----------
+        load, edge
+            As in :meth:`.condensed_nodes.CondensedOnNodes.swept_down`.
+        """
         modes = np.empty_like(load.modes)
-        into = self.body.parts(Field(modes, edge))
-        for operator, own, to in zip(
-            (self.upper, self.lower), self.body.parts(load), into, strict=True
-        ):
-            operator.swept(own, to.edge, to.modes)
+        above, below = self.body.parts(load)
+        into_above, into_below = self.body.parts(Field(modes, edge))
+        self.upper.swept(above, into_above.edge, into_above.modes)
+        self.lower.swept(below, into_below.edge, into_below.modes)
         return modes
 
     def reduced(self, swept: Array) -> tuple[Array, Array]:
-        """What a sweep takes from the modal forces at w = 0, and where it moves the interface."""
-        n = self.body.grid.n_y + 1
-        return self.series.loaded(swept[0], swept[n])
+        """Return the load that is held, and the displacement of the interface, at w = 0."""
+        return self.series.loaded(swept[0], swept[self.levels_above])
 
-    def substitute_up(self, swept: Array, amplitudes: Array, start: Array | None) -> None:
-        """The backward sweep of both blocks from amplitudes of w at the interface, in place."""
+    def substitute_up(
+        self,
+        swept: Array,
+        amplitudes: Array,
+        start: Array | None,
+    ) -> None:
+        """Sweep back from the interface in place.
+
+        Parameters
+        ----------
+        swept, amplitudes, start
+            As in :meth:`.condensed_nodes.CondensedOnNodes.substitute_up`.
+        """
         assert start is not None
-        n = self.body.grid.n_y + 1
-        self.series.set_interface(swept[:n], swept[n:], amplitudes, start)
-        self.upper.substitute(swept[:n])
-        self.lower.substitute(swept[n:])
+        above = swept[: self.levels_above]
+        below = swept[self.levels_above :]
+        self.series.set_interface(above, below, amplitudes, start)
+        self.upper.substitute(above)
+        self.lower.substitute(below)
 
     def corner_reaction(
-        self, load: Field, swept: Array, edge: Array, amplitudes: Array, start: Array | None
+        self,
+        load: Field,
+        swept: Array,
+        edge: Array,
+        amplitudes: Array,
+        start: Array | None,
     ) -> float:
-        """Normal force (N/m) on the upper corner's node, from the lowest levels alone."""
+        """Return the normal force (N/m) on the corner.
+
+        Parameters
+        ----------
+        load, swept, edge, amplitudes, start
+            As in :meth:`.condensed_nodes.CondensedOnNodes.corner_reaction`.
+        """
         assert start is not None
         lowest = swept[:2].copy()
-        self.series.set_interface(lowest, np.empty_like(lowest), amplitudes, start)
+        self.series.set_interface(
+            lowest,
+            np.empty_like(lowest),
+            amplitudes,
+            start,
+        )
         self.upper.substitute(lowest)
-        above = self.body.parts(Field(swept, edge)).upper.edge
-        return self.upper.edge.corner_reaction(self.body.parts(load).upper, lowest, above)
+        load_above, _ = self.body.parts(load)
+        edge_above = edge[: self.levels_above]
+        return self.upper.edge.corner_reaction(load_above, lowest, edge_above)
 
 
-class PairEdge(EdgeValues):
-    """The free right edges of both blocks: their values stacked, the corner among both of them."""
+class _PairEdge(EdgeValues):
+    """The free right edges of both blocks: their values stacked, with the corner in both."""
 
-    def __init__(self, operator: PairOperator) -> None:
+    def __init__(self, operator: _PairOperator) -> None:
         self._operator = operator
-        self._parts = operator.upper.edge, operator.lower.edge
-        self._first_below = operator.body.grid.n_y + 1  # where the lower block's values begin
+        self._above = operator.upper.edge
+        self._below = operator.lower.edge
+        self._first_below = operator.levels_above  # where the lower block's values begin
 
     @cached_property
     def round_off(self) -> float:
         """Relative error of the edge values in any solve."""
-        return max(edge.round_off for edge in self._parts)
+        return max(self._above.round_off, self._below.round_off)
 
-    def residual(self, load: Field, modes: Array, edge: Array) -> Array:
-        """Unbalanced force on the edge values (N/m), stacked."""
+    def residual(
+        self,
+        load: Field,
+        modes: Array,
+        edge: Array,
+    ) -> Array:
+        """Return the unbalanced force on the edge values (N/m), stacked.
+
+        Parameters
+        ----------
+        load, modes, edge
+            As in :meth:`.right_edge.EdgeValues.residual`.
+        """
         body = self._operator.body
-        both = zip(self._parts, body.parts(load), body.parts(Field(modes, edge)), strict=True)
-        return np.concatenate([part.residual(own, f.modes, f.edge) for part, own, f in both])
+        load_above, load_below = body.parts(load)
+        above, below = body.parts(Field(modes, edge))
+        residual_above = self._above.residual(
+            load_above,
+            above.modes,
+            above.edge,
+        )
+        residual_below = self._below.residual(
+            load_below,
+            below.modes,
+            below.edge,
+        )
+        return np.concatenate((residual_above, residual_below))
 
     @cached_property
     def _to_modes(self) -> tuple[Array, Array]:
         """Forces on the modes of w1 and u_y, and on those of w2, per unit of each edge value."""
-        above, below = (edge.to_modes() for edge in self._parts)
-        joint = np.concatenate((above, below * np.array([1.0, -1.0])[:, None, None]), axis=1)
+        above = self._above.to_modes()
+        below = self._below.to_modes()
+        mirror = np.array([1.0, -1.0])[:, None, None]
+        joint = np.concatenate((above, below * mirror), axis=1)
         lower = np.concatenate((np.zeros_like(above[0]), below[0]))
         return joint, lower
 
     @cached_property
     def schur(self) -> Array:
-        """Stiffness of the edge values (N/m per m), all else eliminated at fixed w."""
-        joint, n = self._to_modes[0], self._first_below
-        stiffness = np.zeros((joint.shape[1], joint.shape[1]))
-        for part, own in zip(self._parts, (slice(n), slice(n, None)), strict=True):
-            stiffness[own, own] = part.schur
+        """Stiffness of the edge values (N/m per m), all other unknowns eliminated at fixed w."""
+        (x, y), _ = self._to_modes
+        n = self._first_below
+        stiffness = np.zeros((len(x), len(x)))
+        stiffness[:n, :n] = self._above.schur
+        stiffness[n:, n:] = self._below.schur
         xx, xy, yy = self._operator.series.compliance
-        released = np.array([xx * joint[0] + xy * joint[1], xy * joint[0] + yy * joint[1]])
-        scale = 2.0 / self._operator.along_x.grid.n_x
-        return stiffness - scale * (joint[0] @ released[0].T + joint[1] @ released[1].T)
+        moved_x = xx * x + xy * y
+        moved_y = xy * x + yy * y
+        scale = self._operator.along_x.mode_scale
+        return stiffness - scale * (x @ moved_x.T + y @ moved_y.T)
 
     @cached_property
     def compliance(self) -> Array:
-        """Inverse of :attr:`schur` on its free values: the corner once, and what no side holds."""
-        body, n = self._operator.body, self._first_below
-        number = self.schur.shape[0]
-        held = body.lower.far_side != "free"
-        independent = np.delete(np.eye(number), n, axis=1)
+        """Inverse of :attr:`schur` on its free values: the corner once, none that is held."""
+        n = self._first_below
+        body = self._operator.body
+        independent = np.delete(np.eye(len(self.schur)), n, axis=1)
         independent[n, 0] = -1.0  # the corner, mirrored
-        masses = body.upper.material.density + body.lower.material.density
-        fixed = held or self._operator.s * masses > 0.0
-        free = slice(None if fixed else 1, -1 if held else None)
-        inverse = inverse_within(independent.T @ self.schur @ independent, free)
+        mass = body.upper.material.density + body.lower.material.density
+        corner_is_free = body.is_held or self._operator.s * mass > 0.0
+        first = None if corner_is_free else 1
+        last = -1 if body.is_held else None
+        stiffness = independent.T @ self.schur @ independent
+        inverse = inverse_within(stiffness, slice(first, last))
         return independent @ inverse @ independent.T
 
     @cached_property
-    def to_interface(self) -> tuple[Array, Array]:
-        """Nodal forces on the interface, all else eliminated, per unit of each edge value."""
+    def to_interface(self) -> Components:
+        """Nodal forces on the interface, all other unknowns eliminated, per edge value."""
         (x, y), lower = self._to_modes
         above = y.copy()
         above[self._first_below :] = 0.0  # the upper block's own
-        f = self._operator.series.forces
-        modal = np.array([f[4] * x + f[5] * y - lower, above - (f[2] * x + f[3] * y)])
+        _, _, yx1, yy1, xx2, xy2, _, _ = self._operator.series.forces
+        from_below = xx2 * x + xy2 * y
+        from_above = yx1 * x + yy1 * y
+        modal = np.array([from_below - lower, above - from_above])
         layer = self._operator.along_x
-        return layer.interface_forces((2.0 / layer.grid.n_x) * modal)
+        return layer.interface_forces(layer.mode_scale * modal)

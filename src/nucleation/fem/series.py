@@ -1,11 +1,11 @@
 """Two elastic bodies in series on their common interface y = 0, mode by mode.
 
-The lower body, ``-H2 <= y <= 0``, is stored mirrored, as one that stands on the interface:
+The lower body, ``-H2 <= y <= 0``, is stored mirrored, as if it were above the interface:
 ``y -> -y`` and ``u_y -> -u_y``. A field of both holds the levels of the upper body, then those of
 the lower one. Seen from the driven edge of the upper body, ``w1 = u_x - U(t)`` above and
-``w2 = u_x`` below. With ``w = w1 - w2``, the slip less that of the driven edge, with one ``u_y``
-for both (no opening) and the stiffness ``S = [[a, b], [b, c]]`` and the reduced load r of each body
-per mode, b2 and the y of r2 with the sign that the mirror gives them,
+``w2 = u_x`` below. ``w = w1 - w2`` is the slip less that of the driven edge; both bodies have the
+same ``u_y`` (no opening). Per mode, each body has a stiffness ``S = [[a, b], [b, c]]`` and a
+reduced load r; the mirror changes the signs of b2 and of the y component of r2. Then
 
     (w1, u_y) = T^-1 [S2 (w, 0) + r1 + r2],    T = S1 + S2,
     (p, R) = S1 (w1, u_y) - r1 .
@@ -14,137 +14,160 @@ So ``D = (det S2 a1 + det S1 a2) / det T`` and ``N = (det S2 b1 + det S1 b2) / d
 of identical bodies vanishes exactly.
 """
 
-from collections.abc import Sequence
-from typing import Generic, NamedTuple, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
 from ..types import Array
 from . import kernels
-from .grid import Field, Grid, Motion, Motions, Terms
-from .separable import SeparableBody, SeparableOperator, rate_of_change
+from .condensed import ElasticBody
+from .grid import Components, Field, Motion, Terms
+from .separable import SeparableBody, SeparableOperator
 
 Layer = TypeVar("Layer", bound=SeparableBody)
 
 
-class Parts(NamedTuple):
-    """Views of a pair's field: that of the upper body, that of the lower one, mirrored."""
+class TwoBodies(ElasticBody, Generic[Layer]):
+    """Two bodies with the same nodes and modes along x: a driven one above a mirrored one.
 
-    upper: Field
-    lower: Field
+    Parameters
+    ----------
+    upper, lower : Layer
+        The bodies.
 
-
-class TwoBodies(Generic[Layer]):
-    """Two bodies with the same nodes and modes along x: one driven, above, the other mirrored."""
+    Raises
+    ------
+    ValueError
+        If their elements along x differ.
+    """
 
     def __init__(self, upper: Layer, lower: Layer) -> None:
-        one, other = upper.grid, lower.grid
+        one = upper.grid
+        other = lower.grid
         if (one.n_x, one.length) != (other.n_x, other.length):
             raise ValueError(
                 f"a pair needs the same elements along x: the upper body has n_x = {one.n_x} "
                 f"on {one.length:g} m, the lower one n_x = {other.n_x} on {other.length:g} m"
             )
-        self.upper, self.lower, self.grid = upper, lower, one
-
-    @property
-    def grid_below(self) -> Grid:
-        """The lower body's mesh, its levels from the interface down."""
-        return self.lower.grid
-
-    @property
-    def crossing_time(self) -> float:
-        """Time (s) in which shear waves cross the slower body."""
-        return max(self.upper.crossing_time, self.lower.crossing_time)
+        self.upper = upper
+        self.lower = lower
+        self.grid = one
+        self.grid_below = other
+        self.far_side = upper.far_side
+        self.free_nodes = upper.free_nodes
+        self.crossing_time = max(upper.crossing_time, lower.crossing_time)
+        self.total_mass = upper.total_mass  # the lower body does not move with the edge
 
     @property
     def no_memory(self) -> Array:
-        """What it remembers before its first step: no error of the right edge's prediction."""
+        """The memory before the first step, that of the upper body."""
         return self.upper.no_memory
 
-    @property
-    def total_mass(self) -> float:
-        """Mass (kg/m) that moves with the driven edge: the upper body's."""
-        return self.upper.total_mass
-
-    @property
-    def free_nodes(self) -> int:
-        """Number of the interface's nodes that friction moves."""
-        return self.upper.free_nodes
-
     def on_all_nodes(self, values: Array, driven: float) -> Array:
-        """Values at the free nodes and that of the driven edge's own node, at the nodes 0..n_x."""
+        """Add the value of the driven edge's node.
+
+        Parameters
+        ----------
+        values, driven
+            As in :meth:`.condensed.ElasticBody.on_all_nodes`.
+        """
         return self.upper.on_all_nodes(values, driven)
 
-    def parts(self, field: Field) -> Parts:
-        """The two bodies' fields in one of the pair, not copied."""
-        n = self.grid.n_y + 1
-        return Parts(Field(field.modes[:n], field.edge[:n]), Field(field.modes[n:], field.edge[n:]))
+    def parts(self, field: Field) -> tuple[Field, Field]:
+        """Return views of a field of the pair: the upper body's, the lower body's mirrored."""
+        levels = self.grid.n_y + 1
+        upper = Field(field.modes[:levels], field.edge[:levels])
+        lower = Field(field.modes[levels:], field.edge[levels:])
+        return upper, lower
 
     def joined(self, upper: Field, lower: Field) -> Field:
-        """The pair's field of two bodies' fields."""
-        return Field(
-            np.concatenate((upper.modes, lower.modes)), np.concatenate((upper.edge, lower.edge))
-        )
+        """Join the fields of the two bodies, the lower one's mirrored.
+
+        Parameters
+        ----------
+        upper, lower : Field
+            Fields of the bodies.
+
+        Returns
+        -------
+        Field
+            The field of the pair.
+        """
+        modes = np.concatenate((upper.modes, lower.modes))
+        edge = np.concatenate((upper.edge, lower.edge))
+        return Field(modes, edge)
 
     def zero_field(self) -> Field:
-        """A field of zeros."""
+        """Return a field of zeros."""
         return self.joined(self.upper.zero_field(), self.lower.zero_field())
 
     def translation_load(self, acceleration: float) -> Field:
-        """Inertia (N/m) against an acceleration (m/s^2) of the driven edge and the upper body."""
-        return self.joined(self.upper.translation_load(acceleration), self.lower.zero_field())
+        """Return the inertia (N/m) against an acceleration (m/s^2) of the upper body."""
+        upper = self.upper.translation_load(acceleration)
+        return self.joined(upper, self.lower.zero_field())
 
-    def inertia_load(self, s: float, terms: Terms, load: Field | None = None) -> Field:
-        """``load + s M sum_i c_i f_i`` for terms ``(c_i, f_i)``, as of either body."""
-        coefficients = [c for c, _ in terms]
-        split = [self.parts(field) for _, field in terms]
-        loads = self.parts(load) if load is not None else (None, None)
+    def inertia_load(
+        self,
+        s: float,
+        terms: Terms,
+        load: Field | None = None,
+    ) -> Field:
+        """Add the inertia of fields to a load.
+
+        Parameters
+        ----------
+        s, terms, load
+            As in :meth:`.condensed.ElasticBody.inertia_load`.
+        """
+        above = []
+        below = []
+        for coefficient, field in terms:
+            upper, lower = self.parts(field)
+            above.append((coefficient, upper))
+            below.append((coefficient, lower))
+        load_above, load_below = (None, None) if load is None else self.parts(load)
         return self.joined(
-            *(
-                block.inertia_load(s, list(zip(coefficients, fields, strict=True)), own)
-                for block, fields, own in zip(
-                    (self.upper, self.lower), zip(*split, strict=True), loads, strict=True
-                )
-            )
+            self.upper.inertia_load(s, above, load_above),
+            self.lower.inertia_load(s, below, load_below),
         )
 
-    def motion(
-        self, past: Sequence[float], beta: float, displacement: Field, motions: Sequence[Motion]
-    ) -> Motion:
-        """The motion at a new displacement; its momentum is the driven body's alone."""
-        velocity = rate_of_change(past, beta, displacement, motions)
-        return Motion(displacement, velocity, self.momentum_x(velocity))
-
-    def settled(self, motions: Motions, step: float, slid: float) -> Motions:
-        """The motions themselves: unless one kind of pair says otherwise."""
-        return motions
-
     def at_rest(self, displacement: Field, velocity: float) -> Motion:
-        """The motion of the pair at rest, seen from the driven edge (velocity in m/s)."""
-        own = self.upper.at_rest(self.parts(displacement).upper, velocity)
+        """Return the motion of the pair at rest.
+
+        Parameters
+        ----------
+        displacement, velocity
+            As in :meth:`.condensed.ElasticBody.at_rest`.
+        """
+        above, _ = self.parts(displacement)
+        own = self.upper.at_rest(above, velocity)
         rates = self.joined(own.velocity, self.lower.zero_field())
         return Motion(displacement, rates, own.momentum)
 
     def momentum_x(self, velocity: Field) -> float:
-        """Momentum along x of the upper body's velocity field w_t (kg/s per unit depth)."""
-        return self.upper.momentum_x(self.parts(velocity).upper)
+        """Return the upper body's momentum along x (kg/s per unit depth) at a velocity (m/s)."""
+        above, _ = self.parts(velocity)
+        return self.upper.momentum_x(above)
 
-    def sine_amplitudes(self, nodal: Array) -> Array:
-        """Amplitudes of nodal values at i = 1..n_x (last axis) in the sine basis."""
-        return self.upper.sine_amplitudes(nodal)
+    def nodal_values(self, field: Field) -> Components:
+        """Return nodal w_x and u_y of the upper body, each of shape (n_y + 1, n_x + 1)."""
+        above, _ = self.parts(field)
+        return self.upper.nodal_values(above)
 
-    def nodal_values(self, field: Field) -> tuple[Array, Array]:
-        """Nodal w_x and u_y of the upper body, each of shape (n_y + 1, n_x + 1)."""
-        return self.upper.nodal_values(self.parts(field).upper)
-
-    def nodal_values_below(self, field: Field) -> tuple[Array, Array]:
-        """Nodal u_x and u_y of the lower body, its levels from the interface down."""
-        x, y = self.lower.nodal_values(self.parts(field).lower)
+    def nodal_values_below(self, field: Field) -> Components:
+        """Return nodal u_x and u_y of the lower body, its levels from the interface down."""
+        _, below = self.parts(field)
+        x, y = self.lower.nodal_values(below)
         return x, -y
 
 
-class Series:
+class SeriesStiffness:
     """The stiffness of two bodies in series, per mode times 2/n_x (N/m per m).
+
+    Parameters
+    ----------
+    upper, lower : SeparableOperator
+        Operators of the bodies.
 
     Attributes
     ----------
@@ -159,37 +182,93 @@ class Series:
     """
 
     def __init__(self, upper: SeparableOperator, lower: SeparableOperator) -> None:
-        (a1, b1, c1), (a2, b2, c2) = upper.pivot, lower.pivot
+        a1, b1, c1 = upper.pivot
+        a2, b2, c2 = lower.pivot
         b2 = -b2  # by the mirror
-        # not in a compiled loop: fused products would leave identical bodies a coupling
-        det1, det2 = a1 * c1 - b1 * b1, a2 * c2 - b2 * b2
+        # not compiled: with fused products, identical bodies would not decouple exactly
+        det1 = a1 * c1 - b1 * b1
+        det2 = a2 * c2 - b2 * b2
         det = det1 + det2 + a1 * c2 + a2 * c1 - 2.0 * (b1 * b2)
-        self.modal = np.array([det2 * a1 + det1 * a2, det2 * b1 + det1 * b2]) / det
-        self.compliance = np.array([c1 + c2, -(b1 + b2), a1 + a2]) / det
+        stiffness = det2 * a1 + det1 * a2
+        coupling = det2 * b1 + det1 * b2
+        self.modal = np.array([stiffness, coupling]) / det
+        adjugate = np.array(
+            [
+                c1 + c2,
+                -(b1 + b2),
+                a1 + a2,
+            ]
+        )
+        self.compliance = adjugate / det
         xx, xy, yy = self.compliance
         self.forces = np.array(
             [
-                row
-                for a, b, c in ((a1, b1, c1), (a2, b2, c2))
-                for row in (a * xx + b * xy, a * xy + b * yy, b * xx + c * xy, b * xy + c * yy)
+                a1 * xx + b1 * xy,
+                a1 * xy + b1 * yy,
+                b1 * xx + c1 * xy,
+                b1 * xy + c1 * yy,
+                a2 * xx + b2 * xy,
+                a2 * xy + b2 * yy,
+                b2 * xx + c2 * xy,
+                b2 * xy + c2 * yy,
             ]
         )
-        self.by_slip = np.array([xx * a2 + xy * b2, xy * a2 + yy * b2])
+        self.by_slip = np.array(
+            [
+                xx * a2 + xy * b2,
+                xy * a2 + yy * b2,
+            ]
+        )
 
-    def loaded(self, upper: Array, lower: Array) -> tuple[Array, Array]:
-        """What reduced loads of both bodies (2, n_x) do at zero slip.
+    def loaded(
+        self,
+        upper: Array,
+        lower: Array,
+    ) -> tuple[Array, Array]:
+        """Return the effect of reduced loads at zero slip.
 
-        They take the first result from the forces on the upper body, and move the interface by the
-        second.
+        Parameters
+        ----------
+        upper, lower : ndarray
+            The reduced loads of the bodies (N/m), shape (2, n_x).
+
+        Returns
+        -------
+        held : ndarray
+            This load is subtracted from the forces on the upper body (N/m), (2, n_x).
+        start : ndarray
+            Displacement of the interface (m), (2, n_x).
         """
-        held, start = np.empty_like(self.modal), np.empty_like(self.modal)
-        kernels.load_couple(self.compliance, self.forces, upper, lower, held, start)
+        held = np.empty_like(self.modal)
+        start = np.empty_like(self.modal)
+        kernels.load_couple(
+            self.compliance,
+            self.forces,
+            upper,
+            lower,
+            held,
+            start,
+        )
         return held, start
 
-    def set_interface(self, upper: Array, lower: Array, amplitudes: Array, start: Array) -> None:
-        """Write both bodies' displacement at amplitudes of w, beyond `start`, into their level 0.
+    def set_interface(
+        self,
+        upper: Array,
+        lower: Array,
+        amplitudes: Array,
+        start: Array,
+    ) -> None:
+        """Write the displacement of both bodies at the interface into their level 0.
 
-        Arguments are modes (levels, 2, n_x) of the bodies, and :meth:`loaded`'s second result.
+        Parameters
+        ----------
+        upper, lower : ndarray
+            Modes of the bodies (m), shape (levels, 2, n_x), changed in place.
+        amplitudes : ndarray
+            Amplitudes of w (m), shape (n_x,).
+        start : ndarray
+            Displacement at zero slip, as returned by :meth:`loaded`.
         """
         upper[0] = start + self.by_slip * amplitudes
-        lower[0, 0], lower[0, 1] = upper[0, 0] - amplitudes, -upper[0, 1]
+        lower[0, 0] = upper[0, 0] - amplitudes
+        lower[0, 1] = -upper[0, 1]

@@ -88,6 +88,12 @@ FIGURES: dict[str, Entry] = {
         roles=("weakening",),
         data=(Data("weakening"),),
     ),
+    "figure_weakening_patches": Entry(
+        "Weakening patches among strengthening surroundings",
+        BEYOND,
+        ("weakening_patches",),
+        (Data("weakening_patches"),),
+    ),
     "figure_map": Entry(
         "Lengths over height and weakening: a map",
         BEYOND,

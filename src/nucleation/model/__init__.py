@@ -1,4 +1,4 @@
-"""What a simulation is made of: quantities with unit and range, materials, friction, parameters.
+"""The parts of a simulation: quantities with unit and range, materials, friction, parameters.
 
-It uses nothing of the project but :mod:`nucleation.types`.
+The wing uses nothing of the project but :mod:`nucleation.types`.
 """

@@ -1,4 +1,4 @@
-"""Dataclasses whose declared quantities are read and checked when they are made."""
+"""Dataclasses that read and check their declared quantities at construction."""
 
 import re
 
@@ -7,25 +7,31 @@ from .units import parse
 
 
 class Checked:
-    """Mixin: what is declared is checked; a text with a unit, "5mm", becomes SI units.
+    """Mixin that checks declared quantities and converts texts with a unit, "5mm", to SI units.
 
     Raises
     ------
     ParameterError
-        Naming the group and key, the value, its unit and the allowed range.
+        If a value is not allowed; the message names group and key, value, unit and range.
     """
 
     def __post_init__(self) -> None:
-        group = _group(type(self))
-        for name, entry in declarations(type(self)).items():
-            value, key = getattr(self, name), f"{group}.{name}"
+        cls = type(self)
+        group = _group_name(cls)
+        for name, entry in declarations(cls).items():
+            value = getattr(self, name)
+            key = f"{group}.{name}"
             if isinstance(value, str) and not entry.worded:
-                object.__setattr__(self, name, parse(key, value, entry))
+                parsed = parse(key, value, entry)
+                object.__setattr__(self, name, parsed)  # the dataclass is frozen
             else:
                 check(key, value, entry)
 
 
-def _group(cls: type) -> str:
-    """What errors call a group of parameters: ``second_body`` for SecondBody and its subclasses."""
-    name = cls.__mro__[cls.__mro__.index(Checked) - 1].__name__
-    return re.sub("(?<=[a-z])(?=[A-Z])", "_", name).lower()
+def _group_name(cls: type) -> str:
+    """The name of a group in messages: ``second_body`` for SecondBody and its subclasses."""
+    ancestors = cls.__mro__
+    position = ancestors.index(Checked)
+    name = ancestors[position - 1].__name__
+    words = re.sub("(?<=[a-z])(?=[A-Z])", "_", name)
+    return words.lower()

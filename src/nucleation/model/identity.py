@@ -1,61 +1,100 @@
-"""Which runs are of the same fault, and which differ in the seed of their perturbation alone.
+"""Digests that identify the fault of a run, and the ensemble of its realisations.
 
-Either is told by a digest of the parameters that count, which tables carry in a column: what looks
-for the runs of a fault compares it, and nothing else. Numbers that differ by rounding are the same,
-and a second body's values that are left out are those of the first.
+Tables have these digests in a column; runs of the same fault are found by comparing it. Values
+that differ only by round-off have the same digest, and a second body's value that is left out
+counts as the first body's.
 """
 
 import dataclasses
 import hashlib
 import json
 from functools import lru_cache
+from typing import Any
 
 from .parameters import Parameters
 
-NOT_PHYSICAL = (
-    "geometry.length", "mesh", "second_body.n_y", "second_body.grading", "stepping", "perturbation",
+_NOT_PHYSICAL = (
+    "geometry.length",
+    "mesh",
+    "second_body.n_y",
+    "second_body.grading",
+    "stepping",
+    "perturbation",
     "recording",
-)  # fmt: skip
-"""Parameters and groups of them that are not of a fault but of how it is solved and shaken. The
-block is to be so long that its length plays no role."""
+)
+"""Parameters and groups that describe the solution and the perturbation, not the fault.
 
-LATER = {
-    "material.plane": "strain", "loading.kind": "edge", "loading.stress_rate": 0.0,
-    "heterogeneity.varies": "none", "heterogeneity.shape": "bump", "heterogeneity.centre": None,
-    "heterogeneity.width": 0.1, "heterogeneity.change": 0.0,
-}  # fmt: skip
-"""Parameters that came later, with what all faults had before: their digests stay."""
+The block must be so long that its length has no effect.
+"""
+
+_ADDED_LATER = {
+    "material.plane": "strain",
+    "loading.kind": "edge",
+    "loading.stress_rate": 0.0,
+    "heterogeneity.varies": "none",
+    "heterogeneity.shape": "bump",
+    "heterogeneity.centre": None,
+    "heterogeneity.width": 0.1,
+    "heterogeneity.change": 0.0,
+}
+"""Parameters that were added later, with their earlier implicit values.
+
+Digests leave them out where they have these values, so that earlier digests stay valid.
+"""
 
 DIGITS = 10  # significant, of numbers
+_DIGEST_LENGTH = 12  # enough for thousands of faults
 
 
 def fault(parameters: Parameters) -> str:
-    """The fault of a run: materials, friction, loads and start, heights and far sides."""
-    return identity(parameters, *NOT_PHYSICAL)
+    """Digest of the fault: materials, friction, loads, initial state, heights and far sides."""
+    return identity(parameters, *_NOT_PHYSICAL)
 
 
 def ensemble(parameters: Parameters) -> str:
-    """The runs that one run is a realisation of: those that differ in the seed, or are recorded
-    otherwise."""
+    """Digest of all parameters except the seed and the recording."""
     return identity(parameters, "perturbation.seed", "recording")
 
 
 @lru_cache(2**14)
-def identity(parameters: Parameters, *apart: str) -> str:
-    """Digest of all parameters but some, given by full name (``mesh.n_x``) or group (``mesh``)."""
+def identity(parameters: Parameters, *excluded: str) -> str:
+    """Digest of the parameters.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        All parameters of a run.
+    *excluded : str
+        Parameters that do not count, by full name (``mesh.n_x``) or group (``mesh``).
+
+    Returns
+    -------
+    str
+        Twelve hexadecimal digits.
+    """
+    kept = {}
+    for name, value in _completed(parameters).items():
+        if name in excluded or name.partition(".")[0] in excluded:
+            continue
+        if name in _ADDED_LATER and value == _ADDED_LATER[name]:
+            continue
+        rounded = isinstance(value, float)
+        kept[name] = float(f"{value:.{DIGITS}g}") if rounded else value
+    content = json.dumps(kept, sort_keys=True)
+    return hashlib.sha256(content.encode()).hexdigest()[:_DIGEST_LENGTH]
+
+
+def _completed(parameters: Parameters) -> dict[str, Any]:
+    """Values by full name, with those that the second block has from the first."""
     values = parameters.named()
-    if (below := parameters.below) is not None:
-        own = {"bottom": below.bottom}
-        for part in (below.material, below.geometry, below.mesh):
-            own |= dataclasses.asdict(part)
-        values |= {k: own[k.partition(".")[2]] for k in values if k.startswith("second_body.")
-                   and k != "second_body.kind"}  # fmt: skip
-    kept = {
-        name: float(f"{value:.{DIGITS}g}") if isinstance(value, float) else value
-        for name, value in values.items()
-        if name not in apart
-        and name.partition(".")[0] not in apart
-        and (name not in LATER or value != LATER[name])
-    }
-    digest = hashlib.sha256(json.dumps(kept, sort_keys=True).encode()).hexdigest()
-    return digest[:12]  # thousands of faults never share so many
+    below = parameters.below
+    if below is None:
+        return values
+    own: dict[str, Any] = {"bottom": below.bottom}
+    for part in (below.material, below.geometry, below.mesh):
+        own |= dataclasses.asdict(part)
+    for name in values:
+        group, _, field = name.partition(".")
+        if group == "second_body" and field != "kind":
+            values[name] = own[field]
+    return values

@@ -1,4 +1,4 @@
-"""Friction linearised about steady sliding at one velocity: what the linear theory knows of it."""
+"""Friction linearised about steady sliding at one velocity: the input of the linear theory."""
 
 import dataclasses
 from decimal import Decimal
@@ -6,7 +6,8 @@ from functools import lru_cache
 
 from .checked import Checked
 from .friction.law import Friction
-from .parameters import Loading, Parameters
+from .loading import Loading
+from .parameters import Parameters
 from .quantities import quantity
 
 
@@ -18,25 +19,50 @@ class InterfaceState(Checked):
     """
 
     friction: float = quantity(
-        "friction coefficient of steady sliding", low=0.0, high=10.0, closed="low", symbol="f",
+        "friction coefficient of steady sliding",
+        low=0.0,
+        high=10.0,
+        closed="low",
+        symbol="f",
         default=0.41,
-    )  # fmt: skip
+    )
     a: float = quantity(
-        "direct-effect coefficient a", low=0.0, high=10.0, symbol="a", default=0.0068
+        "direct-effect coefficient a",
+        low=0.0,
+        high=10.0,
+        symbol="a",
+        default=0.0068,
     )
     zeta: float = quantity(
-        "velocity weakening zeta (negative: strengthening)", low=-10.0, high=10.0, symbol="zeta",
+        "velocity weakening zeta (negative: strengthening)",
+        low=-10.0,
+        high=10.0,
+        symbol="zeta",
         default=0.016,
-    )  # fmt: skip
+    )
     slip_length: float = quantity(
-        "slip length ell over which the state evolves", unit="m", low=0.0, high=1e3, symbol="ell",
+        "slip length ell over which the state evolves",
+        unit="m",
+        low=0.0,
+        high=1e3,
+        symbol="ell",
         default=5.0e-7,
-    )  # fmt: skip
+    )
     velocity: float = quantity(
-        "sliding velocity", unit="m/s", low=0.0, high=1e3, symbol="V", default=1.0e-5
+        "sliding velocity",
+        unit="m/s",
+        low=0.0,
+        high=1e3,
+        symbol="V",
+        default=1.0e-5,
     )
     normal_stress: float = quantity(
-        "compressive normal stress", unit="Pa", low=0.0, high=1e13, symbol="sigma0", default=1.0e6
+        "compressive normal stress",
+        unit="Pa",
+        low=0.0,
+        high=1e13,
+        symbol="sigma0",
+        default=1.0e6,
     )
 
 
@@ -47,25 +73,53 @@ def interface_state(parameters: Parameters) -> InterfaceState:
 
 @lru_cache(maxsize=4096)
 def linearised(friction: Friction, loading: Loading) -> InterfaceState:
-    """The friction law of a run, expanded about steady sliding at the imposed velocity."""
+    """The friction law of a run, expanded about steady sliding at the imposed velocity.
+
+    Parameters
+    ----------
+    friction : Friction
+        The full friction law.
+    loading : Loading
+        Imposed velocity (m/s) and normal stress (Pa).
+
+    Returns
+    -------
+    InterfaceState
+    """
     f0, a, zeta = friction.expansion(loading.velocity)
-    return loaded(InterfaceState(f0, a, zeta, friction.characteristic_slip_distance), loading)
+    interface = InterfaceState(f0, a, zeta, friction.characteristic_slip_distance)
+    return loaded(interface, loading)
 
 
-DIGITS = 2, 6
-"""Significant digits to which a value is compared with what it rounds: at least, and at most."""
+_FEWEST_DIGITS, _MOST_DIGITS = 2, 6
+"""Limits of the significant digits in the comparison of a rounded value with the exact one."""
 
 
 def not_rounded_from(rounded: InterfaceState, exact: InterfaceState) -> str:
-    """The first value that is no rounding of the exact one, in words; empty if all are.
+    """Find the first value that is not a rounding of the exact one.
 
-    A value rounds another one if both agree in all significant digits of the former: 0.41 rounds
-    0.4143.
+    Parameters
+    ----------
+    rounded : InterfaceState
+        Rounded values, such as those of the paper's main text.
+    exact : InterfaceState
+        Values of the friction law.
+
+    Returns
+    -------
+    str
+        Both values as text; empty if all values are roundings.
+
+    Notes
+    -----
+    A value is a rounding if both agree in all significant digits of the rounded one: 0.41 is a
+    rounding of 0.4143.
     """
     for field in ("slip_length", "a", "zeta", "friction"):
-        value, of_law = getattr(rounded, field), getattr(exact, field)
+        value = getattr(rounded, field)
+        of_law = getattr(exact, field)
         given = len(Decimal(repr(float(value))).normalize().as_tuple().digits)
-        digits = min(max(given, DIGITS[0]), DIGITS[1])
+        digits = min(max(given, _FEWEST_DIGITS), _MOST_DIGITS)
         if float(f"{value:.{digits}g}") != float(f"{of_law:.{digits}g}"):
             unit = " m" if field == "slip_length" else ""
             return (
@@ -76,7 +130,22 @@ def not_rounded_from(rounded: InterfaceState, exact: InterfaceState) -> str:
 
 
 def loaded(interface: InterfaceState, loading: Loading) -> InterfaceState:
-    """The interface with the velocity and the normal stress of a loading."""
+    """The interface under another loading.
+
+    Parameters
+    ----------
+    interface : InterfaceState
+        Friction coefficients and slip length.
+    loading : Loading
+        Velocity (m/s) and normal stress (Pa).
+
+    Returns
+    -------
+    InterfaceState
+        `interface` with the velocity and the normal stress of `loading`.
+    """
     return dataclasses.replace(
-        interface, velocity=loading.velocity, normal_stress=loading.normal_stress
+        interface,
+        velocity=loading.velocity,
+        normal_stress=loading.normal_stress,
     )

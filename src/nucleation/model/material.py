@@ -7,26 +7,25 @@ from typing import Any
 from .checked import Checked
 from .quantities import quantity
 
-PLANES = ("strain", "stress", "antiplane")
 ANTIPLANE = "antiplane"
 
 
 def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
-    """Poisson's ratio that plane strain has to have to respond like a material in its plane.
+    """Poisson's ratio of the plane-strain material with the same in-plane response.
 
     Parameters
     ----------
     poisson_ratio : float or array_like
         nu of the material.
     plane : {"strain", "stress", "antiplane"}
-        Plane strain holds bodies that are thick along z, plane stress thin plates; in antiplane
-        shear slip is along z.
+        Plane strain for bodies that are thick along z, plane stress for thin plates, antiplane for
+        slip along z.
 
     Returns
     -------
     float or array_like
-        nu itself in plane strain, ``nu/(1 + nu)`` in plane stress; mu is the same. Zero in
-        antiplane shear, where nu does not matter and mu takes the place of ``mu/(1 - nu)``.
+        nu itself in plane strain and ``nu/(1 + nu)`` in plane stress, both with the same mu. Zero
+        in antiplane shear: there nu has no effect, and mu replaces ``mu/(1 - nu)``.
 
     Notes
     -----
@@ -43,20 +42,35 @@ class Material(Checked):
     """A linear elastic isotropic solid (SI units)."""
 
     shear_modulus: float = quantity(
-        "shear modulus", unit="Pa", low=0.0, high=1e13, symbol="mu", default=3.1e9
+        "shear modulus",
+        unit="Pa",
+        low=0.0,
+        high=1e13,
+        symbol="mu",
+        default=3.1e9,
     )
     poisson_ratio: float = quantity(
-        "Poisson's ratio", low=-1.0, high=0.5, symbol="nu", default=1.0 / 3.0
+        "Poisson's ratio",
+        low=-1.0,
+        high=0.5,
+        symbol="nu",
+        default=1.0 / 3.0,
     )
     density: float = quantity(
-        "mass density; zero makes the block quasi-static, without inertia", unit="kg/m^3",
-        low=0.0, high=1e6, closed="low", symbol="rho", default=1200.0,
-    )  # fmt: skip
+        "mass density; zero makes the block quasi-static, without inertia",
+        unit="kg/m^3",
+        low=0.0,
+        high=1e6,
+        closed="low",
+        symbol="rho",
+        default=1200.0,
+    )
     plane: str = quantity(
         "plane of deformation, of all bodies: strain if they are thick along z, stress for plates "
         "that are thin against all lengths in the plane, antiplane for slip along z",
-        choices=PLANES, default="strain",
-    )  # fmt: skip
+        choices=("strain", "stress", ANTIPLANE),
+        default="strain",
+    )
 
     @property
     def in_plane_ratio(self) -> float:
@@ -67,7 +81,7 @@ class Material(Checked):
     def lame_modulus(self) -> float:
         """Lame's first parameter ``2 mu nu / (1 - 2 nu)`` (Pa), in plane stress the plate's.
 
-        Zero in antiplane shear, where slip makes no pressure.
+        Zero in antiplane shear, where slip causes no pressure.
         """
         ratio = self.in_plane_ratio
         return 2.0 * self.shear_modulus * ratio / (1.0 - 2.0 * ratio)
@@ -76,7 +90,7 @@ class Material(Checked):
     def p_wave_modulus(self) -> float:
         """Modulus ``lambda + 2 mu`` (Pa) of P waves, in plane stress ``E/(1 - nu^2)``.
 
-        In antiplane shear, where gradients along x and y both shear the body, mu.
+        In antiplane shear it is mu, because gradients along x and y both shear the body.
         """
         if self.plane == ANTIPLANE:
             return self.shear_modulus
@@ -84,9 +98,10 @@ class Material(Checked):
 
     @property
     def coupling_modulus(self) -> float:
-        """Shear stress (Pa) on planes of constant x that gradients of slip along y make: mu.
+        """Modulus (Pa) between slip gradients along y and shear stress on planes of constant x.
 
-        Zero in antiplane shear, where slip is along z: it does not strain the x-y plane.
+        It is mu in plane strain and plane stress, and zero in antiplane shear: slip along z does
+        not strain the x-y plane.
         """
         return 0.0 if self.plane == ANTIPLANE else self.shear_modulus
 

@@ -1,4 +1,4 @@
-"""Names of parameters: the full one says the group, ``geometry.height``, short ones are aliases."""
+"""Names of parameters: full names have the group, ``geometry.height``; short ones are aliases."""
 
 from collections import Counter
 from collections.abc import Mapping
@@ -7,10 +7,10 @@ from .quantities import ParameterError, Quantity
 
 
 class Names(dict[str, Quantity]):
-    """Declarations of parameters by their full names, and the short names that stand for them.
+    """Declarations of parameters by full name, with the short names of each parameter.
 
-    The last part of a full name is a short one if no other parameter has it too; aliases are short
-    ones by agreement, and stronger.
+    The last part of a full name is a short name if it is unique. An alias is an additional short
+    name; it has precedence.
 
     Parameters
     ----------
@@ -20,28 +20,54 @@ class Names(dict[str, Quantity]):
         Full names by alias.
     """
 
-    def __init__(self, entries: Mapping[str, Quantity], aliases: dict[str, str]) -> None:
+    def __init__(
+        self,
+        entries: Mapping[str, Quantity],
+        aliases: dict[str, str],
+    ) -> None:
         super().__init__(entries)
-        lasts = {full: full.rpartition(".")[2] for full in entries}
-        having = Counter(lasts.values())
-        self._meant = {last: full for full, last in lasts.items() if having[last] == 1} | aliases
-        alias = {full: name for name, full in aliases.items()}
-        self._short = {
-            full: alias.get(full) or (last if self._meant.get(last) == full else full)
-            for full, last in lasts.items()
-        }
+        occurrences = Counter(map(_last_part, entries))
+        self._full_names = {}
+        for full in entries:
+            last = _last_part(full)
+            if occurrences[last] == 1:
+                self._full_names[last] = full
+        self._full_names |= aliases
+
+        self._short_names = {}
+        for full in entries:
+            last = _last_part(full)
+            unique = self._full_names.get(last) == full
+            self._short_names[full] = last if unique else full
+        for alias, full in aliases.items():
+            self._short_names[full] = alias
 
     def full(self, name: str) -> str:
-        """The full name that a full or short name stands for; ParameterError if for none."""
-        if name not in self and name not in self._meant:
+        """The full name of a parameter, from any of its names.
+
+        Raises
+        ------
+        ParameterError
+            If no parameter has the name.
+        """
+        full = name if name in self else self._full_names.get(name)
+        if full is None:
             raise ParameterError(f"there is no parameter {name}")
-        return name if name in self else self._meant[name]
+        return full
 
     def short(self, full: str) -> str:
-        """The name by which a parameter goes: its alias, its last part, or the full name."""
-        return self._short[full]
+        """The standard name of a parameter: its alias, its last part, or the full name."""
+        return self._short_names[full]
 
     def others(self, full: str) -> list[str]:
-        """All names of a parameter but the one by which it goes."""
-        names = [full, *(name for name, meant in self._meant.items() if meant == full)]
-        return [name for name in names if name != self.short(full)]
+        """All names of a parameter except the standard one."""
+        names = [full]
+        for name, meant in self._full_names.items():
+            if meant == full:
+                names.append(name)
+        standard = self.short(full)
+        return [name for name in names if name != standard]
+
+
+def _last_part(full: str) -> str:
+    return full.rpartition(".")[2]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import json
 from functools import cache
-from typing import Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple, TypeVar, get_type_hints
 
+from .block import Geometry, Mesh
 from .checked import Checked
 from .friction.constants import CONSTANTS
 from .friction.law import Friction
@@ -21,29 +22,10 @@ from .recording import Recording
 from .second_body import SecondBody
 
 EVENT_DROP = 0.02
-"""Fall of the driving force, as a fraction, that makes an event unless another is asked for."""
+"""Default drop of the driving force that defines an event, as a fraction of the force."""
 
-
-@dataclasses.dataclass(frozen=True)
-class Geometry(Checked):
-    """The deformable block ``0 <= x <= length``, ``0 <= y <= height``."""
-
-    height: float = quantity("block height", unit="m", low=0.0, high=1e6, symbol="H", default=0.005)
-    length: float = quantity("block length", unit="m", low=0.0, high=1e7, symbol="L", default=1.0)
-
-
-@dataclasses.dataclass(frozen=True)
-class Mesh(Checked):
-    """The structured finite-element mesh: numbers of bilinear elements and grading in y."""
-
-    n_x: int = quantity("number of elements along x", low=8, high=100000, closed="both",
-                        symbol="N_x", default=400)  # fmt: skip
-    n_y: int = quantity("number of elements along y", low=2, high=10000, closed="both",
-                        symbol="N_y", default=150)  # fmt: skip
-    grading: float = quantity(
-        "height of the top row of elements over that of the bottom row", low=1.0, high=1000.0,
-        closed="both", default=1.0,
-    )  # fmt: skip
+FIRST_STEP = 2.0e-6
+"""First time step over the memory time D/V."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,32 +33,55 @@ class Stepping(Checked):
     """Control of the time integration."""
 
     end_time: float = quantity(
-        "simulated time", unit="s", low=0.0, high=1e12, default=16.0, symbol="t"
+        "simulated time",
+        unit="s",
+        low=0.0,
+        high=1e12,
+        symbol="t",
+        default=16.0,
     )
     time_after_event: float = quantity(
-        "time simulated after the event's onset before the run may end", unit="s", low=0.0,
-        high=1e12, closed="low", default=1e12 / 2,
-    )  # fmt: skip
+        "time simulated after the event's onset before the run may end",
+        unit="s",
+        low=0.0,
+        high=1e12,
+        closed="low",
+        default=1e12 / 2,
+    )
     event_drop: float = quantity(
         "fall of the driving force with which the event has begun, as a fraction; in the workflow "
         "extraction.drop if that is larger",
-        low=0.0, high=1.0, default=EVENT_DROP,
-    )  # fmt: skip
+        low=0.0,
+        high=1.0,
+        default=EVENT_DROP,
+    )
     tolerance: float = quantity(
-        "tolerance of the local error of log slip rate and log state per step", low=0.0, high=1.0,
+        "tolerance of the local error of log slip rate and log state per step",
+        low=0.0,
+        high=1.0,
         default=1.0e-2,
-    )  # fmt: skip
+    )
     longest_step: float = quantity(
-        "longest time step over the memory time D/V", low=0.0, high=1.0, closed="high", default=0.1
+        "longest time step over the memory time D/V",
+        low=0.0,
+        high=1.0,
+        closed="high",
+        default=0.1,
     )
     shortest_step: float = quantity(
-        "shortest time step, below which the run ends as failed", unit="s", low=0.0, high=1.0,
+        "shortest time step, below which the run ends as failed",
+        unit="s",
+        low=0.0,
+        high=1.0,
         default=1.0e-12,
-    )  # fmt: skip
+    )
 
 
-class Below(NamedTuple):
-    """A second deformable block, with all that it has like the first one filled in."""
+_Part = TypeVar("_Part", Material, Geometry, Mesh)
+
+
+class _SecondBlock(NamedTuple):
+    """A second deformable block, with the first one's values where it has none of its own."""
 
     material: Material
     geometry: Geometry
@@ -89,7 +94,7 @@ class Parameters:
     """Everything one simulation depends on; two equal objects give the same result."""
 
     material: Material = Material()
-    friction: Friction = dataclasses.field(default_factory=Friction)  # finds its law by name
+    friction: Friction = dataclasses.field(default_factory=Friction)  # loads its law by name
     loading: Loading = Loading()
     geometry: Geometry = Geometry()
     mesh: Mesh = Mesh()
@@ -100,59 +105,95 @@ class Parameters:
     recording: Recording = Recording()
 
     def require_consistent(self) -> None:
-        """Raise a ParameterError where groups of parameters do not go with one another.
+        """Check groups of parameters against each other.
 
-        That is for a mesh or a second body that is not for the loading, and for a heterogeneity
-        beside the block or less than an element wide.
+        Raises
+        ------
+        ParameterError
+            If the mesh or the second body does not fit the loading, or a heterogeneity is outside
+            the block or narrower than an element.
         """
-        kind, n_x = self.loading.kind, self.mesh.n_x
-        if kind != "edge" and (n_x % 2 == 0) == (kind == "remote"):
-            parity = "odd" if kind == "remote" else "even"
-            raise ParameterError(
-                f"mesh.n_x = {n_x} is not allowed with loading.kind = {kind}: it must be {parity}"
-            )
-        own, length = self.heterogeneity, self.geometry.length
-        for name, low, high in (("centre", 0.0, length), ("width", length / n_x, length)):
-            value = getattr(own, name)
-            if own.varies != "none" and value is not None and not low <= value <= high:
-                raise ParameterError(
-                    f"heterogeneity.{name} = {value:g} m is not allowed: it must lie in "
-                    f"[{low:.3g}, {high:.3g}] m, "
-                    + ("on the block" if name == "centre" else "from an element to the block")
-                )
+        self._require_parity()
+        self._require_place_of_heterogeneity()
         below = self.below
-        if kind == "top" and below is not None and below.bottom != "clamped":
+        if self.loading.kind == "top" and below is not None and below.bottom != "clamped":
             raise ParameterError(
                 f"second_body.bottom = {below.bottom} is not allowed with loading.kind = top, "
                 "where nothing else holds the second block: it must be clamped"
             )
 
-    def require_edge(self, what: str) -> None:
-        """Raise a ParameterError, naming what is asked for, unless a uniform fault is pushed."""
+    def _require_parity(self) -> None:
+        kind = self.loading.kind
+        n_x = self.mesh.n_x
+        if kind == "edge":
+            return
+        parity = "odd" if kind == "remote" else "even"
+        if (n_x % 2 == 1) != (parity == "odd"):
+            raise ParameterError(
+                f"mesh.n_x = {n_x} is not allowed with loading.kind = {kind}: it must be {parity}"
+            )
+
+    def _require_place_of_heterogeneity(self) -> None:
+        if self.heterogeneity.varies == "none":
+            return
+        length = self.geometry.length
+        element = length / self.mesh.n_x
+        for name, low, limits in (
+            ("centre", 0.0, "on the block"),
+            ("width", element, "from an element to the block"),
+        ):
+            value = getattr(self.heterogeneity, name)
+            if value is not None and not low <= value <= length:
+                raise ParameterError(
+                    f"heterogeneity.{name} = {value:g} m is not allowed: it must lie in "
+                    f"[{low:.3g}, {length:.3g}] m, {limits}"
+                )
+
+    def require_edge(self, computation: str) -> None:
+        """Check that the fault is uniform and pushed at its edge.
+
+        Parameters
+        ----------
+        computation : str
+            The computation that needs such a fault, for the message.
+
+        Raises
+        ------
+        ParameterError
+            If the fault is another one.
+        """
         for key, value, needed in (
             ("loading.kind", self.loading.kind, "edge"),
             ("heterogeneity.varies", self.heterogeneity.varies, "none"),
         ):
             if value != needed:
                 raise ParameterError(
-                    f"{key} = {value} is not allowed with {what}, which is known of a uniform "
-                    f"fault that is pushed at its edge alone: it must be {needed}; measure = "
+                    f"{key} = {value} is not allowed with {computation}, which applies only to a "
+                    f"uniform fault that is pushed at its edge: it must be {needed}; measure = "
                     "stability gives L_s of other faults, docs/loading.md"
                 )
 
     @property
-    def below(self) -> Below | None:
+    def below(self) -> _SecondBlock | None:
         """The second block, or None on a rigid base."""
         second = self.second_body
         if not second.deformable:
             return None
 
-        def like_the_first(own: Any) -> Any:
-            given = {f.name: getattr(second, f.name, None) for f in dataclasses.fields(own)}
-            return dataclasses.replace(own, **{k: v for k, v in given.items() if v is not None})
+        def like_the_first(own: _Part) -> _Part:
+            changes = {}
+            for field in dataclasses.fields(own):
+                value = getattr(second, field.name, None)
+                if value is not None:
+                    changes[field.name] = value
+            return dataclasses.replace(own, **changes)
 
-        material, geometry, mesh = map(like_the_first, (self.material, self.geometry, self.mesh))
-        return Below(material, geometry, mesh, second.bottom or "free")
+        return _SecondBlock(
+            like_the_first(self.material),
+            like_the_first(self.geometry),
+            like_the_first(self.mesh),
+            second.bottom or "free",
+        )
 
     @property
     def memory_time(self) -> float:
@@ -161,7 +202,7 @@ class Parameters:
 
     @property
     def longest_step(self) -> float:
-        """Longest time step (s), that of the stepping or what the perturbation asks for."""
+        """Longest time step (s): the shorter limit of the stepping and of the perturbation."""
         memory = self.memory_time
         return min(self.stepping.longest_step * memory, self.perturbation.longest_step(memory))
 
@@ -171,28 +212,31 @@ class Parameters:
 
     def named(self) -> dict[str, Any]:
         """The values by full name, ``geometry.height``."""
-        groups = self.to_dict().items()
-        return {f"{group}.{name}": value for group, own in groups for name, value in own.items()}
+        found = {}
+        for group, own in self.to_dict().items():
+            for name, value in own.items():
+                found[f"{group}.{name}"] = value
+        return found
 
     @classmethod
     def from_dict(cls, values: dict[str, dict[str, Any]]) -> Parameters:
         """The inverse of :meth:`to_dict`; raises ParameterError for a bad value.
 
-        Groups may be left out that records are older than: these are quiet, on a rigid base and
-        record everything.
+        Older records lack some groups: their runs are unperturbed, uniform and on a rigid base,
+        and record everything.
         """
-        later = "perturbation", "heterogeneity", "second_body", "recording"
-        values = {name: {} for name in later} | values
+        added_later = ("perturbation", "heterogeneity", "second_body", "recording")
+        values = {name: {} for name in added_later} | values
         return cls(**{name: group(**values[name]) for name, group in GROUPS.items()})
 
     def replaced(self, values: dict[str, Any]) -> Parameters:
-        """A copy with other values, given by the full or short names of :func:`names`.
+        """A copy with other values, by full or short name (:func:`names`).
 
         Raises
         ------
         ParameterError
-            For a bad value, a name that stands for no parameter, a parameter that is given twice,
-            and one that the friction law does not have.
+            For a bad value, an unknown name, a parameter that is given twice, and one that the
+            friction law does not have.
         """
         changes: dict[str, dict[str, Any]] = {group: {} for group in GROUPS}
         known = names()
@@ -210,7 +254,7 @@ class Parameters:
         return dataclasses.replace(self, friction=friction, **others)
 
     def to_json(self) -> str:
-        """The parameters as JSON text, as datasets carry them."""
+        """The parameters as JSON text, for datasets."""
         return json.dumps(self.to_dict(), sort_keys=True)
 
     @classmethod
@@ -256,8 +300,10 @@ ALIASES = {
     **{f"second_{name}": f"second_body.{name}" for name in declarations(SecondBody)},
     "second_body": "second_body.kind",
 }
-"""Short names by agreement, the one by which a parameter goes last; those without ``second_`` are
-the first body's."""
+"""Short names; of several for one parameter the last is the standard one.
+
+Names without ``second_`` are the first body's.
+"""
 
 
 @cache
@@ -266,8 +312,6 @@ def names() -> Names:
     entries: dict[str, Quantity] = {}
     for group, cls in GROUPS.items():
         own = law_declarations() if group == "friction" else declarations(cls)
-        entries |= {f"{group}.{name}": entry for name, entry in own.items()}
+        for name, entry in own.items():
+            entries[f"{group}.{name}"] = entry
     return Names(entries | CONSTANTS, ALIASES)
-
-
-FIRST_STEP = 2.0e-6  # over the memory time D/V

@@ -1,9 +1,9 @@
-"""Magnitudes that are rarely meant: numbers in other units than SI units, most of the time."""
+"""Warnings about implausible magnitudes, which often are numbers in units other than SI."""
 
 import warnings
-from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .quantities import Quantity
 
@@ -24,31 +24,38 @@ RANGES = {
     "friction": (0.0, 5.0),
     "density": (1.0, 3e4),
 }
-"""Magnitudes that occur, in SI units, by the name of the parameter."""
+"""Known magnitudes (SI units) by parameter."""
 
 
-def warn_of_implausible(name: str, value: Any, entry: Quantity) -> None:
-    """Warn, with :class:`ImplausibleWarning`, of a value that is out of :data:`RANGES`.
+def warn_of_implausible(name: str, value: ArrayLike, entry: Quantity) -> None:
+    """Warn if finite values are outside :data:`RANGES`.
 
     Parameters
     ----------
     name : str
-        Of the parameter; ``second_shear_modulus`` has the range of ``shear_modulus``.
+        Name of the parameter; ``second_shear_modulus`` has the range of ``shear_modulus``.
     value : float or array_like
-        In SI units; infinite values are not looked at.
+        Values in SI units, of any shape; infinite ones are ignored.
     entry : Quantity
-        Its declaration.
+        The declaration.
+
+    Warns
+    -----
+    ImplausibleWarning
+        With the first implausible value.
     """
-    bounds = RANGES.get(name.removeprefix("second_"))
-    if bounds is None:
+    known = RANGES.get(name.removeprefix("second_"))
+    if known is None:
         return
-    flat = np.ravel(np.asarray(value, dtype=float))
-    odd = flat[np.isfinite(flat) & ((flat < bounds[0]) | (flat > bounds[1]))]
+    low, high = known
+    values = np.ravel(np.asarray(value, dtype=float))
+    outside = (values < low) | (values > high)
+    odd = values[np.isfinite(values) & outside]
     if odd.size:
-        unit = "" if entry.unit == "1" else f" {entry.unit}"
+        unit = entry.unit_suffix
         warnings.warn(
-            f"{name} = {odd[0]:g}{unit} is hardly what is meant: {entry.description} is known "
-            f"between {bounds[0]:g} and {bounds[1]:g}{unit}; are the units right?",
+            f"{name} = {odd[0]:g}{unit} is implausible: {entry.description} is known "
+            f"between {low:g} and {high:g}{unit}; are the units right?",
             ImplausibleWarning,
             stacklevel=2,
         )

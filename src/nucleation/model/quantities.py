@@ -1,8 +1,8 @@
 """Physical quantities as dataclass fields: unit, allowed range and description in one place.
 
-Every parameter of the project is declared once, with :func:`quantity`. From that single
-declaration come the checks of the library's dataclasses, the JSON schema of the configuration
-and the attributes of the datasets.
+Every parameter of the project is declared once, with :func:`quantity`. The checks of the
+library's dataclasses, the JSON schema of the configuration and the attributes of the datasets
+follow from that declaration.
 """
 
 import dataclasses
@@ -10,7 +10,7 @@ import math
 import numbers
 from collections.abc import Collection
 from functools import cache
-from typing import Any
+from typing import Any, cast
 
 
 class ParameterError(ValueError):
@@ -29,11 +29,11 @@ class Quantity:
     symbol: str = ""
     choices: Collection[str] = ()
     kind: str = "float"  # the field's annotation: "float", "int", "str" or "tuple[float, ...]"
-    optional: bool = False  # whether it may be left out, None, for what its description says
+    optional: bool = False  # whether None is allowed, with the meaning that the description gives
 
     @property
     def worded(self) -> bool:
-        """Whether the parameter is a word, no number."""
+        """Whether the parameter is a word, not a number."""
         return bool(self.choices) or self.kind == "str"
 
     @property
@@ -41,25 +41,50 @@ class Quantity:
         """Whether the parameter is a non-empty tuple of numbers, each in the range."""
         return self.kind.startswith("tuple")
 
-    def allows(self, value: Any) -> bool:
-        """Whether `value` lies in the allowed range (never for NaN, bool or a string number)."""
+    @property
+    def element(self) -> "Quantity":
+        """The declaration of one number of a tuple; of a single value, the declaration itself."""
+        return dataclasses.replace(self, kind="float") if self.many else self
+
+    @property
+    def includes_low(self) -> bool:
+        """Whether the lower end belongs to the range."""
+        return self.closed in ("low", "both")
+
+    @property
+    def includes_high(self) -> bool:
+        """Whether the upper end belongs to the range."""
+        return self.closed in ("high", "both")
+
+    @property
+    def unit_suffix(self) -> str:
+        """The unit after a space, for messages; empty for pure numbers and words."""
+        return "" if self.unit == "1" or self.worded else f" {self.unit}"
+
+    def allows(self, value: object) -> bool:
+        """Whether `value` is in the allowed range (never for NaN, bool or a string number)."""
         if value is None:
             return self.optional
-        if self.many:
-            return isinstance(value, tuple) and value != () and all(map(self._allows_one, value))
-        return self._allows_one(value)
+        if not self.many:
+            return self._allows_one(value)
+        if not isinstance(value, tuple) or not value:
+            return False
+        return all(map(self._allows_one, value))
 
-    def _allows_one(self, value: Any) -> bool:
+    def _allows_one(self, value: object) -> bool:
         if self.choices:
             return value in self.choices
         if self.kind == "str":
             return isinstance(value, str) and value != ""
-        number = numbers.Integral if self.kind == "int" else numbers.Real
-        if isinstance(value, bool) or not isinstance(value, number):
+        numeric = numbers.Integral if self.kind == "int" else numbers.Real
+        if isinstance(value, bool) or not isinstance(value, numeric):
             return False
-        above = value > self.low or (self.closed in ("low", "both") and value == self.low)  # type: ignore[operator]
-        below = value < self.high or (self.closed in ("high", "both") and value == self.high)
-        return above and below
+        number = cast(float, value)
+        if number == self.low:
+            return self.includes_low
+        if number == self.high:
+            return self.includes_high
+        return self.low < number < self.high
 
     def range_text(self) -> str:
         """The allowed range as text, such as ``(0, 0.5)`` or ``one of aging, slip``."""
@@ -67,13 +92,33 @@ class Quantity:
             return "one of " + ", ".join(self.choices)
         if self.kind == "str":
             return "a non-empty text"
-        left = "[" if self.closed in ("low", "both") else "("
-        right = "]" if self.closed in ("high", "both") else ")"
+        left = "[" if self.includes_low else "("
+        right = "]" if self.includes_high else ")"
         return f"{left}{self.low:g}, {self.high:g}{right}"
 
 
-def quantity(description: str, *, default: Any = dataclasses.MISSING, **declaration: Any) -> Any:
-    """A dataclass field that carries its :class:`Quantity` as metadata."""
+def quantity(
+    description: str,
+    *,
+    default: Any = dataclasses.MISSING,
+    **declaration: Any,
+) -> Any:
+    """A dataclass field that carries its :class:`Quantity` as metadata.
+
+    Parameters
+    ----------
+    description : str
+        Meaning of the parameter, as messages and help texts print it.
+    default : object
+        The field's default, in SI units.
+    **declaration
+        Other fields of :class:`Quantity`: unit, range, symbol or choices. The kind follows from
+        the field's annotation.
+
+    Returns
+    -------
+    dataclasses.Field
+    """
     entry = Quantity(description, **declaration)
     return dataclasses.field(default=default, metadata={"quantity": entry})
 
@@ -83,35 +128,72 @@ def declarations(cls: type) -> dict[str, Quantity]:
     return dict(_declarations(cls))
 
 
-@cache  # a study of thousands of runs asks for each group of each run
+@cache  # a study of thousands of runs needs each group of each run
 def _declarations(cls: Any) -> dict[str, Quantity]:
     found = {}
     for field in dataclasses.fields(cls):
-        if "quantity" in field.metadata:
-            annotation = getattr(field.type, "__name__", str(field.type))
-            kind = annotation.removesuffix(" | None")
-            entry = field.metadata["quantity"]
-            found[field.name] = dataclasses.replace(entry, kind=kind, optional=kind != annotation)
+        if "quantity" not in field.metadata:
+            continue
+        text = str(field.type)
+        annotation = getattr(field.type, "__name__", text)
+        kind = annotation.removesuffix(" | None")
+        found[field.name] = dataclasses.replace(
+            field.metadata["quantity"],
+            kind=kind,
+            optional=kind != annotation,
+        )
     return found
 
 
 def plain(group: Any) -> dict[str, Any]:
-    """The fields of a dataclass of plain values, which need none of ``asdict`` and its copies."""
-    return {field.name: getattr(group, field.name) for field in dataclasses.fields(group)}
+    """The fields of a dataclass of plain values; faster than ``asdict``, which copies each."""
+    names = [field.name for field in dataclasses.fields(group)]
+    return {name: getattr(group, name) for name in names}
 
 
-def check(key: str, value: Any, entry: Quantity) -> None:
-    """Raise a :class:`ParameterError` unless `entry` allows `value`."""
+def check(key: str, value: object, entry: Quantity) -> None:
+    """Check a value against its declaration.
+
+    Parameters
+    ----------
+    key : str
+        Name of the parameter, for the message.
+    value : object
+        The value in SI units.
+    entry : Quantity
+        The declaration.
+
+    Raises
+    ------
+    ParameterError
+        If `entry` does not allow the value.
+    """
     if not entry.allows(value):
         raise ParameterError(refusal(key, value, entry))
 
 
-def refusal(key: str, value: Any, entry: Quantity) -> str:
-    """The message that refuses a value: key, value, unit, meaning, and allowed range."""
-    unit = "" if entry.unit == "1" or entry.worded else f" {entry.unit}"
+def refusal(key: str, value: object, entry: Quantity) -> str:
+    """The error message for a value that is not allowed.
+
+    Parameters
+    ----------
+    key : str
+        Name of the parameter.
+    value : object
+        The value in SI units.
+    entry : Quantity
+        The declaration.
+
+    Returns
+    -------
+    str
+        Key, value, unit, meaning and allowed range.
+    """
+    unit = entry.unit_suffix
     if entry.worded:
         rule = f"must be {entry.range_text()}"
+    elif entry.kind == "int":
+        rule = f"must be an integer in {entry.range_text()}{unit}"
     else:
-        number = "be an integer in" if entry.kind == "int" else "lie in"
-        rule = f"must {number} {entry.range_text()}{unit}"
+        rule = f"must lie in {entry.range_text()}{unit}"
     return f"{key} = {value!r}{unit} is not allowed: {entry.description} {rule}"

@@ -1,4 +1,4 @@
-"""What of a simulation is recorded: everything, the interface, or what lengths need."""
+"""Which data a simulation records: everything, the interface, or the data for lengths."""
 
 import dataclasses
 
@@ -6,25 +6,27 @@ from .checked import Checked
 from .quantities import quantity
 
 LEVELS = ("everything", "interface", "lengths")
-"""Levels of recording, each a part of the one before it."""
+"""Levels of recording, each a part of the previous one."""
 
 STUCK_BELOW = 1e-4
-"""Part of V below which a node is stuck for lengths: fields are zero there, but for its neighbours.
+"""With the level ``lengths``, nodes with slip rates below this fraction of V count as stuck.
 
-Edges of the patch are at larger slip rates, which configurations are held to.
+Their fields are zero in the record, except beside slipping nodes. Configurations must locate the
+edges of the patch at larger slip rates.
 """
 
 
 @dataclasses.dataclass(frozen=True)
 class Recording(Checked):
-    """What of a simulation is recorded."""
+    """Which data a simulation records."""
 
     record: str = quantity(
-        "what of a simulation is recorded: everything; the interface, without snapshots of the "
-        "bodies; or what lengths and the stability of the patch need, in single precision",
-        choices=LEVELS, default="everything",
-    )  # fmt: skip
+        "recorded data of a simulation: everything; the interface, without snapshots of the "
+        "bodies; or only the data for lengths and the stability of the patch, in single precision",
+        choices=LEVELS,
+        default="everything",
+    )
 
     def covers(self, level: str) -> bool:
-        """Whether all of another level is recorded."""
+        """Whether the record contains all data of another level."""
         return LEVELS.index(self.record) <= LEVELS.index(level)

@@ -1,84 +1,122 @@
-"""Names that other texts have for the parameters, and hints at the names that they have here."""
+"""Suggestions for unknown names of parameters, also for names in the literature."""
 
 import difflib
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
 
-class Synonym(NamedTuple):
-    """One quantity: its names in this project, and its names and symbols elsewhere."""
+class _Synonym(NamedTuple):
+    """The names of one quantity in this project and elsewhere."""
 
     names: tuple[str, ...]  # in the API, in commands and in configurations
-    elsewhere: tuple[str, ...]  # without underscores, hyphens and capitals
-    how: str = ""  # how to find its value, if it is not the same quantity
+    elsewhere: tuple[str, ...]  # names and symbols in plain form
+    conversion: str = ""  # how the value follows, if the quantities differ
 
 
-SYNONYMS = (
-    Synonym(
-        ("slip_distance", "characteristic_slip_distance"),
-        ("d", "dc", "drs", "l", "lc", "ell", "criticalslipdistance", "stateevolutiondistance"),
+_SYNONYMS = (
+    _Synonym(
+        names=("slip_distance", "characteristic_slip_distance"),
+        elsewhere=(
+            *("d", "dc", "drs", "l", "lc", "ell"),
+            *("criticalslipdistance", "stateevolutiondistance"),
+        ),
     ),
-    Synonym(
-        ("normal_stress",),
-        ("sigma", "sigma0", "sigman", "effectivenormalstress", "appliedstress", "pressure"),
+    _Synonym(
+        names=("normal_stress",),
+        elsewhere=(
+            *("sigma", "sigma0", "sigman"),
+            *("effectivenormalstress", "appliedstress", "pressure"),
+        ),
     ),
-    Synonym(("shear_modulus",), ("g", "mu", "rigidity", "modulusofrigidity")),
-    Synonym(
-        ("shear_modulus",),
-        ("e", "young", "youngmodulus", "youngsmodulus", "elasticmodulus"),
-        "mu = E/(2 (1 + nu))",
+    _Synonym(
+        names=("shear_modulus",),
+        elsewhere=("g", "mu", "rigidity", "modulusofrigidity"),
     ),
-    Synonym(("poisson_ratio",), ("nu", "poisson", "poissonsratio")),
-    Synonym(
-        ("zeta", "velocity_weakening"),
-        ("ab", "aminusb", "ba", "bminusa", "weakening", "ratedependence"),
-        "zeta = b - a, which is positive where friction weakens",
+    _Synonym(
+        names=("shear_modulus",),
+        elsewhere=("e", "young", "youngmodulus", "youngsmodulus", "elasticmodulus"),
+        conversion="mu = E/(2 (1 + nu))",
     ),
-    Synonym(("a", "direct_effect"), ("a", "directeffect")),
-    Synonym(("b", "aging_coefficient"), ("b", "evolutioneffect", "agingcoefficient")),
-    Synonym(
-        ("friction", "friction_coefficient"),
-        ("f", "f0", "mu0", "mus", "coefficientoffriction", "frictioncoefficient"),
+    _Synonym(
+        names=("poisson_ratio",),
+        elsewhere=("nu", "poisson", "poissonsratio"),
     ),
-    Synonym(("velocity",), ("v", "vp", "vpl", "v0", "platerate", "loadingrate", "sliprate")),
-    Synonym(("height",), ("h", "thickness", "width", "depth")),
-    Synonym(("density",), ("rho",)),
+    _Synonym(
+        names=("zeta", "velocity_weakening"),
+        elsewhere=("ab", "aminusb", "ba", "bminusa", "weakening", "ratedependence"),
+        conversion="zeta = b - a, which is positive where friction weakens",
+    ),
+    _Synonym(
+        names=("a", "direct_effect"),
+        elsewhere=("a", "directeffect"),
+    ),
+    _Synonym(
+        names=("b", "aging_coefficient"),
+        elsewhere=("b", "evolutioneffect", "agingcoefficient"),
+    ),
+    _Synonym(
+        names=("friction", "friction_coefficient"),
+        elsewhere=(
+            *("f", "f0", "mu0", "mus"),
+            *("coefficientoffriction", "frictioncoefficient"),
+        ),
+    ),
+    _Synonym(
+        names=("velocity",),
+        elsewhere=("v", "vp", "vpl", "v0", "platerate", "loadingrate", "sliprate"),
+    ),
+    _Synonym(
+        names=("height",),
+        elsewhere=("h", "thickness", "width", "depth"),
+    ),
+    _Synonym(
+        names=("density",),
+        elsewhere=("rho",),
+    ),
 )
 
 
 def hint(name: str, known: Collection[str]) -> str:
-    """What to write in place of an unknown name, or nothing.
+    """A suggestion for an unknown name.
 
     Parameters
     ----------
     name : str
         The unknown name, with underscores or hyphens.
     known : collection of str
-        The names that are allowed in its place, with underscores or hyphens.
+        The allowed names, with underscores or hyphens.
 
     Returns
     -------
     str
-        Such as ``did you mean slip_distance?``, or the formula by which its value follows.
+        Such as ``did you mean slip_distance?``, or the conversion to an allowed parameter; empty
+        if no allowed name is similar.
     """
     plain = _plain(name)
-    for synonym in SYNONYMS:
-        if plain in synonym.elsewhere:
-            here = _first_of(synonym.names, known)
-            if here and synonym.how:
-                return f"give {here}: {synonym.how}"
-            if here:
-                return f"did you mean {here}?"
-    close = difflib.get_close_matches(name, [str(key) for key in known], n=1)
+    for synonym in _SYNONYMS:
+        if plain not in synonym.elsewhere:
+            continue
+        here = _first_known(synonym.names, known)
+        if here and synonym.conversion:
+            return f"give {here}: {synonym.conversion}"
+        if here:
+            return f"did you mean {here}?"
+    words = [str(key) for key in known]
+    close = difflib.get_close_matches(name, words, n=1)
     return f"did you mean {close[0]}?" if close else ""
 
 
-def _first_of(names: Iterable[str], known: Collection[str]) -> str | None:
-    """The first known name that is one of some names, as it is written there."""
-    written = {_plain(key): key for key in known}
-    return next((written[_plain(name)] for name in names if _plain(name) in written), None)
+def _first_known(names: Iterable[str], known: Collection[str]) -> str | None:
+    """The first of some names that is known, in the spelling of the known one."""
+    spelling = {_plain(key): key for key in known}
+    for name in names:
+        plain = _plain(name)
+        if plain in spelling:
+            return spelling[plain]
+    return None
 
 
 def _plain(name: str) -> str:
     """A name without hyphens, underscores, quotes and capitals."""
-    return "".join(letter for letter in name.lower() if letter.isalnum())
+    letters = [letter for letter in name.lower() if letter.isalnum()]
+    return "".join(letters)

@@ -12,6 +12,7 @@ from ..model.parameters import Geometry, Parameters
 from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
 from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
+from ..theory.status import UNKNOWN
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
@@ -30,7 +31,19 @@ THICK_REACH = 0.2  # and (L + H) over the block's length up to which its far end
 
 
 class NoDrop(ValueError):
-    """The law can't say where the fault drops."""
+    """The theory has no length at the drop for this fault.
+
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    status : {"stable", "beyond", "unknown"}
+        Which kind of reason it is: see :mod:`nucleation.theory.status`.
+    """
+
+    def __init__(self, reason: str, status: str = UNKNOWN):
+        super().__init__(reason)
+        self.status = status
 
 
 class ExpectedDrop(NamedTuple):
@@ -88,7 +101,7 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
         critical = run_length(parameters, interface_state(parameters))
         history = mode_history(parameters, critical)
     except (NoInstability, NoPatch) as error:
-        raise NoDrop(str(error)) from None
+        raise NoDrop(str(error), error.status) from None
     found = growth(history, declared)
     drop = found.drop(declared.strength)
     closed = found.closed_form(history, declared.strength)

@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..analysis.record import Record
-from ..fem.bodies import BodyOperator, body_of
+from ..fem.bodies import body_of
+from ..fem.condensed import Operator
 from ..model.friction.law import Friction
 from ..model.parameters import Parameters
 from ..simulation.event import NEAR
@@ -29,7 +30,7 @@ from ..types import Array
 
 
 def frozen_patch(
-    operator: BodyOperator, law: Friction, slip_rate: Array, state: Array, normal_force: Array,
+    operator: Operator, law: Friction, slip_rate: Array, state: Array, normal_force: Array,
     slowest: float,
 ) -> FrozenPatch:  # fmt: skip
     """Linearise the patch whose fields along the interface (n_x + 1,) are given.

@@ -28,6 +28,7 @@ from ..theory.creep.front import Advance, advance, first_growing, oscillating
 from ..theory.creep.lengths import NoPatch, Patches
 from ..theory.creep.linearised import local_coefficients
 from ..theory.creep.modes import edge_slip
+from ..theory.status import STABLE
 from ..types import Array, ComplexArray
 
 FIRST, LAST, INSTANTS = 0.8, 1.7, 24  # lengths over L_s that are followed, and how many
@@ -63,7 +64,7 @@ def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
     """
     patches, loading = Patches.of(parameters), parameters.loading
     if not np.isfinite(theory_length):
-        raise NoPatch("homogeneous sliding is stable")
+        raise NoPatch("homogeneous sliding is stable", STABLE)
     start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
     stable = first_growing(patches, theory_length, *start)
     lengths = stable * np.linspace(FIRST, LAST, INSTANTS)

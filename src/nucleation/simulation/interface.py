@@ -22,7 +22,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from scipy.linalg import lapack
 
-from ..fem.condensed import Condensed, Response
+from ..fem.condensed import Operator, Response
 from ..model.friction.law import Friction
 from ..types import Array
 from . import compiled_laws, passes
@@ -86,13 +86,13 @@ class Solver(Protocol):
         """Normal force (N/m) on the nodes 0..n_x beside what the body exerts."""
 
     def solve(
-        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+        self, operator: Operator, response: Response, past: Past, imposed: Imposed, guess: Array
     ) -> InterfaceSolution:
         """The interface at the new time; arguments of :meth:`Interface.solve`."""
 
 
 def newton_direction(
-    operator: Condensed, coefficient: Array, residual: Array, damping: Array, elastic: Array,
+    operator: Operator, coefficient: Array, residual: Array, damping: Array, elastic: Array,
     beta: float,
 ) -> Array:  # fmt: skip
     """Newton's direction of the slip rates (m/s) by ``beta (D + f N) + R df/dv``.
@@ -126,7 +126,7 @@ class Interface:
         return compiled_laws.friction(self.friction)
 
     def solve(
-        self, operator: Condensed, response: Response, past: Past, imposed: Imposed, guess: Array
+        self, operator: Operator, response: Response, past: Past, imposed: Imposed, guess: Array
     ) -> InterfaceSolution:
         """Solve for the slip rates at the new time.
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..fem.condensed import Body, Expectation, Operator
+from ..fem.condensed import ElasticBody, Expectation, Operator
 from ..fem.grid import Field, Motion
 from ..types import Array
 from . import passes
@@ -46,7 +46,7 @@ class Dynamics:
     acts as a body force ``-rho U''`` along x.
     """
 
-    def __init__(self, body: Body, interface: Solver, drive: Drive, scheme: BDF) -> None:
+    def __init__(self, body: ElasticBody, interface: Solver, drive: Drive, scheme: BDF) -> None:
         self.body, self.interface, self.drive, self.scheme = body, interface, drive, scheme
         self.grid = body.grid
         self._operators: OrderedDict[float, Operator] = OrderedDict()

@@ -17,6 +17,7 @@ from ..model.material import Material
 from ..model.parameters import Parameters
 from .crossings import largest_crossings, marginal_frequencies
 from .spectrum import Systems, system
+from .status import STABLE
 from .stiffness import Array, Layers, Pair
 from .transfer import RIGID, Body, RigidBody, bodies_of
 
@@ -26,6 +27,8 @@ _Case = tuple[Body | RigidBody, Body | RigidBody, InterfaceState]
 
 class NoInstability(ValueError):
     """Homogeneous sliding is stable at every wavenumber: there is no critical length."""
+
+    status = STABLE
 
 
 @dataclasses.dataclass(frozen=True)

@@ -15,6 +15,7 @@ from .transfer import bodies_of
 THIN = 1e-3  # layer number k H at which a body is thin
 
 FRESH = 1e-12  # Omega of an interface that has only just come to rest
+NEAR_STEADY = 1e-9  # relative, of omega: round-off of D/V is no age
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(64)  # on (-1, 1)
 
 
@@ -68,7 +69,7 @@ def steepness(friction: Friction, omega: float) -> float:
     at ``(b/D) U^2/(2 E)``, and near steady sliding at ``b/D``. The larger of both counts. For the
     slip law ``E = U``; for ``g = (1 - Omega^2)/2`` E is never above pi^2/4.
     """
-    if omega <= 1.0:
+    if omega <= 1.0 + NEAR_STEADY:
         return 1.0
     drop = math.log(omega)
     u = 0.5 * drop * (1.0 + POINTS)

@@ -1,1 +1,1 @@
-"""Why to believe the solver: manufactured solutions, dispersion, an independent solver."""
+"""Evidence for the solver: manufactured solutions, dispersion, and an independent solver."""

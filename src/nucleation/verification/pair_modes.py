@@ -1,7 +1,7 @@
 """The bridge for two bodies: single modes between two sliding layers, in time and by Eq. (5).
 
-As :mod:`.dispersion` for one layer on a rigid base. A mode's two measured rates are the roots of
-Eq. (5), so each gives, without any theory of the bodies, the elastic response that it has met,
+As :mod:`.dispersion` for one layer on a rigid base. The two measured rates of a mode are the roots
+of Eq. (5). Each of them thus gives the elastic response of the bodies without any theory of them:
 
     G1 - i f G2 = -sigma0 Lambda (a Lambda ell - zeta V) / [mu k V (V + Lambda ell)] .
 
@@ -24,28 +24,58 @@ from ..theory.critical import critical_wavenumber
 from ..theory.spectrum import growth_rates
 from ..theory.transfer import bodies_of
 from ..types import Array
-from .dispersion import MODES_OF_SLIDING, by_direction, disagreement, measured_rates
+from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
+from .single_mode import measured_rates
 
 RATIOS = (0.6, 0.8, 0.97, 1.03, 1.25, 2.0)  # k over the critical one
-DEEP = 1.2  # heights of layers that are half-spaces to a mode, in its wavelengths: to 1e-4
+DEEP = 1.2  # wavelengths: layers as high as this are half-spaces for a mode, to 1e-4
 ENDLESS = 1e3  # m
 SOFT, STIFF = 3.1e9, 9.3e9  # Pa
 SECOND_DENSITY = 2400.0  # kg/m^3
+LOWER_HEIGHT = 0.6  # of a thin lower layer over the upper one's
 
 
-class Layers(NamedTuple):
-    """Two materials and how they are held."""
+class _LayerPair(NamedTuple):
+    """Two materials, their heights and the far side of the lower layer.
+
+    Parameters
+    ----------
+    name : str
+        Identifier in tables.
+    modulus, second_modulus : float
+        Shear moduli of the upper and the lower layer (Pa).
+    poisson_ratio, second_poisson_ratio : float
+        Their Poisson ratios.
+    bottom : str
+        Far side of the lower layer.
+    height : float or None
+        Height of the upper layer (m); None for half-spaces.
+    """
 
     name: str
-    modulus: float  # Pa, of the upper layer
+    modulus: float
     second_modulus: float
     poisson_ratio: float = 1.0 / 3.0
     second_poisson_ratio: float = 0.2
     bottom: str = "free"
-    height: float | None = None  # m; a half-space's without one
+    height: float | None = None
 
-    def materials(self, height: float, second_height: float) -> dict[str, Any]:
-        """What is varied, by the names of parameters and of columns; heights in m."""
+    def bodies(
+        self,
+        height: float,
+        second_height: float,
+    ) -> dict[str, float]:
+        """Return heights and materials by the names of parameters and of columns.
+
+        Parameters
+        ----------
+        height, second_height : float
+            Heights of the layers (m).
+
+        Returns
+        -------
+        dict
+        """
         return {
             "height": height,
             "second_height": second_height,
@@ -55,68 +85,159 @@ class Layers(NamedTuple):
             "second_poisson_ratio": self.second_poisson_ratio,
         }
 
-    def parameters(self, base: Parameters, height: float, second_height: float) -> Parameters:
-        """Those of the pair, with friction and loading of a base; heights in m."""
-        return base.replaced(
-            self.materials(height, second_height)
-            | {"plane": "strain", "second_body": "deformable", "second_density": SECOND_DENSITY,
-               "second_bottom": self.bottom}
-        )  # fmt: skip
+    def parameters(
+        self,
+        base: Parameters,
+        height: float,
+        second_height: float,
+    ) -> Parameters:
+        """Return the parameters of the pair.
+
+        Parameters
+        ----------
+        base : Parameters
+            Friction and loading.
+        height, second_height : float
+            Heights of the layers (m).
+
+        Returns
+        -------
+        Parameters
+        """
+        further = {
+            "plane": "strain",
+            "second_body": "deformable",
+            "second_density": SECOND_DENSITY,
+            "second_bottom": self.bottom,
+        }
+        return base.replaced(self.bodies(height, second_height) | further)
 
 
-HELD = tuple(
-    Layers(f"{stiff} {bottom}", *moduli, bottom=bottom, height=height)
-    for bottom, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05))
-    for stiff, moduli in (("stiff above,", (STIFF, SOFT)), ("stiff below,", (SOFT, STIFF)))
-)
-"""Thin layers with each far side, either of them the stiffer one, the lower one 0.6 times as high.
-Those that nothing holds bend, for which elements are to be finer."""
+def _thin_layers() -> tuple[_LayerPair, ...]:
+    """Thin layers with each far side; the upper or the lower one is the stiffer one."""
+    found = []
+    for bottom, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
+        above = _LayerPair(
+            f"stiff above, {bottom}",
+            STIFF,
+            SOFT,
+            bottom=bottom,
+            height=height,
+        )
+        below = _LayerPair(
+            f"stiff below, {bottom}",
+            SOFT,
+            STIFF,
+            bottom=bottom,
+            height=height,
+        )
+        found += [above, below]
+    return tuple(found)
+
+
+THIN_LAYERS = _thin_layers()
+"""Layers of finite height. Free ones are higher: they bend, and bending needs finer elements."""
 
 HALF_SPACES = (
-    Layers("half-spaces, stiff below", SOFT, STIFF),
-    Layers("half-spaces, stiff above", STIFF, SOFT),
-    Layers("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
-    Layers("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
+    _LayerPair("half-spaces, stiff below", SOFT, STIFF),
+    _LayerPair("half-spaces, stiff above", STIFF, SOFT),
+    _LayerPair("half-spaces, ten times, below", SOFT, 10.0 * SOFT, 0.0, 0.0),
+    _LayerPair("half-spaces, ten times, above", 10.0 * SOFT, SOFT, 0.0, 0.0),
 )
 """Layers of a height at which their far sides do not matter."""
 
 
-def sized(layers: Layers, base: Parameters, ratio: float) -> tuple[Parameters, float]:
+def _sized(
+    layers: _LayerPair,
+    base: Parameters,
+    ratio: float,
+) -> tuple[Parameters, float]:
     """The parameters of a pair for a mode of ``ratio`` k_c, and k_c (1/m)."""
     if layers.height is not None:
-        found = layers.parameters(base, layers.height, 0.6 * layers.height)
-        return found, critical_wavenumber(*bodies_of(found), interface_state(found)).wavenumber
-    far = layers.parameters(base, ENDLESS, ENDLESS)
-    critical = critical_wavenumber(*bodies_of(far), interface_state(far)).wavenumber
+        found = layers.parameters(
+            base,
+            layers.height,
+            LOWER_HEIGHT * layers.height,
+        )
+        return found, _critical(found)
+    critical = _critical(layers.parameters(base, ENDLESS, ENDLESS))
     height = DEEP * 2.0 * np.pi / (ratio * critical)
     return layers.parameters(base, height, height), critical
 
 
+def _critical(parameters: Parameters) -> float:
+    """k_c (1/m)."""
+    state = interface_state(parameters)
+    return critical_wavenumber(*bodies_of(parameters), state).wavenumber
+
+
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
-    """G1 and G2 that the simulated modes have met, of :func:`pair_modes`, shape (run, branch)."""
-    rates = modes["measured_growth"].values + 1j * modes["measured_frequency"].values
-    sigma0, mu, k, f, a, zeta, ell, v = (
-        modes[name].values[:, None]
-        for name in ("applied_stress", "shear_modulus", "mode_wavenumber", "friction",
-                     "direct_effect", "velocity_weakening", "slip_distance", "velocity")
-    )  # fmt: skip
+    """Return the elastic response of the bodies to the simulated modes.
+
+    Parameters
+    ----------
+    modes : Dataset
+        As of :func:`pair_modes`.
+
+    Returns
+    -------
+    g1, g2 : ndarray
+        G1 and G2, shape (run, branch).
+    """
+
+    def column(name: str) -> Array:
+        return modes[name].values[:, None]
+
+    growth = modes["measured_growth"].values
+    frequency = modes["measured_frequency"].values
+    rates = growth + 1j * frequency
+    mu = column("shear_modulus")
+    k = column("mode_wavenumber")
+    f = column("friction")
+    a = column("direct_effect")
+    zeta = column("velocity_weakening")
+    ell = column("slip_distance")
+    v = column("velocity")
     weakening = rates * (a * rates * ell - zeta * v) / (v * (v + rates * ell))
-    response = -sigma0 * weakening / (mu * k)
+    response = -column("applied_stress") * weakening / (mu * k)
     return response.real, -response.imag / f
 
 
-def mode_row(layers: Layers, base: Parameters, ratio: float) -> dict[str, Any]:
-    """One mode between two layers: what they are, and its rates, measured and of Eq. (5)."""
-    parameters, critical = sized(layers, base, ratio)
-    interface, below, k = interface_state(parameters), parameters.below, ratio * critical
+def mode_row(
+    layers: _LayerPair,
+    base: Parameters,
+    ratio: float,
+) -> dict[str, Any]:
+    """Measure one mode between two layers.
+
+    Parameters
+    ----------
+    layers : _LayerPair
+        The layers.
+    base : Parameters
+        Friction and loading.
+    ratio : float
+        Wavenumber over the critical one.
+
+    Returns
+    -------
+    dict
+        Values of the columns of :func:`pair_modes`, and its complex rates (1/s) as ``measured`` and
+        ``theory``.
+    """
+    parameters, critical = _sized(layers, base, ratio)
+    interface = interface_state(parameters)
+    below = parameters.below
     assert below is not None
-    measured = measured_rates(parameters, parameters.geometry.height, k)
+    height = parameters.geometry.height
+    k = ratio * critical
+    measured = measured_rates(parameters, height, k)
     theory = growth_rates(k, *bodies_of(parameters), interface)
     contrast = bimaterial_contrast(parameters.material, below.material)
     return {
         "id": layers.name,
         "far_side": layers.bottom,
-        **layers.materials(parameters.geometry.height, below.geometry.height),
+        **layers.bodies(height, below.geometry.height),
         "friction": interface.friction,
         "direct_effect": interface.a,
         "velocity_weakening": interface.zeta,
@@ -132,34 +253,62 @@ def mode_row(layers: Layers, base: Parameters, ratio: float) -> dict[str, Any]:
 
 
 def pair_modes(
-    base: Parameters, pairs: tuple[Layers, ...] = HELD + HALF_SPACES,
+    base: Parameters,
+    pairs: tuple[_LayerPair, ...] = THIN_LAYERS + HALF_SPACES,
     ratios: tuple[float, ...] = RATIOS,
-) -> xr.Dataset:  # fmt: skip
-    """Rates of modes between two layers, measured and of Eq. (5).
+) -> xr.Dataset:
+    """Measure the rates of modes between two layers, and compute them by Eq. (5).
 
-    `base` has friction, density and loading, `ratios` are wavenumbers over the critical one of each
-    pair. The dataset has the two bodies and friction at V on ``run``, the rates (1/s) on (run,
-    branch); the branch of the larger frequency, which travels along +x, comes first.
+    Parameters
+    ----------
+    base : Parameters
+        Friction, density and loading.
+    pairs : tuple of _LayerPair
+        The layers.
+    ratios : tuple of float
+        Wavenumbers over the critical one of each pair.
+
+    Returns
+    -------
+    Dataset
+        The two bodies and friction at V on ``run``, the rates (1/s) on (run, branch). The branch
+        with the larger frequency travels along +x and comes first.
     """
     rows = [mode_row(layers, base, ratio) for layers in pairs for ratio in ratios]
-    found: dict[str, Any] = {}
+    rates: dict[str, Any] = {}
     for kind in ("measured", "theory"):
-        rates = np.array([row.pop(kind) for row in rows])
-        found[f"{kind}_growth"] = ("run", "branch"), rates.real
-        found[f"{kind}_frequency"] = ("run", "branch"), rates.imag
+        both = np.array([row.pop(kind) for row in rows])
+        rates[f"{kind}_growth"] = (("run", "branch"), both.real)
+        rates[f"{kind}_frequency"] = (("run", "branch"), both.imag)
     columns = {name: ("run", [row[name] for row in rows]) for name in rows[0]}
-    return annotate(xr.Dataset(columns | found), SHARED | MODES_OF_SLIDING)
+    return annotate(xr.Dataset(columns | rates), SHARED | MODES_OF_SLIDING)
 
 
-def to_csv(dataset: xr.Dataset) -> str:
-    """One line for each mode and direction, with the disagreement of the complex rates."""
+def _csv(dataset: xr.Dataset) -> str:
+    """Return a line for each mode and direction, with the disagreement of the complex rates."""
     ratio = dataset["mode_wavenumber"] / dataset["critical_wavenumber"]
     table = dataset.assign(wavenumber_over_critical=ratio, disagreement=disagreement(dataset))
-    frame = table.to_dataframe(["run", "branch"]).reset_index().drop(columns="run")
-    return frame.to_csv(index=False, float_format="%.8g")
+    frame = table.to_dataframe(["run", "branch"]).reset_index()
+    return frame.drop(columns="run").to_csv(index=False, float_format="%.8g")
 
 
-def files(material: Material, friction: Friction, loading: Loading) -> dict[str, Any]:
-    """The step ``pair_modes``: :func:`pair_modes`, with its CSV."""
-    found = pair_modes(Parameters(material=material, friction=friction, loading=loading))
-    return {".nc": found, ".csv": to_csv(found)}
+def files(
+    material: Material,
+    friction: Friction,
+    loading: Loading,
+) -> dict[str, xr.Dataset | str]:
+    """Make the files of the step ``pair_modes``.
+
+    Parameters
+    ----------
+    material, friction, loading : Material, Friction, Loading
+        Those of the upper layer; each pair replaces the moduli.
+
+    Returns
+    -------
+    dict
+        :func:`pair_modes` and its CSV, by suffix.
+    """
+    base = Parameters(material=material, friction=friction, loading=loading)
+    found = pair_modes(base)
+    return {".nc": found, ".csv": _csv(found)}

@@ -1,10 +1,11 @@
-"""The friction law that has given constants of the conventional, logarithmic law.
+"""The friction law for given constants of the conventional, logarithmic law.
 
 Faults are described by a coefficient f, the direct effect a and the weakening zeta = b - a at a
 slip rate V. The simulations need a full, regularised law of :mod:`nucleation.model.friction.laws`;
-each of them finds its own parameters from these constants.
+each law determines its own parameters from these constants.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 from ..quantities import ParameterError, Quantity
@@ -12,44 +13,83 @@ from .law import Friction
 
 CONSTANTS: dict[str, Quantity] = {
     "friction_coefficient": Quantity(
-        "friction coefficient of steady sliding at the imposed velocity", low=0.0, high=10.0,
+        "friction coefficient of steady sliding at the imposed velocity",
+        low=0.0,
+        high=10.0,
         symbol="f",
     ),
     "direct_effect": Quantity(
-        "direct effect of the slip rate at the imposed velocity", low=0.0, high=1.0, symbol="a"
+        "direct effect of the slip rate at the imposed velocity",
+        low=0.0,
+        high=1.0,
+        symbol="a",
     ),
     "zeta_over_a": Quantity(
-        "velocity weakening over direct effect at the imposed velocity", low=-1.0, high=1000.0,
+        "velocity weakening over direct effect at the imposed velocity",
+        low=-1.0,
+        high=1000.0,
         symbol="zeta/a",
     ),
     "velocity_weakening": Quantity(
-        "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a", low=-1.0,
-        high=1.0, symbol="zeta",
+        "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a",
+        low=-1.0,
+        high=1.0,
+        symbol="zeta",
     ),
     "evolution_effect": Quantity(
         "coefficient b = a + zeta of the log of the state at the imposed velocity; in place of "
-        "zeta_over_a", low=0.0, high=1.0, closed="low", symbol="b",
+        "zeta_over_a",
+        low=0.0,
+        high=1.0,
+        closed="low",
+        symbol="b",
     ),
-}  # fmt: skip
+}
 """Constants of the logarithmic law, by their names in studies."""
+
+_WEAKENINGS = ("zeta_over_a", "velocity_weakening", "evolution_effect")
+"""Alternative constants for the weakening."""
 
 
 def constants(friction: Friction, velocity: float) -> dict[str, float]:
-    """The :data:`CONSTANTS` of a law at a slip rate (m/s)."""
+    """The :data:`CONSTANTS` of a law.
+
+    Parameters
+    ----------
+    friction : Friction
+        The full law.
+    velocity : float
+        Slip rate V of steady sliding (m/s).
+
+    Returns
+    -------
+    dict of float
+    """
     f, a, zeta = friction.expansion(velocity)
     return dict(zip(CONSTANTS, (f, a, zeta / a, zeta, a + zeta), strict=True))
 
 
-def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) -> Friction:
-    """The law with those :data:`CONSTANTS` that are among some values, and its own otherwise.
+def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any]) -> Friction:
+    """The law with given :data:`CONSTANTS`, and its own values of the others.
 
-    Of zeta and zeta/a the law keeps the latter where only a is given.
+    Parameters
+    ----------
+    friction : Friction
+        The full law. If only a is given, the result has the same zeta/a.
+    velocity : float
+        Slip rate V of steady sliding (m/s).
+    values : mapping
+        Values by name; only the constants among them are used.
+
+    Returns
+    -------
+    Friction
 
     Raises
     ------
     ParameterError
-        If there is no such law, or the values also set what is to be found, or more than one of
-        zeta, zeta/a and b.
+        If the law has no allowed parameters for these constants, or the values also set one of
+        these parameters, or more than one of zeta, zeta/a and b.
     """
     given = {name: float(values[name]) for name in CONSTANTS if name in values}
     if not given:
@@ -59,9 +99,9 @@ def with_constants(friction: Friction, velocity: float, values: dict[str, Any]) 
         raise ParameterError(
             f"{', '.join(clash)} is not allowed together with {', '.join(given)}, which sets it"
         )
-    weakening = [name for name in list(CONSTANTS)[2:] if name in given]
-    if len(weakening) > 1:
-        raise ParameterError(f"{weakening[0]} is not allowed together with {weakening[1]}")
+    weakenings = [name for name in _WEAKENINGS if name in given]
+    if len(weakenings) > 1:
+        raise ParameterError(f"{weakenings[0]} is not allowed together with {weakenings[1]}")
     f, a, ratio, zeta, b = (constants(friction, velocity) | given).values()
     if "evolution_effect" in given:
         zeta = b - a
@@ -76,13 +116,13 @@ def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: floa
     Parameters
     ----------
     friction : Friction
-        Gives the law, its evolution and all parameters that are not found.
+        The law with its evolution; it keeps all parameters but :attr:`Friction.set_by_expansion`.
     velocity : float
         Slip rate V of steady sliding (m/s).
     f : float
-        Friction coefficient there.
+        Friction coefficient at V.
     a, zeta : float
-        Direct effect ``v df/dv`` and velocity weakening ``-v df_ss/dv`` there (Eq. S-log).
+        Direct effect ``v df/dv`` and velocity weakening ``-v df_ss/dv`` at V (Eq. S-log).
 
     Returns
     -------
@@ -93,7 +133,7 @@ def full_law(friction: Friction, velocity: float, f: float, a: float, zeta: floa
     Raises
     ------
     ParameterError
-        If no allowed values of them do.
+        If the law has no allowed parameters for these constants.
     """
     try:
         return friction.with_expansion(velocity, f, a, zeta)

@@ -1,7 +1,7 @@
-"""What a state evolution law has to say, and the function that solves several of them.
+"""The interface of state evolution laws, and a function that several of them use.
 
-The laws are the modules of :mod:`nucleation.model.friction.evolutions`, which differ in nothing
-but the functions of :class:`StateEvolution`.
+The laws are the modules of :mod:`nucleation.model.friction.evolutions`; each defines the functions
+of :class:`StateEvolution`.
 """
 
 from typing import Protocol
@@ -27,23 +27,51 @@ class StateEvolution(Protocol):
         """``g'(omega)``."""
 
     @staticmethod
-    def implicit_log_state(history: Array, step: float, rate: Array) -> tuple[Array, Array]:
-        """Solve ``psi = history + step * dpsi/dt(psi, rate)``; return psi and dpsi/drate."""
+    def implicit_log_state(
+        history: Array,
+        step: float,
+        rate: Array,
+    ) -> tuple[Array, Array]:
+        """Solve ``psi = history + step * dpsi/dt(psi, rate)`` for ``psi = log(phi)``.
+
+        Parameters
+        ----------
+        history : ndarray
+            Part of psi that follows from earlier steps, shape (nodes,).
+        step : float
+            Time step times the coefficient of the time scheme (s).
+        rate : ndarray
+            ``w / D`` (1/s), shape (nodes,).
+
+        Returns
+        -------
+        log_state : ndarray
+            psi, shape (nodes,).
+        slope : ndarray
+            ``dpsi/drate`` (s), shape (nodes,).
+        """
 
 
 def wright_omega(z: ArrayLike) -> Array:
     """The positive solution of ``w + log(w) = z`` for real z >= -700, exp(z) below -36 or so.
 
-    Fritsch, Shafer & Crowley's fourth-order iteration (Comm. ACM 16, 123, 1973) on whole arrays,
-    from a rational function of exp(z) that a straight line goes on from for z > 0. Twice as fast as
-    :func:`scipy.special.wrightomega`, and the simulation calls it two to four times in each step.
+    Fritsch, Shafer & Crowley's fourth-order iteration (Comm. ACM 16, 123, 1973) on whole arrays.
+    It starts from a rational function of exp(z), continued by a straight line for z > 0. It is
+    twice as fast as :func:`scipy.special.wrightomega`; the simulation calls it two to four times
+    in each step.
     """
     z = np.maximum(z, -700.0)
-    e = np.exp(np.minimum(z, 0.0))
-    w = e * (1.0 + e * (4 / 3)) / (1.0 + e * (7 / 3 + e * (5 / 6))) + 0.8 * np.maximum(z, 0.0)
+    below = np.minimum(z, 0.0)
+    e = np.exp(below)
+    numerator = e * (1.0 + e * (4 / 3))
+    denominator = 1.0 + e * (7 / 3 + e * (5 / 6))
+    w = numerator / denominator + 0.8 * np.maximum(z, 0.0)
     while True:
-        r, near = z - w - np.log(w), 1.0 + w
+        r = z - w - np.log(w)
+        near = 1.0 + w
         t = near * (near + r * (2 / 3))
-        w = w * (1.0 + r / near * ((t - 0.5 * r) / (t - r)))
-        if not np.any(np.abs(r) > 1e-3):  # not finite either; then 1e-3^4 is left
+        correction = (t - 0.5 * r) / (t - r)
+        w = w * (1.0 + r / near * correction)
+        large = np.abs(r) > 1e-3  # false for NaN; after this step 1e-3 becomes 1e-3^4
+        if not np.any(large):
             return w

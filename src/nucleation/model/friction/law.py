@@ -1,15 +1,15 @@
-"""Rate-and-state friction: what all laws share, and what each of them has to say.
+"""Rate-and-state friction: the base class of all laws.
 
-The friction coefficient ``f(v, phi)`` depends on the slip rate, of which it is an odd function, so
-that friction opposes slip in either direction, and on the state variable ``phi`` (s), whose
-evolution the laws of :mod:`nucleation.model.friction.evolutions` describe, all with the
-regularised slip speed ``w = sqrt(v^2 + v0^2)``:
+The friction coefficient ``f(v, phi)`` depends on the slip rate and on the state variable ``phi``
+(s). It is an odd function of the slip rate, so that friction opposes slip in either direction. The
+evolution of the state is described by the laws of :mod:`nucleation.model.friction.evolutions`, all
+with the regularised slip speed ``w = sqrt(v^2 + v0^2)``:
 
     dphi/dt = g(phi w / D)
 
-How f depends on both is said by one file of :mod:`nucleation.model.friction.laws` for each law.
-The simulation carries the logarithm ``psi = log(phi)``: it stays positive by construction, and
-friction depends on ``log(phi)`` almost linearly.
+Each file of :mod:`nucleation.model.friction.laws` defines one law f. The simulation uses the
+logarithm ``psi = log(phi)``: phi stays positive by construction, and friction depends on
+``log(phi)`` almost linearly.
 """
 
 from __future__ import annotations
@@ -47,22 +47,28 @@ class Expansion(NamedTuple):
 def law_name(name: str) -> Any:
     """The field `law` of a law's class; `name` is the file's ``__name__``."""
     return quantity(
-        "friction law: how friction follows from slip rate and state", choices=LAWS,
+        "friction law: how friction follows from slip rate and state",
+        choices=LAWS,
         default=name.rpartition(".")[2],
-    )  # fmt: skip
+    )
 
 
 class _Signature:
-    """What :class:`Friction` shows for completion: the parameters of all laws. Laws show theirs."""
+    """The signature of :class:`Friction` for completion: the parameters of all laws."""
 
-    def __get__(self, _: Any, owner: type) -> inspect.Signature:
+    def __get__(self, _: object, owner: type) -> inspect.Signature:
         if owner is not Friction:
-            raise AttributeError
-        classes = *map(law_class, LAWS), Friction
-        defaults = {f.name: f.default for cls in classes for f in dataclasses.fields(cls)}
-        given = inspect.Parameter.KEYWORD_ONLY
+            raise AttributeError  # laws have their own
+        defaults = {}
+        for cls in (*map(law_class, LAWS), Friction):
+            for field in dataclasses.fields(cls):
+                defaults[field.name] = field.default
+        keyword = inspect.Parameter.KEYWORD_ONLY
         return inspect.Signature(
-            [inspect.Parameter(name, given, default=defaults[name]) for name in law_declarations()]
+            [
+                inspect.Parameter(name, keyword, default=defaults[name])
+                for name in law_declarations()
+            ]
         )
 
 
@@ -71,7 +77,7 @@ class Friction(Checked):
     """Rate-and-state friction by one of the laws (SI units).
 
     ``Friction(law="dieterich_ruina", ...)`` makes an object of that law's class, as
-    :class:`pathlib.Path` does for the system at hand; without `law`, of the paper's.
+    :class:`pathlib.Path` does for the operating system; without `law`, of the paper's.
 
     Raises
     ------
@@ -80,19 +86,33 @@ class Friction(Checked):
     """
 
     law: str = law_name(USUAL_LAW)
-    evolution: str = quantity("state evolution law", choices=EVOLUTIONS, default=USUAL_EVOLUTION)
+    evolution: str = quantity(
+        "state evolution law",
+        choices=EVOLUTIONS,
+        default=USUAL_EVOLUTION,
+    )
     characteristic_slip_distance: float = quantity(
-        "characteristic slip distance", unit="m", low=0.0, high=1e3, symbol="D", default=5.0e-7
+        "characteristic slip distance",
+        unit="m",
+        low=0.0,
+        high=1e3,
+        symbol="D",
+        default=5.0e-7,
     )
     regularisation_slip_rate: float = quantity(
         "regularisation slip rate",
-        unit="m/s", low=1e-30, high=1.0, closed="low", symbol="v0", default=1.0e-9,
-    )  # fmt: skip
+        unit="m/s",
+        low=1e-30,
+        high=1.0,
+        closed="low",
+        symbol="v0",
+        default=1.0e-9,
+    )
 
     __signature__ = _Signature()
 
     set_by_expansion: ClassVar[tuple[str, ...]] = ()
-    """The parameters that :meth:`with_expansion` finds."""
+    """The parameters that :meth:`with_expansion` determines."""
 
     asinh_of_rate: ClassVar[bool] = False
     """Whether f is proportional to ``asinh(v / linear_below(psi))`` at fixed state."""
@@ -121,25 +141,52 @@ class Friction(Checked):
             raise ParameterError(f"friction.law = {self.law!r} is not that of {type(self).law}")
 
     def changed(self, values: dict[str, Any]) -> Friction:
-        """The law with other parameters; if one is `law`, that law with what all laws share."""
-        own = type(self) if values.get("law", self.law) == self.law else Friction
-        return Friction(**{name: getattr(self, name) for name in declarations(own)} | values)
+        """The law with other parameters; with another `law`, that law with the common parameters.
+
+        Raises
+        ------
+        ParameterError
+            If the law has no such parameter, or a value is out of its range.
+        """
+        same = values.get("law", self.law) == self.law
+        own = type(self) if same else Friction
+        kept = {name: getattr(self, name) for name in declarations(own)}
+        return Friction(**kept | values)
 
     @property
     def evolution_law(self) -> StateEvolution:
         """The state evolution law named by ``evolution``."""
         return cast(StateEvolution, module("evolutions", self.evolution))
 
-    # -- what each law says ---------------------------------------------------------------------
+    # -- to be defined by each law --------------------------------------------------------------
 
     @property
     def constants(self) -> tuple[float, ...]:
-        """What :meth:`formula` needs of the parameters."""
+        """The parameters that :meth:`formula` uses."""
         raise NotImplementedError
 
     @staticmethod
-    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
-        """``f(v, psi)``, df/dv (s/m) and df/dpsi; the simulation compiles it."""
+    def formula(
+        v: Array,
+        psi: Array,
+        constants: tuple[float, ...],
+    ) -> tuple[Array, Array, Array]:
+        """The friction coefficient and its slopes; the simulation compiles this function.
+
+        Parameters
+        ----------
+        v : ndarray
+            Slip rates (m/s), of any shape.
+        psi : ndarray
+            Logarithms of the state (s), of the same shape.
+        constants : tuple of float
+            The law's :attr:`constants`.
+
+        Returns
+        -------
+        coefficient, by_rate, by_log_state : ndarray
+            ``f(v, psi)``, df/dv (s/m) and df/dpsi, of the same shape.
+        """
         raise NotImplementedError
 
     def linear_below(self, log_state: ArrayLike) -> Any:
@@ -147,22 +194,52 @@ class Friction(Checked):
         return self.regularisation_slip_rate
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
-        """This law with the :attr:`set_by_expansion` for which :meth:`expansion` is (f, a, zeta).
+        """The law with other :attr:`set_by_expansion`, so that :meth:`expansion` is (f, a, zeta).
+
+        Parameters
+        ----------
+        velocity : float
+            Slip rate V of steady sliding (m/s).
+        f : float
+            Friction coefficient at V.
+        a, zeta : float
+            Direct effect ``v df/dv`` and velocity weakening ``-v df_ss/dv`` at V.
+
+        Returns
+        -------
+        Friction
+            An object of the same class.
 
         Raises
         ------
         ParameterError
-            If no allowed values of them do.
+            If no allowed parameters give this expansion.
         """
         raise NotImplementedError
 
-    # -- what follows ---------------------------------------------------------------------------
+    # -- common to all laws ---------------------------------------------------------------------
 
     def coefficient_and_slopes(
-        self, slip_rate: ArrayLike, log_state: ArrayLike
+        self,
+        slip_rate: ArrayLike,
+        log_state: ArrayLike,
     ) -> tuple[Array, Array, Array]:
-        """``f(v, psi)``, df/dv (s/m) and df/dpsi, broadcast over slip rate (m/s) and log state."""
-        v, psi = np.asarray(slip_rate, dtype=float), np.asarray(log_state, dtype=float)
+        """The friction coefficient and its slopes.
+
+        Parameters
+        ----------
+        slip_rate : array_like
+            v (m/s).
+        log_state : array_like
+            psi, the logarithm of the state (s); broadcasts with `slip_rate`.
+
+        Returns
+        -------
+        coefficient, by_rate, by_log_state : ndarray
+            ``f(v, psi)``, df/dv (s/m) and df/dpsi, of the broadcast shape.
+        """
+        v = np.asarray(slip_rate, dtype=float)
+        psi = np.asarray(log_state, dtype=float)
         return self.formula(v, psi, self.constants)
 
     def slip_speed(self, slip_rate: ArrayLike) -> Array:
@@ -171,16 +248,43 @@ class Friction(Checked):
         return np.sqrt(v * v + self.regularisation_slip_rate**2)
 
     def coefficient(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
-        """Friction coefficient ``f(v, phi)``, broadcast over slip rate (m/s) and state (s)."""
+        """Friction coefficient ``f(v, phi)``.
+
+        Parameters
+        ----------
+        slip_rate : array_like
+            v (m/s).
+        state : array_like
+            phi (s); broadcasts with `slip_rate`.
+
+        Returns
+        -------
+        ndarray
+            f, of the broadcast shape.
+        """
         return self.coefficient_and_slopes(slip_rate, np.log(state))[0]
 
     def derivatives(self, slip_rate: ArrayLike, state: ArrayLike) -> tuple[Array, Array]:
-        """Exact ``df/dv`` (s/m) at fixed state and ``df/dphi`` (1/s) at fixed slip rate."""
+        """Exact derivatives of the friction coefficient.
+
+        Parameters
+        ----------
+        slip_rate : array_like
+            v (m/s).
+        state : array_like
+            phi (s); broadcasts with `slip_rate`.
+
+        Returns
+        -------
+        by_rate, by_state : ndarray
+            ``df/dv`` (s/m) at fixed state and ``df/dphi`` (1/s) at fixed slip rate, of the
+            broadcast shape.
+        """
         _, by_rate, by_log_state = self.coefficient_and_slopes(slip_rate, np.log(state))
         return by_rate, by_log_state / np.asarray(state, dtype=float)
 
     def state_rate(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
-        """``dphi/dt`` (dimensionless) of the chosen evolution law."""
+        """``dphi/dt`` (dimensionless) of the evolution law, for slip rate (m/s) and state (s)."""
         omega = np.asarray(state) * self.slip_speed(slip_rate) / self.characteristic_slip_distance
         return self.evolution_law.growth(omega)
 
@@ -199,11 +303,34 @@ class Friction(Checked):
         by_rate, by_state = self.derivatives(v, state)
         steady_slope = by_rate - by_state * state * v / self.slip_speed(v) ** 2
         return Expansion(
-            float(self.coefficient(v, state)), float(v * by_rate), float(-v * steady_slope)
+            f0=float(self.coefficient(v, state)),
+            a=float(v * by_rate),
+            zeta=float(-v * steady_slope),
         )
 
-    def logarithmic(self, slip_rate: ArrayLike, state: ArrayLike, reference_rate: float) -> Array:
-        """The conventional law expanded about ``reference_rate`` (m/s) (Eq. S-log)."""
+    def logarithmic(
+        self,
+        slip_rate: ArrayLike,
+        state: ArrayLike,
+        reference_rate: float,
+    ) -> Array:
+        """The conventional logarithmic law with the same expansion (Eq. S-log).
+
+        Parameters
+        ----------
+        slip_rate : array_like
+            v (m/s), positive.
+        state : array_like
+            phi (s); broadcasts with `slip_rate`.
+        reference_rate : float
+            Slip rate of the expansion (m/s).
+
+        Returns
+        -------
+        ndarray
+            Friction coefficients, of the broadcast shape.
+        """
         f0, a, zeta = self.expansion(reference_rate)
         age = np.asarray(state) * reference_rate / self.characteristic_slip_distance
-        return f0 + a * np.log(np.asarray(slip_rate) / reference_rate) + (zeta + a) * np.log(age)
+        speed = np.asarray(slip_rate) / reference_rate
+        return f0 + a * np.log(speed) + (zeta + a) * np.log(age)

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...model.friction.law import Friction
 from ...types import Array
+from ..status import BEYOND
 from .lengths import NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
 from .modes import MORE_MODES, Creep, EdgeSlip, Half, edge_slip, modes, response
@@ -194,7 +195,11 @@ def first_growing(
         if growing[i]:
             break
     else:
-        raise NoPatch(f"no patch up to {lengths[-1] / critical:.2g} L_c has a growing mode")
+        raise NoPatch(
+            f"no patch up to {lengths[-1] / critical:.2g} L_c = {lengths[-1]:.4g} m has a growing "
+            "mode",
+            BEYOND,
+        )
     if i == 0:
         raise NoPatch(f"the patch grows its mode from {lengths[0] / critical:.2g} L_c on or before")
     low, high = lengths[i - 1 : i + 1]

@@ -34,6 +34,7 @@ from ..crossings import largest_crossings
 from ..estimates import loading_rate
 from ..fault import Fault, Values, takes_fault
 from ..spectrum import Systems
+from ..status import BEYOND, STABLE, UNKNOWN, VALUE
 from ..transfer import bodies_of
 from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
 from .modes import Creep, creep, extrapolation_error, modes_for, response
@@ -45,7 +46,19 @@ STEP = 1e-3  # of log L, in the derivative of the growth rate
 
 
 class NoPatch(ValueError):
-    """No patch of the lengths looked at turns unstable, or none keeps contact."""
+    """No patch of the lengths looked at turns unstable, or none keeps contact.
+
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    status : {"stable", "beyond", "unknown"}
+        Which kind of reason it is: see :mod:`nucleation.theory.status`.
+    """
+
+    def __init__(self, reason: str, status: str = UNKNOWN):
+        super().__init__(reason)
+        self.status = status
 
 
 class StabilityPoint(NamedTuple):
@@ -140,7 +153,7 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
         creep opens the fault.
     """
     if not math.isfinite(critical):
-        raise NoPatch("homogeneous sliding is stable")
+        raise NoPatch("homogeneous sliding is stable", STABLE)
 
     def growth(log_length: float) -> float:
         return patches.growth(math.exp(log_length))
@@ -152,7 +165,10 @@ def stability_point(patches: Patches, critical: float) -> StabilityPoint:
     while growth(high) <= 0.0:
         low, high = high, high + step
         if low > longest:
-            raise NoPatch(f"no patch up to {LONGEST:g} L_c has a growing mode")
+            raise NoPatch(
+                f"no patch up to {LONGEST:g} L_c = {LONGEST * critical:.4g} m has a growing mode",
+                BEYOND,
+            )
     return _point(patches, brentq(growth, low, high, xtol=PRECISION))
 
 
@@ -208,7 +224,7 @@ def stability_length(
         there is one without an edge: a slip rate on which its a(v) and b(v) depend is not V then.
     """
     own = fault_of(fault)
-    length, _, _ = stability_values(own, friction_law, loading)
+    length = stability_values(own, friction_law, loading)[0]
     return named(length, "stability_length", "m", "stability length of the creeping patch", own)
 
 
@@ -216,6 +232,33 @@ def stability_values(
     fault: Fault, friction_law: Friction | None = None, loading: str = "edge"
 ) -> tuple[Any, Any, Any]:
     """L_s (m), the mode's frequency over V/D and the relative error of L_s; plain, in SI units."""
+    return stability_answers(fault, friction_law, loading)[:3]
+
+
+def stability_answers(
+    fault: Fault, friction_law: Friction | None = None, loading: str = "edge"
+) -> tuple[Any, Any, Any, Any, Any]:
+    """The same three, and the status of L_s with its reason, which is empty where there is L_s.
+
+    Parameters
+    ----------
+    fault : Fault
+        One or many faults.
+    friction_law : Friction, optional
+        The full law, as for :func:`stability_length`.
+    loading : {"edge", "top", "remote"}
+        Where the patch begins.
+
+    Returns
+    -------
+    length, frequency, error, status, reason : ndarray or DataArray
+        In SI units, broadcast shape; the last two are of texts.
+
+    Raises
+    ------
+    ParameterError
+        If the loading is unknown, or the law is not allowed with it or lacks a constant.
+    """
     if loading not in LOADINGS:
         raise ParameterError(f"loading = {loading!r} is not allowed: one of {', '.join(LOADINGS)}")
     if friction_law is not None and loading != "edge":
@@ -228,18 +271,22 @@ def stability_values(
 
     def points(systems: Systems, velocity: Array) -> NDArray:
         critical = 2.0 * np.pi / largest_crossings(systems)
-        found = np.full((3, critical.size), np.nan)
+        found = np.full((5, critical.size), np.nan, dtype=object)
         for i, length in enumerate(critical):
             one = systems.at(np.array([i]))
             law = None if friction_law is None else _own_law(friction_law, one, velocity[i])
             try:
                 point = stability_point(Patches(one, law, velocity[i], loading), float(length))
-            except NoPatch:
+            except NoPatch as none:
+                found[3:, i] = none.status, str(none)
                 continue
-            found[:, i] = point.length, point.frequency, point.error
+            found[:, i] = point.length, point.frequency, point.error, VALUE, ""
         return found
 
-    return tuple(fault.evaluate(points, 1.0 if fault.velocity is None else fault.velocity, rows=3))
+    velocity = 1.0 if fault.velocity is None else fault.velocity
+    rows = fault.evaluate(points, velocity, rows=5, dtype=object)
+    length, frequency, error = rows[:3].astype(float)
+    return length, frequency, error, rows[3], rows[4]
 
 
 def stability_length_of(parameters: Parameters, critical: float, constant: bool = False) -> float:

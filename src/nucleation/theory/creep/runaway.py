@@ -26,6 +26,7 @@ from ..arrays import fault_of, named
 from ..crossings import largest_crossings
 from ..fault import Fault, Values, takes_fault
 from ..spectrum import Systems
+from ..status import BEYOND
 from .lengths import NoPatch, Patches, stability_point
 from .modes import MODES
 
@@ -88,7 +89,9 @@ def runaway_point(patches: Patches, critical: float, evolution: str = "aging") -
     """
     low, high = stability_point(patches, critical).length, LONGEST * critical
     if not runs_away(patches, high, evolution):
-        raise NoPatch(f"the slow slip of patches up to {LONGEST:g} L_c has no runaway")
+        raise NoPatch(
+            f"no slow slip of a patch up to {LONGEST:g} L_c = {high:.4g} m runs away", BEYOND
+        )
     while high > low * (1.0 + PRECISION):
         middle = math.sqrt(low * high)
         if runs_away(patches, middle, evolution):

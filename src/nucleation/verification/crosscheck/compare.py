@@ -1,9 +1,9 @@
-"""Two independent solvers on the same runs: which runs, and by how much their results differ.
+"""Two independent solvers on the same runs: by how much their results differ.
 
-Both solvers get the same parameters and the same nodes along x. Differences are relative to the
-project's own solver. They are measured over the creep before the event: from the time when the
-patch is some elements long until the growing oscillation of the patch, which every hop of the
-front from node to node shakes, begins to tell the two apart.
+Both solvers have the same parameters and the same nodes along x. Differences are relative to the
+project's own solver. They are measured over the creep before the event. The comparison begins when
+the patch is some elements long. It ends before the patch oscillates: each hop of the front from
+node to node perturbs the growing oscillation, and the two solvers separate.
 """
 
 from collections.abc import Iterable, Sequence
@@ -37,60 +37,116 @@ COLUMNS = {
 
 
 def compare(
-    own: xr.Dataset, theirs: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+    own: xr.Dataset,
+    theirs: xr.Dataset,
+    settings: ExtractionSettings = ExtractionSettings(),
 ) -> dict[str, float]:
-    """The numbers of one row of the table: onset, critical length, differences.
+    """Compute one row of the table: onset, critical length, differences.
 
     Parameters
     ----------
-    own, theirs : records of the same run by :func:`nucleation.simulation.run.simulate` and
-        :func:`nucleation.verification.crosscheck.freefem.run`.
-    settings : edge of the patch and drop of the force.
+    own, theirs : Dataset
+        Records of the same run by :func:`nucleation.simulation.run.simulate` and
+        :func:`nucleation.verification.crosscheck.freefem.solve`.
+    settings : ExtractionSettings
+        Edge of the patch and drop of the force.
 
     Returns
     -------
-    All of :data:`COLUMNS` but ``id``. Times in s, lengths in m. Root mean squares and largest
-    differences of L(t) and f_d(t) are relative; the largest of L(t) is given in elements as well.
-    NaN where a run has no event or is too short, or has no patch before 0.9 of the onset.
+    dict
+        All of :data:`COLUMNS` but ``id``. Times in s, lengths in m. Root mean squares and largest
+        differences of L(t) and f_d(t) are relative; the largest of L(t) is given in elements as
+        well. NaN where a run has no event or is too short, or has no patch before 0.9 of the onset.
     """
-    runs, records = (own, theirs), [Record(run, settings) for run in (own, theirs)]
-    parameters, measured = records[0].parameters, [extract(run, settings) for run in runs]
-    end = BEFORE_ONSET * np.min([found["onset_time"] for found in measured])
+    record = Record(own, settings)
+    record_freefem = Record(theirs, settings)
+    parameters = record.parameters
+    found = extract(own, settings)
+    found_freefem = extract(theirs, settings)
+    onsets = [found["onset_time"], found_freefem["onset_time"]]
+    end = BEFORE_ONSET * np.min(onsets)
     instants = np.linspace(SETTLED * parameters.memory_time, end, INSTANTS)
-    patch, patch_freefem = (np.interp(instants, run.time, run.lengths) for run in records)
-    force, force_freefem = (
-        np.interp(instants, run["step_time"].values, run["driving_force"].values) for run in runs
+    patch = np.interp(instants, record.time, record.lengths)
+    patch_freefem = np.interp(instants, record_freefem.time, record_freefem.lengths)
+    exists = (patch > 0.0) & (patch_freefem > 0.0)
+    patch = patch[exists]
+    patch_freefem = patch_freefem[exists]
+    force = _driving_force(own, instants)
+    force_freefem = _driving_force(theirs, instants)
+    element = parameters.geometry.length / parameters.mesh.n_x
+    return {
+        "height": parameters.geometry.height,
+        "n_x": parameters.mesh.n_x,
+        "n_y": parameters.mesh.n_y,
+        "patch_length_elements": _largest((patch_freefem - patch) / element),
+        "patch_length_rms": _root_mean_square(patch_freefem / patch - 1.0),
+        "patch_length_largest": _largest(patch_freefem / patch - 1.0),
+        "driving_force_rms": _root_mean_square(force_freefem / force - 1.0),
+        "driving_force_largest": _largest(force_freefem / force - 1.0),
+        "onset_time": found["onset_time"],
+        "length": found["length"],
+        "steps": own.attrs["steps"],
+        "onset_time_freefem": found_freefem["onset_time"],
+        "length_freefem": found_freefem["length"],
+        "steps_freefem": theirs.attrs["steps"],
+    }
+
+
+def _driving_force(run: xr.Dataset, instants: Array) -> Array:
+    """f_d (N/m) at some instants (s)."""
+    return np.interp(
+        instants,
+        run["step_time"].values,
+        run["driving_force"].values,
     )
-    there = (patch > 0.0) & (patch_freefem > 0.0)
-    patch, patch_freefem = patch[there], patch_freefem[there]
-    mesh, dx = parameters.mesh, parameters.geometry.length / parameters.mesh.n_x
-    row = {"height": parameters.geometry.height, "n_x": mesh.n_x, "n_y": mesh.n_y}
-    row["patch_length_elements"] = _largest((patch_freefem - patch) / dx)
-    differences = {"patch_length": patch_freefem / patch, "driving_force": force_freefem / force}
-    for name, ratio in differences.items():
-        rms = np.sqrt(np.mean((ratio - 1.0) ** 2)) if ratio.size else np.nan
-        row |= {f"{name}_rms": float(rms), f"{name}_largest": _largest(ratio - 1.0)}
-    for whose, found, run in zip(("", "_freefem"), measured, runs, strict=True):
-        row |= {f"{name}{whose}": found[name] for name in ("onset_time", "length")}
-        row[f"steps{whose}"] = run.attrs["steps"]
-    return row
+
+
+def _root_mean_square(values: Array) -> float:
+    if values.size == 0:
+        return np.nan
+    mean_square = np.mean(values**2)
+    return float(np.sqrt(mean_square))
 
 
 def _largest(values: Array) -> float:
-    return float(np.abs(values).max()) if values.size else np.nan
+    if values.size == 0:
+        return np.nan
+    return float(np.abs(values).max())
 
 
 def compared(
-    ids: Sequence[str], own: Iterable[xr.Dataset], freefem: Iterable[xr.Dataset],
+    ids: Sequence[str],
+    own: Iterable[xr.Dataset],
+    freefem: Iterable[xr.Dataset],
     settings: ExtractionSettings,
-) -> xr.Dataset:  # fmt: skip
-    """:data:`COLUMNS` on ``run``, each run by both solvers."""
-    own = list(own)
-    for id, run in zip(ids, own, strict=True):
-        if not run.attrs["completed"]:
-            raise DatasetError(f"the run {id} has no result: {run.attrs['status']}")
+) -> xr.Dataset:
+    """Compare runs by both solvers.
+
+    Parameters
+    ----------
+    ids : sequence of str
+        Identifiers of the runs.
+    own, freefem : iterable of Dataset
+        Their records by the two solvers, in the same order.
+    settings : ExtractionSettings
+        Edge of the patch and drop of the force.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``.
+
+    Raises
+    ------
+    DatasetError
+        If a run of the own solver has failed.
+    """
+    records = list(own)
+    for id, record in zip(ids, records, strict=True):
+        if not record.attrs["completed"]:
+            raise DatasetError(f"the run {id} has no result: {record.attrs['status']}")
     rows = [
-        {"id": id, **compare(one, other, settings)}
-        for id, one, other in zip(ids, own, freefem, strict=True)
+        {"id": id, **compare(record, other, settings)}
+        for id, record, other in zip(ids, records, freefem, strict=True)
     ]
     return table(rows, COLUMNS)

@@ -1,1 +1,1 @@
-"""Manufactured solutions: fields chosen freely, the solver's own steps under their loads."""
+"""Manufactured solutions: freely chosen fields, and the solver's own steps under their loads."""

@@ -16,8 +16,24 @@ def slope(omega: ArrayLike) -> Array:
     return -np.ones_like(np.asarray(omega, dtype=float))
 
 
-def implicit_log_state(history: Array, step: float, rate: Array) -> tuple[Array, Array]:
-    """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function."""
+def implicit_log_state(
+    history: Array,
+    step: float,
+    rate: Array,
+) -> tuple[Array, Array]:
+    """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function.
+
+    Parameters
+    ----------
+    history, step, rate
+        As in :meth:`~nucleation.model.friction.evolution.StateEvolution.implicit_log_state`.
+
+    Returns
+    -------
+    log_state, slope : ndarray
+        psi and ``dpsi/drate`` (s), shape (nodes,).
+    """
     shifted = history - step * rate
     excess = wright_omega(np.log(step) - shifted)  # = step exp(-psi)
-    return shifted + excess, -step / (1.0 + excess)
+    slope = -step / (1.0 + excess)
+    return shifted + excess, slope

@@ -14,12 +14,29 @@ def growth(omega: ArrayLike) -> Array:
 
 def slope(omega: ArrayLike) -> Array:
     """``g'(omega) = -1 - log(omega)``."""
-    return -1.0 - np.log(np.asarray(omega, dtype=float))
+    omega = np.asarray(omega, dtype=float)
+    return -1.0 - np.log(omega)
 
 
-def implicit_log_state(history: Array, step: float, rate: Array) -> tuple[Array, Array]:
-    """Closed form of ``psi = history - step rate (psi + log(rate))`` (linear in psi)."""
+def implicit_log_state(
+    history: Array,
+    step: float,
+    rate: Array,
+) -> tuple[Array, Array]:
+    """Closed form of ``psi = history - step rate (psi + log(rate))`` (linear in psi).
+
+    Parameters
+    ----------
+    history, step, rate
+        As in :meth:`~nucleation.model.friction.evolution.StateEvolution.implicit_log_state`.
+
+    Returns
+    -------
+    log_state, slope : ndarray
+        psi and ``dpsi/drate`` (s), shape (nodes,).
+    """
     log_rate = np.log(rate)
     divisor = 1.0 + step * rate
     log_state = (history - step * rate * log_rate) / divisor
-    return log_state, -step * (log_state + log_rate + 1.0) / divisor
+    slope = -step * (log_state + log_rate + 1.0) / divisor
+    return log_state, slope

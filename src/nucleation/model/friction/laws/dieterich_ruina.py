@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike
 from ...quantities import ParameterError, quantity
 from ..law import Array, Friction, law_name
 
-STEEPEST = 300.0  # f0/a, far below where exp(f0/a) is no number
-LARGEST_EXPONENT = 650.0
-ENOUGH = 30  # iterations for a: for f = 2 a each takes off five sixths of the error
+_LARGEST_RATIO = 300.0  # of f0 over a, far below overflow of exp(f0/a)
+_LARGEST_EXPONENT = 650.0
+_ITERATIONS = 30  # for a: with f = 2 a each iteration reduces the error by five sixths
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,30 +29,46 @@ class Law(Friction):
     law: str = law_name(__name__)
     reference_friction: float = quantity(
         "friction coefficient of steady sliding at the reference slip rate",
-        low=0.0, high=10.0, symbol="f0", default=0.41,
-    )  # fmt: skip
+        low=0.0,
+        high=10.0,
+        symbol="f0",
+        default=0.41,
+    )
     reference_slip_rate: float = quantity(
         "reference slip rate of the logarithms",
-        unit="m/s", low=0.0, high=1.0, symbol="v*", default=1.0e-5,
-    )  # fmt: skip
+        unit="m/s",
+        low=0.0,
+        high=1.0,
+        symbol="v*",
+        default=1.0e-5,
+    )
     log_rate_coefficient: float = quantity(
         "coefficient of the logarithm of the slip rate",
-        low=0.0, high=1.0, symbol="a", default=0.0068,
-    )  # fmt: skip
+        low=0.0,
+        high=1.0,
+        symbol="a",
+        default=0.0068,
+    )
     log_state_coefficient: float = quantity(
         "coefficient of the logarithm of the state",
-        low=0.0, high=1.0, closed="low", symbol="b", default=0.0228,
-    )  # fmt: skip
+        low=0.0,
+        high=1.0,
+        closed="low",
+        symbol="b",
+        default=0.0228,
+    )
 
     set_by_expansion: ClassVar[tuple[str, ...]] = (
-        "reference_friction", "log_rate_coefficient", "log_state_coefficient",
-    )  # fmt: skip
+        "reference_friction",
+        "log_rate_coefficient",
+        "log_state_coefficient",
+    )
     asinh_of_rate: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.reference_friction > STEEPEST * self.log_rate_coefficient:
-            least = self.reference_friction / STEEPEST
+        if self.reference_friction > _LARGEST_RATIO * self.log_rate_coefficient:
+            least = self.reference_friction / _LARGEST_RATIO
             raise ParameterError(
                 f"friction.log_rate_coefficient = {self.log_rate_coefficient:g} is not allowed: "
                 f"with reference_friction = {self.reference_friction:g} it must be {least:.3g} or "
@@ -61,44 +77,80 @@ class Law(Friction):
 
     def linear_below(self, log_state: ArrayLike) -> Array:
         """``s = 2 v* exp(-(f0 + b log(v* phi/D)) / a)`` (m/s), with ``f = a asinh(v/s)``."""
-        return scale(np.asarray(log_state, dtype=float), self.constants)
+        return _scale(np.asarray(log_state, dtype=float), self.constants)
 
     @property
     def constants(self) -> tuple[float, ...]:
         """a, b, f0, v* and D."""
         return (
-            self.log_rate_coefficient, self.log_state_coefficient, self.reference_friction,
-            self.reference_slip_rate, self.characteristic_slip_distance,
-        )  # fmt: skip
+            self.log_rate_coefficient,
+            self.log_state_coefficient,
+            self.reference_friction,
+            self.reference_slip_rate,
+            self.characteristic_slip_distance,
+        )
 
     @staticmethod
-    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
-        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``."""
+    def formula(
+        v: Array,
+        psi: Array,
+        constants: tuple[float, ...],
+    ) -> tuple[Array, Array, Array]:
+        """``a asinh(v/s)``, ``a / sqrt(v^2 + s^2)`` and ``b v / sqrt(v^2 + s^2)``.
+
+        Parameters
+        ----------
+        v, psi, constants
+            As in :meth:`~nucleation.model.friction.law.Friction.formula`.
+
+        Returns
+        -------
+        coefficient, by_rate, by_log_state : ndarray
+            Of the shape of `v`.
+        """
         a, b = constants[:2]
-        s = scale(psi, constants)
+        s = _scale(psi, constants)
         by_size = 1.0 / np.hypot(v, s)
         return a * np.arcsinh(v / s), a * by_size, b * (v * by_size)
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other f0, a and b, so that :meth:`expansion` is (f, a, zeta).
 
+        Parameters
+        ----------
+        velocity : float
+            Slip rate V of steady sliding (m/s).
+        f, a, zeta : float
+            Friction coefficient, direct effect and velocity weakening at V.
+
+        Returns
+        -------
+        Law
+
+        Raises
+        ------
+        ParameterError
+            If no allowed parameters give this expansion.
+
         Notes
         -----
         In steady sliding ``phi = D/w``, ``w = sqrt(V^2 + v0^2)``. With a* the law's own coefficient
         and ``c = V/sqrt(V^2 + s^2) = tanh(f/a*)`` the expansion has ``a = a* c`` and
-        ``zeta = (b (V/w)^2 - a*) c``. So ``a* = a/c``, which is a itself in double precision if
-        f > 19 a, else found by a contracting iteration; then b; and f0 by ``V/s = sinh(f/a*)``.
+        ``zeta = (b (V/w)^2 - a*) c``. So ``a* = a/c``; in double precision it is a itself if
+        f > 19 a, otherwise a contracting iteration finds it. Then b follows, and f0 from
+        ``V/s = sinh(f/a*)``.
         """
         if not 0.0 < 2.0 * a <= f:
             raise ParameterError(f"a = {a:g} must lie in (0, f/2], f = {f:g}")
         own = a
-        for _ in range(ENOUGH):
+        for _ in range(_ITERATIONS):
             own = a / np.tanh(f / own)
-        ratio, v = self.reference_slip_rate / velocity, velocity
+        v = velocity
+        reference = self.reference_slip_rate
         speed = float(self.slip_speed(v))
         b = (zeta * own / a + own) * (speed / v) ** 2
         log_two_sinh = f / own + np.log1p(-np.exp(-2.0 * f / own))  # of f/a*
-        f0 = own * (np.log(ratio) + log_two_sinh) - b * np.log(self.reference_slip_rate / speed)
+        f0 = own * (np.log(reference / v) + log_two_sinh) - b * np.log(reference / speed)
         return dataclasses.replace(
             self,
             reference_friction=float(f0),
@@ -107,9 +159,9 @@ class Law(Friction):
         )
 
 
-def scale(psi: Array, constants: tuple[float, ...]) -> Array:
+def _scale(psi: Array, constants: tuple[float, ...]) -> Array:
     """The slip rate s (m/s) of ``f = a asinh(v/s)``."""
     a, b, f0, rate, distance = constants
     exponent = (f0 + b * (psi + np.log(rate / distance))) / a
-    exponent = np.minimum(np.maximum(exponent, -LARGEST_EXPONENT), LARGEST_EXPONENT)
+    exponent = np.minimum(np.maximum(exponent, -_LARGEST_EXPONENT), _LARGEST_EXPONENT)
     return 2.0 * rate * np.exp(-exponent)

@@ -22,47 +22,109 @@ class Law(Friction):
 
     law: str = law_name(__name__)
     aging_coefficient: float = quantity(
-        "aging coefficient", low=0.0, high=10.0, closed="low", symbol="b", default=0.075
+        "aging coefficient",
+        low=0.0,
+        high=10.0,
+        closed="low",
+        symbol="b",
+        default=0.075,
     )
     slip_rate_scale: float = quantity(
         "slip-rate scale of rate strengthening",
-        unit="m/s", low=0.0, high=1.0, symbol="v*", default=1.0e-7,
-    )  # fmt: skip
+        unit="m/s",
+        low=0.0,
+        high=1.0,
+        symbol="v*",
+        default=1.0e-7,
+    )
     base_friction: float = quantity(
-        "base friction coefficient", low=0.0, high=10.0, symbol="theta", default=5.0 / 18.0
+        "base friction coefficient",
+        low=0.0,
+        high=10.0,
+        symbol="theta",
+        default=5.0 / 18.0,
     )
     state_scale: float = quantity(
-        "state scale of aging", unit="s", low=0.0, high=1e6, symbol="phi*", default=3.3e-4
+        "state scale of aging",
+        unit="s",
+        low=0.0,
+        high=1e6,
+        symbol="phi*",
+        default=3.3e-4,
     )
     rate_coefficient: float = quantity(
-        "rate-strengthening coefficient", low=0.0, high=10.0, symbol="xi", default=0.005
+        "rate-strengthening coefficient",
+        low=0.0,
+        high=10.0,
+        symbol="xi",
+        default=0.005,
     )
 
     set_by_expansion: ClassVar[tuple[str, ...]] = (
-        "base_friction", "rate_coefficient", "aging_coefficient",
-    )  # fmt: skip
+        "base_friction",
+        "rate_coefficient",
+        "aging_coefficient",
+    )
 
     @property
     def constants(self) -> tuple[float, ...]:
         """v0, b, v*, theta, phi* and xi."""
         return (
-            self.regularisation_slip_rate, self.aging_coefficient, self.slip_rate_scale,
-            self.base_friction, self.state_scale, self.rate_coefficient,
-        )  # fmt: skip
+            self.regularisation_slip_rate,
+            self.aging_coefficient,
+            self.slip_rate_scale,
+            self.base_friction,
+            self.state_scale,
+            self.rate_coefficient,
+        )
 
     @staticmethod
-    def formula(v: Array, psi: Array, constants: tuple[float, ...]) -> tuple[Array, Array, Array]:
-        """The product of both factors, and its derivatives by v (s/m) and psi."""
+    def formula(
+        v: Array,
+        psi: Array,
+        constants: tuple[float, ...],
+    ) -> tuple[Array, Array, Array]:
+        """The product of both factors, and its derivatives by v (s/m) and psi.
+
+        Parameters
+        ----------
+        v, psi, constants
+            As in :meth:`~nucleation.model.friction.law.Friction.formula`.
+
+        Returns
+        -------
+        coefficient, by_rate, by_log_state : ndarray
+            Of the shape of `v`.
+        """
         v0, b, scale, theta, state_scale, xi = constants
         ratio = np.exp(np.minimum(psi - np.log(state_scale), 700.0))  # phi/phi*, no overflow
         aging = 1.0 + b * np.log1p(ratio)
-        size, by_speed = np.abs(v), 1.0 / np.sqrt(v * v + v0**2)
-        rate = theta * v * by_speed + xi * np.copysign(np.log1p(size / scale), v)
+        size = np.abs(v)
+        by_speed = 1.0 / np.sqrt(v * v + v0**2)
+        strengthening = np.copysign(np.log1p(size / scale), v)
+        rate = theta * v * by_speed + xi * strengthening
         by_rate = theta * v0**2 * by_speed * by_speed * by_speed + xi / (scale + size)
-        return aging * rate, aging * by_rate, b * (ratio / (1.0 + ratio)) * rate
+        by_log_state = b * (ratio / (1.0 + ratio)) * rate
+        return aging * rate, aging * by_rate, by_log_state
 
     def with_expansion(self, velocity: float, f: float, a: float, zeta: float) -> Self:
         """The law with other theta, xi and b, so that :meth:`expansion` is (f, a, zeta).
+
+        Parameters
+        ----------
+        velocity : float
+            Slip rate V of steady sliding (m/s).
+        f, a, zeta : float
+            Friction coefficient, direct effect and velocity weakening at V.
+
+        Returns
+        -------
+        Law
+
+        Raises
+        ------
+        ParameterError
+            If no allowed parameters give this expansion.
 
         Notes
         -----
@@ -70,7 +132,9 @@ class Law(Friction):
         ``f = A R``, ``a = A V R'`` and ``a + zeta = b R (V/w)^2 / (1 + phi*/phi)``. The last gives
         b, with R = f/A; the others are linear in theta and xi.
         """
-        v, v0, scale = velocity, self.regularisation_slip_rate, self.slip_rate_scale
+        v = velocity
+        v0 = self.regularisation_slip_rate
+        scale = self.slip_rate_scale
         speed = float(self.slip_speed(v))
         age = float(self.steady_state(v)) / self.state_scale
         per_aging = (a + zeta) / f * (speed / v) ** 2 * (1.0 + 1.0 / age)  # b / (1 + b l)
@@ -83,9 +147,9 @@ class Law(Friction):
             )
         aging = per_aging / (1.0 - growth)
         factor = 1.0 + aging * np.log1p(age)
-        rates = np.array(
-            [[v / speed, np.log1p(v / scale)], [v * v0**2 / speed**3, v / (scale + v)]]
-        )  # R and V R' by theta and xi
+        of_rate = [v / speed, np.log1p(v / scale)]  # R by theta and xi
+        of_slope = [v * v0**2 / speed**3, v / (scale + v)]  # V R' by theta and xi
+        rates = np.array([of_rate, of_slope])
         base, rate = np.linalg.solve(rates, np.array([f, a]) / factor)
         return dataclasses.replace(
             self,

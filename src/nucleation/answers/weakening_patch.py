@@ -1,0 +1,104 @@
+"""Does a weakening patch creep, slip slowly or nucleate? For models of sequences of events.
+
+The width W of the patch is compared with the smallest one that nucleates, W_c
+(:mod:`nucleation.theory.weakening_patch`). Below W_c the patch creeps. Above it slip is unstable,
+and grows into a limit cycle of slow slip or into an event. Where slow slip ends is known from
+simulations (docs/patch_theory.md), not from a theory.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..theory.fault import Fault, Values
+from ..theory.spectrum import Systems
+from ..theory.weakening_patch import weakening_patch_values
+from ..types import Array
+
+SLOW_SLIP = 1.15, 1.5
+"""W over W_c up to which simulated patches slipped slowly, and from which on they nucleated."""
+
+CELLS = 3.0
+"""Cells in a process zone that resolve it (Day and others, 2005)."""
+
+HALVINGS = 60  # of the interval of log k in which the process zone is sought
+SPAN = 1e6  # ratio of the longest to the shortest process zone that is sought, and back
+
+
+class PatchAnswer(NamedTuple):
+    """What becomes of the weakening patch of one fault."""
+
+    smallest_width: float  # W_c (m), NaN without one
+    width_ratio: float  # W/W_c, NaN without a width
+    outcome: str  # in words, empty without a width
+    cell_size: float  # largest one (m) that resolves the process zone, NaN without one
+
+
+def patch_answer(
+    fault: Fault,
+    outside_zeta: Values,
+    outside_a: Values | None = None,
+    width: float | None = None,
+) -> PatchAnswer:
+    """What becomes of a weakening patch among strengthening surroundings.
+
+    Parameters
+    ----------
+    fault : Fault
+        One fault, with the friction of the patch.
+    outside_zeta, outside_a : float
+        zeta and a of the surroundings; a is that of the patch by default.
+    width : float, optional
+        Width W (m) of the patch.
+
+    Returns
+    -------
+    PatchAnswer
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is outside its range.
+    """
+    smallest = float(weakening_patch_values(fault, outside_zeta, outside_a))
+    ratio = math.nan if width is None else width / smallest
+    words = "" if width is None else outcome(ratio)
+    return PatchAnswer(smallest, ratio, words, process_zone(fault) / CELLS)
+
+
+def outcome(width_ratio: float) -> str:
+    """What a patch does, in words, by its width over W_c."""
+    slow, event = SLOW_SLIP
+    if math.isnan(width_ratio):
+        return "no W_c: the patch is stable, or its surroundings are not"
+    if width_ratio < 1.0:
+        return "it creeps"
+    if width_ratio < slow:
+        return "it slips slowly, in a limit cycle"
+    if width_ratio < event:
+        return "it slips slowly or nucleates"
+    return "it nucleates"
+
+
+def process_zone(fault: Fault) -> float:
+    """Length (m) over which friction weakens at the front of fast slip, of one fault.
+
+    The wavelength over 2 pi at which the stiffness of the bodies is ``b sigma0/D``: ``L_b/2``
+    between identical half-spaces, ``sqrt(2 H L_b)`` in a thin layer on a rigid body, with
+    ``L_b = mu* D/(b sigma0)``. That of half-spaces is customarily ``(9 pi/32) L_b`` (Lapusta and
+    Liu, 2009), which is larger. NaN where b is not positive.
+    """
+
+    def zones(systems: Systems) -> Array:
+        thick = systems.softness / systems.b
+        low, high = 1.0 / (SPAN * thick), SPAN / thick
+        for _ in range(HALVINGS):
+            middle = np.sqrt(low * high)
+            stiff = systems.load_and_coupling(middle)[0] > systems.b
+            low, high = np.where(stiff, low, middle), np.where(stiff, middle, high)
+        return 1.0 / low[None]
+
+    return float(fault.evaluate(zones)[0]) if float(fault.b) > 0.0 else math.nan

@@ -1,0 +1,73 @@
+"""What ``nucleation length`` prints of a weakening patch among strengthening surroundings."""
+
+import dataclasses
+import math
+from typing import Any
+
+from ..answers.weakening_patch import PatchAnswer, patch_answer
+from ..model.heterogeneity import Heterogeneity
+from ..model.quantities import ParameterError, declarations
+from ..theory.fault import QUANTITIES, Fault
+from .options import option, together
+
+OPTIONS = ("width", "outside_zeta", "outside_a")
+
+WIDTH = dataclasses.replace(
+    declarations(Heterogeneity)["width"],
+    description="width W of a weakening patch among strengthening surroundings",
+)
+
+patch_options = together(
+    option(
+        "--outside-zeta",
+        key="outside_zeta",
+        entry=QUANTITIES["zeta"],
+        note="of the surroundings of a weakening patch, for W_c and --width",
+    ),
+    option(
+        "--outside-a",
+        key="outside_a",
+        entry=QUANTITIES["a"],
+        note="of the surroundings; that of the patch if left out",
+    ),
+    option("--width", key="width", entry=WIDTH, note="needs --outside-zeta"),
+)
+"""The options for a patch, which :func:`patch_of` takes."""
+
+
+def patch_of(fault: Fault, options: dict[str, Any]) -> PatchAnswer | None:
+    """The answer to :data:`patch_options`; None if none of them is given.
+
+    Raises
+    ------
+    ParameterError
+        If the surroundings of a patch are not given.
+    """
+    width, outside_zeta, outside_a = (options[name] for name in OPTIONS)
+    if outside_zeta is None:
+        if width is None and outside_a is None:
+            return None
+        raise ParameterError(
+            "outside_zeta is missing: give --outside-zeta, the velocity weakening of the patch's "
+            "surroundings, negative where they strengthen"
+        )
+    return patch_answer(fault, outside_zeta, outside_a, width)
+
+
+def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> list[str]:
+    """W_c, what a patch of a width (m) does, and the cells of a mesh; L_c (m) is `critical`."""
+    head = "A weakening patch among strengthening surroundings (docs/patch_theory.md):"
+    smallest = patch.smallest_width
+    if math.isnan(smallest):
+        lines = [head, "  no W_c: the patch is stable, or its surroundings are not"]
+    else:
+        ratio = f"{smallest / critical:.3g} L_c"
+        meaning = "smallest width that nucleates; a narrower patch creeps"
+        lines = [head, f"  W_c    {f'{smallest:.4g} m':<11} {ratio:<10} {meaning}"]
+        if width is not None:
+            own = f"{patch.width_ratio:.3g} W_c"
+            lines.append(f"  W      {f'{width:.4g} m':<11} {own:<10} {patch.outcome}")
+    if not math.isnan(patch.cell_size):
+        cell = f"{patch.cell_size:.3g} m"
+        lines.append(f"  cells  {cell:<22} or less: three in a process zone (Day et al., 2005)")
+    return lines

@@ -1,0 +1,57 @@
+"""The deformable block and its finite-element mesh."""
+
+import dataclasses
+
+from .checked import Checked
+from .quantities import quantity
+
+
+@dataclasses.dataclass(frozen=True)
+class Geometry(Checked):
+    """The deformable block ``0 <= x <= length``, ``0 <= y <= height``."""
+
+    height: float = quantity(
+        "block height",
+        unit="m",
+        low=0.0,
+        high=1e6,
+        symbol="H",
+        default=0.005,
+    )
+    length: float = quantity(
+        "block length",
+        unit="m",
+        low=0.0,
+        high=1e7,
+        symbol="L",
+        default=1.0,
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class Mesh(Checked):
+    """The structured finite-element mesh: numbers of bilinear elements and grading in y."""
+
+    n_x: int = quantity(
+        "number of elements along x",
+        low=8,
+        high=100000,
+        closed="both",
+        symbol="N_x",
+        default=400,
+    )
+    n_y: int = quantity(
+        "number of elements along y",
+        low=2,
+        high=10000,
+        closed="both",
+        symbol="N_y",
+        default=150,
+    )
+    grading: float = quantity(
+        "height of the top row of elements over that of the bottom row",
+        low=1.0,
+        high=1000.0,
+        closed="both",
+        default=1.0,
+    )

@@ -1,0 +1,119 @@
+"""L_c, L_s and the length at the drop over one or two parameters of a fault, for a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..model.parameters import Parameters
+from ..types import Array
+from .drop_quantiles import TITLES, drop_quantiles
+from .expected_drop import NoDrop, expected_drop
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+BAND = (0.05, 0.5, 0.95)
+"""Quantiles of uncertain parameters: low, middle and high."""
+
+DOUBTS = 2  # that are named of all reasons not to rely on drops
+
+
+class Axis(NamedTuple):
+    """A parameter that varies, and its values in the unit in which they are shown."""
+
+    name: str
+    long_name: str
+    units: str
+    values: Array
+
+
+def lengths_over(
+    axes: Sequence[Axis],
+    cases: Callable[[tuple[int, ...]], Sequence[Parameters]],
+    lengths: Collection[str] = tuple(TITLES),
+    progress: Callable[[int, int], None] | None = None,
+) -> xr.Dataset:
+    """Lengths at every point of one or two parameters.
+
+    Parameters
+    ----------
+    axes : sequence of Axis
+        The parameters that vary, one or two.
+    cases : callable
+        Called with the indices of a point; returns the runs of that point, one, or one for each
+        draw of uncertain parameters, or none where the fault is not valid.
+    lengths : collection of str
+        Keys of the lengths to compute: ``critical_length``, ``stability_length``, ``drop_length``.
+    progress : callable, optional
+        Called with the number of points that are done and that of all.
+
+    Returns
+    -------
+    Dataset
+        ``length`` (m) over ``key``, ``end`` (low, middle, high) and the parameters: of one run its
+        length, and of its drop 16 and 84 % of the realisations; of several runs the quantiles of
+        5, 50 and 95 %. NaN where there is none and infinite where a quantile of the draws is
+        stable. ``doubtful`` over the parameters is the share of drops not to be relied upon, and
+        ``why_not(key, ...)`` the reason where a length is missing. The attribute ``doubts`` has
+        reasons not to rely on drops.
+    """
+    import xarray as xr
+
+    shape = tuple(axis.values.size for axis in axes)
+    keys = [key for key in TITLES if key in lengths]
+    found = np.full((len(keys), len(BAND), *shape), np.nan)
+    doubtful = np.zeros(shape)
+    doubts: dict[str, None] = {}
+    why = np.full((len(keys), *shape), "", dtype=object)
+    for done, point in enumerate(np.ndindex(shape)):
+        runs = cases(point)
+        if runs:
+            values, doubtful[point], doubt, reasons = _at(runs, keys)
+            doubts |= dict.fromkeys([doubt] if doubt else [])
+            found[(slice(None), slice(None), *point)] = values
+            why[(slice(None), *point)] = reasons
+        if progress is not None:
+            progress(done + 1, doubtful.size)
+    names = [axis.name for axis in axes]
+    coordinates: dict[str, Any] = {
+        axis.name: (axis.name, axis.values, {"long_name": axis.long_name, "units": axis.units})
+        for axis in axes
+    }
+    return xr.Dataset(
+        {
+            "length": (("key", "end", *names), found, {"units": "m", "long_name": "length"}),
+            "doubtful": (names, doubtful, {"units": "1", "long_name": "share of doubtful drops"}),
+            "why_not": (("key", *names), why, {"long_name": "why the length is missing"}),
+        },
+        coords={"key": keys, "end": ["low", "middle", "high"], **coordinates},
+        attrs={"doubts": "; ".join(list(doubts)[:DOUBTS])},
+    )
+
+
+def _at(runs: Sequence[Parameters], keys: Sequence[str]) -> tuple[Array, float, str, list[str]]:
+    """Lengths (m) of shape (key, end) at a point; share of doubtful drops, doubts, reasons."""
+    others = [key for key in keys if key != "drop_length" or len(runs) > 1]
+    table = drop_quantiles(runs, lengths=others) if others else None
+    rows: list[Any] = []
+    reasons: list[str] = []
+    if table is not None:
+        rows += list(table["value"].sel(quantile=list(BAND)).values)
+        reasons += [str(text) for text in table["why_not"].values]
+    doubtful, doubt = 0.0, ""
+    if table is not None:
+        doubtful, doubt = table.attrs["doubtful"] / len(runs), table.attrs["doubts"]
+    if "drop_length" in keys and "drop_length" not in others:
+        try:
+            drop = expected_drop(runs[0])
+        except NoDrop as none:
+            rows.append([np.nan] * len(BAND))
+            reasons.append(str(none))
+        else:
+            spread = [drop.length] if drop.slips_slowly else [drop.drop.low, drop.drop.high]
+            rows.append([min(spread), drop.length, max(spread)])
+            reasons.append("")
+            doubtful, doubt = float(bool(drop.doubt)), drop.doubt
+    return np.array(rows, dtype=float), doubtful, doubt, reasons

@@ -1,0 +1,18 @@
+"""Why there is no length: the words that answers of all kinds share.
+
+A length that is NaN has one of three statuses beside it, and a reason in words.
+"""
+
+VALUE = "value"
+"""There is a length."""
+
+STABLE = "stable"
+"""Sliding is stable: no patch of any length nucleates."""
+
+BEYOND = "beyond"
+"""The length is longer than the longest that was searched; the reason says which that is."""
+
+UNKNOWN = "unknown"
+"""The theory or the formula does not apply to this fault."""
+
+STATUSES = (VALUE, STABLE, BEYOND, UNKNOWN)

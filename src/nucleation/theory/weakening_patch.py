@@ -1,0 +1,202 @@
+"""The smallest weakening patch that nucleates among surroundings that strengthen with slip rate.
+
+A fault creeps at a uniform V. On a patch of width W friction weakens, ``zeta > 0``; outside it
+strengthens, ``zeta < 0``. The linearisation about this creep is exact. With ``s = Lambda ell/V``
+and the elastic load ``m(k) = g (1 - i rho)`` of a Fourier mode over sigma0/ell (:mod:`.crossings`),
+
+    m u + c(x, s) u = 0 ,      c = s (a s - zeta)/(1 + s) ,
+
+with c_in on the patch and c_out outside. The surroundings are uniform, so that their slip is known
+from that on the patch, and an equation for the slip on the patch alone is left,
+
+    [1 - (c_out - c_in) G] u = 0 ,     G multiplies Fourier modes by 1/(m + c_out) .
+
+In Legendre polynomials (:mod:`.patch_basis`) it is a small matrix, whose determinant is 1 for very
+slow and positive for very fast modes. Where the surroundings alone are stable, the determinant has
+no poles with ``Re s > 0``, and its phase along the imaginary axis counts the growing modes: all of
+them, oscillating or not. The smallest W with a growing mode is found by bisection of that count.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+
+from ..types import Array, ComplexArray
+from .arrays import fault_of, named
+from .crossings import largest_crossings
+from .fault import QUANTITIES, Fault, Values, checked, takes_fault
+from .patch_basis import patch_basis
+from .spectrum import Systems
+
+WIDEST = 10.0  # patches up to this multiple of L_c are tried
+NARROWEST = 0.05  # multiple of L_c at which the search begins
+FACTOR = 1.25  # between the widths that are tried
+PRECISION = 1e-5  # relative, of the width
+POLYNOMIALS = 16  # as many for each L_c of the width, at least
+SLOWEST = 1e-5  # of the frequencies, over V/D
+FASTEST = 1e3  # likewise, over 1 + zeta/a
+FREQUENCIES = 80  # at first
+TURN = 0.7  # rad, by which the phase changes between neighbouring frequencies at most
+HALVINGS = 40  # of the steps between frequencies
+
+
+@dataclasses.dataclass(frozen=True)
+class WeakeningPatch:
+    """A patch in creep, of any width; both systems have fields of shape (1,) and one pair."""
+
+    inside: Systems
+    outside: Systems
+
+    def growing_modes(self, width: float, number: int) -> int:
+        """How many modes of a patch of a width (m) grow, by a number of polynomials.
+
+        A mode that oscillates counts twice, as its frequency has either sign.
+        """
+        turned = self._turn(width, number, 1.0)
+        mirrored = not np.any(self.inside.friction)
+        turned += turned if mirrored else self._turn(width, number, -1.0)
+        return round(turned / (2.0 * math.pi))
+
+    def factors(self, width: float, number: int, frequency: Array) -> ComplexArray:
+        """Factors of the determinant for a patch of a width (m), (frequencies, number + 1).
+
+        Its diagonal entries, and the determinant of the matrix with rows divided by these: none of
+        them turns much between neighbouring frequencies, over V/D and of either sign, while the
+        product of many does.
+        """
+        basis = patch_basis(number)
+        load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
+        rate = 1j * frequency[:, None]
+        within, around = self._friction(self.inside, rate), self._friction(self.outside, rate)
+        forward = 1.0 / (load * (1.0 - 1j * coupling) + around)
+        backward = 1.0 / (load * (1.0 + 1j * coupling) + around)
+        response = basis.matrices(forward, backward)
+        matrix = np.eye(number) - (around - within)[:, :, None] * response
+        diagonal = np.diagonal(matrix, axis1=1, axis2=2)
+        rest = np.linalg.det(matrix / diagonal[:, :, None])
+        return np.concatenate([diagonal, rest[:, None]], axis=1)
+
+    @staticmethod
+    def _friction(systems: Systems, rate: ComplexArray) -> ComplexArray:
+        """c, how friction changes per slip, over sigma0/ell."""
+        return rate * (systems.a * rate - systems.zeta) / (1.0 + rate)
+
+    def _turn(self, width: float, number: int, sign: float) -> float:
+        """By how much (rad) the phase falls from a frequency of zero to those of one sign."""
+        weakening = float(np.max(np.abs(self.inside.zeta / self.inside.a)))
+        weakening += float(np.max(np.abs(self.outside.zeta / self.outside.a)))
+        frequency = np.geomspace(SLOWEST, FASTEST * (1.0 + weakening), FREQUENCIES)
+        found = self.factors(width, number, sign * frequency)
+        for _ in range(HALVINGS):
+            coarse = np.flatnonzero(np.abs(_turns(found)).max(axis=1) > TURN)
+            if not coarse.size:
+                break
+            middle = np.sqrt(frequency[coarse] * frequency[coarse + 1])
+            between = self.factors(width, number, sign * middle)
+            frequency = np.insert(frequency, coarse + 1, middle)
+            found = np.insert(found, coarse + 1, between, axis=0)
+        return -sign * float(_turns(found).sum())
+
+
+def _turns(factors: ComplexArray) -> Array:
+    """By how much (rad) the phases of factors change from each frequency to the next."""
+    return np.angle(factors[1:] / factors[:-1])
+
+
+def smallest_width(patch: WeakeningPatch, critical: float) -> float:
+    """The smallest width (m) with a growing mode, of a patch whose L_c (m) is `critical`.
+
+    NaN if no patch up to ``WIDEST L_c`` has one.
+    """
+
+    def grows(width: float) -> bool:
+        return patch.growing_modes(width, polynomials_for(width / critical)) > 0
+
+    low = NARROWEST * critical
+    while grows(low):
+        low /= FACTOR
+    high = low * FACTOR
+    while not grows(high):
+        low, high = high, high * FACTOR
+        if low > WIDEST * critical:
+            return math.nan
+    while high > low * (1.0 + PRECISION):
+        middle = math.sqrt(low * high)
+        if grows(middle):
+            high = middle
+        else:
+            low = middle
+    return math.sqrt(low * high)
+
+
+def polynomials_for(width_over_critical: float) -> int:
+    """The number of polynomials that a patch needs, by its width over L_c."""
+    return POLYNOMIALS * math.ceil(max(1.0, 0.5 * (1.0 + width_over_critical)))
+
+
+@takes_fault
+def weakening_patch_length(
+    *, outside_zeta: Values, outside_a: Values | None = None, **fault: Values
+) -> Any:
+    """Smallest width W_c of a weakening patch that nucleates among strengthening surroundings.
+
+    A narrower patch creeps at V like its surroundings, whatever disturbs it a little; on a wider
+    one slip oscillates with a growing amplitude. It ends in slow slip or in an event.
+
+    Parameters
+    ----------
+    outside_zeta : array_like or DataArray
+        zeta of the surroundings, negative where they strengthen with slip rate.
+    outside_a : array_like or DataArray, optional
+        Direct effect of the surroundings; that of the patch by default.
+    **fault
+        The parameters of :class:`~nucleation.theory.fault.Fault`; `a`, `zeta` and `b` are those of
+        the patch, all others those of patch and surroundings.
+
+    Returns
+    -------
+    ndarray or DataArray
+        W_c (m), broadcast shape, within 1e-4; NaN where homogeneous sliding is stable with the
+        friction of the patch or unstable with that of the surroundings, and where no patch up to
+        ``10 L_c`` is unstable. A DataArray if there is one among the parameters, else a pint
+        quantity if there is one. Takes about half a second for each fault.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is missing, unknown or outside its range.
+
+    Notes
+    -----
+    For half-spaces W_c/L_c depends on ``zeta/a`` and ``-outside_zeta/zeta`` alone. Surroundings
+    that strengthen very much don't slip: then it is ``1.158/pi``, that of a patch with pinned ends.
+    """
+    own = fault_of(fault)
+    width = weakening_patch_values(own, outside_zeta, outside_a)
+    return named(width, "weakening_patch_length", "m", "smallest patch that nucleates", own)
+
+
+def weakening_patch_values(
+    fault: Fault, outside_zeta: Values, outside_a: Values | None = None
+) -> Any:
+    """W_c (m); plain, in SI units."""
+    zeta = checked("outside_zeta", outside_zeta, QUANTITIES["zeta"])
+    a = fault.a if outside_a is None else checked("outside_a", outside_a, QUANTITIES["a"])
+    fault.broadcast(outside_zeta=zeta, outside_a=a)
+
+    def widths(systems: Systems, outside_zeta: Array, outside_a: Array) -> Array:
+        around = systems._replace(zeta=outside_zeta, a=outside_a)
+        critical = 2.0 * np.pi / largest_crossings(systems)
+        stable_around = np.isnan(largest_crossings(around))
+        found = np.full((1, critical.size), np.nan)
+        for i in np.flatnonzero(np.isfinite(critical) & stable_around):
+            one = np.array([i])
+            patch = WeakeningPatch(systems.at(one), around.at(one))
+            found[0, i] = smallest_width(patch, float(critical[i]))
+        return found
+
+    return fault.evaluate(widths, zeta, a)[0]

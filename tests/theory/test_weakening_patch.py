@@ -1,0 +1,229 @@
+"""W_c by theory: an independent route in a period, its limits, and what it must not depend on."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from nucleation.answers.formulas import FINITE_PATCH
+from nucleation.api import critical_length, spectrum, weakening_patch_length
+from nucleation.model.quantities import ParameterError
+from nucleation.theory import patch_basis, weakening_patch
+from nucleation.theory.spectrum import Systems
+from nucleation.theory.stiffness import Layers, Pair
+
+A = 0.01
+FAULT = {
+    "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": A,
+    "slip_distance": 5e-6, "friction": 0.6,
+}  # fmt: skip
+OTHER = {"second_shear_modulus": 90e9}
+BASE = {"second_shear_modulus": math.inf, "height": 0.05}
+
+
+def over_critical(ratio, strengthening, **changed):
+    """W_c/L_c for zeta/a of the patch and -zeta/zeta of the surroundings."""
+    fault = FAULT | {"zeta": ratio * A} | changed
+    outside = {"outside_zeta": -strengthening * ratio * A}
+    if "outside_a" in fault:
+        outside["outside_a"] = fault.pop("outside_a")
+    return float(weakening_patch_length(**outside, **fault) / critical_length(**fault))
+
+
+def largest_growth(width, period, number, ratio, strengthening, outside_a, fault):
+    """Growth rate of a patch in a period, by all Fourier modes up to a number, over V/D.
+
+    ``a s^2 u + s (M - zeta) u + M u = 0`` with the roots of the uniform fault's Eq. (5) for M: two
+    roots have the product ``M/a``. Width and period are in metres.
+    """
+    n = np.arange(-number, number + 1)
+    k = 2.0 * np.pi * n / period
+    moving = k != 0.0
+    elastic = np.zeros(n.size, dtype=complex)
+    roots = spectrum(k[moving], **fault, zeta=ratio * A, velocity=fault["slip_distance"])
+    elastic[moving] = A * roots[0] * roots[1]
+    apart = np.subtract.outer(n, n)
+    within = width / period * np.sinc(apart * width / period)
+    outside = np.eye(n.size) - within
+    direct = A * within + outside_a * outside
+    weakening = ratio * A * within - strengthening * ratio * A * outside
+    inverse = np.linalg.inv(direct)
+    stiffness = np.diag(elastic)
+    companion = np.block(
+        [
+            [np.zeros_like(stiffness), np.eye(n.size)],
+            [-inverse @ stiffness, -inverse @ (stiffness - weakening)],
+        ]
+    )
+    rates = np.linalg.eigvals(companion)
+    drift = np.abs(rates) < 1e-9  # uniform slip, which the bodies don't resist
+    return rates[~drift].real.max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("ratio", "strengthening", "outside_a", "changed"),
+    [
+        (0.5, 1.0, A, BASE),
+        (2.288, 0.43, A, BASE),
+        (0.5, 1.0, 2.0 * A, BASE),
+        (0.5, 1.0, A, {**OTHER, "height": 0.1, "second_height": 0.2}),
+    ],
+)
+def test_fourier_modes_of_a_period_agree(ratio, strengthening, outside_a, changed):
+    """All modes of a long period in thin layers, whose interaction falls off exponentially.
+
+    The Fourier series of the step leaves an error that falls with its square.
+    """
+    fault = FAULT | changed
+    own = over_critical(ratio, strengthening, outside_a=outside_a, **changed)
+    critical = float(critical_length(**fault, zeta=ratio * A))
+
+    def growth(width, number):
+        period = 12.0 * own * critical
+        arguments = (period, number, ratio, strengthening, outside_a, fault)
+        return largest_growth(width * own * critical, *arguments)
+
+    assert growth(0.99, 120) < 0.0 < growth(1.01, 120)
+
+
+@pytest.mark.slow
+def test_half_spaces_are_the_limit_of_long_periods():
+    """In a period P of half-spaces the threshold is higher by a term in 1/P^2, and meets W_c."""
+    critical = float(critical_length(**FAULT, zeta=0.5 * A))
+
+    def threshold(period):
+        low, high = 0.42, 0.48
+        while high - low > 1e-4:
+            middle = 0.5 * (low + high)
+            length = middle * critical
+            number = 10 * period
+            grown = largest_growth(length, period * length, number, 0.5, 1.0, A, FAULT)
+            low, high = (low, middle) if grown > 0.0 else (middle, high)
+        return low
+
+    short, long = threshold(8), threshold(16)
+    assert (4.0 * long - short) / 3.0 == pytest.approx(over_critical(0.5, 1.0), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "strengthening", "value"),
+    [(0.5, 0.3, 0.52), (0.5, 1.0, 0.45), (0.5, 2.0, 0.41), (2.288, 0.43, 0.275)],
+)
+def test_an_earlier_evaluation_agrees(ratio, strengthening, value):
+    """Thresholds that were computed on a coarse grid in a period, which raises them."""
+    found = over_critical(ratio, strengthening)
+    assert found == pytest.approx(value, rel=0.025)
+    assert found < value
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("ratio", "strong", "stronger"), [(0.1, 290.0, 2900.0), (1.0, 30.0, 300.0), (10.0, 9.0, 99.0)]
+)
+def test_rigid_surroundings_are_a_limit(ratio, strong, stronger):
+    """Surroundings that strengthen very much don't slip: the asperity of Uenishi and Rice."""
+    rigid = FINITE_PATCH / math.pi
+    before, after = (abs(over_critical(ratio, r) / rigid - 1.0) for r in (strong, stronger))
+    assert after < before
+    assert after < 0.015
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("module", "name", "value"),
+    [
+        (weakening_patch, "POLYNOMIALS", 24),
+        (weakening_patch, "FREQUENCIES", 200),
+        (weakening_patch, "SLOWEST", 1e-7),
+        (weakening_patch, "TURN", 0.3),
+        (weakening_patch, "FACTOR", 1.1),
+        (weakening_patch, "PRECISION", 1e-7),
+        (patch_basis, "POINTS", 14),
+        (patch_basis, "OCTAVES", (-28, 13)),
+    ],
+)
+def test_it_does_not_depend_on_how_it_is_found(monkeypatch, module, name, value):
+    patch_basis.patch_basis.cache_clear()
+    before = over_critical(0.5, 0.7, **OTHER, height=0.8)
+    patch_basis.patch_basis.cache_clear()
+    monkeypatch.setattr(module, name, value)
+    after = over_critical(0.5, 0.7, **OTHER, height=0.8)
+    patch_basis.patch_basis.cache_clear()
+    assert after == pytest.approx(before, rel=1.5e-5)
+
+
+@pytest.mark.slow
+@settings(max_examples=5, deadline=None)
+@given(
+    ratio=st.floats(0.3, 10.0),
+    strengthening=st.floats(0.1, 5.0),
+    friction=st.floats(0.0, 0.6),
+    height=st.floats(0.05, 100.0),
+)
+def test_more_polynomials_change_nothing(ratio, strengthening, friction, height):
+    changed = {"friction": friction, "height": height, **OTHER}
+    before = over_critical(ratio, strengthening, **changed)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(weakening_patch, "POLYNOMIALS", 24)
+        after = over_critical(ratio, strengthening, **changed)
+    assert after == pytest.approx(before, rel=3e-5)
+
+
+@pytest.mark.slow
+def test_wider_patches_keep_growing():
+    """The number of growing modes does not fall with the width, without bimaterial coupling."""
+    fault = FAULT | {"zeta": 0.5 * A}
+    body = Layers(np.array([30e9]), np.array([0.25]), np.array([math.inf]), "free")
+    constants = (0.6, A, 0.5 * A, 30e9 * 5e-6 / 50e6, 1.0)
+    inside = Systems(Pair(body, body), *(np.array([x]) for x in constants))
+    patch = weakening_patch.WeakeningPatch(inside, inside._replace(zeta=-inside.zeta))
+    critical = float(critical_length(**fault))
+    counts = [patch.growing_modes(x * critical, 32) for x in (0.3, 0.43, 0.45, 1.0, 2.0)]
+    assert counts == sorted(counts)
+    assert counts[:3] == [0, 0, 2]
+    assert counts[-1] >= 8
+
+
+@pytest.mark.slow
+def test_arrays_and_status():
+    """Broadcast as NumPy's and by name; NaN where no width is the smallest."""
+    fault = FAULT | {"zeta": [[0.005], [-0.001]]}
+    found = weakening_patch_length(outside_zeta=[-0.005, 0.001, -0.01], **fault)
+    assert found.shape == (2, 3)
+    assert np.isfinite(found).tolist() == [[True, False, True], [False] * 3]
+    alone = weakening_patch_length(outside_zeta=-0.01, **FAULT, zeta=0.005)
+    assert found[0, 2] == alone
+    assert np.ndim(alone) == 0
+    outside = xr.DataArray([-0.005, -0.01], dims="r")
+    named = weakening_patch_length(outside_zeta=outside, **FAULT, zeta=0.005)
+    assert named.attrs["units"] == "m"
+    np.testing.assert_array_equal(named.values, found[0, [0, 2]])
+
+
+def test_bad_parameters_are_refused():
+    with pytest.raises(ParameterError, match="outside_zeta"):
+        weakening_patch_length(outside_zeta=math.nan, **FAULT, zeta=0.005)
+    with pytest.raises(ParameterError, match="outside_a"):
+        weakening_patch_length(outside_zeta=-0.005, outside_a=-1.0, **FAULT, zeta=0.005)
+    with pytest.raises(ParameterError, match="outside_zeta"):
+        weakening_patch_length(outside_zeta=[-0.1, -0.2], **FAULT, zeta=[0.1, 0.2, 0.3])
+
+
+@pytest.mark.slow
+def test_table_of_the_page():
+    """docs/patch_theory.md has W_c/L_c between half-spaces."""
+    page = Path(__file__).parents[2] / "docs" / "patch_theory.md"
+    _, head, table = page.read_text(encoding="utf-8").partition("| zeta/a | r = 0.1 |")
+    strengthening = [0.1, *map(float, re.findall(r"[\d.]+", table.partition("\n")[0]))]
+    rows = re.findall(r"^\| ([\d.]+) \| (.*) \|$", table.partition("\n\n")[0], re.MULTILINE)
+    assert head and len(rows) == 6
+    for ratio, cells in rows:
+        stated = [float(cell) for cell in cells.split(" | ")]
+        found = [over_critical(float(ratio), r) for r in strengthening]
+        assert found == pytest.approx(stated, abs=6e-4)
