@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 
+from nucleation.commands import COMMANDS
 from nucleation.configuration import installed
 
 ROOT = Path(__file__).parents[1]
@@ -213,7 +214,6 @@ except ImportError as error:
     print(error)
 """
 
-COMMANDS = ("length", "specimen", "drop", "plot", "simulate", "show")
 COMPLETED = """
 from click.shell_completion import ShellComplete
 from nucleation.commands import COMMANDS, main

@@ -84,10 +84,11 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
             color=colour,
             mfc="none",
         )
+    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
     axes.set(
         xscale="log",
         xlabel=r"Strengthening around $-\zeta_{out}/\zeta$",
-        ylim=(0.0, None),
+        ylim=(0.0, top),
     )
     axes.set_xticks(TICKS)
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
