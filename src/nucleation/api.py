@@ -29,7 +29,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
-from .installed import MissingExtra, require, require_own
+from .configuration.installed import MissingExtra, require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material

@@ -9,11 +9,10 @@ from typing import Any
 import click
 
 from ..configuration.advice import advise
+from ..configuration.installed import require
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, StudySettings, estimated_megabytes
 from ..configuration.study_names import study_parameters
-from ..datasets.pages import with_addresses
-from ..installed import require
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
@@ -31,6 +30,7 @@ from .options import (
     source_options,
     sourced,
 )
+from .pages import with_addresses
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]
