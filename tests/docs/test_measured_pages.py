@@ -331,6 +331,24 @@ def far_fault_rows():
         yield line(words, ", ".join(own["ratio"].map("{:.3f}".format)), *errors)
 
 
+def weakening_rows():
+    """One row for each friction of patch and surroundings: widths and largest slip rates."""
+    table = reference("weakening_patches").query("outcome != 'theory'")
+    table["strengthening"] = table["strengthening"].round(2)
+    table["zeta_over_a"] = table["zeta_over_a"].round(1)
+    for (weakening, strengthening), own in table.groupby(["zeta_over_a", "strengthening"]):
+        assert (own["outcome"] == "creep").equals(own["width_ratio"] < 1.0)
+        assert (own["outcome"] == "event")[own["width_ratio"] > 1.25].all()
+        shown = own.sort_values("width_ratio")[["width_ratio", "fastest"]].to_numpy()
+        cells = [f"{width:.2f}: {slip_rate(fastest)}" for width, fastest in shown]
+        yield line(f"{weakening:g}", f"{strengthening:g}", *cells)
+
+
+def slip_rate(value):
+    """A slip rate over V: 1.3, or 3e4."""
+    return f"{value:.1f}" if value < 10.0 else f"{value:.0e}".replace("e+0", "e")
+
+
 def test_theory_of_the_patch_is_met_within_three_percent_or_it_is_said_why():
     page = (DOCS / "creeping_patch.md").read_text(encoding="utf-8")
     table = patch_theory_errors()
@@ -409,7 +427,13 @@ def test_lengths_of_finite_patches_beside_simulated_ones_are_as_stated():
 
 TABLES = {
     "verification": (kind_rows, floor_rows),
-    "creeping_patch": (value_rows, error_rows, patch_theory_rows, far_fault_rows),
+    "creeping_patch": (
+        value_rows,
+        error_rows,
+        patch_theory_rows,
+        far_fault_rows,
+        weakening_rows,
+    ),
     "results": (identical_rows, contrast_rows, sensitivity_rows),
 }
 
