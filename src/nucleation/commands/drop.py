@@ -164,7 +164,7 @@ def _lines(
     drop = found.drop
     rows = [
         ("L_s", found.stability_length, "it turns unstable"),
-        ("L_d", drop.length, "half of the realisations have dropped,"),
+        ("L", drop.length, "half of the realisations have dropped,"),
         ("", drop.low, "16 % of them,"),
         ("", drop.high, "84 % of them"),
     ]
