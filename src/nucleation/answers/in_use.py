@@ -16,7 +16,8 @@ import numpy as np
 from ..model.material import ANTIPLANE
 from ..model.quantities import Quantity
 from ..theory.arrays import fault_of
-from ..theory.fault import Fault, Values, checked, labelled, takes_fault, where
+from ..theory.fault import Fault, takes_fault
+from ..theory.values import Values, checked, labelled, where
 from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
 from .formulas import Setting, nan0, valid
@@ -138,7 +139,7 @@ _STEADY = "velocity weakening, near steady sliding, either law"
 _OF_FAULT = Length(
     key="creeping_patch",
     title="creeping patch, pushed",
-    formula="its own eigenproblem, docs/patch_theory.md",
+    formula="its own eigenproblem, docs/creeping_patch.md",
     source="this project",
     validity="a patch that creeps as it is pushed at its edge, constant a and b, either law",
     system=THIS_FAULT,

@@ -65,7 +65,7 @@ def of_paper(
     """
     tables = list(lengths)
     if len(longer):
-        tables.append(table_of_lengths.gather(longer_runs, longer, settings))
+        tables.append(table_of_lengths.lengths_table(longer_runs, longer, settings))
     evidence = Evidence(
         material=material,
         friction=friction,

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from ..patch.pairs import chosen, of_role, over_realisations
+from ..patch.tables.pairs import chosen, of_role, over_realisations
 from ..types import Array
 from .expected import Missing
 
@@ -26,7 +26,7 @@ class PairEvidence(NamedTuple):
     Attributes
     ----------
     table : Dataset
-        Table of :func:`nucleation.patch.pairs.gather`.
+        Table of :func:`nucleation.patch.tables.pairs.gather_pairs`.
     modes : Dataset
         Table of :func:`nucleation.verification.pair_modes.pair_modes`.
     """

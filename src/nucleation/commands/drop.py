@@ -11,7 +11,6 @@ import click
 
 from ..configuration.advice import changing_friction
 from ..configuration.study_names import study_parameters
-from ..datasets.pages import with_addresses
 from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
 from ..model.perturbation import KINDS, Perturbation
@@ -22,6 +21,7 @@ from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .fault_options import of_parameters, plane_in_words, told
 from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
+from .pages import with_addresses
 from .text import to_json
 from .uncertain_drop import print_drop_quantiles, uncertain_of
 from .uncertainty import draws_option, samples_option
@@ -139,6 +139,8 @@ def _described(found: ExpectedDrop) -> dict[str, Any]:
     return {
         "stability_length": found.stability_length,
         "runaway_length": found.runaway_length,
+        "runaway_length_status": found.runaway_status,
+        "runaway_length_reason": found.runaway_reason,
         "length": found.length,
         "drop": found.drop._asdict(),
         "closed_form": found.closed_form._asdict(),
@@ -162,7 +164,7 @@ def _lines(
     drop = found.drop
     rows = [
         ("L_s", found.stability_length, "it turns unstable"),
-        ("L_d", drop.length, "half of the realisations have dropped,"),
+        ("L", drop.length, "half of the realisations have dropped,"),
         ("", drop.low, "16 % of them,"),
         ("", drop.high, "84 % of them"),
     ]

@@ -19,7 +19,6 @@ from ..answers.in_use import (
     of_two_materials,
 )
 from ..answers.status import Answers, answers_of
-from ..datasets.pages import with_addresses
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS
 from ..model.material import Material
@@ -43,6 +42,7 @@ from .fault_options import (
     systems_of_lengths,
 )
 from .options import option
+from .pages import with_addresses
 from .text import as_plain, to_json, wrapped
 from .uncertainty import draws_option, print_quantiles, samples_option, take_uncertain
 from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options
@@ -240,7 +240,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
     loading, length, critical = (
         theory[name] for name in ("loading", "stability_length", "critical_length")
     )
-    head = f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"
+    head = f"The creeping patch itself, {BEGINS[loading]} (docs/creeping_patch.md):"
     if not math.isfinite(length):
         return [head, f"  no L_s: {theory['stability_length_reason']}"]
     later = "it turns unstable; an event follows later"

@@ -9,7 +9,7 @@ from scipy.special import sici
 from nucleation.api import stability_length
 from nucleation.theory.arrays import critical_length, fault_of
 from nucleation.theory.creep.lengths import stability_values
-from nucleation.theory.creep.modes import SLIMMEST, response
+from nucleation.theory.creep.response import SLIMMEST, response
 from nucleation.theory.creep.thin import thin_limit
 
 THIN_BLOCK = {
@@ -50,7 +50,7 @@ def test_shooting_agrees(ratio):
 
 
 def test_strong_weakening():
-    """The closed forms of docs/patch_theory.md, by quadrature."""
+    """The closed forms of docs/creeping_patch.md, by quadrature."""
     share = 1.0 / (2.0 * (np.euler_gamma + np.log(2.0 * np.pi) - sici(2.0 * np.pi)[1]))
 
     def projected(function, n):

@@ -1,17 +1,17 @@
 """Eqs. (6) to (9) and Figure 2 against simulations of two deformable bodies.
 
 The paper has these as theory alone. Lengths come from the table of pairs
-(:func:`nucleation.patch.pairs.gather`), at the declared strength in its columns. Eqs. (7) and (8)
-are also compared with the elastic response that simulated modes between two sliding layers have
-(:mod:`nucleation.verification.pair_modes`). The verdicts have their own table, so that the paper's
-own claims need not wait for these simulations. A length is the mean of a fault's realisations, with
-their range.
+(:func:`nucleation.patch.tables.pairs.gather_pairs`), at the declared strength in its columns. Eqs.
+(7) and (8) are also compared with the elastic response that simulated modes between two sliding
+layers have (:mod:`nucleation.verification.pair_modes`). The verdicts have their own table, so that
+the paper's own claims need not wait for these simulations. A length is the mean of a fault's
+realisations, with their range.
 """
 
 import numpy as np
 import xarray as xr
 
-from ...patch.pairs import chosen
+from ...patch.tables.pairs import chosen
 from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Computation, Result
