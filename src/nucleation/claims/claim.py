@@ -72,7 +72,8 @@ class Result:
 
 
 Computation = Callable[[Any], Estimates | Result]
-"""Computes our number from the evidence, the datasets of the claim's subject."""
+"""Computes our number from the evidence: the subject's datasets, such as
+:class:`~nucleation.claims.evidence.Evidence`."""
 
 
 @dataclasses.dataclass(frozen=True)

@@ -263,7 +263,7 @@ def _matches(row: Row, wanted: dict[str, str | float]) -> bool:
     return all(_same(row[column], value) for column, value in wanted.items())
 
 
-def _same(one: Any, other: str | float) -> bool:
+def _same(one: str | float, other: str | float) -> bool:
     if isinstance(other, str):
         return bool(one == other)
     return bool(np.isclose(one, other, rtol=1e-9))

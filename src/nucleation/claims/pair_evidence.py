@@ -35,7 +35,7 @@ class PairEvidence(NamedTuple):
     modes: xr.Dataset
 
 
-class Senses(NamedTuple):
+class _Senses(NamedTuple):
     """Lengths at the drop over L_c^M for one zeta/a, in both senses of each contrast.
 
     Attributes
@@ -171,7 +171,7 @@ def _depending_on_height(evidence: PairEvidence) -> dict[float, xr.Dataset]:
     return found
 
 
-def both_senses(rows: xr.Dataset) -> list[Senses]:
+def both_senses(rows: xr.Dataset) -> list[_Senses]:
     """The lengths in both senses of each contrast, for each zeta/a.
 
     Raises
@@ -192,7 +192,7 @@ def both_senses(rows: xr.Dataset) -> list[Senses]:
             raise Missing(
                 rf"$\zeta/a = {value:g}$ lacks a sense of a contrast, or identical bodies"
             )
-        senses = Senses(
+        senses = _Senses(
             weakening=float(value),
             contrast=np.array(different),
             below=np.array([length[contrast] for contrast in different]),

@@ -9,7 +9,7 @@ import json
 import re
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +71,7 @@ def write(
     lengths: Iterable[xr.Dataset],
     figures: Iterable[Path],
     names: Iterable[str],
-) -> dict[str, Any]:
+) -> dict[str, str | Callable[[Path], int]]:
     """The step ``replication``: the article with all its figures, as Markdown, LaTeX and PDF.
 
     Parameters
@@ -170,7 +170,7 @@ def _written(
 def parsed(
     text: str,
     authors: list[str],
-) -> dict[str, Any]:
+) -> _Node:
     """The article as a document of pandoc's, with title, abstract and captions.
 
     Parameters

@@ -12,7 +12,9 @@ import pandas as pd
 import yaml
 
 from .claim import Claim, Computation, Row, Verdict
+from .evidence import Evidence
 from .expected import read
+from .pair_evidence import PairEvidence
 from .statements import bimaterial, course, finite_height, friction, lengths, sliding, two_bodies
 
 Entry = Mapping[str, Any]
@@ -96,7 +98,7 @@ def _functions(module: ModuleType) -> dict[str, Computation]:
 
 def evaluate(
     statements: Mapping[str, Mapping[str, Entry]],
-    evidence: Any,
+    evidence: Evidence | PairEvidence,
 ) -> list[Row]:
     """The rows of all claims: the paper's number and ours, the verdict and its reason.
 
