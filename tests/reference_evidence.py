@@ -75,6 +75,9 @@ def _evidence():
     curves = Curves(
         heights=config.curves.heights, f_beta=config.curves.f_beta, slip_rates=(1e-6, 1e-5)
     )
+    by_id = {}
+    for i, id in enumerate(patches["id"].values):
+        by_id[str(id)] = patches.isel(run=i)
     theory = theory_dataset(
         config.base.material, config.base.friction, config.main_text_interface, curves
     )
@@ -86,5 +89,5 @@ def _evidence():
         theory=theory,
         dispersion=dispersion(),
         lengths=tuple(of_role(lengths, role) for role in ROLES),
-        patches={str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
+        patches=by_id,
     )

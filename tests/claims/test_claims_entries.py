@@ -172,16 +172,22 @@ def thin_length(weakening, points=60):
     """
     a, b = 1.0 / weakening, 1.0 + 1.0 / weakening
     y = np.arange(1, points) / points
-    stiffness = points**2 * (
-        2.0 * np.eye(points - 1) - np.eye(points - 1, k=1) - np.eye(points - 1, k=-1)
-    )
+    inner = points - 1
+    neighbours = np.eye(inner, k=1) + np.eye(inner, k=-1)
+    stiffness = points**2 * (2.0 * np.eye(inner) - neighbours)
 
     def growth(ratio):
         load = stiffness / (ratio * 2.0 * np.pi) ** 2
         elastic = -(y / a)[:, None] * load
         healing = np.diag(-y * b / a)
         state = -np.diag(y) - healing
-        return np.linalg.eigvals(np.block([[elastic, healing], [-elastic, state]])).real.max()
+        matrix = np.block(
+            [
+                [elastic, healing],
+                [-elastic, state],
+            ]
+        )
+        return np.linalg.eigvals(matrix).real.max()
 
     return brentq(growth, 0.4, 1.6, xtol=1e-4)
 

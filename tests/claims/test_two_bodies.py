@@ -48,8 +48,14 @@ def repeated(table, factors):
 
 def modes(g1=1.0, g2=1.0, name="half-spaces"):
     """Rates of one mode of each of two pairs, with these multiples of the response of Eq. (7)."""
-    f, a, zeta, ell, v, sigma0, mu, k = 0.41, 0.0068, 0.016, 5e-7, 1e-5, 1e6, 3.1e9, 10.0
-    psi, nu = np.array([3.0, 0.4]), (0.25, 0.1)
+    f, a, zeta = 0.41, 0.0068, 0.016
+    ell = 5e-7  # m
+    v = 1e-5  # m/s
+    sigma0 = 1e6  # Pa
+    mu = 3.1e9  # Pa
+    k = 10.0  # 1/m
+    psi = np.array([3.0, 0.4])
+    nu = (0.25, 0.1)
     expected = np.array([printed.bimaterial_transfer(x, *nu) for x in psi])
     response = expected @ [g1, -1j * f * g2]
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
@@ -209,7 +215,10 @@ def test_every_equation_on_two_bodies_has_a_simulated_verdict():
     modes = of_reference("pair_modes.csv")
     along, back = (modes.isel(run=modes["branch"].values == n) for n in (0, 1))
     measured = ("measured_growth", "measured_frequency")
-    both = {n: (("run", "branch"), np.stack([along[n], back[n]], axis=1)) for n in measured}
+    both = {}
+    for name in measured:
+        values = np.stack([along[name], back[name]], axis=1)
+        both[name] = ("run", "branch"), values
     evidence = PairEvidence(of_reference("pairs.csv"), along.drop_vars("branch").assign(both))
     for row in table_of_claims.evaluate(PAIRED, evidence):
         assert row["verdict"] == rows.loc[row["id"], "verdict"]
