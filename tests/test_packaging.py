@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from nucleation import installed
+from nucleation.commands import COMMANDS
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"
@@ -213,7 +214,6 @@ except ImportError as error:
     print(error)
 """
 
-COMMANDS = ("length", "specimen", "drop", "plot", "simulate", "show")
 COMPLETED = """
 from click.shell_completion import ShellComplete
 from nucleation.commands import COMMANDS, main

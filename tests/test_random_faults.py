@@ -20,6 +20,7 @@ from nucleation.api import (
     critical_length,
     critical_mode,
     expected_drop,
+    length_statuses,
     lengths_in_use,
     specimen_fit,
     stability_length,
@@ -94,6 +95,11 @@ def test_theory_answers(number):
         assert float(mode.length) == pytest.approx(critical, nan_ok=True)
         stable = in_time(lambda: float(stability_length(**fault, loading=loading)))
         assert math.isnan(stable) or 0.05 * critical < stable < 1.2 * LONGEST * critical
+        statuses = in_time(lambda: length_statuses(**fault, loading=loading))
+        there = np.isfinite(statuses["length"].values)
+        assert ((statuses["status"] == "value").values == there).all()
+        assert ((statuses["reason"] == "").values == there).all()
+        assert there[1] == math.isfinite(stable)
         found = in_time(lambda: lengths_in_use(**fault))
         assert float(found["homogeneous_sliding"]) > 0.0
         if critical < LONGEST_SPECIMEN:

@@ -24,7 +24,7 @@ from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
 
-FINDINGS = (ROOT / "docs" / "findings.md").read_text(encoding="utf-8")
+RESULTS = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
 PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
 LENGTHS = pd.read_csv(REFERENCE / "lengths.csv")
 
@@ -73,10 +73,10 @@ def test_rows_are_valid_by_the_schema(rows):
 def test_findings_named_by_reasons_are_there(rows, reference):
     named = set()
     for row in (*rows.values(), *reference.values()):
-        named |= set(re.findall(r"\(findings: (.+?)\)", row["reason"]))
+        named |= set(re.findall(r"\(results: (.+?)\)", row["reason"]))
     assert named
     for finding in named:
-        assert f"## {finding}\n" in FINDINGS or f"**{finding}.**" in FINDINGS, finding
+        assert f"## {finding}\n" in RESULTS or f"**{finding}.**" in RESULTS, finding
 
 
 def test_page_has_every_reading():

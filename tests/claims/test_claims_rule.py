@@ -110,7 +110,7 @@ GOOD, BAD = Ours.exactly(12.8), Ours.exactly(18.9)
         (Result(GOOD, on_papers_mesh=BAD), Verdict.REPLICATED, "it does not hold, with 18.9"),
         (Result(BAD), Verdict.NOT_REPLICATED, "18.9 is outside 12.5 to 13.5."),
         (Result(BAD, on_papers_mesh=GOOD), Verdict.NOT_REPLICATED, "holds as well, with 12.8"),
-        (Result(BAD, cause=Cause("Why", "Without it", GOOD)), Verdict.EXPLAINED, "(findings: Why)"),
+        (Result(BAD, cause=Cause("Why", "Without it", GOOD)), Verdict.EXPLAINED, "(results: Why)"),
         (Result(BAD, cause=Cause("Why", "Without it", BAD)), Verdict.NOT_REPLICATED, "outside"),
         (Result(GOOD, cause=Cause("Why", "Without it", BAD)), Verdict.REPLICATED, "within"),
         (Result(Ours.exactly(math.nan)), Verdict.UNCHECKED, "no such event"),

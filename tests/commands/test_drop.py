@@ -1,9 +1,11 @@
 """``nucleation drop``: what it asks of the law, what it prints of the answer, what it refuses."""
 
 import json
+import math
 
 import pytest
 
+from nucleation.api import critical_length, stability_length
 from nucleation.model.linearised import interface_state
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch import expected_drop as module
@@ -134,3 +136,28 @@ def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_pat
     assert "length at the drop L" in text
     twice = nucleation(*WORDS, "--samples", path)
     assert twice.code == 2 and "height is given twice" in twice.err
+
+
+@pytest.mark.parametrize("command", ["drop", "simulate"])
+def test_a_half_space_is_answered_with_a_block(nucleation, law, tmp_path, command):
+    """As an option and in a file."""
+    file = tmp_path / "fault.yaml"
+    file.write_text("height: .inf\n")
+    output = [tmp_path / "run.nc"] if command == "simulate" else []
+    for words in (["--height", "inf"], ["--parameters", file]):
+        ended = nucleation(command, *output, *words)
+        assert ended.code == 2 and "4 L_c in height and 30 L_c in length" in ended.err
+
+
+@pytest.mark.slow
+def test_such_a_block_has_the_patch_of_a_half_space():
+    """L_s of weak and strong weakening, between bodies alike, on stiffer and rigid ones."""
+    rock = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "friction": 0.6}
+    for zeta in (0.005, 0.023, 0.2):
+        for second in (30e9, 60e9, math.inf):
+            fault = rock | {"a": 0.01, "zeta": zeta, "slip_distance": 5e-6}
+            fault["second_shear_modulus"] = second
+            height = 4.0 * float(critical_length(**fault))
+            block = float(stability_length(**fault, height=height))
+            half_space = float(stability_length(**fault))
+            assert block == pytest.approx(half_space, rel=0.02)

@@ -23,10 +23,29 @@ RECORDED = "nucleation.simulation.recorded"
 CROSSCHECK = "nucleation.verification.crosscheck"
 COLUMNS = {"id": Variable("", "name"), "length": Variable("m", "its length", "L")}
 TEXTS = {
-    "id", "study", "role", "evolution", "friction_law", "below", "far_side", "kind",
-    "initial_stress", "status", "problem", "refinement", "varied", "variation", "fault", "ensemble",
-    "plane", "loading", "name", "definition",
-}  # fmt: skip
+    "id",
+    "study",
+    "role",
+    "evolution",
+    "friction_law",
+    "below",
+    "far_side",
+    "kind",
+    "initial_stress",
+    "status",
+    "problem",
+    "refinement",
+    "varied",
+    "variation",
+    "fault",
+    "ensemble",
+    "outcome",
+    "plane",
+    "loading",
+    "name",
+    "definition",
+    "doubt",
+}
 
 
 def test_every_variable_is_described():

@@ -25,10 +25,10 @@ def test_half_spaces_as_eta():
     low, most = eta * high["length_ratio_low"], eta * high["length_ratio_high"]
     assert high["realisations"] == 6
     says(
-        "findings.md",
+        "results.md",
         f"unstable at {high['stability_ratio']:.2f} of Eq. (6) and the force drops at "
-        f"{high['length_ratio']:.2f} of it. As eta of Eq. (3) these are {unstable:.1f} and "
-        f"{drop:.1f} ({low:.1f} to {most:.1f} over six realisations)",
+        rf"{high['length_ratio']:.2f} of it. As $\eta$ of Eq. (3) these are {unstable:.1f} and "
+        f"{drop:.1f} ({low:.1f} to {most:.1f})",
     )
     says("README.md", f"unstable at {unstable:.1f} and the force drops at {drop:.1f} times")
 
@@ -39,11 +39,11 @@ def test_thin_pairs_and_held_layers():
     stable = [f"{value:.2f}" for value in held["stability_ratio"]]
     assert list(held["height"]) == [0.02, 0.05, 0.1, 0.2]
     says(
-        "findings.md",
-        f"L_s/L_c is {span(thin['stability_ratio'])} and L/L_c {span(thin['length_ratio'])} "
-        f"(means), while L_c varies from {span(thin['theory_length'])} m",
-        f"L_s/L_c = {', '.join(stable[:3])} and {stable[3]} for H = 0.02, 0.05, 0.1 and 0.2 m, and "
-        f"L/L_c rises from {held['length_ratio'].iloc[0]:.2f} to "
+        "results.md",
+        f"$L_s/L_c$ is {span(thin['stability_ratio'])} and $L/L_c$ {span(thin['length_ratio'])} "
+        f"(means), while $L_c$ varies from {span(thin['theory_length'])} m",
+        f"$L_s/L_c$ = {', '.join(stable[:3])} and {stable[3]} for $H$ = 0.02, 0.05, 0.1 and "
+        f"0.2 m, and $L/L_c$ rises from {held['length_ratio'].iloc[0]:.2f} to "
         f"{held['length_ratio'].iloc[-1]:.2f}.",
     )
 
@@ -56,10 +56,10 @@ def test_weak_weakening_between_blocks_depends_on_their_height():
     columns = alike[["length_ratio", "length_ratio_low", "length_ratio_high"]]
     (first, *ends), (second, *others) = columns.to_numpy()
     says(
-        "findings.md",
-        f"from {span(unstable, 1)} L_c^M on",
-        f"the force drops at {first:.1f} L_c^M for H = 1 m ({ends[0]:.1f} to {ends[1]:.1f}, six "
-        f"realisations) and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f}, six).",
+        "results.md",
+        f"from {span(unstable, 1)} $L_c^M$ on",
+        f"the force drops at {first:.1f} $L_c^M$ for $H = 1$ m ({ends[0]:.1f} to {ends[1]:.1f}) "
+        f"and {second:.1f} for 2 m ({others[0]:.1f} to {others[1]:.1f}).",
     )
 
 
@@ -71,7 +71,7 @@ def test_scales_of_different_half_spaces():
         for name in ("pairs-modulus", "pairs-contrast")
     )
     says(
-        "findings.md",
-        f"over M, is within {modulus:.0f} % of that of identical bodies, and their difference "
-        f"grows as f beta, within {contrast:.0f} %.",
+        "results.md",
+        f"over $M$, is within {modulus:.0f} % of that of identical bodies, and their difference "
+        rf"grows as $f\beta$, within {contrast:.0f} %.",
     )

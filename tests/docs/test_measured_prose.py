@@ -1,4 +1,4 @@
-"""Numbers in sentences of README, findings and drop.md against the tables in results/reference.
+"""Numbers in sentences of README, results and drop.md against the tables in results/reference.
 
 Each test writes the words of the page with the numbers of today's tables, and looks for them there.
 """
@@ -54,21 +54,19 @@ def test_onset_and_length_of_the_paper():
     assert len(declared) == len(state) == 6
     assert declared["length"].min() > 0.155
     says(
-        "findings.md",
-        f"we find {paper['onset_time']:.2f} s and {paper['length']:.3f} m, under the declared load "
-        f"{declared['onset_time'].mean():.2f} s ({span(declared['onset_time'])} s over six "
-        f"realisations) and {declared['length'].mean():.3f} m "
-        f"({span(declared['length'], 3)} m).",
-        f"a state that fluctuates by 1e-5 gives {state.mean():.2f} s ({span(state)} s over six "
-        f"realisations), a run without perturbation on a fine mesh {quiet['onset_time']:.1f} s and "
-        f"{quiet['length']:.3f} m.",
-        "at 0.01 V all realisations are longer than 0.155 m.",
+        "results.md",
+        f"we find {paper['onset_time']:.2f} s and {paper['length']:.3f} m, declared "
+        f"{declared['onset_time'].mean():.2f} s ({span(declared['onset_time'])}) and "
+        f"{declared['length'].mean():.3f} m ({span(declared['length'], 3)}), with a state of 1e-5 "
+        f"{state.mean():.2f} s ({span(state)}), and without perturbation on a fine mesh "
+        f"{quiet['onset_time']:.1f} s and {quiet['length']:.3f} m.",
+        r"at $0.01\,V$ all realisations are longer than 0.155 m.",
     )
     says(
         "README.md",
-        f"the force drops at {paper['onset_time']:.1f} s with a patch of {paper['length']:.3f} m "
+        f"**{paper['length']:.3f} m** is the length of the patch when the force drops, at "
+        f"{paper['onset_time']:.1f} s, for a block 5 mm high on the paper's mesh "
         f"({paper['length_low']:.3f} to {paper['length_high']:.3f} m over the definitions",
-        f"**{paper['length']:.3f} m** is the length of the patch",
         f"its theory predicts {paper['theory_length']:.3f} m",
     )
 
@@ -79,18 +77,18 @@ def test_agreement_with_the_theory():
     apart = {name: max_ratio(found) for name, found in (("d", declared), ("p", paper))}
     assert (paper > 0.75).sum() == 2 and not (declared > 0.75).any()
     says(
-        "findings.md",
-        f"L/L_c is {span(paper)} on the paper's mesh and {span(declared)} under the declared load.",
+        "results.md",
+        f"$L/L_c$ is {span(paper)} on the paper's mesh and {span(declared)} declared.",
         f"its own 0.15 m is {own:.2f} of its theory",
-        "within 25 % are two of nine heights on the paper's mesh, and none under the declared load",
-        f"within {100 * (apart['d'] - 1):.0f} % under the declared load (any two heights), within "
+        "within 25 % are two of nine heights on the paper's mesh, and none declared.",
+        f"within {100 * (apart['d'] - 1):.0f} % declared (any two heights), within "
         f"{100 * (apart['p'] - 1):.0f} % on the paper's mesh",
     )
     says("article.md.in", f"a length {100.0 * (1.0 - own):.0f} % below it")
     says(
         "README.md",
-        f"L/L_c is {span(paper)} on the paper's mesh, and {span(declared)} under a load that "
-        "fluctuates by 1e-5",
+        f"$L/L_c$ is {span(paper)} on the paper's mesh, which itself perturbs the patch, and "
+        f"{span(declared)} under a load that fluctuates by 1e-5",
         f"its own 0.15 m is {own:.2f} of its theory",
     )
 
@@ -105,9 +103,9 @@ def test_lengths_without_a_declared_perturbation():
     quiet = quiet_on_fine_meshes()
     assert quiet["height"].min() == SHOWN and quiet["height"].max() == 0.1
     says(
-        "findings.md",
-        f"without a declared perturbation L/L_c is {span(quiet['ratio'])} there (single runs, "
-        "H = 0.005 to 0.1 m)",
+        "results.md",
+        f"Without a declared perturbation $L/L_c$ is {span(quiet['ratio'])} on finer meshes "
+        "(single runs, $H = 0.005$ to 0.1 m",
     )
     says("README.md", f"With nothing but the noise of a fine mesh it is {span(quiet['ratio'])}")
 
@@ -118,20 +116,21 @@ def test_lengths_over_the_strength_of_the_noise():
         cells = [f"{drops(kind, eps, 0.02)['ratio'].mean():.2f}" for eps in strengths]
         quiet = table("drop").query("kind == 'none' and height == 0.02 and study == 'drop'")
         finest = quiet.sort_values("longest_step").iloc[0]["ratio"]
-        says("findings.md", f"| {words} | {' | '.join(cells)} | {finest:.2f} |")
+        says("results.md", f"| {words} | {' | '.join(cells)} | {finest:.2f} |")
         assert {len(drops(kind, eps, 0.02)) for eps in strengths} == {6, 16}
     strong = drops("normal_load", 1e-2, 0.02)
+    assert len(strong) == 6
     unstable = (strong["stability_length"] / strong["theory_length"]).iloc[0]
     says(
-        "findings.md",
-        f"it drops at {strong['ratio'].mean():.2f} of L_c ({span(strong['ratio'])} over six "
-        f"realisations), where L_s is {unstable:.2f}.",
+        "results.md",
+        f"the force drops at {strong['ratio'].mean():.2f} of $L_c$ ({span(strong['ratio'])}), "
+        f"where $L_s$ is {unstable:.2f}.",
     )
     weaker = [drops("normal_load", eps).groupby("height")["ratio"].mean() for eps in (1e-3, 1e-5)]
     says(
         "README.md",
-        f"law L is {span(pd.concat(weaker))} L_c with a load that fluctuates by 1e-3 to 1e-5, and "
-        f"{strong['ratio'].mean():.2f} with 1e-2",
+        f"law $L$ is {span(pd.concat(weaker))} $L_c$ with a load that fluctuates by 1e-3 to 1e-5, "
+        f"and {strong['ratio'].mean():.2f} with 1e-2",
     )
 
 
@@ -142,13 +141,13 @@ def test_where_the_patch_becomes_unstable():
     changes = stable[stable["study"] == "paper"]["stability_change"].abs().max()
     finer = table("patch_convergence")["stability_change"].abs().max()
     says(
-        "findings.md",
-        f"L_s = {span(both['converged'])} of L_c, for all heights",
-        f"change L_s by {100 * finer:.1f} % or less on the fine mesh, by {100 * changes:.1f} % or "
-        "less on the paper's",
+        "results.md",
+        f"$L_s$ = {span(both['converged'])} of $L_c$, for all heights",
+        f"change $L_s$ by {100 * finer:.1f} % or less on the fine mesh, by {100 * changes:.1f} % "
+        "or less on the paper's",
         f"frequency, {frequency.min():.0f} to {frequency.max():.0f} 1/s",
     )
-    says("README.md", f"L_s = **{span(both['converged'])}** L_c")
+    says("README.md", f"$L_s$ = **{span(both['converged'])}** $L_c$")
 
 
 @pytest.mark.slow
@@ -157,14 +156,14 @@ def test_length_of_instability_over_the_weakening():
     strong, papers, half, third, fifth, tenth = (f"{value:.2f}" for value in thin.values())
     spaces = [between_half_spaces(ratio) for ratio in (0.5, 0.3, 0.2, 0.1)]
     says(
-        "findings.md",
-        f"In a thin layer L_s/L_c is {strong} for strong weakening, {papers} for the paper's, "
-        f"{half} for zeta/a = 0.5, {third} for 0.3, {fifth} for 0.2 and {tenth} for 0.1; between "
-        f"half-spaces it is {spaces[0]:.2f}, {spaces[1]:.2f}, {spaces[2]:.2f} and {spaces[3]:.2f} "
-        "for the last four",
-        "within 25 % from zeta/a = 0.2 to 0.45",
+        "results.md",
+        f"In a thin layer $L_s/L_c$ is {strong} for strong weakening, {papers} for the paper's, "
+        f"{half} for $\\zeta/a = 0.5$, {third} for 0.3, {fifth} for 0.2 and {tenth} for 0.1; "
+        f"between half-spaces it is {spaces[0]:.2f}, {spaces[1]:.2f}, {spaces[2]:.2f} and "
+        f"{spaces[3]:.2f} for the last four",
+        r"within 25 % from $\zeta/a = 0.2$ to 0.45",
     )
-    says("README.md", "from zeta/a = 0.2 to 0.45 the whole wavelength is right within 25 %")
+    says("README.md", r"from $\zeta/a = 0.2$ to 0.45 the whole wavelength is right within 25 %")
     right = [(thin_limit(ratio).length_ratio, between_half_spaces(ratio)) for ratio in (0.2, 0.45)]
     assert np.abs(np.array(right) - 1.0).max() < 0.25
     says("patch_theory.md", f"{thin[0.2]:.3f} for zeta/a = 0.2, {thin[0.5]:.3f} for 0.5")
@@ -189,10 +188,10 @@ def test_the_theory_of_the_patch_against_all_simulations():
     ratios = same["stability_length"] / same["theory_length"]
     assert len(same) == 7
     says(
-        "findings.md",
+        "results.md",
         f"within 3 % for {(errors < 0.03).sum()} of {errors.size} simulated faults and "
         f"{100 * errors.max():.1f} % at worst",
-        f"from {span(ratios, 3)} for zeta/a = 2.29 and H = 0.03 m",
+        rf"from {span(ratios, 3)} for $\zeta/a = 2.29$ and $H = 0.03$ m",
     )
 
 
@@ -200,8 +199,8 @@ def test_slow_slip_before_the_drop():
     """L_run as the table of drop.md has it, which tests/theory/creep/test_runaway.py computes."""
     rows = re.findall(r"\| (0\.\d) \| [\d.]+ \| ([\d.]+) \| [\d.]+ \|", page("drop.md"))
     lengths_of = dict(rows)
-    stated = f"{lengths_of['0.3']} L_c for zeta/a = 0.3, {lengths_of['0.5']} for 0.5"
-    says("findings.md", stated)
+    stated = rf"{lengths_of['0.3']} $L_c$ for $\zeta/a = 0.3$, {lengths_of['0.5']} for 0.5"
+    says("results.md", stated)
 
 
 def test_the_map():
@@ -225,16 +224,16 @@ def test_the_map():
     scatter = [100.0 * pooled(rows) for rows in (quiet, noisy)]
     assert {len(rows) for rows in corners} == {3}
     says(
-        "findings.md",
-        f"**L_s is {span(found['stability_ratio'])} of L_c** for these zeta/a. It is within 8 % of "
-        "one half for zeta/a above 3 up to H = 0.085 m, and rises to "
-        f"{thin:.2f} for zeta/a = 1.5 in thin blocks and to {thick:.2f} in thick ones.",
-        f"Up to H = 0.045 m, L/L_c is {span(means[0])} at 1e-4 and {span(means[1])} at 1e-3",
-        f"L/L_c is {corners[0]['length_ratio'].mean():.2f} ({span(corners[0]['length_ratio'])}, "
+        "results.md",
+        f"**$L_s$ is {span(found['stability_ratio'])} of $L_c$.** It is within 8 % of "
+        r"one half for $\zeta/a$ above 3 up to $H = 0.085$ m, and rises to "
+        rf"{thin:.2f} for $\zeta/a = 1.5$ in thin blocks and to {thick:.2f} in thick ones.",
+        f"Up to $H = 0.045$ m, $L/L_c$ is {span(means[0])} at 1e-4 and {span(means[1])} at 1e-3",
+        f"$L/L_c$ is {corners[0]['length_ratio'].mean():.2f} ({span(corners[0]['length_ratio'])}, "
         f"three realisations) at 1e-4 and {corners[1]['length_ratio'].mean():.2f} "
         f"({span(corners[1]['length_ratio'])}) at 1e-3, while the patch is unstable from "
         f"{unstable:.2f} on.",
-        f"Realisations differ by {scatter[0]:.1f} % (1e-4) and {scatter[1]:.1f} % (1e-3) of L_c, "
+        f"Realisations differ by {scatter[0]:.1f} % (1e-4) and {scatter[1]:.1f} % (1e-3) of $L_c$, "
         f"pooled standard deviation. In {crossed} of the runs, all at 1e-3,",
     )
 
@@ -249,7 +248,7 @@ def test_the_slip_law_ahead_of_the_front():
     row = table("claims").set_index("id").loc["slip-law-approximation-ahead"]
     least, most = 100.0 * float(row["ours_low"]), 100.0 * float(row["on_papers_mesh"])
     assert "the state is 1.17 s in the place of 1.00 s" in row["reason"]
-    says("findings.md", f"from 1.00 to 1.17 s, which adds {least:.1f} to {most:.1f} % to friction")
+    says("results.md", f"from 1.00 to 1.17 s, which adds {least:.1f} to {most:.1f} % to friction")
     inside = of_study("paper", evolution="slip")["state_rate_share_patch"].min()
     assert inside > 0.95
 
@@ -285,11 +284,11 @@ def test_choices_that_move_the_result():
     stress = (runs["largest_normal_stress_ever"] / runs["applied_stress"]).max()
     assert stress < -0.63
     says(
-        "findings.md",
-        f"From 0.5 V to 1e-3 V the length changes by up to {100.0 * widest:.0f} %.",
-        f"values of Table S1 it lies {span(100.0 * (exact / rounded - 1.0), 1)} % higher",
+        "results.md",
+        rf"from $0.5\,V$ to $10^{{-3}}\,V$ the length changes by up to {100.0 * widest:.0f} %.",
+        f"$L_c$ is {span(100.0 * (exact / rounded - 1.0), 1)} % higher",
         f"agrees within {onset:.2f} % in onset and {length:.1f} % in length",
-        "sigma_yy stays below -0.63 sigma0 in all runs.",
+        r"$\sigma_{yy}$ stays below $-0.63\,\sigma_0$ in all runs.",
     )
 
 

@@ -101,6 +101,15 @@ def test_wings_are_those_of_the_contracts():
     assert entries == {"__init__"} | {wing for floor in floors for wing in floor}
 
 
+def test_every_target_is_in_the_table_of_targets():
+    targets = (ROOT / "workflow" / "rules" / "targets.smk").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+    table = page.split("| target |")[1].split("\n\n")[0]
+    rules = re.findall(r"^rule (\w+):", targets, re.M)
+    assert len(rules) > 30
+    assert set(rules) <= set(re.findall(r"`(\w+)`", table))
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_linked_pages_exist(page):
     for target in re.findall(r"\]\(([\w./-]+?)(?:#[\w-]*)?\)", page.read_text(encoding="utf-8")):

@@ -62,13 +62,28 @@ def vanishing(modes):
     return np.interp(0.0, -fastest.iloc[i : i + 2], fastest.index[i : i + 2])
 
 
+def far_side(name):
+    """A pair's far sides, and whether the stiffer layer is above."""
+    words = name.split(", ")
+    if words[0].startswith("half-spaces"):
+        return ", ".join(words[:-1]), words[-1].endswith("above")
+    return words[1], words[0].endswith("above")
+
+
 def test_bridge_of_two_layers_is_that_of_the_reference():
     """All far sides with either layer the stiffer one, six wavenumbers each, both directions."""
-    groups = PAIR_MODES.groupby("id", sort=False)
-    for cells, (name, modes) in zip(rows("Two layers"), groups, strict=True):
+    cells = {}
+    for name, modes in PAIR_MODES.groupby("id", sort=False):
         assert len(modes) == 12
         k = modes["mode_wavenumber"] * modes["height"]
+        ends = [f"{k.min():.2f}", f"{k.max():.2f}"]
         worst = modes.groupby("branch")["disagreement"].max()
-        errors = [f"{100 * error:.2f} %" for error in worst]
-        assert cells == [name, f"{k.min():.2f} to {k.max():.2f}", *errors]
         assert worst.max() < 5e-3  # 1 % is asked for
+        errors = [f"{100 * error:.2f}" for error in worst]
+        side, stiff_above = far_side(name)
+        cells.setdefault(side, {})[stiff_above] = [
+            " to ".join(dict.fromkeys(ends)),
+            f"{', '.join(errors)} %",
+        ]
+    found = [[side, *both[True], *both[False]] for side, both in cells.items()]
+    assert sorted(found) == sorted(rows("Two layers"))

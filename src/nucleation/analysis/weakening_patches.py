@@ -23,7 +23,7 @@ from ..theory.weakening_patch import WeakeningPatch, smallest_width
 from .rows import Row
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
-SEISMIC = 1e3  # likewise, below which its slip is slow; events reach more than 1e5
+SEISMIC = 1e4  # likewise, below which its slip is slow: 0.1 m/s in the study
 
 CREEP, SLOW, EVENT, THEORY = "creep", "slow slip", "event", "theory"
 """Outcomes of a run; the last one marks rows without a run, for the theory's curve."""

@@ -25,7 +25,7 @@ class Verdict(enum.StrEnum):
 
 @dataclasses.dataclass(frozen=True)
 class Cause:
-    """Why ours may differ: a section of docs/findings.md, and our number without that cause."""
+    """Why ours may differ: a section of docs/results.md, and our number without that cause."""
 
     finding: str
     text: str
@@ -150,7 +150,7 @@ def judge(said: Said, result: Result) -> tuple[Verdict, str]:
     if not held and result.cause is not None:
         without = said.worst(result.cause.ours)
         if holds(said, without):
-            why = f"{result.cause.text} {without.value:.4g} (findings: {result.cause.finding})."
+            why = f"{result.cause.text} {without.value:.4g} (results: {result.cause.finding})."
             return Verdict.EXPLAINED, f"{text} {why}"
     failed = Verdict.NOT_SUPPORTED if said.chosen else Verdict.NOT_REPLICATED
     return Verdict.REPLICATED if held else failed, f"{text}{_other_mesh(said, result)}"

@@ -19,7 +19,7 @@ from .claim import Cause, Result
 from .said import Found, Missing
 
 MESH = "A coarse mesh lets the force drop early"
-"""Section of docs/findings.md on the difference of the two."""
+"""Section of docs/results.md on the difference of the two."""
 
 
 @dataclasses.dataclass(frozen=True)

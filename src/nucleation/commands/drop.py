@@ -139,6 +139,8 @@ def _described(found: ExpectedDrop) -> dict[str, Any]:
     return {
         "stability_length": found.stability_length,
         "runaway_length": found.runaway_length,
+        "runaway_length_status": found.runaway_status,
+        "runaway_length_reason": found.runaway_reason,
         "length": found.length,
         "drop": found.drop._asdict(),
         "closed_form": found.closed_form._asdict(),

@@ -2,6 +2,7 @@
 
 import dataclasses
 import difflib
+import math
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from typing import Any
@@ -37,7 +38,7 @@ def option(
         try:
             return read(key, text, entry)
         except ParameterError as error:
-            raise click.BadParameter(str(error)) from None
+            raise click.BadParameter(str(error) + _of_half_space(key, text, entry)) from None
 
     help, metavar = entry.description, f"[{'|'.join(entry.choices)}]"
     if not entry.choices:
@@ -48,6 +49,18 @@ def option(
         shell_complete=lambda ctx, param, begun: [c for c in entry.choices if c.startswith(begun)],
         **settings,
     )  # fmt: skip
+
+
+HALF_SPACE = (
+    "; a simulation and its drop are those of a block: one of 4 L_c in height and 30 L_c in length "
+    "has an L_s within 2 % of that of a half-space"
+)
+
+
+def _of_half_space(key: str, text: str, entry: Quantity) -> str:
+    """A block in place of a half-space, where a height must be finite."""
+    is_height = key in ("height", "second_height") and math.isfinite(entry.high)
+    return HALF_SPACE if is_height and "inf" in text.lower() else ""
 
 
 def together(*options: Decorator) -> Decorator:
@@ -244,9 +257,12 @@ def _value_in_file(key: str, value: Any) -> Any:
     entry = study_parameters()[key]
     if key == "second_body":
         return str(value)
-    if isinstance(value, str):
-        return parse_range(key, value, entry)
-    check(key, value, entry)
+    try:
+        if isinstance(value, str):
+            return parse_range(key, value, entry)
+        check(key, value, entry)
+    except ParameterError as error:
+        raise ParameterError(str(error) + _of_half_space(key, str(value), entry)) from None
     return value
 
 

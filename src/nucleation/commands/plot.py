@@ -92,9 +92,10 @@ def command(
     """Draw L_c, L_s and the length at the drop over one or two parameters of a fault.
 
     The fault is given as to `drop`. Over one parameter there is a line for each length, over two a
-    map of one length. The band of the drop is of 16 to 84 % of the realisations. A range "5um (3 to
-    10)" or --samples make the bands of all lengths those of 5 to 95 % of the draws. OUTPUT is a PNG
-    or PDF by its name. A point takes 2 s for each draw with the drop, and 0.1 s without.
+    map of one length. The band of the drop is its expected range: 16 to 84 % of the realisations,
+    or after slow slip -3 to +10 % about L_run. A range "5um (3 to 10)" or --samples make the bands
+    of all lengths those of 5 to 95 % of the draws. OUTPUT is a PNG or PDF by its name. A point
+    takes about 2 s for each draw with the drop, and 0.1 s without.
 
     \b
     Example:
@@ -235,7 +236,7 @@ def _band(drawn: Draws | None, lengths: Sequence[str]) -> str:
     """What the bands of the picture are."""
     if drawn is not None:
         return "5 to 95 % of the draws"
-    return "16 to 84 % of realisations" if "drop_length" in lengths else ""
+    return "expected range of $L$" if "drop_length" in lengths else ""
 
 
 def _described(said: list[str], found: Any) -> dict[str, Any]:

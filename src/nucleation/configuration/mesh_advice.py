@@ -20,7 +20,7 @@ _ELEMENTS_PER_ZONE = 3.0
 _QUIET_ELEMENTS = 17.0
 """Elements per process zone of the study ``converged``, enough for strengths of 1e-5.
 
-With so many the mesh perturbs the patch as little as a strength of 1e-9 does (docs/findings.md,
+With so many the mesh perturbs the patch as little as a strength of 1e-9 does (docs/verification.md,
 docs/drop.md).
 """
 

@@ -117,8 +117,8 @@ def _drop(parameters: Parameters, share: float) -> tuple[_Answer, str]:
 def of_realisation(found: ExpectedDrop, share: float) -> float:
     """The length (m) of the realisation below which a share of all realisations drops.
 
-    Log-normal on either side of the median, with the law's 16 and 84 %. Slow slip ends at L_run
-    whatever the perturbation.
+    Log-normal on either side of the median, with the law's 16 and 84 %. After slow slip it is
+    uniform over the range about L_run in which the drop is expected.
 
     Parameters
     ----------
@@ -128,10 +128,9 @@ def of_realisation(found: ExpectedDrop, share: float) -> float:
         Between 0 and 1.
     """
     if found.slips_slowly:
-        return found.length
-    drop = found.drop
-    middle = np.log(drop.length)
-    end = drop.low if share < 0.5 else drop.high
+        return found.low + share * (found.high - found.low)
+    middle = np.log(found.length)
+    end = found.low if share < 0.5 else found.high
     width = abs(np.log(end) - middle) / ndtri(0.84)
     return float(np.exp(middle + width * ndtri(share)))
 

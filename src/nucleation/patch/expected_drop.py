@@ -12,7 +12,7 @@ from ..model.parameters import Geometry, Parameters
 from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
 from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
-from ..theory.status import UNKNOWN
+from ..theory.status import UNKNOWN, VALUE
 from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
@@ -54,6 +54,8 @@ class ExpectedDrop(NamedTuple):
     closed_form: ClosedForm
     doubt: str  # why the answer should not be relied upon, empty if it should
     runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
+    runaway_status: str = VALUE  # "value", "stable", "beyond" or "unknown"
+    runaway_reason: str = ""  # why there is no L_run, empty where there is
 
     @property
     def length(self) -> float:
@@ -106,21 +108,21 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     drop = found.drop(declared.strength)
     closed = found.closed_form(history, declared.strength)
     stable = stability_length_of(parameters, critical)
-    runaway = _runaway_length(parameters, critical)
-    known = ExpectedDrop(stable, drop, closed, "", runaway)
+    known = ExpectedDrop(stable, drop, closed, "", *_runaway_length(parameters, critical))
     return known._replace(doubt="; ".join(_doubts(history, known, critical)))
 
 
-def _runaway_length(parameters: Parameters, critical: float) -> float:
-    """L_run (m) of a fault that weakens little; NaN of others, and where no patch runs away."""
+def _runaway_length(parameters: Parameters, critical: float) -> tuple[float, str, str]:
+    """L_run (m) with status and reason; NaN where weakening is strong or no patch runs away."""
     interface = interface_state(parameters)
     if interface.zeta >= WEAK * interface.a:
-        return math.nan
+        ratio = interface.zeta / interface.a
+        return math.nan, UNKNOWN, f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
     patches = dataclasses.replace(Patches.of(parameters), law=None)
     try:
-        return runaway_point(patches, critical, parameters.friction.evolution)
-    except NoPatch:
-        return math.nan
+        return runaway_point(patches, critical, parameters.friction.evolution), VALUE, ""
+    except NoPatch as none:
+        return math.nan, none.status, str(none)
 
 
 def _doubts(history: ModeHistory, known: ExpectedDrop, critical: float) -> Iterator[str]:

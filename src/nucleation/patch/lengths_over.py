@@ -54,7 +54,7 @@ def lengths_over(
     -------
     Dataset
         ``length`` (m) over ``key``, ``end`` (low, middle, high) and the parameters: of one run its
-        length, and of its drop 16 and 84 % of the realisations; of several runs the quantiles of
+        length, and of its drop the range in which it is expected; of several runs the quantiles of
         5, 50 and 95 %. NaN where there is none and infinite where a quantile of the draws is
         stable. ``doubtful`` over the parameters is the share of drops not to be relied upon, and
         ``why_not(key, ...)`` the reason where a length is missing. The attribute ``doubts`` has
@@ -112,8 +112,7 @@ def _at(runs: Sequence[Parameters], keys: Sequence[str]) -> tuple[Array, float, 
             rows.append([np.nan] * len(BAND))
             reasons.append(str(none))
         else:
-            spread = [drop.length] if drop.slips_slowly else [drop.drop.low, drop.drop.high]
-            rows.append([min(spread), drop.length, max(spread)])
+            rows.append([drop.low, drop.length, drop.high])
             reasons.append("")
             doubtful, doubt = float(bool(drop.doubt)), drop.doubt
     return np.array(rows, dtype=float), doubtful, doubt, reasons

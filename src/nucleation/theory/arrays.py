@@ -41,7 +41,8 @@ def critical_length(**fault: Values) -> Any:
     Returns
     -------
     ndarray or DataArray
-        ``L_c = 2 pi/k_c`` (m), broadcast shape; NaN where homogeneous sliding is stable. A
+        ``L_c = 2 pi/k_c`` (m), broadcast shape; NaN where homogeneous sliding is stable
+        (``nucleation.api.length_statuses`` has the reason). A
         DataArray if there is one among the parameters, else a pint quantity if there is one.
 
     Raises

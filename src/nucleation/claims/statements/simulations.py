@@ -38,7 +38,7 @@ def onset_time(evidence: Evidence) -> Result:
         f"The verdict depends on the kind of noise. This one is {row['kind']} of "
         f"{row['strength']:g}: the mean of {row['realisations']} realisations, "
         f"{abs(ONSET.high - row['onset_time']):.2f} s from the bound. With a fluctuating state the "
-        "force drops later than the bound (findings: Onset and length for H = 0.005 m)."
+        "force drops later than the bound (results: Onset and length for H = 0.005 m)."
     )
     return dataclasses.replace(shown("onset_time")(evidence), note=note)
 
@@ -120,7 +120,7 @@ def stability_lost_at_length(evidence: Evidence) -> Result:
     weaker = [f"{thin_limit(weakening).length_ratio:.2f}" for weakening in WEAKER]
     note = (
         f"Over half of that wavelength it is {2.0 * min(ratios):.2f} to {2.0 * max(ratios):.2f} "
-        "(findings: Where the patch becomes unstable). It depends on the weakening: in a thin "
+        "(results: Where the patch becomes unstable). It depends on the weakening: in a thin "
         f"layer the theory of the patch gives {', '.join(weaker)} for "
         rf"$\zeta/a$ = {', '.join(map(str, WEAKER))}. So from 0.2 to 0.4 the whole wavelength is "
         "right within 25 %."
@@ -167,7 +167,7 @@ def contact_kept(evidence: Evidence) -> Result:
     note = (
         f"Up to the onset it is {creep:.3g}. The runs that go on into the rupture have the "
         "aging law; a quiet one with the slip law on a finer mesh loses contact in its rupture "
-        "(findings: Tension)."
+        "(results: Tension)."
     )
     return Result([run["largest_normal_stress_ever"] / stress for run in runs], note=note)
 

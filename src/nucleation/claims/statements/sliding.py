@@ -72,7 +72,7 @@ def slip_law_approximation_ahead(evidence: Evidence) -> Result:
     note = (
         f"At the latest onset the state is {healed_state(evidence, latest):.2f} s in the place of "
         f"{latest['phi0']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
-        f"below 10 % in {share:.2g} of the interface (findings: The slip law ahead of the front)."
+        f"below 10 % in {share:.2g} of the interface (results: The slip law ahead of the front)."
     )
     ours, other = ([_strengthened(evidence, run) for run in runs] for runs in (judged, papers))
     return Result(ours, on_papers_mesh=other, note=note)

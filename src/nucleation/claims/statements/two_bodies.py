@@ -26,7 +26,7 @@ STRONG = 0.05  # f beta from which on two materials differ
 SETTLED = 0.10  # part by which a length may differ between blocks of two heights
 CAUSE = (
     "The push changes the normal stress under the patch, down or up; in homogeneous sliding it is "
-    "uniform (findings: Which side is stiff decides whether contrast shortens the patch)."
+    "uniform (results: Which side is stiff decides whether contrast shortens the patch)."
 )
 
 

@@ -54,7 +54,8 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
         own = laws.where(rows, outcome=name)
         width = own["width"] / own["critical_length"]
         axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
-    axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, None))
+    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
+    axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, top))
     axes.set_xticks(TICKS)
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())

@@ -213,7 +213,8 @@ def stability_length(
     Returns
     -------
     ndarray or DataArray
-        L_s (m), broadcast shape; NaN where homogeneous sliding is stable, where no patch up to
+        L_s (m), broadcast shape; NaN, for a reason that ``nucleation.api.length_statuses`` has,
+        where homogeneous sliding is stable, where no patch up to
         ``3 L_c`` has a growing mode, and where its creep would open the fault. A
         DataArray if there is one among the parameters, else a pint quantity if there is one.
 

@@ -36,7 +36,7 @@ def made_up(keys, *over, spread=1.2):
 def test_lines_over_one_parameter():
     found = made_up(lengths.LOOKS, ("height", HEIGHT, 0.5))
     found["doubtful"][-2:] = 1.0
-    figure = lengths.draw(found, specimen=5.0, band="16 to 84 % of realisations")
+    figure = lengths.draw(found, specimen=5.0, band="expected range of $L$")
     drawn_layout.require_legible(figure)
     (axes,) = figure.axes
     lines = axes.get_lines()
@@ -49,7 +49,7 @@ def test_lines_over_one_parameter():
     assert [5.0, 5.0] in [list(line.get_ydata()) for line in lines]
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert "specimen, 5 m" in texts and "not to be relied upon" in texts
-    assert "16 to 84 % of realisations" in texts
+    assert "expected range of $L$" in texts
     assert axes.get_xlabel() == "Height of the block (mm)" and axes.get_xscale() == "log"
 
 
