@@ -160,11 +160,11 @@ def _lines(
         "The creeping patch:",
     ]
     if found is None:
-        return [*lines, f"  The law of the drop does not reach this fault: {reason}."]
+        return [*lines, f"  The law of the drop is not applicable to this fault: {reason}."]
     drop = found.drop
     rows = [
         ("L_s", found.stability_length, "it turns unstable"),
-        ("L_d", drop.length, "half of the realisations have dropped,"),
+        ("L", drop.length, "half of the realisations have dropped,"),
         ("", drop.low, "16 % of them,"),
         ("", drop.high, "84 % of them"),
     ]
