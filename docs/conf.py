@@ -55,6 +55,8 @@ numpydoc_class_members_toctree = False
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "nucleation"
+html_static_path = ["_static"]
+html_css_files = ["mathematics.css"]
 html_show_sphinx = False
 
 MOVED = ROOT / "docs" / "moved.txt"

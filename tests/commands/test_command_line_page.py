@@ -16,9 +16,9 @@ CHECKER = doctest.OutputChecker()
 
 
 def examples():
-    """Command lines of the page and what it says they print."""
+    """Command lines of the page, continued lines joined, and the output that it shows."""
     for block in re.findall(r"```console\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL):
-        command, _, output = block.partition("\n")
+        command, _, output = block.replace("\\\n", " ").partition("\n")
         yield command.removeprefix("$ nucleation "), output
 
 
