@@ -1,4 +1,4 @@
-"""The table of eight faults in the theory's page, computed again from its own columns."""
+"""The table of eight faults in docs/drop.md, computed again from its own columns."""
 
 import math
 import re
@@ -20,13 +20,16 @@ from nucleation.api import (
 )
 from nucleation.model.friction.constants import full_law
 
-PAGE = Path(__file__).parents[2] / "docs" / "theory.md"
+PAGE = Path(__file__).parents[2] / "docs" / "drop.md"
+COLUMNS = 16
 
 
 def rows():
-    part = PAGE.read_text().partition("## Eight faults")[2].partition("## ")[0]
-    lines = [line for line in part.splitlines() if line.startswith("| ")][1:]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    """The cells of the table's rows, without its head."""
+    part = PAGE.read_text(encoding="utf-8").partition("## Eight faults")[2].partition("## ")[0]
+    lines = [line.strip("|").split("|") for line in part.splitlines() if line.startswith("| ")]
+    _, *faults = [cells for cells in lines if len(cells) == COLUMNS]
+    return [[cell.strip() for cell in cells] for cells in faults]
 
 
 def second_body(text, height):

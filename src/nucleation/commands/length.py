@@ -240,7 +240,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
     loading, length, critical = (
         theory[name] for name in ("loading", "stability_length", "critical_length")
     )
-    head = f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"
+    head = f"The creeping patch itself, {BEGINS[loading]} (docs/creeping_patch.md):"
     if not math.isfinite(length):
         return [head, f"  no L_s: {theory['stability_length_reason']}"]
     later = "it turns unstable; an event follows later"

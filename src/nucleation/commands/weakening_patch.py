@@ -56,7 +56,7 @@ def patch_of(fault: Fault, options: dict[str, Any]) -> PatchAnswer | None:
 
 def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> list[str]:
     """W_c, what a patch of a width (m) does, and the cells of a mesh; L_c (m) is `critical`."""
-    head = "A weakening patch among strengthening surroundings (docs/patch_theory.md):"
+    head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch.smallest_width
     if math.isnan(smallest):
         lines = [head, "  no W_c: the patch is stable, or its surroundings are not"]

@@ -170,7 +170,7 @@ class Parameters:
                 raise ParameterError(
                     f"{key} = {value} is not allowed with {computation}, which applies only to a "
                     f"uniform fault that is pushed at its edge: it must be {needed}; measure = "
-                    "stability gives L_s of other faults, docs/loading.md"
+                    "stability gives L_s of other faults, docs/loadings.md"
                 )
 
     @property

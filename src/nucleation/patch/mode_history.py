@@ -14,7 +14,7 @@ force balance makes of each kind of forcing (:mod:`nucleation.model.perturbation
     state            eps (V/D) xi(x, t) in d(dpsi)/dt
 
 An infinite block is loaded evenly, so that a load acts on friction alone. Left out is what freezing
-leaves out: dl/dt, and the nodes at the front that begin to slip (docs/patch_stability.md). Either
+leaves out: dl/dt, and the nodes at the front that begin to slip (docs/creeping_patch.md). Either
 changes growth by some 0.2 1/s, where Re Lambda comes to 3 1/s.
 """
 

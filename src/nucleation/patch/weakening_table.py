@@ -38,7 +38,7 @@ MEASURED = some(
 EXPECTED = {
     "stability_length": Variable("m", "stability length of the patch by theory", "L_s"),
     "runaway_length": Variable("m", "runaway length by theory, NaN where zeta/a > 2", "L_run"),
-    "law_length": Variable("m", "length at the drop by the law, median", "L_d"),
+    "law_length": Variable("m", "length at the drop by the law, median", "L"),
     "expected_length": Variable("m", "expected length at the drop", "L"),
     "expected_low": Variable("m", "least length at the drop that is expected", "L"),
     "expected_high": Variable("m", "largest length at the drop that is expected", "L"),
