@@ -15,7 +15,7 @@ from docs.samples import DOCS, ROOT
 from nucleation.answers.finite_patch import loaded_patch_factor
 from nucleation.answers.formulas import FINITE_PATCH
 from nucleation.answers.in_use import lengths_in_use
-from nucleation.patch.pairs import over_realisations
+from nucleation.patch.tables.pairs import over_realisations
 from nucleation.theory.arrays import critical_length
 
 RESULTS = (DOCS / "results.md").read_text(encoding="utf-8")
@@ -313,7 +313,10 @@ FAR_FAULTS = {
     ],
     r"$v_*$ = 1e-6 m/s = $V$/10, $\zeta/a$ = 1, 2.29": ["*scale1e-6-*a1", "*scale1e-6-*a2.2883"],
     r"$v_*$ = 1e-10 m/s, $\zeta/a$ = 1, 2.29": ["*scale1e-10-*a1", "*scale1e-10-*a2.2883"],
-    r"$V$ = 1e-6 and 1e-4 m/s (10 and 1000 $v_*$), $\zeta/a$ = 2.29": ["*velocity1e-6*", "*velocity0.0001*"],
+    r"$V$ = 1e-6 and 1e-4 m/s (10 and 1000 $v_*$), $\zeta/a$ = 2.29": [
+        "*velocity1e-6*",
+        "*velocity0.0001*",
+    ],
 }
 """Rows of the table of faults far from the paper's, and the runs of the study in each."""
 
