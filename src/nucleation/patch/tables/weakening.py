@@ -16,6 +16,7 @@ from ...datasets.variables import Variable, some, table
 from ...model.identity import fault
 from ...model.parameters import Parameters
 from ..expected_drop import NoDrop, expected_drop
+from ..growth import FITTED
 
 MEASURED = some(
     LENGTHS,
@@ -36,7 +37,7 @@ MEASURED = some(
 )
 
 EXPECTED = {
-    "stability_length": Variable("m", "stability length of the patch by theory", "L_s"),
+    "stability_length": FITTED["stability_length"],
     "runaway_length": Variable("m", "runaway length by theory, NaN where zeta/a > 2", "L_run"),
     "law_length": Variable("m", "length at the drop by the law, median", "L"),
     "expected_length": Variable("m", "expected length at the drop", "L"),
