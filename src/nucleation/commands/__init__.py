@@ -31,7 +31,7 @@ Exit codes:
   {FAILED}    the simulation failed numerically; its record is kept beside
   {REFUSED}    a value, an option or a file is wrong, or can't be written
   {STABLE}    homogeneous sliding is stable: there is no critical length
-  {UNKNOWN}    the law of the drop does not reach this fault
+  {UNKNOWN}    the law of the drop is not applicable to this fault
   {INTERRUPTED}  interrupted
 """
 

@@ -160,7 +160,7 @@ def _lines(
         "The creeping patch:",
     ]
     if found is None:
-        return [*lines, f"  The law of the drop does not reach this fault: {reason}."]
+        return [*lines, f"  The law of the drop is not applicable to this fault: {reason}."]
     drop = found.drop
     rows = [
         ("L_s", found.stability_length, "it turns unstable"),

@@ -42,7 +42,7 @@ def with_unit(value: Any, entry: Quantity) -> str:
 
 
 def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
-    """Onset and critical length of a run, with their spread over the definitions.
+    """Onset, and length of the patch then, with their spread over the definitions.
 
     The theory's length (m) is NaN where homogeneous sliding is stable.
     """
@@ -52,8 +52,9 @@ def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
         f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
         for name in ("onset_time", "length")
     )
-    ratio = f", {found['length'] / theory_length:.3g} of the theory's"
-    return [f"onset: {onset} s", f"L_c: {length} m{'' if math.isnan(theory_length) else ratio}"]
+    ratio = found["length"] / theory_length
+    over_theory = "" if math.isnan(ratio) else f", {ratio:.3g} L_c"
+    return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
 
 
 def outcome(dataset: Any) -> dict[str, Any]:
