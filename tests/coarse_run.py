@@ -30,4 +30,4 @@ def simulation(settings):
 @pytest.fixture(scope="session")
 def table(settings, simulation):
     """The table of its lengths."""
-    return lengths.gather([settings.runs[0].to_dict()], [simulation], ExtractionSettings())
+    return lengths.lengths_table([settings.runs[0].to_dict()], [simulation], ExtractionSettings())

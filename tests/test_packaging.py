@@ -15,8 +15,8 @@ from pathlib import Path
 
 import pytest
 
-from nucleation import installed
 from nucleation.commands import COMMANDS
+from nucleation.configuration import installed
 
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "nucleation"

@@ -2,7 +2,7 @@
 
 import sys
 
-from .installed import require_own
+from .configuration.installed import require_own
 
 
 def start() -> None:

@@ -29,7 +29,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
-from .installed import MissingExtra, require, require_own
+from .configuration.installed import MissingExtra, require, require_own
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material
@@ -50,7 +50,6 @@ from .theory.fault import Fault
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings
     from .analysis.extraction import extract
-    from .analysis.progress import simulate
     from .answers.specimen import specimen_fit
     from .answers.specimen_quantiles import specimen_quantiles
     from .answers.status import length_statuses
@@ -60,6 +59,7 @@ if TYPE_CHECKING:
     from .figures.overview import film, plot_length, plot_run, plot_spectrum
     from .patch.drop_quantiles import drop_quantiles
     from .patch.expected_drop import NoDrop, expected_drop
+    from .simulation.progress import simulate
     from .simulation.run import run
     from .theory.creep.lengths import stability_length
     from .theory.creep.runaway import runaway_length
@@ -114,7 +114,7 @@ require_own()
 _LATER = {
     ".analysis.definitions": ("ExtractionSettings",),
     ".analysis.extraction": ("extract",),
-    ".analysis.progress": ("simulate",),
+    ".simulation.progress": ("simulate",),
     ".configuration.samples": ("read_samples",),
     ".datasets.netcdf": ("read", "write"),
     ".figures.overview": ("film", "plot_length", "plot_run", "plot_spectrum"),

@@ -17,10 +17,13 @@ def force_record(onset=10.0, fall=0.004, size=0.05, end=12.0):
     return time, force
 
 
-def synthetic_simulation(onset=10.0, decay=0.05):
-    """A patch that grows as 0.05 sqrt(t), its slip rate decaying exponentially ahead."""
+def synthetic_simulation(onset=10.0, decay=0.05, **drop):
+    """A patch that grows as 0.05 sqrt(t), its slip rate decaying exponentially ahead.
+
+    `drop` is how the force falls, see :func:`force_record`.
+    """
     x = np.linspace(0.0, 2.0, 801)
-    step_time, force = force_record(onset=onset)
+    step_time, force = force_record(onset=onset, **drop)
     time = step_time[::3]
     edge = 0.05 * np.sqrt(time)
     rate = VELOCITY * np.exp(-np.maximum(x - edge[:, None], 0.0) / decay)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from analysis.made_up_patch import force_record
 
-from nucleation.analysis.definitions import find_onset, slipping_edge
+from nucleation.analysis.definitions import find_onset
 from nucleation.simulation.event import DropWatch
+from nucleation.simulation.patch import slipping_edge
 
 MEMORY_TIME = 0.05  # D/V (s) of the default parameters
 
@@ -76,3 +77,11 @@ def test_slipping_edge_limits():
     holed = np.where((x < 0.3) & ~((x > 0.1) & (x < 0.2)), 1e-5, 1e-12)
     assert 0.25 <= slipping_edge(x, holed, 1e-6) <= 0.3  # the furthest edge counts
     assert slipping_edge(x, np.full(21, 1e-2), 1e-6) == 0.5  # all slips: the part searched
+
+
+@pytest.mark.parametrize(("rise", "belongs"), [(0.08, True), (0.13, False)])
+def test_a_rise_by_a_tenth_of_the_fall_after_it_ends_the_drop(rise, belongs):
+    """The force falls from 1.5, rises again to 1, and falls to 0."""
+    force = np.array([1.4, 1.5, 1.0 - rise, 1.0, 0.5, 0.0])
+    onset = find_onset(np.arange(force.size) * 1e-3, force, MEMORY_TIME, 0.99)
+    assert force[onset.start] == (1.5 if belongs else 1.0)

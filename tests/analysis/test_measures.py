@@ -5,8 +5,15 @@ import pytest
 from made_up_runs import PARAMETERS, record
 
 from nucleation.analysis.extraction import extract
-from nucleation.analysis.measures import ALWAYS, BY_DEFINITION, MEASURES, measure
+from nucleation.analysis.measures import (
+    ALWAYS,
+    BY_DEFINITION,
+    MEASURES,
+    _state_rate_well_approximated,
+    measure,
+)
 from nucleation.analysis.record import Record
+from nucleation.model.friction.law import Friction
 
 ONSET = 8.0  # s: the front has not come half-way along the block
 VELOCITY = PARAMETERS.loading.velocity
@@ -95,3 +102,29 @@ def test_patch_that_two_frames_do_not_show_has_lengths_alone():
     found = measure(Record(run.isel(time=[0, -2, -1])))
     assert np.isfinite([found[name] for name in BY_DEFINITION]).all()
     assert np.isnan(found["front_speed"]) and np.isnan(found["state_rate_share"])
+
+
+def test_a_rupture_slips_faster_than_a_millimetre_per_second():
+    run = made_up()
+    fastest = run["maximal_slip_rate"].values.copy()
+    fastest[-2:] = [0.7e-3, 1.5e-3]
+    found = measure(Record(run.assign(maximal_slip_rate=("step", fastest))))
+    assert found["rupture_time"] == pytest.approx(run["step_size"].values[-1])
+
+
+def test_the_patch_is_developed_from_half_of_the_onset_time_on():
+    run = made_up()
+    early = (run["time"] > 0.3 * ONSET) & (run["time"] < 0.45 * ONSET)
+    faster = run["slip_rate"] * np.where(early, 3.0, 1.0)[:, None]
+    found = measure(Record(run.assign(slip_rate=faster)))
+    assert found["patch_rate_high"] == pytest.approx(VELOCITY)
+
+
+@pytest.mark.parametrize(("rate", "error"), [(2.4, 0.077), (1.7, 0.138)])
+def test_a_state_rate_is_well_approximated_within_a_tenth(rate, error):
+    """For states so old that dphi/dt is -phi w/D, v for w is off by 1 - v/w."""
+    friction = Friction()
+    v0 = friction.regularisation_slip_rate
+    assert 1.0 - rate / np.hypot(rate, 1.0) == pytest.approx(error, abs=1e-3)
+    good = _state_rate_well_approximated(np.array([rate * v0]), np.array([1e7]), friction)
+    assert good[0] == (error < 0.1)

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from analysis.made_up_patch import VELOCITY, synthetic_simulation
 
-from nucleation.analysis.definitions import Extent, ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.analysis.extraction import extract
 from nucleation.analysis.record import Record
+from nucleation.simulation.patch import Extent
 
 SETTINGS = ExtractionSettings(edge_threshold=0.1)
 
@@ -37,3 +38,10 @@ def test_onset_creep_and_extraction_agree():
     assert record.time[record.creep[-1]] <= record.drop_times[0] < record.time[record.creep[-1] + 1]
     length = record.lengths[record.frames_at(record.drop_times)][0]
     assert extract(record.simulation, SETTINGS)["length"] == length
+
+
+@pytest.mark.parametrize(("fall", "abrupt"), [(0.8, True), (1.6, False)])
+def test_an_abrupt_drop_takes_no_longer_than_the_memory_time(fall, abrupt):
+    """A fall by 2.5 % counts if 2 % of it are within D/V, which is 0.05 s."""
+    record = Record(synthetic_simulation(fall=fall * 0.05, size=0.025), SETTINGS)
+    assert (record.onset is not None) == abrupt

@@ -21,6 +21,8 @@ BASE = Case("base", PARAMETERS, 0.5, None)
         ({"velocity": 2e-5, "length": 2.001}, 0.5, ("velocity", "V x 2")),
         ({"time_after_event": 0.1}, 0.5, ("base", "base")),
         ({"length": 4.0, "n_x": 400}, 0.5, ("length", "L x 2")),
+        ({"length": 2.014}, 0.5, ("base", "base")),  # the same multiple of L_c, but for rounding
+        ({"length": 2.03}, 0.5, ("length", "L x 1.01")),
         ({"characteristic_slip_distance": 1e-6, "length": 4.0}, 1.0,
          ("characteristic_slip_distance", "D x 2")),
         ({"initial_stress": "uniform_shear"}, 0.5, ("initial_shear_stress", "tau0 = 0")),

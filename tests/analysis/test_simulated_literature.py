@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from answers.test_in_use import crack_coefficients
 
-from nucleation.analysis import literature
+from nucleation.analysis import literature, zones
 from nucleation.answers.formulas import LOCALISED_LIMIT
 from nucleation.answers.in_use import LENGTHS
 from nucleation.figures.beyond import figure_literature
@@ -26,9 +26,9 @@ def test_a_zone_of_known_width_is_read_at_the_slip_rate_asked_for(name, factor):
     rates = fastest[:, None] * shape
     fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), np.ones_like(rates))}
     simulation = xr.Dataset(fields, {"x": x})
-    found = literature.zone_length(simulation, 1e-4, literature.DEFINITIONS[name])
+    found = zones.zone_length(simulation, 1e-4, zones.DEFINITIONS[name])
     assert found == pytest.approx(factor * 0.15, rel=1e-3)
-    assert np.isnan(literature.zone_length(simulation, 1e-2, literature.DEFINITIONS[name]))
+    assert np.isnan(zones.zone_length(simulation, 1e-2, zones.DEFINITIONS[name]))
 
 
 def test_the_fixed_length_is_read_from_the_part_of_it_that_its_solution_has_at_half_the_maximum():
@@ -36,7 +36,7 @@ def test_the_fixed_length_is_read_from_the_part_of_it_that_its_solution_has_at_h
     n, c = crack_coefficients(1.3774)
     x = np.linspace(0.0, 0.999, 2000)
     v = np.sin(np.outer(np.arccos(x), n)) @ c
-    part = literature.DEFINITIONS["rubin_ampuero_localised"].part
+    part = zones.DEFINITIONS["rubin_ampuero_localised"].part
     assert part == pytest.approx(np.interp(-0.5, -v / v[0], x), rel=1e-3)
 
 
@@ -49,7 +49,7 @@ def test_a_crack_is_read_between_its_tips_though_slip_is_slow_within():
     states = np.ones_like(rates)
     fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), states)}
     simulation = xr.Dataset(fields, {"x": x})
-    found = literature.zone_length(simulation, 1e-4, literature.DEFINITIONS["rubin_ampuero_crack"])
+    found = zones.zone_length(simulation, 1e-4, zones.DEFINITIONS["rubin_ampuero_crack"])
     assert found == pytest.approx(0.4 + 2 * 0.01 * np.sqrt(np.log2(10.0)), abs=1e-3)
 
 
@@ -60,13 +60,13 @@ def test_far_ahead_is_read_half_a_period_from_the_fastest_point():
     states = np.array([2.0, 4.0])[:, None] * (1.0 + away)
     fields = {"slip_rate": (("time", "x"), rates), "state": (("time", "x"), states)}
     simulation = xr.Dataset(fields, {"x": x})
-    rate, state_ratio = literature.far_ahead(simulation, 1e-4, 5e-7)
+    rate, state_ratio = zones.far_ahead(simulation, 1e-4, 5e-7)
     mean = 0.5 * (1e-6 + 1e-2) * np.exp(-10.0)  # linear in log of the largest rate: half way
     assert rate == pytest.approx(mean, rel=1e-6)
     assert state_ratio == pytest.approx(mean * 3.0 * 1.5 / 5e-7, rel=1e-6)
-    assert np.isnan(literature.far_ahead(simulation, 1.0, 5e-7)).all()
+    assert np.isnan(zones.far_ahead(simulation, 1.0, 5e-7)).all()
     stuck = simulation.assign(slip_rate=simulation["slip_rate"].where(away < 0.4, 0.0))
-    assert np.isnan(literature.far_ahead(stuck, 1e-4, 5e-7)).all()
+    assert np.isnan(zones.far_ahead(stuck, 1e-4, 5e-7)).all()
 
 
 def test_every_length_in_use_has_a_row_and_those_without_a_run_a_reason():

@@ -5,7 +5,12 @@ import pytest
 import xarray as xr
 from configurations import papers
 
-from nucleation.analysis.weakening_patches import CURVE, gather, outcome, patch_of
+from nucleation.analysis.weakening_patches import (
+    CURVE,
+    outcome,
+    patch_of,
+    weakening_patches_table,
+)
 from nucleation.api import critical_length, weakening_patch_length
 from nucleation.figures.beyond import figure_weakening_patches
 from nucleation.model.parameters import Parameters
@@ -32,7 +37,7 @@ def table(runs):
         xr.Dataset({"slip_rate": (("time", "x"), 1e-5 * np.array([[1.0, 1.0], [1.0, fastest]]))})
         for fastest in FASTEST.values()
     ]
-    return gather([run.to_dict() for run in runs], made)
+    return weakening_patches_table([run.to_dict() for run in runs], made)
 
 
 @pytest.mark.slow

@@ -153,7 +153,7 @@ STEPS = 10  # after which a run is stopped
 STOPPED = f"""
 import os, signal
 from nucleation import __main__
-from nucleation.analysis import progress
+from nucleation.simulation import progress
 def stop(self, instant):
     if instant.control.steps == {STEPS}:
         os.kill(os.getpid(), signal.SIGINT)
@@ -174,7 +174,7 @@ def test_a_stopped_run_goes_on(nucleation, program, tmp_path):
     assert "stopped by SIGINT" in stopped.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["run.checkpoint.npz"]
     ended = nucleation(*words)
-    assert ended.code == 0 and "the run goes on from" in ended.err
+    assert ended.code == 0 and "the run resumes from" in ended.err
     whole = simulate(PARAMETERS)
     assert whole.attrs["steps"] > 2 * STEPS
     np.testing.assert_array_equal(netcdf.read(output)["slip_rate"], whole["slip_rate"])

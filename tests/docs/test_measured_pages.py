@@ -15,7 +15,7 @@ from docs.samples import DOCS, ROOT
 from nucleation.answers.finite_patch import loaded_patch_factor
 from nucleation.answers.formulas import FINITE_PATCH
 from nucleation.answers.in_use import lengths_in_use
-from nucleation.patch.pairs import over_realisations
+from nucleation.patch.tables.pairs import over_realisations
 from nucleation.theory.arrays import critical_length
 
 RESULTS = (DOCS / "results.md").read_text(encoding="utf-8")

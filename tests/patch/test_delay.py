@@ -91,7 +91,7 @@ def test_drops_come_once_in_a_period_at_any_phase():
     """Against drawn amplitudes and phases: Rayleigh ones, and even ones over a period's growth."""
     law, strength, generator = growth(history(), LOAD), 1e-5, np.random.default_rng(5)
     amplitudes = np.sqrt(-np.log(generator.uniform(size=4000)))
-    reached = np.array([law.at(1.0 / (strength * a))[0] for a in amplitudes])
+    reached = np.array([law.length_at(1.0 / (strength * a)) for a in amplitudes])
     period = SPEED * 2.0 * np.pi / FREQUENCY
     drops = reached + period * generator.uniform(-0.5, 0.5, size=4000)
     found = law.drop(strength)
@@ -132,5 +132,5 @@ def test_a_perturbed_run_drops_where_its_own_realisation_says(own):
     mesh = Mesh(n_x=400, n_y=6, grading=20.0)
     run = dataclasses.replace(PARAMETERS, mesh=mesh, stepping=stepping, perturbation=declared)
     measured = extract(simulate(run))
-    expected, _ = realised(own, declared).at(1e3)
+    expected = realised(own, declared).length_at(1e3)
     assert measured["length"] == pytest.approx(expected, rel=0.05)

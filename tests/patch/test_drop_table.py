@@ -12,9 +12,9 @@ from test_delay import LOAD, START, history
 from nucleation.figures.beyond import figure_drop
 from nucleation.model.identity import fault
 from nucleation.model.perturbation import Perturbation
-from nucleation.patch import drop_table
 from nucleation.patch.delay import growth
-from nucleation.patch.drop_table import COLUMNS, FLOORS, floors, gather
+from nucleation.patch.tables import drops as module
+from nucleation.patch.tables.drops import COLUMNS, NOISE_FLOORS, gather_drops, noise_floors
 
 FAULT = fault(history().parameters)
 STIFF = history().parameters.replaced({"shear_modulus": 9.3e9})
@@ -47,13 +47,13 @@ def histories():
     other = dataclasses.replace(history(), parameters=STIFF, length=1.5 * history().length)
     with pytest.MonkeyPatch.context() as patched:
         made = {fault(own.parameters): own for own in (history(), other)}
-        patched.setattr(drop_table, "mode_history", lambda run, _: made[fault(run)])
+        patched.setattr(module, "mode_history", lambda run, _: made[fault(run)])
         yield
 
 
 @pytest.fixture(scope="module")
 def table(histories):
-    return gather([drops()], [described(history())])
+    return gather_drops([drops()], [described(history())])
 
 
 def test_rows_are_those_of_faults_whose_mode_is_known(table):
@@ -67,7 +67,7 @@ def test_each_material_has_its_own_law():
     runs = [described(history()), {"parameters": STIFF.to_dict(), "theory_length": 0.45}]
     faults = [FAULT, FAULT, fault(STIFF), fault(STIFF)]
     for order in (runs, runs[::-1]):
-        found = gather([drops(fault=faults, height=[0.02] * 4)], order)
+        found = gather_drops([drops(fault=faults, height=[0.02] * 4)], order)
         expected = START * np.array([1.0, 1.0, 1.5, 1.5])
         np.testing.assert_allclose(found["stability_length"], expected, rtol=2e-3)
 
@@ -92,8 +92,8 @@ def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
 
 
 def test_floors_are_the_quiet_rows_without_what_they_lack(table):
-    found = floors([drops()], [described(history())])
-    assert tuple(found.data_vars) == tuple(FLOORS)
+    found = noise_floors([drops()], [described(history())])
+    assert tuple(found.data_vars) == tuple(NOISE_FLOORS)
     assert list(found["id"].values) == ["b"]
     assert float(found["floor_state"][0]) == float(table["floor_state"][1])
 

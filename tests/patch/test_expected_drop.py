@@ -72,7 +72,7 @@ def test_examples_of_weak_weakening(name):
     ("fault", "said"),
     [
         (FAULT.replaced({"perturbation.strength": 0.1}), "bursts"),
-        (FAULT.replaced({"geometry.length": 0.5}), "whose far end it feels"),
+        (FAULT.replaced({"geometry.length": 0.5}), "the block's far end"),
         (FAULT.replaced({"strength": 1e-60, "geometry.length": 20.0}), "beyond"),
         # its simulation has the law's L_s, and drops at 13.7 m: between the law's 10.0 m and L_run
         (GRANITE, "L_run is that of constant a and b"),
@@ -121,7 +121,7 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     found = expected_drop(fault)
     start = found.closed_form.front_length
     assert 0.4 * critical < start < found.drop.low < found.drop.length < 1.3 * start
-    assert "whose mode could be followed" in found.doubt
+    assert "with a mode that could be followed" in found.doubt
 
 
 @pytest.mark.parametrize(
@@ -140,7 +140,43 @@ def test_what_the_law_does_not_know(change, error, said):
 def test_every_doubt_is_told():
     shaken = FAULT.replaced({"perturbation.strength": 3e-3, "geometry.length": 0.4})
     doubt = expected_drop(shaken).doubt
-    assert "bursts that come to rest" in doubt and "whose far end it feels" in doubt
+    assert "bursts that come to rest" in doubt and "would feel the block's far end" in doubt
+
+
+def long_block(**changes):
+    """The fault in a block with an end that has no effect."""
+    return FAULT.replaced({"geometry.length": 20.0, **changes})
+
+
+def test_perturbation_is_strong_from_two_per_cent_on():
+    """eps_eff is proportional to the strength."""
+    strength = FAULT.perturbation.strength
+    per_strength = expected_drop(FAULT).closed_form.effective / strength
+    for effective, strong in ((0.0195, False), (0.0205, True)):
+        doubt = expected_drop(long_block(strength=effective / per_strength)).doubt
+        assert ("the perturbation is strong" in doubt) == strong
+
+
+def test_growth_is_slow_below_a_factor_of_four_in_a_period():
+    for strength, slow in ((1.8e-4, False), (2.2e-4, True)):
+        doubt = expected_drop(long_block(strength=strength)).doubt
+        assert ("the mode grows by a factor of 3.9" in doubt) == slow
+        assert ("in a period" in doubt) == slow
+
+
+def test_far_end_of_a_thin_block_is_near_from_six_tenths_on():
+    high = expected_drop(long_block()).high
+    for part, near in ((0.59, False), (0.61, True)):
+        doubt = expected_drop(FAULT.replaced({"geometry.length": high / part})).doubt
+        assert ("would feel the block's far end" in doubt) == near
+
+
+def test_slow_slip_is_looked_for_below_twice_the_direct_effect():
+    law = Friction(law="dieterich_ruina", reference_slip_rate=1e-5)
+    for ratio, weak in ((1.97, True), (2.03, False)):
+        friction = law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio)
+        found = expected_drop(dataclasses.replace(FAULT, friction=friction))
+        assert np.isfinite(found.runaway_length) == weak
 
 
 @pytest.mark.parametrize(
@@ -152,6 +188,10 @@ def test_every_doubt_is_told():
         (1.2, 12.0 * 0.9, False),
         (0.02, 0.9, False),  # a thin block
         (0.1, 2.0, False),
+        (1.2, 1.85 / 0.19, False),  # on either side of .2 of the block,
+        (1.2, 1.85 / 0.21, True),
+        (0.49 * 0.65, 2.0, False),  # and of half of the patch
+        (0.51 * 0.65, 2.0, True),
     ],
 )
 def test_a_thick_block_feels_its_far_end(height, length, feels):

@@ -21,7 +21,7 @@ from nucleation.patch.growth import (
     follow_patch,
     rough_crossing,
 )
-from nucleation.patch.tables import STABILITY, gather_stability
+from nucleation.patch.tables.stability import STABILITY, gather_stability
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, run, simulate
 from nucleation.theory.creep.lengths import Patches, stability_point
@@ -88,7 +88,7 @@ def test_a_narrow_window_of_oscillation_is_found(monkeypatch):
     """Between two of the instants scanned the pair begins to grow, and stops to oscillate."""
     growth_begins, length = 0.31, np.linspace(0.1, 0.6, 4001)
 
-    class Creep:
+    class Spectra:
         grid = SimpleNamespace(dx=1e-3, n_x=600)
 
         def __init__(self, record):
@@ -109,7 +109,7 @@ def test_a_narrow_window_of_oscillation_is_found(monkeypatch):
         def dataset(self, fit, mode):
             return xr.Dataset(fit)
 
-    monkeypatch.setattr(growth, "_Creep", Creep)
+    monkeypatch.setattr(growth, "_Spectra", Spectra)
     monkeypatch.setattr(growth, "Record", lambda simulation, settings: None)
     found = follow_patch(xr.Dataset(attrs={"parameters": ""}), ExtractionSettings())
     assert float(found["stability_length"]) == pytest.approx(growth_begins, rel=1e-6)

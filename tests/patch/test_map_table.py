@@ -7,11 +7,11 @@ from made_up_map import lengths
 
 from nucleation.datasets.variables import DatasetError
 from nucleation.figures.beyond import figure_map
-from nucleation.patch.map_table import AXES, gather, mean_over_seeds, on_grid
+from nucleation.patch.tables.map import AXES, gather_map, mean_over_seeds, on_grid
 
 
 def test_every_run_is_in_its_place():
-    grid = on_grid(gather(lengths()))
+    grid = on_grid(gather_map(lengths()))
     assert tuple(grid["length"].dims) == AXES
     at = {"height": 0.1, "zeta_over_a": 3.0}
     theory = 0.1**0.5 / 3.0
@@ -25,20 +25,20 @@ def test_every_run_is_in_its_place():
 
 def test_runs_that_differ_in_something_else_are_refused():
     """One overwrote the other: a second material is on none of the axes."""
-    twice = xr.concat([gather(lengths()), gather(lengths()).isel(run=[3])], dim="run")
+    twice = xr.concat([gather_map(lengths()), gather_map(lengths()).isel(run=[3])], dim="run")
     with pytest.raises(DatasetError, match="differ in more than height, zeta_over_a"):
         on_grid(twice)
 
 
 def test_a_missing_run_is_a_gap_and_not_passed_over():
-    grid = on_grid(gather(lengths(missing=[(0.1, 3.0, 1e-5, 2)])))
+    grid = on_grid(gather_map(lengths(missing=[(0.1, 3.0, 1e-5, 2)])))
     ratio = mean_over_seeds(grid, "length_ratio").sel(strength=1e-5)
     assert np.isnan(ratio.sel(height=0.1, zeta_over_a=3.0))
     assert int(np.isnan(ratio).sum()) == 1
 
 
 def test_figure_shows_the_ratios_and_the_lengths():
-    figure = figure_map.draw(on_grid(gather(lengths())))
+    figure = figure_map.draw(on_grid(gather_map(lengths())))
     stable, quiet, noisy, slices = figure.axes[:4]
     for axes, value in ((stable, 0.5), (quiet, 0.6151), (noisy, 0.625)):
         (image,) = axes.collections[:1]

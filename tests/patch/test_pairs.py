@@ -7,7 +7,7 @@ from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.configuration.load import configure
 from nucleation.model.parameters import Parameters
 from nucleation.patch.growth import follow_patch
-from nucleation.patch.pairs import COLUMNS, gather, over_realisations, pair_description
+from nucleation.patch.tables.pairs import COLUMNS, gather_pairs, over_realisations, pair_description
 from nucleation.simulation.run import simulate
 from nucleation.theory.closed_forms import bimaterial_contrast, bimaterial_length_ratio
 
@@ -25,7 +25,7 @@ def test_rows_say_what_the_runs_are():
     runs = configure({"studies": {"pairs": STUDY}}).runs
     records, settings = [simulate(run.parameters) for run in runs], ExtractionSettings()
     patches = [follow_patch(record, settings) for record in records]
-    table = gather([run.to_dict() for run in runs], records, patches, settings)
+    table = gather_pairs([run.to_dict() for run in runs], records, patches, settings)
     assert tuple(table.data_vars) == tuple(COLUMNS)
     assert table["far_side"].values.tolist() == ["free", "clamped"]
     assert table["second_height"].values.tolist() == [0.03, 0.03]
@@ -47,7 +47,7 @@ def test_realisations_of_a_fault_have_the_first_ones_stability_and_one_mean():
     patches = [follow_patch(record, settings) for record in records[::2]]
     for patch, length in zip(patches, (0.1, 0.2), strict=True):
         patch["stability_length"] = length
-    made = gather([run.to_dict() for run in runs], records, patches, settings)
+    made = gather_pairs([run.to_dict() for run in runs], records, patches, settings)
     assert made["stability_length"].values.tolist() == [0.1, 0.1, 0.2, 0.2]
     lengths, ratio = np.array([1.0, 3.0, 5.0, 9.0]), np.array([0.5, 0.7, 0.6, 0.8])
     faults = over_realisations(made.assign(length=("run", lengths), length_ratio=("run", ratio)))

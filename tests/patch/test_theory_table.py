@@ -6,7 +6,7 @@ import xarray as xr
 from configurations import papers
 
 from nucleation.figures.beyond import figure_patch_theory
-from nucleation.patch import theory_table
+from nucleation.patch.tables import theory as theory_table
 
 IDS = (
     "converged-aging-H0.1-phi1-seed1",
@@ -21,7 +21,7 @@ def table():
     runs = {run.id: run for run in papers().runs}
     lengths = [0.4428, 0.4408, 0.3537, np.nan]
     simulated = xr.Dataset({"id": ("run", list(IDS)), "stability_length": ("run", lengths)})
-    return theory_table.gather([runs[i].to_dict() for i in IDS], [simulated])
+    return theory_table.gather_theory([runs[i].to_dict() for i in IDS], [simulated])
 
 
 @pytest.mark.slow

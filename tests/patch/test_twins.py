@@ -11,10 +11,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from nucleation.analysis.definitions import Extent, ExtractionSettings
+from nucleation.analysis.definitions import ExtractionSettings
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.patch.frozen import Freezer
+from nucleation.simulation.patch import Extent
 from nucleation.simulation.run import composed, run
+from nucleation.simulation.stepping import RUNGS_PER_OCTAVE
 from nucleation.theory.creep.front import advance, oscillating
 from nucleation.theory.creep.lengths import Patches
 
@@ -53,7 +55,9 @@ class Twin:
 
     def advance(self, instant, length):
         """Take the step that the run has taken, whose patch is as long (m)."""
-        rung = self.dynamics.scheme.rung(instant.state.last_step, self.state.last_step)
+        steps = instant.state.last_step, self.state.last_step
+        beta = self.dynamics.scheme.coefficient(*steps)
+        rung = round(RUNGS_PER_OCTAVE * np.log2(beta))
         self.state, _ = self.dynamics.advance(self.state, rung)
         self.time.append(instant.state.time - self.start)
         self.amplitude.append(self.difference(instant.state) @ self.weights)

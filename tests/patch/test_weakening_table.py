@@ -11,7 +11,7 @@ from nucleation.model.identity import fault
 from nucleation.model.parameters import Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.patch.expected_drop import expected_drop
-from nucleation.patch.weakening_table import MEASURED, expected, gather
+from nucleation.patch.tables.weakening import MEASURED, expected, gather_weakening
 
 STRONG = Parameters(perturbation=Perturbation(kind="normal_load", strength=1e-4))
 QUIET = Parameters()
@@ -49,14 +49,14 @@ def test_a_fault_without_an_answer_has_its_reason():
 
 
 def test_every_run_is_beside_the_theory_of_its_fault():
-    found = gather([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    found = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
     assert found["length"].values.tolist() == pytest.approx([0.7, 0.8])
     assert np.unique(found["law_length"]).size == 1
     np.testing.assert_allclose(found["zeta_over_a"], 2.0)
 
 
 def test_the_figure_has_a_panel_for_each_base_with_curves():
-    one = gather([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
+    one = gather_weakening([lengths(STRONG, [1, 2])], [{"parameters": STRONG.to_dict()}])
     weakenings = (0.5, 1.0, 3.0)
     rows = [one.assign(zeta_over_a=("run", np.full(2, value))) for value in weakenings]
     alone = one.assign(height=("run", np.full(2, 1.0)))  # of one weakening: no curve

@@ -116,14 +116,14 @@ def test_signal_leaves_a_checkpoint_to_go_on_from(whole, tmp_path, number):
             os.kill(os.getpid(), number)
 
     one, _ = checkpoint(path, every=1e9)
-    message = f"stopped by {number.name}; a further run goes on"
+    message = f"stopped by {number.name}; a further run resumes"
     with pytest.raises(Stopped, match=message), one.listening():
         simulate(COARSE, progress=interrupt, keep=one.keep)
     assert {n: signal.getsignal(n) for n in SIGNALS} == before, "a job hears of signals again"
     assert len(steps) == 321
     two, log = checkpoint(path)
     assert_same(simulate(COARSE, start=two.load()), record)
-    assert f"goes on from {path}" in log.getvalue()
+    assert f"resumes from {path}" in log.getvalue()
     two.remove()
     assert not list(tmp_path.iterdir())
 
@@ -157,7 +157,7 @@ def test_checkpoint_of_another_run_is_refused(tmp_path):
     checkpoint(path, "another run")[0].keep(lambda: {"value": np.array(1.0)})
     mine, log = checkpoint(path)
     assert mine.load() is None
-    assert "of other code or parameters: the run starts at the beginning" in log.getvalue()
+    assert "other code or parameters: the run starts at the beginning" in log.getvalue()
     assert checkpoint(tmp_path / "none.npz")[0].load() is None
 
 

@@ -11,7 +11,7 @@ from nucleation.model.friction.law import Friction
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
 from nucleation.simulation import start
 from nucleation.simulation.event import FEW, long_after
-from nucleation.simulation.remarks import front_width
+from nucleation.simulation.remarks import front_width, of_front
 from nucleation.simulation.run import simulate
 
 COARSE = Parameters(
@@ -43,12 +43,29 @@ def test_no_front_has_no_width():
 
 
 def test_a_patch_is_long_from_the_frame_nearest():
-    slipping = X[None] <= np.array([0.0, FEW, FEW + 1.0, FEW + 2.0])[:, None] * X[1] + 1e-9
+    slipping = X[None] <= np.array([0.0, 4.0, 5.0, 6.0])[:, None] * X[1] + 1e-9
     rates = np.where(slipping, 1e-5, 1e-20)
     times = np.array([0.0, 1.0, 3.0, 4.0])
     assert long_after(COARSE, X, times, rates) == 2.0
     assert long_after(COARSE, X, times[:2], rates[:2]) == np.inf
     assert long_after(COARSE, X, times[2:], rates[2:]) == -np.inf
+
+
+@pytest.mark.parametrize(("rate", "slips"), [(0.007, False), (0.013, True)])
+def test_the_patch_slips_faster_than_a_hundredth_of_the_imposed_velocity(rate, slips):
+    rates = np.full((2, X.size), rate * COARSE.loading.velocity)
+    assert (long_after(COARSE, X, np.array([0.0, 1.0]), rates) == -np.inf) == slips
+
+
+def test_a_front_within_an_element_and_a_quarter_is_not_resolved():
+    assert of_front(1.2) == ["not resolved: at the onset the front is 1.2 elements wide"]
+    assert of_front(1.3) == []
+
+
+@pytest.mark.parametrize(("fall", "width"), [(0.9, np.inf), (1.1, 1.0)])
+def test_a_front_changes_the_logarithm_of_the_state_by_one(fall, width):
+    state = np.where(X < 0.3, 0.05, 0.05 * np.exp(fall))
+    assert front_width(COARSE, X, state) == pytest.approx(width)
 
 
 @pytest.fixture

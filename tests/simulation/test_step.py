@@ -10,10 +10,11 @@ from nucleation.fem.block import BlockOperator
 from nucleation.model.friction.law import Friction
 from nucleation.model.material import Material
 from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters
-from nucleation.simulation import interface
+from nucleation.simulation import interface, step
 from nucleation.simulation.interface import NewtonFailure
 from nucleation.simulation.run import composed, run
 from nucleation.simulation.start import at_rest
+from nucleation.simulation.stepping import BDF, Formula
 
 
 def small(law="aging", **mesh):
@@ -131,3 +132,26 @@ def test_friction_is_evaluated_where_slip_rates_change(monkeypatch):
     for name in ("slip_rate", "log_state", "tangential", "normal"):
         some, every = (getattr(one, name) for one in found)
         np.testing.assert_allclose(some, every, rtol=1e-7, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("slow", "fastest", "length"),
+    [
+        (1e-2 * 1e-3, 1e-3, 1e9),  # of the imposed velocity, while the patch creeps
+        (1e-3 * 1.0, 1.0, 1e9),  # of the fastest slip rate, in the event
+        (1e-2 * 5e-7 / 1e-6, 1e-3, 1e-6),  # slips by a hundredth of D within a short step
+    ],
+)
+def test_slower_slip_rates_need_no_relative_accuracy(slow, fastest, length):
+    """Where a slip rate begins to be slow, its relative error counts by 1/sqrt(2)."""
+    dynamics = composed(small())
+    state, report = at_rest(dynamics, small().loading)
+    rates = np.full_like(report.interface.slip_rate, slow)
+    rates[0] = fastest
+    state = dataclasses.replace(state, past_slip_rates=rates[None])
+    formulas = dataclasses.replace(BDF().step(0, state.past_times), body=Formula(length, 1.0, ()))
+    guess = step._extrapolated(state, formulas, 1e-3, 5e-7)
+    np.testing.assert_allclose(guess.slip_rate, rates, rtol=1e-12)
+    changed = dataclasses.replace(report.interface, slip_rate=rates * (1.0 + 1e-6))
+    changed.slip_rate[0] = fastest
+    assert guess.distance(changed) == pytest.approx(1e-6 / np.sqrt(2.0), rel=0.05)

@@ -15,7 +15,7 @@ from nucleation.api import (
     stability_length,
 )
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.fault import FLOORS, QUANTITIES
+from nucleation.theory.values import FLOORS, QUANTITIES
 
 FAULT = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,

@@ -15,7 +15,7 @@ from nucleation.api import critical_length, spectrum, weakening_patch_length
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import patch_basis, weakening_patch
 from nucleation.theory.spectrum import Systems
-from nucleation.theory.stiffness import Layers, Pair
+from nucleation.theory.stiffness import LayerPair, Layers
 
 A = 0.01
 FAULT = {
@@ -181,7 +181,7 @@ def test_wider_patches_keep_growing():
     fault = FAULT | {"zeta": 0.5 * A}
     body = Layers(np.array([30e9]), np.array([0.25]), np.array([math.inf]), "free")
     constants = (0.6, A, 0.5 * A, 30e9 * 5e-6 / 50e6, 1.0)
-    inside = Systems(Pair(body, body), *(np.array([x]) for x in constants))
+    inside = Systems(LayerPair(body, body), *(np.array([x]) for x in constants))
     patch = weakening_patch.WeakeningPatch(inside, inside._replace(zeta=-inside.zeta))
     critical = float(critical_length(**fault))
     counts = [patch.growing_modes(x * critical, 32) for x in (0.3, 0.43, 0.45, 1.0, 2.0)]

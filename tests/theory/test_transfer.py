@@ -9,8 +9,8 @@ from layer_problem import reference_stiffness, reference_transfer
 
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
-from nucleation.theory.bounds import Extremes, transfer_bounds
-from nucleation.theory.stiffness import FAR_SIDES, Pair
+from nucleation.theory.bounds import extremes, transfer_bounds
+from nucleation.theory.stiffness import FAR_SIDES, LayerPair
 from nucleation.theory.transfer import (
     RIGID,
     Body,
@@ -108,11 +108,11 @@ def test_any_layer_number_is_safe(upper, lower):
     far_side=st.sampled_from(KINDS),
 )
 def test_every_term_lies_between_its_extremes(q, width, nu, far_side):
-    """Of the whole interval, on a fine grid: monotonic where it is said to be."""
+    """Of the whole interval, on a fine grid: monotonic where that is assumed."""
     inside = np.minimum(np.linspace(q, q + width, 101), 25.0)
     layers = Body(Material(1e9, nu), 1.0, far_side).layers
     ends = Waves(inside[0]), Waves(inside[-1])
-    least, greatest = (layers.terms(Extremes(*ends, flag)) for flag in (False, True))
+    least, greatest = (layers.terms(extremes(*ends, flag)) for flag in (False, True))
     factor = 1.0 if inside[0] >= 1.0 else np.exp(2.0 * (inside - inside[-1]))
     for low, value, high in zip(least, layers.terms(Waves(inside)), greatest, strict=True):
         scaled = value * factor
@@ -124,7 +124,7 @@ def test_every_term_lies_between_its_extremes(q, width, nu, far_side):
 def test_bounds_enclose_the_transfer_functions(upper, lower, width):
     low = np.geomspace(1e-4, 1e4, 50)
     upper, lower = or_rigid(upper), or_rigid(lower)
-    bounds = transfer_bounds(low, low * np.exp(width), Pair(upper.layers, lower.layers))
+    bounds = transfer_bounds(low, low * np.exp(width), LayerPair(upper.layers, lower.layers))
     inside = low * np.exp(width * np.linspace(0.0, 1.0, 41))[:, None]
     g1, g2 = transfer_functions(inside, upper, lower)
     slack = 1 + 1e-13

@@ -157,6 +157,15 @@ def test_modes_grow_as_the_theory_says(setting, ratio):
     assert (found.real.max() > 0.0) == (ratio < 1.0)
 
 
+@pytest.mark.parametrize("ratios", [dispersion.MODES, pair_modes.RATIOS])
+def test_modes_bracket_the_critical_wavenumber(ratios):
+    """Growth and decay are tried within 3 % of it, and all modes are on the theory's curve."""
+    assert list(ratios) == sorted(set(ratios))
+    assert max(ratio for ratio in ratios if ratio < 1.0) == pytest.approx(1.0, abs=0.031)
+    assert min(ratio for ratio in ratios if ratio > 1.0) == pytest.approx(1.0, abs=0.031)
+    assert dispersion.CURVE.min() < ratios[0] and ratios[-1] < dispersion.CURVE.max()
+
+
 @pytest.mark.parametrize(
     ("height", "ratio"),
     [

@@ -24,7 +24,7 @@ from nucleation.model.parameters import Geometry, Loading, Mesh, Parameters, Ste
 from nucleation.model.perturbation import KINDS, Perturbation
 from nucleation.model.second_body import SecondBody
 from nucleation.simulation.run import composed, run
-from nucleation.simulation.stepping import Formula, beta_of_step
+from nucleation.simulation.stepping import BDF, Formula
 
 pytestmark = pytest.mark.slow
 
@@ -141,7 +141,7 @@ class Accountant:
         before = zip(*(moment.relative for moment in past), strict=True)
         if len(past) == 1:
             return [(v - old) / step for v, (old,) in zip(relative, before, strict=True)]
-        f = Formula.bdf2(beta_of_step(step, past[0].step), past[0].step)
+        f = Formula.bdf2(BDF().coefficient(step, past[0].step), past[0].step)
         pairs = zip(relative, before, strict=True)
         return [(v - f.from_past(np.array(old))) / f.beta for v, old in pairs]
 

@@ -204,7 +204,7 @@ def test_a_batch_asked_to_stop_leaves_a_checkpoint_of_each_of_its_runs(workflow)
     done = slow("lengths", "--cores", "2")
     assert done.returncode == 0, done.stdout
     (log,) = (slow.directory / "results/logs/batches").glob("*.log")
-    assert log.read_text().count("the run goes on from results/unfinished") == 2
+    assert log.read_text().count("the run resumes from results/unfinished") == 2
 
     whole = slow.configured(values | {"results": "whole"}, "whole.yaml")
     assert whole("lengths", "--cores", "1").returncode == 0

@@ -73,7 +73,7 @@ def test_damage_leftovers_and_strangers_are_found(linked):
     shutil.copy(run / "result.nc", results / "simulations" / "mine.nc")
     xr.Dataset({"x": np.arange(3.0)}).to_netcdf(results / "other.nc")
     (store / ".half.tmp").mkdir()
-    unfinished.mkdir()
+    unfinished.mkdir(exist_ok=True)  # a slow run has made it for its checkpoint
     for name in (".a.checkpoint.npz.123.tmp", "a.checkpoint.npz", "a.failed.nc"):
         (unfinished / name).write_bytes(b"PK")
     cut = {}

@@ -103,7 +103,7 @@ SIMULATIONS = 6  # of the quick configuration
 WORDS = {
     "src/nucleation/simulation/run.py": "\n# a remark\n",
     "src/nucleation/simulation/stepping.py": '\n"""More words."""\n',
-    "src/nucleation/analysis/progress.py": SPARE,
+    "src/nucleation/simulation/progress.py": SPARE,
     "workflow/rules/simulations.smk": "\n# a remark\n",
 }
 OF_SOLVER = {"simulate", "follow_patches", "dispersion"}

@@ -68,8 +68,8 @@ def test_new_law_makes_nothing_stale(plain):
 
 def test_code_edited_after_planning_is_refused(plain, tmp_path):
     """The edit is made by the first job itself, between planning and the simulations."""
-    edit(plain, "src/nucleation/pipeline/job.py", "    recipe = read(recipe_file)\n",
-         "    recipe = read(recipe_file)\n"
+    edit(plain, "src/nucleation/pipeline/job.py", "    began = time.monotonic()\n",
+         "    began = time.monotonic()\n"
          "    _f = Path(__file__).parents[1] / 'simulation/control.py'\n"
          "    _c = _f.read_text().replace('SAFETY = 0.85', 'SAFETY = 0.5')\n"
          "    _f.write_text(_c)\n")  # fmt: skip

@@ -54,7 +54,7 @@ rule gather_patches:
         f"{RESULTS}/logs/{{table}}.log",
     localrule: True
     params:
-        call="nucleation.patch.tables:gather_stability",
+        call="nucleation.patch.tables.stability:gather_stability",
         reads=lambda wildcards: {"patches": patches(*PATCH_TABLES[wildcards.table])},
         runs=lambda wildcards: as_dicts(patched_runs(*PATCH_TABLES[wildcards.table])),
     message:

@@ -11,7 +11,7 @@ rule gather_drop:
         f"{RESULTS}/logs/drop.log",
     localrule: True
     params:
-        call="nucleation.patch.drop_table:gather",
+        call="nucleation.patch.tables.drops:gather_drops",
         loads=lambda wildcards: laws_of(runs_for("drop")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("drop"))),
     message:
@@ -30,7 +30,7 @@ rule gather_weakening:
     log:
         f"{RESULTS}/logs/weakening.log",
     params:
-        call="nucleation.patch.weakening_table:gather",
+        call="nucleation.patch.tables.weakening:gather_weakening",
         loads=lambda wildcards: laws_of(runs_for("weakening")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("weakening"))),
     message:
@@ -53,7 +53,7 @@ rule gather_floors:
         f"{RESULTS}/logs/floors.log",
     localrule: True
     params:
-        call="nucleation.patch.drop_table:floors",
+        call="nucleation.patch.tables.drops:noise_floors",
         loads=lambda wildcards: laws_of(runs_for("convergence_quiet")),
         runs=lambda wildcards: as_dicts(one_of_each_fault(runs_for("convergence_quiet"))),
     message:
@@ -73,7 +73,7 @@ rule gather_map:
         f"{RESULTS}/logs/map.log",
     localrule: True
     params:
-        call="nucleation.patch.map_table:files",
+        call="nucleation.patch.tables.map:map_files",
     message:
         "The map of lengths over height and weakening"
     shell:
@@ -98,7 +98,7 @@ rule gather_patch_theory:
     log:
         f"{RESULTS}/logs/patch_theory.log",
     params:
-        call="nucleation.patch.theory_table:files",
+        call="nucleation.patch.tables.theory:theory_files",
         loads=lambda wildcards: laws_of(compared_with_theory()),
         runs=lambda wildcards: as_dicts(compared_with_theory()),
     message:
@@ -122,7 +122,7 @@ rule gather_pairs:
         f"{RESULTS}/logs/pairs.log",
     localrule: True
     params:
-        call="nucleation.patch.pairs:gather",
+        call="nucleation.patch.tables.pairs:gather_pairs",
         reads=lambda wildcards: {
             "simulations": simulations(runs_in(*PAIR_STUDIES)),
             "patches": patches(*PAIR_STUDIES),
@@ -203,7 +203,7 @@ rule gather_weakening_patches:
     log:
         f"{RESULTS}/logs/weakening_patches.log",
     params:
-        call="nucleation.analysis.weakening_patches:gather",
+        call="nucleation.analysis.weakening_patches:weakening_patches_table",
         loads=lambda wildcards: laws_of(runs_for("weakening_patches")),
         reads=lambda wildcards: {"simulations": simulations(runs_for("weakening_patches"))},
         runs=lambda wildcards: as_dicts(runs_for("weakening_patches")),

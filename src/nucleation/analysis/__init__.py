@@ -1,4 +1,4 @@
-"""What is read from recorded runs: onset, critical length, tables, convergence, sensitivity.
+"""Analysis of recorded runs: onset, critical length, tables, convergence, sensitivity.
 
-It uses :mod:`nucleation.simulation` and what that uses.
+It uses :mod:`nucleation.simulation` and the wings below.
 """

@@ -17,17 +17,37 @@ REFINED = {"n_x": False, "n_y": False, "longest_step": True, "tolerance": True}
 """Parameters that are refined, and whether a smaller value is the finer one."""
 
 FIXED = (
-    *REFINED, "grading", "block_length", "fault", "kind", "strength", "correlation_length", "seed",
-)  # fmt: skip
-"""What the runs of a sequence have in common, the refined parameter apart."""
+    *REFINED,
+    "grading",
+    "block_length",
+    "fault",
+    "kind",
+    "strength",
+    "correlation_length",
+    "seed",
+)
+"""Columns in which the runs of a sequence agree, except for the refined parameter."""
 
 LENGTH_OVER_THEORY = Variable("1", "critical length over that of the linear theory")
 
 COLUMNS = {
     "refinement": Variable("", "what is refined from level to level"),
     **some(
-        LENGTHS, "id", "evolution", "height", "phi0", "kind", "strength", "seed", "n_x", "n_y",
-        "grading", "block_length", "longest_step", "tolerance", "onset_time",
+        LENGTHS,
+        "id",
+        "evolution",
+        "height",
+        "phi0",
+        "kind",
+        "strength",
+        "seed",
+        "n_x",
+        "n_y",
+        "grading",
+        "block_length",
+        "longest_step",
+        "tolerance",
+        "onset_time",
     ),
     "onset_difference": Variable("1", "relative difference of the onset from the finest run"),
     "length": LENGTHS["length"],
@@ -36,24 +56,49 @@ COLUMNS = {
     "theory_length": LENGTHS["theory_length"],
     "length_over_theory": LENGTH_OVER_THEORY,
     **some(LENGTHS, "steps", "wall_seconds", "fault"),
-}  # fmt: skip
+}
 
 
 def sequences(lengths: pd.DataFrame, refined: str) -> list[pd.DataFrame]:
-    """Runs that differ in `refined` alone, two at least, each sequence from coarse to fine."""
+    """Find the runs that differ in one numerical parameter alone.
+
+    Parameters
+    ----------
+    lengths : DataFrame
+        Table of lengths.
+    refined : str
+        The parameter, one of :data:`REFINED`.
+
+    Returns
+    -------
+    list of DataFrame
+        Sequences of two or more runs, each from coarse to fine.
+    """
     fixed = [name for name in FIXED if name != refined]
-    groups = (own for _, own in lengths.groupby(fixed, sort=False, dropna=False))
     ascending = not REFINED[refined]
-    return [own.sort_values(refined, ascending=ascending) for own in groups if len(own) > 1]
+    found = []
+    for _, own in lengths.groupby(fixed, sort=False, dropna=False):
+        if len(own) > 1:
+            found.append(own.sort_values(refined, ascending=ascending))
+    return found
 
 
 def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
     """The sequences found in tables of lengths, each run beside the finest one.
 
-    :data:`COLUMNS` on ``run``: a run has a row in each of its sequences, with its differences from
-    the finest run of it. NaN without an event.
+    Parameters
+    ----------
+    tables : iterable of Dataset
+        Tables of lengths.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``. A run has a row in each of its sequences, with its differences
+        from the finest run of it, NaN without an event.
     """
-    frame, rows = join(tables).to_dataframe(), []
+    frame = join(tables).to_dataframe()
+    rows = []
     for refined in REFINED:
         for own in sequences(frame, refined):
             finest = own.iloc[-1]

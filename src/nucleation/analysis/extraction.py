@@ -14,8 +14,6 @@ from ..simulation.event import Outcome
 from .definitions import ExtractionSettings
 from .record import Record
 
-AFTER_EVENT = Outcome.AFTER_EVENT.value
-
 MEASURED = {
     "onset_time": Variable("s", "onset of the event", "t"),
     "onset_time_low": Variable("s", "earliest onset over the definitions of the drop", "t"),
@@ -24,31 +22,36 @@ MEASURED = {
     "length_low": Variable("m", "smallest length over the definitions", "L_c"),
     "length_high": Variable("m", "largest length over the definitions", "L_c"),
 }
-"""What :func:`extract` reads from a simulation."""
+"""Results of :func:`extract`."""
 
 
 def extract(
-    simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+    simulation: xr.Dataset,
+    settings: ExtractionSettings = ExtractionSettings(),
 ) -> dict[str, float]:
-    """:data:`MEASURED` of one simulation, by definitions of the patch's edge and of the drop.
+    """Read onset and critical length from one simulation.
 
-    All NaN if the run has no event, with a warning if it had one and ended before the force fell by
-    the settings' drop.
+    A warning is given if the run had an event, and ended before the force fell by the settings'
+    drop.
+
+    Parameters
+    ----------
+    simulation : Dataset
+        Record of a run.
+    settings : ExtractionSettings
+        Definitions of the patch's edge and of the drop.
+
+    Returns
+    -------
+    dict
+        :data:`MEASURED` by name (s, m); all NaN if the run has no event.
     """
     record = Record(simulation, settings)
     if record.onset is None:
-        recorded = record.parameters.stepping.event_drop
-        ended = str(simulation.attrs.get("status")).startswith(AFTER_EVENT)
-        if settings.drop > recorded and ended:
-            warnings.warn(
-                f"the run ended after its event, a drop of the force by {recorded:g}, and before "
-                f"it fell by drop = {settings.drop:g}: simulate with a larger stepping.event_drop "
-                "or time_after_event",
-                UserWarning,
-                stacklevel=2,
-            )
+        _warn_of_early_end(record)
         return dict.fromkeys(MEASURED, float("nan"))
-    instants, edges = record.drop_times, record.lengths_at_drop
+    instants = record.drop_times
+    edges = record.lengths_at_drop
     return {
         "onset_time": float(instants[0]),
         "onset_time_low": float(instants.min()),
@@ -57,3 +60,18 @@ def extract(
         "length_low": float(edges.min()),
         "length_high": float(edges.max()),
     }
+
+
+def _warn_of_early_end(record: Record) -> None:
+    """Warn if the run ended after an event by a smaller drop than that of the settings."""
+    recorded = record.parameters.stepping.event_drop
+    drop = record.settings.drop
+    status = str(record.simulation.attrs.get("status"))
+    if drop > recorded and status.startswith(Outcome.AFTER_EVENT.value):
+        warnings.warn(
+            f"the run ended after its event, a drop of the force by {recorded:g}, and before "
+            f"it fell by drop = {drop:g}: simulate with a larger stepping.event_drop "
+            "or time_after_event",
+            UserWarning,
+            stacklevel=3,
+        )

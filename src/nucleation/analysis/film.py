@@ -1,10 +1,10 @@
 """A film of one run: the slip rate at the interface and the shear stress in the bodies.
 
-A simulation records the bulk at a few instants only. For a film the same run is made once more,
-which gives the same steps, and the stress is taken at chosen ones of its recorded times.
+A simulation records the bulk at a few instants only. For a film the run is repeated, which gives
+the same steps, and the stress is computed at some of its recorded times.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..datasets.variables import Variable, annotate
 from ..fem.condensed import ElasticBody
+from ..fem.grid import Field, Grid
 from ..model.material import Material
 from ..simulation.recorded import RECORDED
 from ..simulation.run import composed, run
@@ -22,113 +23,189 @@ from .record import parameters_of
 
 Indices = NDArray[np.intp]
 
-MARGIN = 0.05  # s: the event begins so long before the onset, and ends so long after its peak
+MARGIN = 0.05  # s by which the shown event begins before the onset and ends after its peak
 LONGEST_EVENT = 1.0  # s from the onset to the peak
-
-
-def thinned(indices: Indices, most: int) -> Indices:
-    """At most so many of some indices, evenly spaced, with the first and the last."""
-    if indices.size <= most:
-        return indices
-    return indices[np.linspace(0, indices.size - 1, most).round().astype(int)]
-
-
-def event_interval(simulation: xr.Dataset, onset: float) -> tuple[float, float]:
-    """Beginning and end (s) of the event: from the onset (s) to its highest slip rate, and more.
-
-    Without an onset, nothing: the end of the run, twice.
-    """
-    time = simulation["step_time"].values
-    if not np.isfinite(onset):
-        return float(time[-1]), float(time[-1])
-    during = np.flatnonzero((time >= onset) & (time <= onset + LONGEST_EVENT))
-    peak = time[during[simulation["maximal_slip_rate"].values[during].argmax()]]
-    return onset - MARGIN, float(peak) + MARGIN
-
-
-def chosen_frames(time: Array, event: tuple[float, float], most: tuple[int, int, int]) -> Indices:
-    """Indices of recorded times (s): at most so many before, in and after the event (s).
-
-    The record has more frames where more happens, so that in each stretch every so many will do.
-    """
-    stretch = np.digitize(time, event)
-    parts = [thinned(np.flatnonzero(stretch == i), count) for i, count in enumerate(most)]
-    return np.concatenate(parts)
-
-
 MOST_FRAMES = (45, 70, 5)  # before, in and after the event
-MOST_COLUMNS, MOST_ROWS = 241, 31
-FILMED = {**RECORDED, "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy")}
+MOST_COLUMNS = 241
+MOST_ROWS = 31
 SHOWN_LENGTHS = 2.0  # part of the block that is filmed, in critical lengths
-
-
-def shear_stress(body: ElasticBody, state: State, materials: Sequence[Material]) -> Array:
-    """Shear stress (Pa) at the nodes by differences of neighbours, (levels, n_x + 1).
-
-    Levels as of :func:`levels`: both bodies have one of their own on the interface, whose stresses
-    are alike as far as the meshes resolve them.
-    """
-    sides = [(body.grid, 1.0, body.nodal_values)]
-    if body.grid_below is not None:
-        sides.append((body.grid_below, -1.0, body.nodal_values_below))
-    found = []
-    for (grid, up, values), material in zip(sides, materials, strict=True):
-        along_x, along_y = values(state.displacement)
-        shear = np.gradient(along_x, up * grid.y, axis=0) + np.gradient(along_y, grid.x, axis=1)
-        found.append(material.shear_modulus * shear)
-    return np.concatenate([*(stress[::-1] for stress in found[1:]), found[0]])
-
-
-def levels(body: ElasticBody) -> tuple[Array, Indices]:
-    """Heights y (m) of the nodes from the lowest to the highest, and which of them a film shows.
-
-    The interface's ``y = 0`` is there twice if there is a second body, whose nodes come first.
-    """
-    rows = thinned(np.arange(body.grid.y.size), MOST_ROWS)
-    if body.grid_below is None:
-        return body.grid.y, rows
-    below = body.grid_below.y
-    rows_below = below.size - 1 - thinned(np.arange(below.size), MOST_ROWS)[::-1]
-    return np.concatenate((-below[::-1], body.grid.y)), np.append(rows_below, below.size + rows)
+FILMED = {
+    **RECORDED,
+    "block_shear_stress": Variable("Pa", "shear stress in the block", "sigma_xy"),
+}
 
 
 def film_dataset(simulation: xr.Dataset, row: xr.Dataset) -> xr.Dataset:
-    """Run a simulation once more, and take the stress in its bodies along the way.
-
-    The dataset has ``slip_rate`` (m/s) on (time, x) and ``block_shear_stress`` (Pa) on (time, y, x)
-    at some of the recorded times and of the nodes, near the loaded edge. A second body is in it
-    from ``y = -H2`` to its own ``y = 0``, below that of the upper one.
+    """Repeat a simulation and compute the stress in its bodies along the way.
 
     Parameters
     ----------
-    simulation : the record of :func:`nucleation.simulation.run.simulate`.
-    row : of the table of lengths: ``onset_time`` (s) and ``length`` (m), NaN without an event.
+    simulation : Dataset
+        Record of :func:`nucleation.simulation.run.simulate`.
+    row : Dataset
+        Row of the table of lengths: ``onset_time`` (s) and ``length`` (m), NaN without an event.
+
+    Returns
+    -------
+    Dataset
+        ``slip_rate`` (m/s) on (time, x) and ``block_shear_stress`` (Pa) on (time, y, x), at some of
+        the recorded times and of the nodes near the loaded edge. A second body extends from
+        ``y = -H2`` to its own ``y = 0``, below that of the upper one.
     """
     parameters = parameters_of(simulation)
     dynamics = composed(parameters)
     grid = dynamics.grid
-    farthest = np.fmin(SHOWN_LENGTHS * float(row["length"]), grid.length)
-    columns = thinned(np.flatnonzero(grid.x <= farthest), MOST_COLUMNS)
+    length = float(row["length"])
+    farthest = np.fmin(SHOWN_LENGTHS * length, grid.length)
+    columns = _thinned(np.flatnonzero(grid.x <= farthest), MOST_COLUMNS)
     heights, rows = levels(dynamics.body)
     recorded = simulation["time"].values
     event = event_interval(simulation, float(row["onset_time"]))
-    frames = chosen_frames(recorded, event, MOST_FRAMES)
-    below = parameters.below
-    materials = [parameters.material, *([below.material] if below else [])]
-    stresses = []  # type: ignore[var-annotated]
+    frames = _chosen_frames(recorded, event)
+    materials = [parameters.material]
+    if parameters.below is not None:
+        materials.append(parameters.below.material)
+    stresses: list[NDArray[np.float32]] = []
     for instant in run(parameters, dynamics=dynamics):
-        if instant.state.time >= recorded[frames[len(stresses)]]:
+        next_frame = frames[len(stresses)]
+        if instant.state.time >= recorded[next_frame]:
             stress = shear_stress(dynamics.body, instant.state, materials)
-            stresses.append(stress[np.ix_(rows, columns)].astype(np.float32))
+            shown = stress[np.ix_(rows, columns)]
+            stresses.append(shown.astype(np.float32))
         if len(stresses) == frames.size:
             break
     names = ["slip_rate", "driving_force", "maximal_slip_rate", "step_time"]
-    film = simulation[names].isel(time=frames, x=columns).assign_coords(y=heights[rows])
+    film = simulation[names].isel(time=frames, x=columns)
+    film = film.assign_coords(y=heights[rows])
     film["block_shear_stress"] = ("time", "y", "x"), np.array(stresses)
     film.attrs = {"parameters": parameters.to_json()}
     return annotate(film, FILMED)
 
 
-def of_run(lengths: xr.Dataset, simulation: xr.Dataset, id: str) -> xr.Dataset:
-    """The step ``film``: of a run of a table of lengths."""
+def of_run(
+    lengths: xr.Dataset,
+    simulation: xr.Dataset,
+    id: str,
+) -> xr.Dataset:
+    """The film of a run in a table of lengths.
+
+    Parameters
+    ----------
+    lengths : Dataset
+        Table of lengths.
+    simulation : Dataset
+        Record of the run.
+    id : str
+        The run's id in the table.
+
+    Returns
+    -------
+    Dataset
+        That of :func:`film_dataset`.
+    """
     return film_dataset(simulation, row(lengths, id))
+
+
+def event_interval(simulation: xr.Dataset, onset: float) -> tuple[float, float]:
+    """Interval that shows the event: from before the onset to after the highest slip rate.
+
+    Parameters
+    ----------
+    simulation : Dataset
+        Record of a run.
+    onset : float
+        Onset of the event (s), NaN without an event.
+
+    Returns
+    -------
+    begin, end : float
+        In s; without an event both are the end of the run.
+    """
+    time = simulation["step_time"].values
+    if not np.isfinite(onset):
+        end = float(time[-1])
+        return end, end
+    after = (time >= onset) & (time <= onset + LONGEST_EVENT)
+    during = np.flatnonzero(after)
+    rates = simulation["maximal_slip_rate"].values[during]
+    peak = time[during[rates.argmax()]]
+    return onset - MARGIN, float(peak) + MARGIN
+
+
+def _chosen_frames(time: Array, event: tuple[float, float]) -> Indices:
+    """Indices of at most :data:`MOST_FRAMES` recorded times (s) before, in and after the event.
+
+    The record has more frames where more happens, so every nth frame is taken in each part.
+    """
+    part = np.digitize(time, event)
+    chosen = []
+    for i, most in enumerate(MOST_FRAMES):
+        own = np.flatnonzero(part == i)
+        chosen.append(_thinned(own, most))
+    return np.concatenate(chosen)
+
+
+def _thinned(indices: Indices, most: int) -> Indices:
+    """At most `most` of the indices, evenly spaced, with the first and the last."""
+    if indices.size <= most:
+        return indices
+    chosen = np.linspace(0, indices.size - 1, most).round()
+    return indices[chosen.astype(int)]
+
+
+def shear_stress(
+    body: ElasticBody,
+    state: State,
+    materials: Sequence[Material],
+) -> Array:
+    """Shear stress at the nodes, by differences of neighbours.
+
+    Two bodies have a level each on the interface. Their stresses there agree as far as the meshes
+    resolve them.
+
+    Parameters
+    ----------
+    body : ElasticBody
+        The body, or both of a pair.
+    state : State
+        State of the run.
+    materials : sequence of Material
+        Material of the upper body, and of the second one if there is one.
+
+    Returns
+    -------
+    ndarray, shape (levels, n_x + 1)
+        In Pa, from the lowest level to the highest.
+    """
+
+    def of_body(
+        grid: Grid,
+        up: float,
+        values: Callable[[Field], tuple[Array, Array]],
+        material: Material,
+    ) -> Array:
+        along_x, along_y = values(state.displacement)
+        along_x_by_y = np.gradient(along_x, up * grid.y, axis=0)
+        along_y_by_x = np.gradient(along_y, grid.x, axis=1)
+        return material.shear_modulus * (along_x_by_y + along_y_by_x)
+
+    upper = of_body(body.grid, 1.0, body.nodal_values, materials[0])
+    if body.grid_below is None:
+        return upper
+    below = of_body(body.grid_below, -1.0, body.nodal_values_below, materials[1])
+    return np.concatenate([below[::-1], upper])
+
+
+def levels(body: ElasticBody) -> tuple[Array, Indices]:
+    """Heights y (m) of the nodes from the lowest to the highest, and the shown ones of them.
+
+    With a second body, y = 0 appears twice; the second body's nodes come first.
+    """
+    rows = _thinned(np.arange(body.grid.y.size), MOST_ROWS)
+    if body.grid_below is None:
+        return body.grid.y, rows
+    depths = body.grid_below.y
+    number = depths.size
+    rows_below = number - 1 - _thinned(np.arange(number), MOST_ROWS)
+    heights = np.concatenate((-depths[::-1], body.grid.y))
+    return heights, np.append(rows_below[::-1], number + rows)

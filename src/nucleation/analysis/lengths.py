@@ -2,7 +2,6 @@
 
 import dataclasses
 from collections.abc import Callable, Iterable
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -10,8 +9,7 @@ import pandas as pd
 import xarray as xr
 
 from ..datasets.shared import SHARED
-from ..datasets.variables import Variable, some
-from ..datasets.variables import table as table_of
+from ..datasets.variables import Variable, some, table
 from ..model.identity import ensemble, fault
 from ..model.parameters import Parameters
 from ..types import Array
@@ -19,13 +17,18 @@ from .definitions import ExtractionSettings
 from .extraction import MEASURED, extract
 from .measures import MEASURES, measure
 from .record import Record
+from .rows import Row
 
-OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
-    "onset_time": np.mean, "onset_time_low": np.min, "onset_time_high": np.max,
-    "length": np.mean, "length_low": np.min, "length_high": np.max,
+_OVER_REALISATIONS: dict[str, Callable[[Array], Any]] = {
+    "onset_time": np.mean,
+    "onset_time_low": np.min,
+    "onset_time_high": np.max,
+    "length": np.mean,
+    "length_low": np.min,
+    "length_high": np.max,
     **dict.fromkeys(MEASURES, np.mean),
-}  # fmt: skip
-"""What the realisations of one fault have in common: of each number that differs."""
+}
+"""How each number that differs between the realisations of one fault is aggregated."""
 
 DIAGNOSTICS = {
     "status": Variable("", "how the simulation ended"),
@@ -34,8 +37,6 @@ DIAGNOSTICS = {
     "peak_megabytes": Variable("Mbyte", "largest memory of the simulation"),
 }
 """Attributes of a simulation's dataset that go into the table."""
-
-SECOND_BODY = some(SHARED, "second_height", "second_shear_modulus", "second_poisson_ratio")
 
 COLUMNS = {
     "id": SHARED["id"],
@@ -54,7 +55,14 @@ COLUMNS = {
     "tolerance": Variable("1", "tolerance of the local error per step"),
     "longest_step": Variable("1", "longest time step over the memory time D/V"),
     "density": Variable("kg/m^3", "mass density", "rho"),
-    **some(SHARED, "slip_distance", "velocity", "applied_stress", "shear_modulus", "poisson_ratio"),
+    **some(
+        SHARED,
+        "slip_distance",
+        "velocity",
+        "applied_stress",
+        "shear_modulus",
+        "poisson_ratio",
+    ),
     "friction_coefficient": Variable("1", "friction coefficient of the theory's interface", "f"),
     **some(SHARED, "direct_effect", "velocity_weakening"),
     "friction_law": Variable("", "law of the friction coefficient"),
@@ -70,23 +78,32 @@ COLUMNS = {
     "seed": Variable("1", "seed of its realisation"),
     "correlation_length": Variable("m", "its correlation length along x"),
     "far_side": SHARED["far_side"],
-    **SECOND_BODY,
+    **some(SHARED, "second_height", "second_shear_modulus", "second_poisson_ratio"),
     "plane": SHARED["plane"],
     "loading": Variable("", "what loads the fault: edge, top or remote"),
     "fault": Variable("", "digest of all that the fault's physics depends on"),
     "ensemble": Variable("", "digest of all that the run is given but its seed"),
 }
-"""Which simulation a row is about, what was measured, what it cost, and what it was given."""
+"""Name of the simulation, its measured lengths, its cost, and its parameters."""
 
-
-_SAME = (
-    "friction.evolution", "geometry.height", "mesh.n_x", "mesh.n_y", "mesh.grading",
-    "stepping.tolerance", "stepping.longest_step", "material.density", "material.shear_modulus",
-    "material.poisson_ratio", "material.plane", "loading.velocity", "loading.initial_stress",
-    "loading.initial_shear_stress", "perturbation.kind", "perturbation.seed",
-    "perturbation.correlation_length",
-)  # fmt: skip
-GIVEN = {parameter.partition(".")[2]: parameter for parameter in _SAME} | {
+GIVEN = {
+    "evolution": "friction.evolution",
+    "height": "geometry.height",
+    "n_x": "mesh.n_x",
+    "n_y": "mesh.n_y",
+    "grading": "mesh.grading",
+    "tolerance": "stepping.tolerance",
+    "longest_step": "stepping.longest_step",
+    "density": "material.density",
+    "shear_modulus": "material.shear_modulus",
+    "poisson_ratio": "material.poisson_ratio",
+    "plane": "material.plane",
+    "velocity": "loading.velocity",
+    "initial_stress": "loading.initial_stress",
+    "initial_shear_stress": "loading.initial_shear_stress",
+    "kind": "perturbation.kind",
+    "seed": "perturbation.seed",
+    "correlation_length": "perturbation.correlation_length",
     "phi0": "loading.initial_state",
     "loading": "loading.kind",
     "applied_stress": "loading.normal_stress",
@@ -98,39 +115,51 @@ GIVEN = {parameter.partition(".")[2]: parameter for parameter in _SAME} | {
 """Columns that are a parameter, by its full name."""
 
 
-def gather(
-    runs: Iterable[dict[str, Any]], simulations: Iterable[xr.Dataset], settings: ExtractionSettings
+def lengths_table(
+    runs: Iterable[dict[str, Any]],
+    simulations: Iterable[xr.Dataset],
+    settings: ExtractionSettings,
 ) -> xr.Dataset:
-    """:data:`COLUMNS` on ``run``, with what is extracted from simulations.
-
-    And :data:`.MEASURES`, if all runs are loaded at their edge and record the interface.
+    """Extract the lengths of simulations into a table.
 
     Parameters
     ----------
-    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`.
-    simulations : of the runs, in the same order.
-    settings : how lengths are read.
+    runs : iterable of dict
+        From :meth:`nucleation.configuration.runs.Run.to_dict`.
+    simulations : iterable of Dataset
+        Their records, in the same order.
+    settings : ExtractionSettings
+        How lengths are read.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``. If all runs are loaded at their edge and record the interface,
+        also :data:`.MEASURES`.
     """
-    by_theory: dict[str, float] = {}
+    creep_lengths: dict[str, float] = {}  # by fault
     rows = []
     for run, simulation in zip(runs, simulations, strict=True):
-        rows.append(row := _row(run, simulation, settings))
-        if row["fault"] not in by_theory:
-            by_theory[row["fault"]] = _creep_length(run)
-        row["creep_length"] = by_theory[row["fault"]]
-    everywhere = all(row.keys() >= MEASURES.keys() for row in rows)
-    return table_of(rows, COLUMNS | MEASURES if everywhere else COLUMNS)
+        row = _row(run, simulation, settings)
+        own_fault = row["fault"]
+        if own_fault not in creep_lengths:
+            creep_lengths[own_fault] = _creep_length(run)
+        row["creep_length"] = creep_lengths[own_fault]
+        rows.append(row)
+    measured = all(row.keys() >= MEASURES.keys() for row in rows)
+    return table(rows, COLUMNS | MEASURES if measured else COLUMNS)
 
 
 def _creep_length(run: dict[str, Any]) -> float:
     """L_s of steady creep with constant a and b (docs/patch_theory.md); NaN if there is none.
 
-    Without an edge, also NaN where what varies along the interface is more than its strength.
+    Without an edge, also NaN where stress or parameters, not only f, vary along the interface.
     """
     from ..theory.creep.lengths import NoPatch, Patches, stability_point  # with SciPy, takes long
 
     parameters = Parameters.from_dict(run["parameters"])
-    if parameters.loading.kind != "edge" and parameters.heterogeneity.varies not in ("none", "f"):
+    varies = parameters.heterogeneity.varies
+    if parameters.loading.kind != "edge" and varies not in ("none", "f"):
         return float("nan")
     try:
         patches = dataclasses.replace(Patches.of(parameters), law=None)
@@ -147,31 +176,40 @@ def join(tables: Iterable[xr.Dataset]) -> xr.Dataset:
 
 def realisations(table: xr.Dataset) -> list[list[int]]:
     """The rows of each run of a study in a table of lengths, which differ in the seed alone."""
-    runs: dict[tuple[str, str], list[int]] = {}
-    keys = zip(table["study"].values.tolist(), table["ensemble"].values.tolist(), strict=True)
-    for i, key in enumerate(keys):
-        runs.setdefault(key, []).append(i)
-    return list(runs.values())
+    studies = table["study"].values.tolist()
+    ensembles = table["ensemble"].values.tolist()
+    rows: dict[tuple[str, str], list[int]] = {}
+    for i, key in enumerate(zip(studies, ensembles, strict=True)):
+        rows.setdefault(key, []).append(i)
+    return list(rows.values())
 
 
 def over_realisations(table: xr.Dataset) -> xr.Dataset:
-    """A table of lengths with one row for each fault, the mean of its realisations.
+    """Aggregate a table of lengths to one row for each fault.
 
-    The row has their mean onset and length, the outermost ends of their ranges, and everything else
-    of the first of them; ``realisations`` counts them. NaN if one of them has no event.
+    Onset and length are the means of the realisations, the ends of their ranges are the outermost
+    ones; NaN if a realisation has no event. All other columns are those of the first realisation.
+    The column ``realisations`` counts them.
     """
     faults = realisations(table)
     columns = {}
-    for name in map(str, table.data_vars):
-        of_all, values = OVER_REALISATIONS.get(name, itemgetter(0)), table[name].values
-        columns[name] = np.array([of_all(values[rows]) for rows in faults])
+    for column in table.data_vars:
+        name = str(column)
+        values = table[name].values
+        aggregate = _OVER_REALISATIONS.get(name, _first)
+        columns[name] = np.array([aggregate(values[rows]) for rows in faults])
     columns["realisations"] = np.array([len(rows) for rows in faults])
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
 
-def description(run: dict[str, Any]) -> dict[str, Any]:
-    """The columns that say what a run was given, and the theory's length for it."""
-    parameters, interface = Parameters.from_dict(run["parameters"]), run["interface"]
+def _first(values: Array) -> Any:
+    return values[0]
+
+
+def description(run: dict[str, Any]) -> Row:
+    """The columns with the run's parameters, and the theory's length for them."""
+    parameters = Parameters.from_dict(run["parameters"])
+    interface = run["interface"]
     values = parameters.named()
     quiet = values["perturbation.kind"] == "none"
     return {
@@ -180,19 +218,26 @@ def description(run: dict[str, Any]) -> dict[str, Any]:
         "strength": 0.0 if quiet else values["perturbation.strength"],
         "fault": fault(parameters),
         "ensemble": ensemble(parameters),
-        **{name: run[name] for name in ("id", "study", "role", "theory_length")},
+        "id": run["id"],
+        "study": run["study"],
+        "role": run["role"],
+        "theory_length": run["theory_length"],
         "friction_coefficient": interface["friction"],
         "direct_effect": interface["a"],
         "velocity_weakening": interface["zeta"],
     }
 
 
-def second_body(parameters: Parameters) -> dict[str, Any]:
-    """The columns on what lies below: a rigid base has no far side and an infinite modulus."""
+def second_body(parameters: Parameters) -> Row:
+    """The columns of the second body: a rigid base has no far side and an infinite modulus."""
     below = parameters.below
     if below is None:
-        values = {"far_side": "none", **dict.fromkeys(SECOND_BODY, np.nan)}
-        return values | {"second_shear_modulus": np.inf}
+        return {
+            "far_side": "none",
+            "second_height": np.nan,
+            "second_shear_modulus": np.inf,
+            "second_poisson_ratio": np.nan,
+        }
     return {
         "far_side": below.bottom,
         "second_height": below.geometry.height,
@@ -202,23 +247,39 @@ def second_body(parameters: Parameters) -> dict[str, Any]:
 
 
 def _row(
-    run: dict[str, Any], simulation: xr.Dataset, settings: ExtractionSettings
-) -> dict[str, Any]:
-    measured, record = extract(simulation, settings), Record(simulation, settings)
+    run: dict[str, Any],
+    simulation: xr.Dataset,
+    settings: ExtractionSettings,
+) -> Row:
+    """A row of the table, without the theory's creep length."""
+    record = Record(simulation, settings)
+    measured = extract(simulation, settings)
     reached = record.lengths[-1] if record.onset is None else measured["length"]
-    measured |= measure(record)
     return {
         **description(run),
         **measured,
+        **measure(record),
         **{name: simulation.attrs[name] for name in DIAGNOSTICS},
         "simulated_time": float(simulation["step_time"].values[-1]),
         "reached_length": float(reached),
     }
 
 
-def row(table: xr.Dataset, identifier: str) -> xr.Dataset:
-    """The row of one simulation, by its id."""
-    (index,) = np.flatnonzero(table["id"].values == identifier)
+def row(table: xr.Dataset, id: str) -> xr.Dataset:
+    """The row of one simulation.
+
+    Parameters
+    ----------
+    table : Dataset
+        Table of lengths.
+    id : str
+        The simulation's id.
+
+    Returns
+    -------
+    Dataset
+    """
+    (index,) = np.flatnonzero(table["id"].values == id)
     return table.isel(run=int(index))
 
 
@@ -230,5 +291,5 @@ def columns_csv() -> str:
 
 
 def of_studies(tables: Iterable[xr.Dataset]) -> dict[str, Any]:
-    """The table of several studies, and what the columns are."""
+    """The table of several studies, and the meaning of its columns, by the file's ending."""
     return {".nc": join(tables), ".columns.csv": columns_csv()}

@@ -1,6 +1,6 @@
-"""What else is read from a simulation: how fast its event is, and how the patch before it creeps.
+"""More measures of a simulation: how fast its event is, and how the patch before it creeps.
 
-The claims of the paper stand on these numbers, columns of the table of :mod:`.lengths`.
+They are columns of the table of :mod:`.lengths`; the claims of the paper are checked against them.
 """
 
 import itertools
@@ -14,15 +14,19 @@ from ..model.friction.law import Friction
 from ..types import Array
 from .record import Record
 
-SHAKEN = 0.1  # part of dphi/dt by which it may be off and still be well approximated
+SHAKEN = 0.1  # largest relative error of a good approximation of dphi/dt
 RUPTURE = 1e-3  # m/s: a slip rate that only a rupture reaches
-SETTLED = 0.5  # from this part of the onset time on the patch counts as developed
+SETTLED = 0.5  # part of the onset time after which the patch counts as developed
 
+EDGES = ("usual", "high", "low")
+INSTANTS = ("start", "steepest", "end")
 BY_DEFINITION = {
     f"length_{edge}_{instant}": Variable(
-        "m", f"patch length at the {instant} of the drop, its edge at the {edge} slip rate", "L"
+        "m",
+        f"patch length at the {instant} of the drop, its edge at the {edge} slip rate",
+        "L",
     )
-    for edge, instant in itertools.product(("usual", "high", "low"), ("start", "steepest", "end"))
+    for edge, instant in itertools.product(EDGES, INSTANTS)
 }
 """The length by every definition of the patch's edge and of the instant."""
 
@@ -32,7 +36,7 @@ ALWAYS = {
     "usual_step": Variable("s", "median of the time steps"),
     "largest_normal_stress_ever": Variable("Pa", "largest sigma_yy on the interface, ever"),
 }
-"""What is read of every run, of :data:`MEASURES`."""
+"""Those of :data:`MEASURES` that a run without an event has as well."""
 
 MEASURES = {
     **ALWAYS,
@@ -52,63 +56,88 @@ MEASURES = {
     "state_rate_share_patch": Variable("1", "the same within the creep patch"),
     **BY_DEFINITION,
 }
-"""What :func:`measure` reads; the mean of realisations is taken of each."""
+"""Results of :func:`measure`; over realisations each is averaged."""
 
 
 def measure(record: Record) -> dict[str, float]:
-    """:data:`MEASURES` of a simulation in SI units; without an event NaN but for :data:`ALWAYS`.
+    """Compute :data:`MEASURES` of a simulation in SI units.
 
-    Nothing of a run that is not loaded at its edge, or whose interface is not recorded.
+    Without an event all but :data:`ALWAYS` are NaN. The result is empty if the run is not loaded at
+    its edge, or if its interface is not recorded.
     """
     given = record.parameters
     if given.loading.kind != "edge" or not given.recording.covers("interface"):
         return {}
     fastest = record.simulation["maximal_slip_rate"].values
     sizes = record.simulation["step_size"].values[1:]
-    found = dict.fromkeys(MEASURES, math.nan) | {
+    normal = record.simulation["normal_stress"].values
+    found = dict.fromkeys(MEASURES, math.nan)
+    found |= {
         "rupture_time": float(sizes[fastest[1:] > RUPTURE].sum()),
         "largest_rate": float(fastest.max()),
         "usual_step": float(np.median(sizes)),
-        "largest_normal_stress_ever": float(record.simulation["normal_stress"].values.max()),
+        "largest_normal_stress_ever": float(normal.max()),
     }
     if record.onset is None:
         return found
-    return found | _drop(record, record.onset.start, fastest, sizes) | _patch(record)
+    event = _event(record, record.onset.start, fastest, sizes)
+    return found | event | _patch(record)
 
 
-def _drop(record: Record, start: int, fastest: Array, sizes: Array) -> dict[str, float]:
+def _event(
+    record: Record,
+    start: int,
+    fastest: Array,
+    sizes: Array,
+) -> dict[str, float]:
     """How fast the event is that starts with a step."""
-    velocity, steps = record.velocity, record.step_time
     _, steep, end = record.drop_times
-    rates = fastest[start:]
-    hundred = int(np.argmax(rates > 100.0 * velocity))  # zero also if it is never so fast
-    slower = np.flatnonzero(rates[:hundred] < 10.0 * velocity)
-    acceleration = steps[start + hundred] - steps[start + slower[-1]] if slower.size else math.nan
     return {
-        "acceleration_time": float(acceleration),
+        "acceleration_time": _acceleration_time(record, start, fastest[start:]),
         "drop_time": float(end - steep),
         "onset_rate": float(fastest[start]),
         "shortest_step": float(sizes[start:].min()),
     }
 
 
+def _acceleration_time(
+    record: Record,
+    start: int,
+    rates: Array,
+) -> float:
+    """Time (s) in which the largest slip rate grows from 10 V to 100 V after a step."""
+    hundred = int(np.argmax(rates > 100.0 * record.velocity))  # zero also if it is never so fast
+    slower = np.flatnonzero(rates[:hundred] < 10.0 * record.velocity)
+    if not slower.size:
+        return math.nan
+    time = record.step_time[start:]
+    return float(time[hundred] - time[slower[-1]])
+
+
 def _patch(record: Record) -> dict[str, float]:
-    """The creeping patch; its lengths alone, if no two frames are of the developed patch."""
-    instants, times, friction = record.drop_times, record.time, record.parameters.friction
-    at, x, length = int(record.frames_at(instants)[0]), record.x, record.lengths
-    found = dict(zip(BY_DEFINITION, record.lengths_at_drop.ravel().tolist(), strict=True))
-    developed = np.flatnonzero(times[: at + 1] >= SETTLED * instants[0])
+    """The creeping patch; its lengths alone, if fewer than two frames show the developed patch."""
+    friction = record.parameters.friction
+    instants, times = record.drop_times, record.time
+    x, length = record.x, record.lengths
+    at = int(record.frames_at(instants)[0])
+    until = slice(at + 1)
+    lengths = record.lengths_at_drop.ravel().tolist()
+    found = dict(zip(BY_DEFINITION, lengths, strict=True))
+    developed = np.flatnonzero(times[until] >= SETTLED * instants[0])
     if developed.size < 2:
         return found
-    rate, state, stress, normal = (
-        record.simulation[name].values[: at + 1]
-        for name in ("slip_rate", "state", "shear_stress", "normal_stress")
-    )
-    inside = x <= length[: at + 1, None]
-    medians = np.array([np.median(np.abs(rate[i][inside[i]])) for i in developed])
-    speed = (length[at] - length[developed[0]]) / (times[at] - times[developed[0]])
+    rate = record.simulation["slip_rate"].values[until]
+    state = record.simulation["state"].values[until]
+    stress = record.simulation["shear_stress"].values[until]
+    normal = record.simulation["normal_stress"].values[until]
+    inside = x <= length[until, None]
+    medians = np.array([np.median(np.abs(rate[i, inside[i]])) for i in developed])
+    first = developed[0]
+    growth = length[at] - length[first]
+    speed = growth / (times[at] - times[first])
     good = _state_rate_well_approximated(rate, state, friction)
-    weight = np.gradient(times[: at + 1])[:, None] * np.ones_like(rate)
+    duration = np.gradient(times[until])
+    weight = duration[:, None] * np.ones_like(rate)
     regular = np.abs(rate[at]) > 10.0 * friction.regularisation_slip_rate
     return found | {
         "growth_time": float(length[at] / speed) if speed > 0.0 else math.inf,
@@ -119,13 +148,20 @@ def _patch(record: Record) -> dict[str, float]:
         "regular_share": float(regular[inside[at]].mean()),
         "middle_stress": float(np.abs(stress[at, x.size // 2])),
         "largest_normal_stress": float(normal.max()),
-        "state_rate_share": float((weight * good).sum() / weight.sum()),
-        "state_rate_share_patch": float((weight * good * inside).sum() / (weight * inside).sum()),
+        "state_rate_share": _share(good, weight),
+        "state_rate_share_patch": _share(good, weight * inside),
     }
 
 
+def _share(good: NDArray[np.bool_], weight: Array) -> float:
+    """Weighted part of frames and nodes that are good."""
+    return float((weight * good).sum() / weight.sum())
+
+
 def _state_rate_well_approximated(
-    rate: Array, state: Array, friction: Friction
+    rate: Array,
+    state: Array,
+    friction: Friction,
 ) -> NDArray[np.bool_]:
     """Where ``dphi/dt`` with v in the place of ``w = sqrt(v^2 + v0^2)`` is nearly the same."""
     speed = np.maximum(np.abs(rate), 1e-300)

@@ -1,7 +1,7 @@
-"""A recorded run, read once: its parameters, its onset, its patch.
+"""A recorded run: its parameters, its onset and its patch, each computed once.
 
-Whatever looks at a simulation's dataset looks at it through a :class:`Record`, so that parameters,
-thresholds, onset and length of the patch are the same for all.
+All analysis reads a simulation's dataset through a :class:`Record`, so that parameters, thresholds,
+onset and length of the patch are the same everywhere.
 """
 
 from functools import cached_property
@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 from ..datasets.variables import DatasetError
 from ..fem.grid import Grid
 from ..model.parameters import Parameters
-from ..simulation.event import WINDOW, PatchBursts, long_after
+from ..simulation.event import WINDOW, Burst, PatchBursts, long_after
+from ..simulation.patch import patch_lengths
 from ..simulation.remarks import fastest_elsewhere
 from ..types import Array
-from .definitions import ExtractionSettings, Onset, find_onset, patch_lengths
+from .definitions import ExtractionSettings, Onset, find_onset
 
 
 def parameters_of(dataset: xr.Dataset) -> Parameters:
-    """The parameters of the run that a dataset is of or comes from."""
+    """The parameters of the run that made a dataset, or from which it was derived."""
     return Parameters.from_json(dataset.attrs["parameters"])
 
 
@@ -29,14 +30,19 @@ class Record:
 
     Parameters
     ----------
-    simulation : of :func:`nucleation.simulation.run.simulate`, or another solver's like it.
-    settings : definitions of the patch's edge and of the drop.
+    simulation : Dataset
+        Record of :func:`nucleation.simulation.run.simulate`, or of another solver.
+    settings : ExtractionSettings
+        Definitions of the patch's edge and of the drop.
     """
 
     def __init__(
-        self, simulation: xr.Dataset, settings: ExtractionSettings = ExtractionSettings()
+        self,
+        simulation: xr.Dataset,
+        settings: ExtractionSettings = ExtractionSettings(),
     ) -> None:
-        self.simulation, self.settings = simulation, settings
+        self.simulation = simulation
+        self.settings = settings
         self.parameters = parameters_of(simulation)
 
     def require(self, *names: str) -> None:
@@ -45,7 +51,7 @@ class Record:
         Raises
         ------
         DatasetError
-            If one was not recorded, naming the level.
+            If one was not recorded; the message names the level.
         """
         missing = [name for name in names if name not in self.simulation]
         if missing:
@@ -70,6 +76,11 @@ class Record:
         return self.simulation["x"].values
 
     @cached_property
+    def time(self) -> Array:
+        """Times (s) of the frames."""
+        return self.simulation["time"].values
+
+    @cached_property
     def step_time(self) -> Array:
         """Times (s) of the steps."""
         return self.simulation["step_time"].values
@@ -77,10 +88,14 @@ class Record:
     @cached_property
     def onset(self) -> Onset | None:
         """The first event, as indices into the steps; None if there is none."""
-        window = WINDOW * self.parameters.memory_time
-        force = np.abs(self.simulation["driving_force"].values)
-        drop = self.settings.drop
-        return find_onset(self.step_time, force, window, drop, self._fast, self._long_enough)
+        return find_onset(
+            self.step_time,
+            np.abs(self.simulation["driving_force"].values),
+            WINDOW * self.parameters.memory_time,
+            self.settings.drop,
+            self._fast,
+            self._long_enough,
+        )
 
     @property
     def _fast(self) -> NDArray[np.bool_]:
@@ -95,7 +110,7 @@ class Record:
 
     @property
     def _fastest_position(self) -> Array:
-        """Where the interface slips fastest (m) at each step; another solver does not tell."""
+        """Position (m) of the largest slip rate at each step; zero from another solver."""
         if "fastest_position" not in self.simulation:
             return np.zeros(self.step_time.size)
         return self.simulation["fastest_position"].values
@@ -107,14 +122,19 @@ class Record:
         return self.step_time > long_after(self.parameters, self.x, self.time, rates)
 
     @property
-    def fastest_elsewhere(self) -> tuple[float, float, float] | None:
-        """Time (s), slip rate (m/s) and place (m) of the fastest burst that is not the patch's.
+    def fastest_elsewhere(self) -> Burst | None:
+        """Time (s), slip rate (m/s) and position (m) of the fastest burst outside the patch.
 
-        None if all fast slip, up to the onset of an event, is the patch's.
+        None if all fast slip, up to the onset of an event, belongs to the patch.
         """
         until = np.inf if self.onset is None else float(self.drop_times[0])
-        steps = self.step_time, self._largest_rate, self._fastest_position
-        return fastest_elsewhere(self.parameters, *steps, until)
+        return fastest_elsewhere(
+            self.parameters,
+            self.step_time,
+            self._largest_rate,
+            self._fastest_position,
+            until,
+        )
 
     @property
     def drop_times(self) -> Array:
@@ -128,11 +148,6 @@ class Record:
         if self.onset is None:
             raise ValueError("the run has no event")
         return self.step_time[[self.onset.start, self.onset.steep, self.onset.end]]
-
-    @cached_property
-    def time(self) -> Array:
-        """Times (s) of the frames."""
-        return self.simulation["time"].values
 
     def frames_at(self, times: Array) -> NDArray[np.intp]:
         """The frames nearest to some times (s)."""
@@ -151,14 +166,15 @@ class Record:
 
     @cached_property
     def lengths(self) -> Array:
-        """Length of the patch (m) at every frame: the furthest that its edge has come so far."""
+        """Length of the patch (m) at every frame: the largest one so far."""
         return self._lengths(self.settings.edge_threshold)
 
     @cached_property
     def all_lengths(self) -> tuple[Array, Array, Array]:
         """The same for the usual threshold, the largest and the smallest of the error bar."""
-        high, low = self.settings.edge_threshold_high, self.settings.edge_threshold_low
-        return self.lengths, self._lengths(high), self._lengths(low)
+        high = self._lengths(self.settings.edge_threshold_high)
+        low = self._lengths(self.settings.edge_threshold_low)
+        return self.lengths, high, low
 
     @cached_property
     def lengths_at_drop(self) -> Array:
@@ -166,6 +182,11 @@ class Record:
         return np.array(self.all_lengths)[:, self.frames_at(self.drop_times)]
 
     def _lengths(self, share: float) -> Array:
-        rates, threshold = self.simulation["slip_rate"].values, share * self.velocity
-        lengths = patch_lengths(self.parameters.loading.kind, self.x, rates, threshold)
+        """Largest length (m) so far, for an edge at this share of V."""
+        lengths = patch_lengths(
+            self.parameters.loading.kind,
+            self.x,
+            self.simulation["slip_rate"].values,
+            share * self.velocity,
+        )
         return np.maximum.accumulate(lengths)

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from pathlib import Path
 from typing import Any
 
 import xarray as xr
@@ -12,13 +11,15 @@ from ..datasets.variables import Variable
 from ..simulation.event import NEAR
 
 Row = dict[str, Any]
+LengthsRow = Mapping[str, Any]
+"""A row of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`)."""
 
 RATIOS = {
     "length_ratio": ("length", "theory_length"),
     "stability_ratio": ("stability_length", "theory_length"),
     "zeta_over_a": ("velocity_weakening", "direct_effect"),
 }
-"""Ratios by name, of which columns."""
+"""Ratios by name: the columns of numerator and denominator."""
 
 RATIO_COLUMNS = {
     "length_ratio": Variable("1", "length at the drop over that of the theory", "L/L_c"),
@@ -26,16 +27,32 @@ RATIO_COLUMNS = {
     "zeta_over_a": SHARED["zeta_over_a"],
 }
 
+NEARLY = 0.98
+"""Part of the searched half of the block at which the patch counts as having filled it."""
+
 
 def rows_of(
-    table: xr.Dataset, chosen: Iterable[int] | None = None, names: Iterable[str] | None = None
+    table: xr.Dataset,
+    chosen: Iterable[int] | None = None,
+    names: Iterable[str] | None = None,
 ) -> list[Row]:
-    """Rows of a table on ``run``, all or those of some numbers, as plain Python has them.
+    """Rows of a table as dictionaries of plain Python values.
 
-    Each has its values by `names`, those of all columns by default.
+    Parameters
+    ----------
+    table : Dataset
+        Columns on ``run``.
+    chosen : iterable of int, optional
+        Numbers of the rows, by default all.
+    names : iterable of str, optional
+        Names of the columns, by default all.
+
+    Returns
+    -------
+    list of dict
     """
-    wanted = [str(name) for name in (table.data_vars if names is None else names)]
-    columns = {name: table[name].values.tolist() for name in wanted}
+    wanted = table.data_vars if names is None else names
+    columns = {str(name): table[name].values.tolist() for name in wanted}
     numbers = range(table.sizes["run"]) if chosen is None else chosen
     return [{name: values[i] for name, values in columns.items()} for i in numbers]
 
@@ -45,15 +62,8 @@ def ratios(columns: Mapping[Any, Any]) -> Row:
     return {name: columns[over] / columns[under] for name, (over, under) in RATIOS.items()}
 
 
-NEARLY = 0.98
-"""Part of the searched half of the block from which on the patch counts as having filled it."""
-
-
-def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """How many of some runs had no event, and a line with the reason for each of these.
-
-    `rows` are of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`).
-    """
+def without_event(rows: Iterable[LengthsRow]) -> list[str]:
+    """Count the runs without an event, and give the reason for each in a line."""
     rows = list(rows)
     quiet = [row for row in rows if not math.isfinite(row["onset_time"])]
     if not quiet:
@@ -62,8 +72,8 @@ def without_event(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [head, *(f"{row['id']}: {why(row)}" for row in quiet)]
 
 
-def remarked(rows: Iterable[Mapping[str, Any]]) -> list[str]:
-    """A line for each run whose status says what makes its event doubtful; rows as above."""
+def remarked(rows: Iterable[LengthsRow]) -> list[str]:
+    """A line for each run with remarks in its status: reasons to doubt its event."""
     lines = []
     for row in rows:
         ended, *remarks = str(row["status"]).split("; ")
@@ -72,25 +82,20 @@ def remarked(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return lines
 
 
-def in_table(path: Path) -> list[str]:
-    """The same from the CSV of a study's table."""
-    import pandas as pd  # which takes a while
-
-    return without_event(pd.read_csv(path).to_dict("records"))
-
-
-def why(row: Mapping[str, Any]) -> str:
-    """Why a run had no event, as far as its row of the table of lengths tells."""
-    if not str(row["status"]).startswith("completed"):
-        return str(row["status"])
-    names = ("velocity_weakening", "theory_length", "reached_length", "simulated_time")
-    zeta, theory, reached, end = (row[name] for name in names)
-    patch = f"after {end:.4g} s its patch was {reached:.3g} m long"
+def why(row: LengthsRow) -> str:
+    """Why a run had no event, as far as its row shows."""
+    status = str(row["status"])
+    if not status.startswith("completed"):
+        return status
+    theory = row["theory_length"]
+    reached = row["reached_length"]
+    patch = f"after {row['simulated_time']:.4g} s its patch was {reached:.3g} m long"
     if not math.isfinite(theory):
+        zeta = row["velocity_weakening"]
         return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
     patch += f", {reached / theory:.2g} of the theory's critical length"
-    edge = row["loading"] == "edge"
-    if edge and reached > NEARLY * NEAR * row["block_length"]:
+    searched = NEAR * row["block_length"]
+    if row["loading"] == "edge" and reached > NEARLY * searched:
         return f"{patch}, and filled the half of the block in which it is followed"
     if reached < theory:
         return f"{patch}: a longer end_time may show it"

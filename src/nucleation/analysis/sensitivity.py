@@ -1,14 +1,14 @@
 """Sensitivity of the critical length: every run against the base run of its height.
 
-The base is the first run of each height. What a run varies is found by comparing parameters, so
-that a study may vary any of them. Definitions of the extraction are varied on the base run itself.
+The base is the first run of each height. Comparing the parameters shows which of them a run varies,
+so a study may vary any of them. Definitions of the extraction are varied on the base run itself.
 """
 
 import dataclasses
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -44,17 +44,24 @@ BASE = "base"
 DROP_COMPLETE = "end of the drop"
 
 NOT_PHYSICAL = (
-    "mesh.n_x", "mesh.n_y", "mesh.grading", "stepping.end_time", "stepping.time_after_event",
+    "mesh.n_x",
+    "mesh.n_y",
+    "mesh.grading",
+    "stepping.end_time",
+    "stepping.time_after_event",
     "stepping.longest_step",
-)  # fmt: skip
-"""Not varied for their own sake: a longer block keeps its element length, a run may end sooner, a
-faster front needs shorter steps."""
+)
+"""Parameters that only follow another one: a longer block keeps its element length, a run may end
+sooner, a faster front needs shorter steps."""
 
 SAME_LENGTH = 1e-2  # block lengths over the theory's differ by less through rounding
 
+Varied = tuple[str, str]
+"""Names of the varied parameters, and how they are varied, in words."""
+
 
 class Case(NamedTuple):
-    """One run and what it is about."""
+    """One run with its parameters and the theory's length for them."""
 
     id: str
     parameters: Parameters
@@ -62,32 +69,44 @@ class Case(NamedTuple):
     simulation: xr.Dataset = xr.Dataset()
 
 
-def variation(case: Case, base: Case) -> tuple[str, str]:
-    """The parameters that a run varies against its base, and how, in words.
+def variation(case: Case, base: Case) -> Varied:
+    """The parameters that a run varies against its base.
 
-    The block's length counts where it is another multiple of the theory's critical length; the
-    start in uniform shear is named by its shear stress. With another friction law, parameters
-    that one of the two does not have are not compared.
+    The block's length counts if it is another multiple of the theory's critical length. The start
+    in uniform shear is named by its shear stress. With another friction law, only parameters that
+    both laws have are compared.
+
+    Parameters
+    ----------
+    case, base : Case
+        The run, and its base.
+
+    Returns
+    -------
+    names, words : str
+        The names, separated by commas, and how the parameters are varied; :data:`BASE` if none is.
     """
-    values, usual = case.parameters.named(), base.parameters.named()
-    own, others = case.parameters.geometry.length, base.parameters.geometry.length
-    ratio = own / case.theory_length * base.theory_length / others
+    values = case.parameters.named()
+    usual = base.parameters.named()
     varied = {
         name
         for name, value in values.items()
         if value != usual.get(name, value) and name not in (*NOT_PHYSICAL, "geometry.length")
     }
+    own = case.parameters.geometry.length
+    others = base.parameters.geometry.length
+    ratio = own / case.theory_length * base.theory_length / others
     if abs(ratio - 1.0) > SAME_LENGTH:
         varied.add("geometry.length")
     if "loading.initial_stress" in varied:
-        varied = (varied - {"loading.initial_stress"}) | {"loading.initial_shear_stress"}
+        varied.remove("loading.initial_stress")
+        varied.add("loading.initial_shear_stress")
     known = names()
-    by_field = {_field(name): name for name in varied}
+    by_field = dict(sorted((_field(name), name) for name in varied))
     words = [
-        _words(known[name], field, values[name], usual[name])
-        for field, name in sorted(by_field.items())
+        _words(known[name], field, values[name], usual[name]) for field, name in by_field.items()
     ]
-    return ", ".join(sorted(by_field)) or BASE, ", ".join(words) or BASE
+    return ", ".join(by_field) or BASE, ", ".join(words) or BASE
 
 
 def _field(name: str) -> str:
@@ -96,7 +115,12 @@ def _field(name: str) -> str:
     return last if ALIASES.get(last, name) == name else name
 
 
-def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:
+def _words(
+    entry: Quantity,
+    name: str,
+    value: float | str | None,
+    usual: float | str | None,
+) -> str:
     """A changed value in words: a multiple of the usual one where there is one."""
     symbol = entry.symbol or name
     if value is None:
@@ -104,8 +128,9 @@ def _words(entry: Quantity, name: str, value: Any, usual: Any) -> str:
     if isinstance(value, str):
         return f"{symbol} = {value}"
     if value and usual:
-        return f"{symbol} x {value / usual:.3g}"
-    return f"{symbol} = {value:g}" + ("" if entry.unit == "1" or not value else f" {entry.unit}")
+        return f"{symbol} x {value / float(usual):.3g}"
+    unit = "" if entry.unit == "1" or not value else f" {entry.unit}"
+    return f"{symbol} = {value:g}{unit}"
 
 
 def sensitivity_table(
@@ -113,64 +138,82 @@ def sensitivity_table(
     simulations: Iterable[xr.Dataset],
     settings: ExtractionSettings = ExtractionSettings(),
 ) -> xr.Dataset:
-    """Relative changes of L_c and onset, by what was varied: :data:`COLUMNS` on ``run``.
+    """Relative changes of L_c and onset, by the parameters that were varied.
 
     Parameters
     ----------
-    runs : from :meth:`nucleation.configuration.runs.Run.to_dict`; the first of each height is the
-        base. ``ratio_change`` is of L_c over the theory's length for the run's own parameters.
-    simulations : of the runs, in the same order; without an event their numbers are NaN.
-    settings : the usual definitions.
+    runs : iterable of dict
+        From :meth:`nucleation.configuration.runs.Run.to_dict`; the first of each height is the
+        base.
+    simulations : iterable of Dataset
+        Their records, in the same order.
+    settings : ExtractionSettings
+        The usual definitions.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``, NaN without an event. ``ratio_change`` is that of L_c over the
+        theory's length for the run's own parameters.
     """
-    cases = [
-        Case(r["id"], Parameters.from_dict(r["parameters"]), r["theory_length"], simulation)
-        for r, simulation in zip(runs, simulations, strict=True)
-    ]
     heights: dict[float, list[Case]] = defaultdict(list)
-    for case in cases:
-        heights[case.parameters.geometry.height].append(case)
-    return table([row for own in heights.values() for row in _of_height(own, settings)], COLUMNS)
+    for run, simulation in zip(runs, simulations, strict=True):
+        parameters = Parameters.from_dict(run["parameters"])
+        case = Case(run["id"], parameters, run["theory_length"], simulation)
+        heights[parameters.geometry.height].append(case)
+    rows: list[Row] = []
+    for cases in heights.values():
+        rows += _of_height(cases, settings)
+    return table(rows, COLUMNS)
 
 
 def _of_height(cases: list[Case], settings: ExtractionSettings) -> Iterator[Row]:
-    """The rows of one height, whose first case is the base."""
+    """The rows of one height; the first case is the base."""
     base = cases[0]
     usual = extract(base.simulation, settings)
     for case in cases:
         found = extract(case.simulation, settings)
         yield _row(case, base, variation(case, base), found, usual)
-    for what, found in _redefined(base, usual, settings):
-        yield _row(base, base, what, found, usual)
+    for varied, found in _redefined(base, usual, settings):
+        yield _row(base, base, varied, found, usual)
 
 
 def _redefined(
-    base: Case, usual: dict[str, float], settings: ExtractionSettings
-) -> Iterator[tuple[tuple[str, str], dict[str, float]]]:
+    base: Case,
+    usual: dict[str, float],
+    settings: ExtractionSettings,
+) -> Iterator[tuple[Varied, dict[str, float]]]:
     """Length (m) and onset (s) of one run by other definitions of edge, drop and instant."""
-    for name, values, text in (
-        ("edge_threshold", EDGE_THRESHOLDS, "edge at {:g} V"),
-        ("drop", DROPS, "drop by {:g}"),
-    ):
-        for value in values:
-            changed = dataclasses.replace(settings, **{name: value})
-            yield (name, text.format(value)), extract(base.simulation, changed)
+    for threshold in EDGE_THRESHOLDS:
+        changed = dataclasses.replace(settings, edge_threshold=threshold)
+        varied = ("edge_threshold", f"edge at {threshold:g} V")
+        yield varied, extract(base.simulation, changed)
+    for drop in DROPS:
+        changed = dataclasses.replace(settings, drop=drop)
+        yield ("drop", f"drop by {drop:g}"), extract(base.simulation, changed)
     end = usual["onset_time_high"]
     if math.isfinite(end):
         record = Record(base.simulation, settings)
-        length = record.lengths[record.frames_at(np.array([end]))[0]]
-        yield ("instant", DROP_COMPLETE), {"length": float(length), "onset_time": end}
+        frame = record.frames_at(np.array([end]))[0]
+        length = float(record.lengths[frame])
+        yield ("instant", DROP_COMPLETE), {"length": length, "onset_time": end}
 
 
 def _row(
-    case: Case, base: Case, what: tuple[str, str], found: dict[str, float], usual: dict[str, float]
+    case: Case,
+    base: Case,
+    varied: Varied,
+    found: dict[str, float],
+    usual: dict[str, float],
 ) -> Row:
-    """What was found of a case, beside what is usual of the base."""
-    length, change = found["length"], found["length"] / usual["length"]
+    """Numbers of a case beside the usual ones of the base."""
+    length = found["length"]
+    change = length / usual["length"]
     return {
         "id": case.id,
         "height": case.parameters.geometry.height,
-        "varied": what[0],
-        "variation": what[1],
+        "varied": varied[0],
+        "variation": varied[1],
         "length": length,
         "length_change": change - 1.0,
         "theory_length": case.theory_length,

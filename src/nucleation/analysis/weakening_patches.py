@@ -1,12 +1,11 @@
-"""Patches that weaken among surroundings that strengthen: simulations beside the theory's W_c.
+"""Weakening patches in a strengthening fault: simulations beside the theory's width W_c.
 
-A fault that is periodic along x creeps at V under a far shear stress that is constant, as good as.
-A patch narrower than W_c goes on to creep; on a wider one slip slows and quickens in a limit cycle,
-or it ends in an event.
+A fault that is periodic along x creeps at V under a far shear stress that hardly changes. A patch
+narrower than W_c keeps creeping. On a wider one the slip rate oscillates in a limit cycle, or the
+patch nucleates an event.
 """
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -18,18 +17,21 @@ from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.critical import systems_of
 from ..theory.crossings import largest_crossings
+from ..theory.curves import CURVES
 from ..theory.transfer import bodies_of
 from ..theory.weakening_patch import WeakeningPatch, smallest_width
 from .rows import Row
 
 UNSTEADY = 2.0  # largest slip rate over V below which a patch creeps
-SEISMIC = 1e3  # likewise, below which its slip is slow; events reach more than 1e5
+SEISMIC = 1e4  # largest slip rate over V of slow slip: 0.1 m/s in the study
 
-CREEP, SLOW, EVENT, THEORY = "creep", "slow slip", "event", "theory"
-"""Outcomes of a run; the last one marks rows without a run, for the theory's curve."""
+CREEP = "creep"
+SLOW = "slow slip"
+EVENT = "event"
+THEORY = "theory"  # in place of an outcome, in the rows of the theory's curve
 
 CURVE = np.geomspace(0.05, 5.0, 21)
-"""The -zeta of the surroundings over zeta of the patch, of the theory's curve."""
+"""-zeta of the surroundings over zeta of the patch, along the theory's curve."""
 
 COLUMNS = {
     "id": SHARED["id"],
@@ -38,8 +40,8 @@ COLUMNS = {
     "outside_weakening": Variable("1", "velocity weakening of the surroundings", "zeta_out"),
     "zeta_over_a": SHARED["zeta_over_a"],
     "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
-    "width": Variable("m", "width of the patch", "W"),
-    "critical_length": Variable("m", "critical length of a fault that is all patch", "L_c"),
+    "width": SHARED["width"],
+    "critical_length": CURVES["critical_length"],  # of a fault with the patch's friction
     "smallest_width": Variable("m", "smallest width that nucleates, by theory", "W_c"),
     "width_ratio": Variable("1", "width over the smallest one that nucleates", "W/W_c"),
     "fastest": Variable("1", "largest slip rate over V"),
@@ -64,39 +66,49 @@ def patch_of(parameters: Parameters) -> WeakeningPatch:
         )
     interface = linearised(parameters.friction, parameters.loading)
     outside = systems_of([(*bodies_of(parameters), interface)])
-    return WeakeningPatch(outside._replace(zeta=outside.zeta * (1.0 + own.change)), outside)
+    inside = outside._replace(zeta=outside.zeta * (1.0 + own.change))
+    return WeakeningPatch(inside, outside)
 
 
 def outcome(fastest: float) -> str:
-    """Whether a patch with a largest slip rate over V creeps, slips slowly or has an event."""
+    """Outcome of a run by its largest slip rate over V: creep, slow slip or an event."""
     if fastest < UNSTEADY:
         return CREEP
     return SLOW if fastest < SEISMIC else EVENT
 
 
-def gather(runs: Iterable[dict[str, Any]], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
-    """:data:`COLUMNS` on ``run``: one row for each run, then those of the theory's curves.
+def weakening_patches_table(runs: Iterable[Row], simulations: Iterable[xr.Dataset]) -> xr.Dataset:
+    """Simulated patches beside theory, and the theory's curves.
 
     Parameters
     ----------
     runs : iterable of dict
         From :meth:`nucleation.configuration.runs.Run.to_dict`.
     simulations : iterable of Dataset
-        Theirs, in the same order.
+        Their records, in the same order.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``: one row for each run, then those of the theory's curve for each
+        zeta/a.
     """
     rows: list[Row] = []
     patches: dict[float, WeakeningPatch] = {}
     for run, simulation in zip(runs, simulations, strict=True):
         parameters = Parameters.from_dict(run["parameters"])
+        width = parameters.heterogeneity.width
+        geometry = parameters.geometry
         patch = patch_of(parameters)
-        fastest = float(np.abs(simulation["slip_rate"]).max()) / parameters.loading.velocity
-        row = _of_patch(patch, parameters.geometry.height, parameters.heterogeneity.width)
-        row |= {
+        largest_rate = float(np.abs(simulation["slip_rate"]).max())
+        fastest = largest_rate / parameters.loading.velocity
+        row = {
+            **_of_patch(patch, geometry.height, width),
             "id": run["id"],
             "outcome": outcome(fastest),
             "fastest": fastest,
             "n_x": parameters.mesh.n_x,
-            "period": parameters.geometry.length / parameters.heterogeneity.width,
+            "period": geometry.length / width,
         }
         rows.append(row)
         patches.setdefault(round(row["zeta_over_a"], 6), patch)
@@ -107,25 +119,35 @@ def gather(runs: Iterable[dict[str, Any]], simulations: Iterable[xr.Dataset]) ->
 
 def _curve(patch: WeakeningPatch, height: float) -> Iterator[Row]:
     """Rows of the theory's curve for the friction of one patch."""
-    empty = {"id": "", "outcome": THEORY, "fastest": np.nan, "n_x": 0, "period": np.nan}
+    empty = {
+        "id": "",
+        "outcome": THEORY,
+        "fastest": np.nan,
+        "n_x": 0,
+        "period": np.nan,
+    }
     for strengthening in CURVE:
-        around = patch.outside._replace(zeta=-strengthening * patch.inside.zeta)
-        own = WeakeningPatch(patch.inside, around)
+        zeta = -strengthening * patch.inside.zeta
+        outside = patch.outside._replace(zeta=zeta)
+        own = WeakeningPatch(patch.inside, outside)
         yield _of_patch(own, height, np.nan) | empty
 
 
 def _of_patch(patch: WeakeningPatch, height: float, width: float) -> Row:
     """The columns about one patch and its theory."""
-    critical = 2.0 * np.pi / float(largest_crossings(patch.inside)[0])
+    wavenumber = float(largest_crossings(patch.inside)[0])
+    critical = 2.0 * np.pi / wavenumber
     smallest = smallest_width(patch, critical)
-    a, zeta, around = (float(x[0]) for x in (*patch.inside[2:4], patch.outside.zeta))
+    a = float(patch.inside.a[0])
+    zeta = float(patch.inside.zeta[0])
+    outside_zeta = float(patch.outside.zeta[0])
     return {
         "height": height,
         "direct_effect": a,
         "velocity_weakening": zeta,
-        "outside_weakening": around,
+        "outside_weakening": outside_zeta,
         "zeta_over_a": zeta / a,
-        "strengthening": -around / zeta,
+        "strengthening": -outside_zeta / zeta,
         "width": width,
         "critical_length": critical,
         "smallest_width": smallest,

@@ -11,7 +11,7 @@ from scipy.special import ndtri
 
 from ..model.quantities import ParameterError, Quantity, check
 from ..model.units import NUMBER, magnitude, parse
-from ..theory.fault import QUANTITIES, checked, inside
+from ..theory.values import QUANTITIES, checked, inside
 from ..types import Array
 from .in_use import WEAKENING_RATE
 

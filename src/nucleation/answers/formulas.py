@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..theory.fault import Values, where
+from ..theory.values import Values, where
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 """Range of the prefactor eta of Eq. (3) (Dieterich, 1992, Table 1)."""

@@ -16,7 +16,8 @@ import numpy as np
 from ..model.material import ANTIPLANE
 from ..model.quantities import Quantity
 from ..theory.arrays import fault_of
-from ..theory.fault import Fault, Values, checked, labelled, takes_fault, where
+from ..theory.fault import Fault, takes_fault
+from ..theory.values import Values, checked, labelled, where
 from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
 from .formulas import Setting, nan0, valid

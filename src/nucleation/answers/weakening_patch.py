@@ -18,8 +18,8 @@ from ..theory.spectrum import Systems
 from ..theory.weakening_patch import weakening_patch_values
 from ..types import Array
 
-SLOW_SLIP = 1.15, 1.5
-"""W over W_c up to which simulated patches slipped slowly, and from which on they nucleated."""
+NUCLEATES = 1.3
+"""Least W/W_c at which all simulated patches nucleated; some slipped slowly up to 1.22."""
 
 _CELLS = 3.0
 """Cells in a process zone that resolve it (Day and others, 2005)."""
@@ -76,14 +76,11 @@ def patch_answer(
 
 def outcome(width_ratio: float) -> str:
     """The behaviour of a patch in words, from its width over W_c."""
-    slow, event = SLOW_SLIP
     if math.isnan(width_ratio):
         return "no W_c: the patch is stable, or its surroundings are not"
     if width_ratio < 1.0:
         return "it creeps"
-    if width_ratio < slow:
-        return "it slips slowly, in a limit cycle"
-    if width_ratio < event:
+    if width_ratio < NUCLEATES:
         return "it slips slowly or nucleates"
     return "it nucleates"
 

@@ -39,7 +39,7 @@ def of_paper(
     """
     tables = list(lengths)
     if len(longer):
-        tables.append(table_of_lengths.gather(longer_runs, longer, settings))
+        tables.append(table_of_lengths.lengths_table(longer_runs, longer, settings))
     evidence = Evidence(
         material, friction, loading, interface, theory, dispersion, tuple(tables),
         patches=dict(zip(patch_ids, patches, strict=True)),

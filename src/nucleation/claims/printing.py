@@ -16,7 +16,7 @@ from typing import Any
 import xarray as xr
 import yaml
 
-from ..installed import require
+from ..configuration.installed import require
 from . import article
 
 try:

@@ -15,8 +15,8 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import __version__
-from ..datasets.pages import with_addresses
-from ..installed import MissingExtra
+from ..configuration.installed import MissingExtra
+from .pages import with_addresses
 
 DONE = 0
 FAILED = 1

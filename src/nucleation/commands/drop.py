@@ -11,7 +11,6 @@ import click
 
 from ..configuration.advice import changing_friction
 from ..configuration.study_names import study_parameters
-from ..datasets.pages import with_addresses
 from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
 from ..model.perturbation import KINDS, Perturbation
@@ -22,6 +21,7 @@ from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .fault_options import of_parameters, plane_in_words, told
 from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
+from .pages import with_addresses
 from .text import to_json
 from .uncertain_drop import print_drop_quantiles, uncertain_of
 from .uncertainty import draws_option, samples_option

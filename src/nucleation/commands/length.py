@@ -19,7 +19,6 @@ from ..answers.in_use import (
     of_two_materials,
 )
 from ..answers.status import Answers, answers_of
-from ..datasets.pages import with_addresses
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS
 from ..model.material import Material
@@ -43,6 +42,7 @@ from .fault_options import (
     systems_of_lengths,
 )
 from .options import option
+from .pages import with_addresses
 from .text import as_plain, to_json, wrapped
 from .uncertainty import draws_option, print_quantiles, samples_option, take_uncertain
 from .weakening_patch import OPTIONS, patch_lines, patch_of, patch_options

@@ -10,11 +10,11 @@ from typing import Any
 import click
 
 from ..answers.draws import Range, parse_range
+from ..configuration.installed import require
 from ..configuration.load import configure, load
 from ..configuration.runs import Run
 from ..configuration.strict_yaml import read_yaml
 from ..configuration.study_names import study_parameters
-from ..installed import require
 from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS

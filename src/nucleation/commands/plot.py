@@ -12,8 +12,8 @@ import numpy as np
 
 from ..answers.draws import Draws
 from ..answers.specimen import SPECIMEN
+from ..configuration.installed import require
 from ..configuration.study_names import study_parameters
-from ..installed import require
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import NUMBER, parse

@@ -18,8 +18,8 @@ from ..analysis.record import parameters_of
 from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.text import require_writable
+from ..configuration.installed import require
 from ..datasets import netcdf
-from ..installed import require
 from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, run_length

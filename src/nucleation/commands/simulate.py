@@ -9,11 +9,10 @@ from typing import Any
 import click
 
 from ..configuration.advice import advise
+from ..configuration.installed import require
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, StudySettings, estimated_megabytes
 from ..configuration.study_names import study_parameters
-from ..datasets.pages import with_addresses
-from ..installed import require
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
@@ -31,6 +30,7 @@ from .options import (
     source_options,
     sourced,
 )
+from .pages import with_addresses
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 
 RATIO = declarations(StudySettings)["length_over_critical"]
@@ -144,10 +144,10 @@ def _planned(run: Run) -> dict[str, Any]:
 def _simulate(run: Run, output: Path, as_json: bool) -> int:
     """Run it and write its record, beside the place of the result if it failed."""
     from ..analysis.extraction import extract
-    from ..analysis.progress import Progress
     from ..datasets import netcdf, provenance
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
     from ..simulation.checkpoints import Stopped
+    from ..simulation.progress import Progress
     from ..simulation.run import simulate
 
     digest = simulation_code(run.parameters)

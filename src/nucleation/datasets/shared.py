@@ -19,6 +19,7 @@ SHARED = {
     "plane": Variable("", "plane of deformation, strain or stress"),
     "direct_effect": Variable("1", "direct effect at V", "a"),
     "velocity_weakening": Variable("1", "velocity weakening at V", "zeta"),
+    "width": Variable("m", "width of the change along the interface, of a bump half-way", "W"),
     "zeta_over_a": Variable("1", "velocity weakening over direct effect", "zeta/a"),
     "friction": Variable("1", "friction coefficient of steady sliding at V", "f"),
     "f_beta": Variable("1", "friction coefficient times bimaterial contrast", "f beta"),

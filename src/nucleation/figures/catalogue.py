@@ -91,8 +91,8 @@ FIGURES: dict[str, Entry] = {
     "figure_weakening_patches": Entry(
         "Weakening patches among strengthening surroundings",
         BEYOND,
-        ("weakening_patches",),
-        (Data("weakening_patches"),),
+        roles=("weakening_patches",),
+        data=(Data("weakening_patches"),),
     ),
     "figure_map": Entry(
         "Lengths over height and weakening: a map",

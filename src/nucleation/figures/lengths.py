@@ -19,13 +19,23 @@ from ..model.quantities import ParameterError
 from . import style
 
 LOOKS = {
-    "critical_length": ("$L_c$, homogeneous sliding", style.BLUE, "-", ""),
-    "stability_length": ("$L_s$, creeping patch", style.GREEN, "--", ""),
+    "critical_length": (
+        "$L_c$, homogeneous sliding",
+        style.BLUE,
+        "-",
+        "",
+    ),
+    "stability_length": (
+        "$L_s$, creeping patch",
+        style.GREEN,
+        "--",
+        "",
+    ),
     "drop_length": ("$L$, the force drops", style.VERMILLION, ":", "o"),
 }
 """Label, colour, dashes and marker of each length; dashes differ for colour-blind readers."""
 
-WIDE = 10.0  # ratio of the values of a parameter, or of lengths, from which an axis is logarithmic
+WIDE = 10.0  # ratio of the values above which an axis is logarithmic
 SHORT = 100.0  # ratio up to which minor ticks of a logarithmic axis have labels
 MISSING = "0.88"  # grey of points without a length
 
@@ -37,22 +47,29 @@ def draw(found: xr.Dataset, specimen: float | None = None, band: str = "") -> Fi
     Parameters
     ----------
     found : Dataset
-        Of :func:`nucleation.patch.lengths_over.lengths_over`.
+        From :func:`nucleation.patch.lengths_over.lengths_over`.
     specimen : float, optional
-        Length (m) of a specimen, which is drawn as a line: a horizontal one, or a contour.
+        Length of a specimen (m). It is drawn as a horizontal line, or as a contour.
     band : str
-        What the bands around lines are, for the legend; empty where there are none.
+        Meaning of the bands around lines, for the legend; empty without bands.
+
+    Returns
+    -------
+    Figure
+        One panel.
 
     Raises
     ------
     ParameterError
-        If there is no length to draw at any point.
+        If there is no length at any point.
     """
     middle = found["length"].sel(end="middle")
     if not np.isfinite(middle).any():
         raise ParameterError("there is no length to draw at any point")
     over = [str(name) for name in middle.dims if name != "key"]
-    return _lines(found, over[0], specimen, band) if len(over) == 1 else _map(found, over, specimen)
+    if len(over) == 1:
+        return _lines(found, over[0], specimen, band)
+    return _map(found, over, specimen)
 
 
 def _lines(found: xr.Dataset, over: str, specimen: float | None, band: str) -> Figure:
@@ -66,24 +83,53 @@ def _lines(found: xr.Dataset, over: str, specimen: float | None, band: str) -> F
         if marker:
             doubtful = found["doubtful"].values > 0.0
             axes.plot(x[~doubtful], middle[~doubtful], marker, color=colour)
-            axes.plot(x[doubtful], middle[doubtful], marker, color=colour, **style.OPEN)
+            axes.plot(
+                x[doubtful],
+                middle[doubtful],
+                marker,
+                color=colour,
+                **style.OPEN,
+            )
         if np.nanmax(high / low, initial=1.0) > 1.0:
             axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
         handles.append(style.key(label, marker, dashes, colour))
         if marker and doubtful.any():
-            handles.append(style.key("not to be relied upon", marker, "", colour, **style.OPEN))
+            handles.append(
+                style.key(
+                    "not to be relied upon",
+                    marker,
+                    "",
+                    colour,
+                    **style.OPEN,
+                )
+            )
     if band:
         handles.append(Patch(color=style.GUIDE, alpha=0.3, linewidth=0.0, label=band))
     if specimen is not None:
         axes.axhline(specimen, color=style.BLACK, linewidth=0.9)
         handles.append(
-            style.key(f"specimen, {specimen:.3g} m", "", "-", style.BLACK, linewidth=0.9)
+            style.key(
+                f"specimen, {specimen:.3g} m",
+                "",
+                "-",
+                style.BLACK,
+                linewidth=0.9,
+            )
         )
     _scale(axes, "x", x)
-    _scale(axes, "y", np.concatenate([line.get_ydata() for line in axes.get_lines()]))
+    _scale(
+        axes,
+        "y",
+        np.concatenate([line.get_ydata() for line in axes.get_lines()]),
+    )
     axes.set_xlabel(_label(found, over))
     axes.set_ylabel("Length (m)")
-    figure.legend(handles=handles, loc="outside upper left", ncols=2, fontsize=style.SMALL)
+    figure.legend(
+        handles=handles,
+        loc="outside upper left",
+        ncols=2,
+        fontsize=style.SMALL,
+    )
     return figure
 
 
@@ -112,24 +158,46 @@ def _map(found: xr.Dataset, over: list[str], specimen: float | None) -> Figure:
     axes.set_xlabel(_label(found, over[0]))
     axes.set_ylabel(_label(found, over[1]))
     if handles:
-        figure.legend(handles=handles, loc="outside upper left", ncols=2, fontsize=style.SMALL)
+        figure.legend(
+            handles=handles,
+            loc="outside upper left",
+            ncols=2,
+            fontsize=style.SMALL,
+        )
     return figure
 
 
 def _specimen_lines(
-    axes: Axes, x: NDArray, y: NDArray, ends: tuple[NDArray, ...], specimen: float
+    axes: Axes,
+    x: NDArray,
+    y: NDArray,
+    ends: tuple[NDArray, ...],
+    specimen: float,
 ) -> list[Line2D]:
-    """Contours where the length is the specimen's: of the middle, and of ends that differ."""
+    """Contours at the specimen's length: of the middle, and of ends that differ from it."""
     low, middle, high = ends
     handles = []
     drawn = [(middle, "-", f"specimen, {specimen:.3g} m")]
     if np.nanmax(high / low, initial=1.0) > 1.0:
-        drawn += [(low, "--", "at 5 and 95 % of the draws"), (high, "--", "")]
-    edge = [Stroke(linewidth=2.6, foreground=style.BLACK), Normal()]  # seen on any ground
+        drawn += [
+            (low, "--", "at 5 and 95 % of the draws"),
+            (high, "--", ""),
+        ]
+    edge = [
+        Stroke(linewidth=2.6, foreground=style.BLACK),
+        Normal(),
+    ]  # visible on any colour
     for values, dashes, label in drawn:
         known = values[np.isfinite(values)]
         if known.size and known.min() < specimen < known.max():
-            lines = axes.contour(x, y, values, [specimen], colors="white", linestyles=dashes)
+            lines = axes.contour(
+                x,
+                y,
+                values,
+                [specimen],
+                colors="white",
+                linestyles=dashes,
+            )
             lines.set_path_effects(edge)
         if label:
             handles.append(style.key(label, "", dashes, "white", path_effects=edge))
@@ -137,7 +205,7 @@ def _specimen_lines(
 
 
 def _edges(values: NDArray) -> NDArray:
-    """The edges of cells around values that are evenly spaced, or so in the logarithm."""
+    """The edges of cells around values that are evenly spaced, or whose logarithms are."""
     ratio = values[0] > 0.0 and values[-1] >= WIDE * values[0]
     even = np.log(values) if ratio else values
     half = 0.5 * (even[1] - even[0])
@@ -146,12 +214,12 @@ def _edges(values: NDArray) -> NDArray:
 
 
 def _finite(values: NDArray) -> NDArray:
-    """The values, NaN in place of infinite ones, which can't be drawn."""
+    """The values with NaN for infinite ones, which can't be drawn."""
     return np.where(np.isfinite(values), values, np.nan)
 
 
 def _scale(axes: Axes, direction: str, values: NDArray) -> None:
-    """A logarithmic scale where positive values differ by much."""
+    """Set a logarithmic scale if positive values differ by a large factor."""
     known = np.asarray(values, dtype=float)
     known = known[np.isfinite(known)]
     if known.min() > 0.0 and known.max() >= WIDE * known.min():
@@ -167,7 +235,7 @@ def _plain_numbers(axis: Axis, known: NDArray) -> None:
 
 
 def _minor(value: float) -> str:
-    """The label of a minor tick of a short logarithmic scale: those at 2 and 5 have one."""
+    """The label of a minor tick of a short logarithmic scale: only 2 and 5 have one."""
     digit = round(value / 10.0 ** math.floor(math.log10(value)))
     return f"{value:g}" if digit in (2, 5) else ""
 

@@ -1,7 +1,7 @@
-"""The creep carried on beyond the patches that were followed: its trends over the patch's length.
+"""Continuation of the creep beyond the patches that were followed, by trends over patch length.
 
-Lambda and L(t) are polynomials in the patch's length, and go on as straight lines where the
-amplitude's exponent depends on them.
+Lambda and L(t) are polynomials in the patch's length. Beyond the last length followed they continue
+as straight lines where the amplitude's exponent depends on them.
 """
 
 from collections.abc import Callable, Iterator
@@ -14,77 +14,142 @@ from ..types import Array, ComplexArray
 from .mode_history import ModeHistory
 
 DEGREE = 3  # of the polynomials in the patch's length
+LENGTHS = 2000  # at which the trends are evaluated
 FINE = 2400  # times between which the amplitude is integrated
-COARSE = 4  # of them within a step where the sum over positions is taken
-BEYOND = 1.6  # lengths are continued up to so many of the last one followed
-RISE = 0.9  # part of the time up to L_s within which roughness is turned on
+COARSE = 4  # of them in a step of the sum over positions
+BEYOND = 1.6  # longest length of the continuation, over the last one followed
+RISE = 0.9  # part of the time up to L_s during which roughness is turned on
 
 
-def trend(history: ModeHistory, values: Array) -> Callable[[Array], Array]:
-    """Values at the instants as a polynomial in length (m), continued in a straight line."""
-    last = history.length[-1]
-    fit = np.polynomial.Polynomial.fit(history.length, values, DEGREE)
-    slope = fit.deriv()(last)
-
-    def at(lengths: Array) -> Array:
-        return fit(np.minimum(lengths, last)) + slope * np.maximum(lengths - last, 0.0)
-
-    return at
-
-
-def complex_trend(history: ModeHistory, values: ComplexArray) -> Callable[..., ComplexArray]:
-    """Trend of complex values, (instant,) or (instant, x), over the length; steady beyond."""
-    last = history.length[-1]
-    powers = np.vander(history.length / last - 1.0, DEGREE + 1)
-    fitted, *_ = np.linalg.lstsq(powers.astype(complex), values, rcond=None)
-
-    def at(lengths: Array | float) -> ComplexArray:
-        own = np.atleast_1d(np.minimum(lengths, last)) / last - 1.0
-        return np.squeeze(np.vander(own, DEGREE + 1) @ fitted)
-
-    return at
-
-
-class Path(NamedTuple):
-    """The creep carried on: times (s), lengths (m) and Lambda (1/s), evenly in time."""
+class CreepPath(NamedTuple):
+    """The continued creep: times (s), lengths (m) and Lambda (1/s), evenly in time."""
 
     time: Array
     length: Array
     rate: ComplexArray
 
 
-def continued(history: ModeHistory) -> Path:
+def trend(
+    history: ModeHistory,
+    values: Array,
+) -> Callable[[Array], Array]:
+    """Real values as a function of patch length.
+
+    Parameters
+    ----------
+    history : ModeHistory
+        The mode along the creep.
+    values : ndarray
+        At the instants of the history, (instant,).
+
+    Returns
+    -------
+    callable
+        Of lengths (m): a polynomial, continued as a straight line.
+    """
+    last = history.length[-1]
+    fit = np.polynomial.Polynomial.fit(history.length, values, DEGREE)
+    slope = fit.deriv()(last)
+
+    def at(lengths: Array) -> Array:
+        within = np.minimum(lengths, last)
+        beyond = np.maximum(lengths - last, 0.0)
+        return fit(within) + slope * beyond
+
+    return at
+
+
+def complex_trend(
+    history: ModeHistory,
+    values: ComplexArray,
+) -> Callable[[Array | float], ComplexArray]:
+    """Complex values as a function of patch length.
+
+    Parameters
+    ----------
+    history : ModeHistory
+        The mode along the creep.
+    values : ndarray
+        At the instants of the history, (instant,) or (instant, x).
+
+    Returns
+    -------
+    callable
+        Of lengths (m): a polynomial, continued as a constant.
+    """
+    last = history.length[-1]
+    powers = np.vander(history.length / last - 1.0, DEGREE + 1)
+    fitted, *_ = np.linalg.lstsq(powers.astype(complex), values, rcond=None)
+
+    def at(lengths: Array | float) -> ComplexArray:
+        within = np.atleast_1d(np.minimum(lengths, last))
+        powers = np.vander(within / last - 1.0, DEGREE + 1)
+        return np.squeeze(powers @ fitted)
+
+    return at
+
+
+def continued(history: ModeHistory) -> CreepPath:
     """The trend over the lengths followed and beyond, evenly in time."""
-    lengths = np.linspace(history.length[0], BEYOND * history.length[-1], 2000)
-    time = trend(history, history.time)(lengths)
-    real, imaginary = (trend(history, part) for part in (history.rate.real, history.rate.imag))
-    rate = real(lengths) + 1j * imaginary(lengths)
-    fine = np.linspace(time[0], time[-1], FINE)
-    return Path(fine, np.interp(fine, time, lengths), np.interp(fine, time, rate.astype(complex)))
+    longest = BEYOND * history.length[-1]
+    lengths = np.linspace(history.length[0], longest, LENGTHS)
+    times = trend(history, history.time)(lengths)
+    growth = trend(history, history.rate.real)(lengths)
+    frequency = trend(history, history.rate.imag)(lengths)
+    rates = (growth + 1j * frequency).astype(complex)
+    even = np.linspace(times[0], times[-1], FINE)
+    return CreepPath(
+        time=even,
+        length=np.interp(even, times, lengths),
+        rate=np.interp(even, times, rates),
+    )
 
 
-def exponent_of(path: Path) -> ComplexArray:
+def exponent_of(path: CreepPath) -> ComplexArray:
     """``int Lambda dt`` from the first time on."""
     return np.asarray(cumulative_trapezoid(path.rate, path.time, initial=0))
 
 
 def roughness_weights(
-    history: ModeHistory, path: Path, x: Array
+    history: ModeHistory,
+    path: CreepPath,
+    x: Array,
 ) -> Iterator[tuple[float, ComplexArray]]:
-    """Weights in A of the roughness at positions x (m), evenly spaced, as time goes on.
+    """Weights of the roughness at each position in the amplitude A, as time advances.
 
-    Each with the logarithm of a factor, without which they would overflow.
+    Parameters
+    ----------
+    history : ModeHistory
+        The mode along the creep.
+    path : CreepPath
+        Its continuation.
+    x : ndarray
+        Positions (m), evenly spaced, (x,).
+
+    Yields
+    ------
+    log_factor : float
+        Logarithm of a common factor, without which the weights would overflow.
+    weights : ndarray
+        Weights at the positions, (x,).
     """
-    exponent, moving = exponent_of(path), _moving_weights(history)
-    steps = np.linspace(0, path.time.size - 1, path.time.size // COARSE).round().astype(int)
-    share = (x[1] - x[0]) / (history.x[1] - history.x[0])  # of a node's force
-    unstable = path.time[int(np.argmax(path.rate.real > 0.0))]
-    rise = RISE * (unstable - path.time[0])
-    added, before = np.zeros(x.size, dtype=complex), 0
-    for at in steps:
+    exponent = exponent_of(path)
+    moving = _moving_weights(history)
+    times = path.time.size
+    steps = np.linspace(0, times - 1, times // COARSE)
+    spacing = x[1] - x[0]
+    node_spacing = history.x[1] - history.x[0]
+    share = spacing / node_spacing  # of a node's force
+    start = path.time[0]
+    first_growing = int(np.argmax(path.rate.real > 0.0))
+    unstable = path.time[first_growing]
+    rise = RISE * (unstable - start)
+    added = np.zeros(x.size, dtype=complex)
+    before = 0
+    for at in steps.round().astype(int):
         duration = path.time[at] - path.time[before]
-        # a sudden start would itself stir the mode
-        begun = _smooth_step((path.time[at] - path.time[0]) / rise)
+        # a sudden start would itself excite the mode
+        begun = _smooth_step((path.time[at] - start) / rise)
         weights = duration * share * begun * moving(path.length[at], x)
         added = added + weights * np.exp(-exponent[at])
         before = at
@@ -95,26 +160,30 @@ def _smooth_step(u: float) -> float:
     """From 0 at u = 0 to 1 at u = 1, all of its derivatives continuous."""
     if not 0.0 < u < 1.0:
         return float(u >= 1.0)
-    return float(0.5 * (1.0 + np.tanh((u - 0.5) / (u * (1.0 - u)))))
+    slope = (u - 0.5) / (u * (1.0 - u))
+    return float(0.5 * (1.0 + np.tanh(slope)))
 
 
 def _moving_weights(history: ModeHistory) -> Callable[[float, Array], ComplexArray]:
     """Weights of the strength at positions (m) for a front at some length (m).
 
-    They move with the front: at each distance from it they are a polynomial in the patch's length,
+    They move with the front. At each distance from it they are a polynomial in the patch's length,
     fitted to all instants.
     """
     dx = history.x[1] - history.x[0]
-    behind = np.arange(-history.length[-1] * BEYOND, 4.0 * dx, 0.5 * dx)
-    seen = np.array(
-        [
-            np.interp(behind + own, history.x, weights, left=0.0, right=0.0)
-            for own, weights in zip(history.length, history.strength, strict=True)
-        ]
-    )
-    fitted = complex_trend(history, seen)
+    longest = history.length[-1] * BEYOND
+    behind = np.arange(-longest, 4.0 * dx, 0.5 * dx)
+    rows = [
+        np.interp(behind + length, history.x, weights, left=0.0, right=0.0)
+        for length, weights in zip(history.length, history.strength, strict=True)
+    ]
+    fitted = complex_trend(history, np.array(rows))
 
-    def at(length: float, x: Array) -> ComplexArray:
-        return np.interp(x - length, behind, fitted(length), left=0.0, right=0.0)
+    def at(
+        length: float,
+        x: Array,
+    ) -> ComplexArray:
+        weights = fitted(length)
+        return np.interp(x - length, behind, weights, left=0.0, right=0.0)
 
     return at

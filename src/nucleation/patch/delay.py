@@ -9,16 +9,16 @@ fluctuations near the mode's own frequency have the spectral density S, its mean
 
 At late times A is a complex Gaussian number times a growing exponential, and so ``|A| / sigma`` is
 Rayleigh distributed: in a part ``P = exp(-1/sigma^2)`` of the realisations it has reached one. The
-force falls in one phase of the oscillation, once in a period, while the patch goes on growing, by
-``(dL/dt) 2 pi/Im Lambda``; over realisations the phase is even. So the part that has dropped by a
-length is P, averaged over one period's growth about it. With Re Lambda linear in L and a steady
+force drops in one phase of the oscillation, once in a period. In a period the patch grows by
+``(dL/dt) 2 pi/Im Lambda``; over realisations the phase is uniform. So the part that has dropped by
+a length is P, averaged over one period's growth about it. With Re Lambda linear in L and a steady
 front the median is, in one line,
 
     L_d = L_s + sqrt(2 (dL/dt) log(1/eps_eff) / (d Re Lambda/dL)),
     eps_eff = eps sqrt(abs(g)^2 S log 2) [pi / ((d Re Lambda/dL) dL/dt)]^(1/4)      (the median).
 
-The law ends where its own assumption does: a burst of slip at a rate of a few V may come to rest
-again, the more often the shorter the patch. The drop is then one or more bursts late.
+The law assumes that the first burst of slip drops the force. A burst at a rate of a few V may come
+to rest again, more often in shorter patches. The drop then comes one or more bursts later.
 """
 
 import dataclasses
@@ -30,17 +30,19 @@ from scipy.integrate import cumulative_trapezoid
 from ..model.perturbation import Perturbation
 from ..simulation.realisation import correlation, spectral_density
 from ..types import Array
-from .continued import Path, continued, exponent_of, roughness_weights, trend
+from .continued import CreepPath, continued, exponent_of, roughness_weights, trend
 from .mode_history import ModeHistory
 
-NEAR = 1.3  # lengths over L_s through which the closed form lays its straight lines
+NEAR = 1.3  # lengths over L_s to which the closed form fits its straight lines
 SAMPLED = 8.0  # points of a roughness in its correlation length
-TINY = 1e-300  # in place of zero, of which there is no logarithm
+TINY = 1e-300  # in place of zero, which has no logarithm
+LARGEST = 700.0  # exponent without overflow of its exponential
 MEDIAN, EARLY, LATE = 0.5, 0.16, 0.84  # parts of the realisations that have dropped by then
+ROOT_OF_MEDIAN = np.sqrt(np.log(2.0))  # sigma times this is 1 where half have reached one
 
 
 class Drop(NamedTuple):
-    """The drop to be expected: its median, and what 16 and 84 % of the realisations are below."""
+    """The expected drop: its median, and the values that 16 and 84 % of realisations are below."""
 
     length: float  # m
     low: float
@@ -50,11 +52,14 @@ class Drop(NamedTuple):
     time_high: float
 
 
+NO_DROP = Drop(*6 * (np.nan,))
+
+
 class ClosedForm(NamedTuple):
     """The drop in one line: median length (m) from three numbers, and where growth begins.
 
     With its advancing front the patch begins to grow its mode at ``front_length``, within a few
-    per cent of L_s, which is that of steady creep.
+    per cent of the L_s of steady creep.
     """
 
     front_length: float  # m
@@ -74,112 +79,205 @@ class Growth:
     exponent: Array  # int Re Lambda dt
     per_period: Array  # growth of the patch in a period of the mode (m)
 
-    def at(self, amplitude: float) -> tuple[float, float]:
-        """Length (m) and time (s) where the amplitude per strength last passes a value, or NaN."""
-        above = self.log_amplitude >= np.log(amplitude)
+    def length_at(self, amplitude: float) -> float:
+        """Length (m) at which the amplitude per strength last passes a value, or NaN."""
+        level = np.log(amplitude)
+        above = self.log_amplitude >= level
         if not above[-1] or above.all():
-            return float("nan"), float("nan")
+            return float("nan")
         i = int(np.flatnonzero(~above)[-1])
-        ends = self.log_amplitude[i : i + 2]
-        length, time = (
-            float(np.interp(np.log(amplitude), ends, values[i : i + 2]))
-            for values in (self.length, self.time)
-        )
-        return length, time
+        amplitudes = self.log_amplitude[i : i + 2]
+        lengths = self.length[i : i + 2]
+        return float(np.interp(level, amplitudes, lengths))
 
     def drop(self, strength: float) -> Drop:
-        """The drop to be expected at a relative strength; NaN where the law does not reach."""
-        if not np.isfinite(self.at(1.0 / (strength * np.sqrt(np.log(2.0))))[0]):
-            return Drop(*6 * (float("nan"),))
+        """The expected drop at a relative strength; NaN where the law does not apply."""
+        if np.isnan(self.length_at(1.0 / (strength * ROOT_OF_MEDIAN))):
+            return NO_DROP
         parts = self._dropped(strength)
         lengths = np.interp((MEDIAN, EARLY, LATE), parts, self.length)
-        return Drop(*lengths.tolist(), *np.interp(lengths, self.length, self.time).tolist())
+        times = np.interp(lengths, self.length, self.time)
+        return Drop(*lengths.tolist(), *times.tolist())
 
     def _dropped(self, strength: float) -> Array:
-        """The part of the realisations that have dropped by each length; it never falls."""
-        late = np.maximum.accumulate(self.log_amplitude) + np.log(strength)
-        reached = np.exp(-np.exp(np.minimum(-2.0 * late, 700.0)))
+        """The part of the realisations that have dropped by each length; it never decreases."""
+        log_sigma = np.maximum.accumulate(self.log_amplitude) + np.log(strength)
+        inverse_square = np.exp(np.minimum(-2.0 * log_sigma, LARGEST))
+        reached = np.exp(-inverse_square)
         area = cumulative_trapezoid(reached, self.length, initial=0)
-        ends = [self.length + side * 0.5 * self.per_period for side in (-1.0, 1.0)]
-        below, above = (
-            np.interp(end, self.length, area) + np.maximum(end - self.length[-1], 0.0)
-            for end in ends
-        )
+        last = self.length[-1]
+
+        def area_up_to(length: Array) -> Array:
+            beyond = np.maximum(length - last, 0.0)
+            return np.interp(length, self.length, area) + beyond
+
+        above = area_up_to(self.length + 0.5 * self.per_period)
+        below = area_up_to(self.length + -0.5 * self.per_period)
         return np.maximum.accumulate((above - below) / self.per_period)
 
     def strength_at(self, length: float) -> float:
-        """The strength at which the median drops at a length (m); NaN beyond the law's reach."""
+        """The strength at which the median drops at a length (m); NaN outside the lengths."""
         if not self.length[0] < length < self.length[-1]:
             return float("nan")
         at = np.interp(length, self.length, self.log_amplitude)
-        return float(np.exp(-at) / np.sqrt(np.log(2.0)))
+        return float(np.exp(-at) / ROOT_OF_MEDIAN)
 
-    def closed_form(self, history: ModeHistory, strength: float) -> ClosedForm:
-        """The median drop at a relative strength in one line."""
-        i = int(np.argmin(self.exponent))  # where growth begins
-        start = float(self.length[i])
+    def closed_form(
+        self,
+        history: ModeHistory,
+        strength: float,
+    ) -> ClosedForm:
+        """The median drop in one line.
+
+        Parameters
+        ----------
+        history : ModeHistory
+            The mode along the creep.
+        strength : float
+            Relative strength of the perturbation.
+
+        Returns
+        -------
+        ClosedForm
+            The median length at the drop, and the numbers that it depends on.
+        """
+        first = int(np.argmin(self.exponent))  # where growth begins
+        start = float(self.length[first])
         near = (self.length >= start) & (self.length <= NEAR * start)
-        rate = trend(history, history.rate.real)(self.length[near])
-        slope = float(np.polyfit(self.length[near], rate, 1)[0])
-        speed = float(np.polyfit(self.time[near], self.length[near], 1)[0])
-        at = np.flatnonzero(near)[-1]
-        seed = self.log_amplitude[at] - (self.exponent[at] - self.exponent[i])
-        effective = float(strength * np.sqrt(np.log(2.0)) * np.exp(seed))
-        delay = np.sqrt(max(2.0 * speed * np.log(1.0 / effective) / slope, 0.0))
-        return ClosedForm(start, start + float(delay), speed, slope, effective)
+        last = np.flatnonzero(near)[-1]
+        lengths = self.length[near]
+        times = self.time[near]
+        rates = trend(history, history.rate.real)(lengths)
+        slope = float(np.polyfit(lengths, rates, 1)[0])
+        speed = float(np.polyfit(times, lengths, 1)[0])
+        grown = self.exponent[last] - self.exponent[first]
+        initial = self.log_amplitude[last] - grown
+        effective = float(strength * ROOT_OF_MEDIAN * np.exp(initial))
+        square = 2.0 * speed * np.log(1.0 / effective) / slope
+        delay = np.sqrt(max(square, 0.0))
+        return ClosedForm(
+            front_length=start,
+            length=start + float(delay),
+            front_speed=speed,
+            growth_slope=slope,
+            effective=effective,
+        )
 
 
-def growth(history: ModeHistory, declared: Perturbation) -> Growth:
-    """How the mode grows along the creep under a declared forcing, in the mean square.
+def growth(
+    history: ModeHistory,
+    declared: Perturbation,
+) -> Growth:
+    """Growth of the mode along the creep under a declared forcing, in the mean square.
 
-    The creep is carried on by the trends of L(t) and Lambda(L). Strength and seed
-    are not used. ValueError if nothing is declared to be perturbed.
+    The creep is continued by the trends of L(t) and Lambda(L).
+
+    Parameters
+    ----------
+    history : ModeHistory
+        The mode along the creep.
+    declared : Perturbation
+        The forcing; its strength and seed are not used.
+
+    Returns
+    -------
+    Growth
+        The amplitude per strength.
+
+    Raises
+    ------
+    ValueError
+        If nothing is declared to be perturbed.
     """
     path = continued(history)
     if declared.kind == "strength":
-        return grown(path, _log_gathered(history, path, declared))
+        return grown(path, _log_amplitude_of_roughness(history, path, declared))
     log_power = trend(history, np.log(_power(history, declared)))(path.length)
     return grown(path, 0.5 * _log_variance(path, log_power))
 
 
-def _power(history: ModeHistory, declared: Perturbation) -> Array:
+def _power(
+    history: ModeHistory,
+    declared: Perturbation,
+) -> Array:
     """``|g|^2 S(Im Lambda)`` (1/s) at the instants of a history, for a forcing in time."""
-    memory, omega = history.parameters.memory_time, history.rate.imag
+    memory = history.parameters.memory_time
+    omega = history.rate.imag
     spectrum = spectral_density(omega, declared.correlation_time * memory)
     if declared.kind == "normal_load":
         return np.abs(history.normal_load) ** 2 * spectrum
     if declared.kind == "drive_velocity":
-        # displacement follows velocity by 1/(i omega)
+        # displacement is velocity over i omega
         velocity = history.parameters.loading.velocity
         return np.abs(history.drive * velocity / omega) ** 2 * spectrum
     if declared.kind == "state":
-        covariance = correlation(history.x[:, None] - history.x, declared.correlation_length)
-        shares = np.einsum("ix,xy,iy->i", history.state, covariance, history.state.conj()).real
+        distances = history.x[:, None] - history.x
+        covariance = correlation(distances, declared.correlation_length)
+        weights = history.state
+        shares = np.einsum("ix,xy,iy->i", weights, covariance, weights.conj()).real
         return shares / memory**2 * spectrum
     raise ValueError(f"kind = {declared.kind!r} perturbs nothing: there is no drop to expect")
 
 
-def _log_gathered(history: ModeHistory, path: Path, declared: Perturbation) -> Array:
-    """log(sigma / eps) under roughness of the strength, which the front runs over."""
+def _log_amplitude_of_roughness(
+    history: ModeHistory,
+    path: CreepPath,
+    declared: Perturbation,
+) -> Array:
+    """log(sigma / eps) under roughness of the strength, as the front passes over it."""
     x = np.arange(0.0, path.length[-1], declared.correlation_length / SAMPLED)
     covariance = correlation(x[:, None] - x, declared.correlation_length)
-    logs, weights = map(np.array, zip(*roughness_weights(history, path, x), strict=True))
+    log_factors = []
+    rows = []
+    for log_factor, row in roughness_weights(history, path, x):
+        log_factors.append(log_factor)
+        rows.append(row)
+    weights = np.array(rows)
+
     # all times at once, and no complex copy of the covariance
-    squares = sum(((part @ covariance) * part).sum(axis=1) for part in (weights.real, weights.imag))
-    return np.asarray(logs + 0.5 * np.log(np.maximum(squares, TINY)))
+    def variance(part: Array) -> Array:
+        return ((part @ covariance) * part).sum(axis=1)
+
+    squares = variance(weights.real) + variance(weights.imag)
+    return np.array(log_factors) + 0.5 * np.log(np.maximum(squares, TINY))
 
 
-def grown(path: Path, log_amplitude: Array) -> Growth:
-    """The growth along a path, from the logarithm of the amplitude at even times of it."""
-    at = np.linspace(0, path.time.size - 1, log_amplitude.size)
-    every = np.interp(np.arange(path.time.size), at, log_amplitude)
+def grown(
+    path: CreepPath,
+    log_amplitude: Array,
+) -> Growth:
+    """The growth along a path.
+
+    Parameters
+    ----------
+    path : CreepPath
+        The continued creep.
+    log_amplitude : ndarray
+        log(sigma / eps) at times of the path, evenly spaced from the first to the last.
+
+    Returns
+    -------
+    Growth
+        At all times of the path.
+    """
+    count = path.time.size
+    at = np.linspace(0, count - 1, log_amplitude.size)
     speed = np.gradient(path.length, path.time)
-    per_period = speed * 2.0 * np.pi / path.rate.imag
-    return Growth(path.time, path.length, every, exponent_of(path).real, per_period)
+    return Growth(
+        time=path.time,
+        length=path.length,
+        log_amplitude=np.interp(np.arange(count), at, log_amplitude),
+        exponent=exponent_of(path).real,
+        per_period=speed * 2.0 * np.pi / path.rate.imag,
+    )
 
 
-def _log_variance(path: Path, log_power: Array) -> Array:
+def _log_variance(
+    path: CreepPath,
+    log_power: Array,
+) -> Array:
     """``log int exp(log_power + 2 int_s^t Re Lambda) ds``, without overflow."""
     exponent = 2.0 * exponent_of(path).real
-    terms = log_power - exponent + np.log(path.time[1] - path.time[0])
+    step = path.time[1] - path.time[0]
+    terms = log_power - exponent + np.log(step)
     return exponent + np.logaddexp.accumulate(terms)

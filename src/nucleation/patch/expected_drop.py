@@ -1,4 +1,4 @@
-"""The drop that a user's fault is to be expected to have, by theory alone."""
+"""The expected drop of a user's fault, by theory alone."""
 
 import dataclasses
 import math
@@ -9,7 +9,8 @@ import numpy as np
 
 from ..model.linearised import interface_state
 from ..model.parameters import Geometry, Parameters
-from ..theory.creep.lengths import NoPatch, Patches, stability_length_of
+from ..theory.creep.lengths import stability_length_of
+from ..theory.creep.patches import NoPatch, Patches
 from ..theory.creep.runaway import runaway_point
 from ..theory.critical import NoInstability, run_length
 from ..theory.status import UNKNOWN, VALUE
@@ -17,17 +18,18 @@ from .continued import trend
 from .delay import ClosedForm, Drop, growth
 from .mode_history import ModeHistory, mode_history
 
-LATEST_GROWTH = 0.85  # of the longest patch followed, up to which L_s leaves something to trend
+LATEST_GROWTH = 0.85  # over the longest patch followed, up to which L_s leaves lengths for a trend
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
+SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
 WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
 EARLIER, LATER = 0.03, 0.10
 """Relative range about L_run, below and above, in which the force drops after slow slip: the error
 of L_run, and its delay where the front is fast. Simulated drops are 0 to 8 % above L_run."""
+
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which L_run is used
-SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
-NEAR_END = 0.6  # part of the block's length up to which its far end is not felt in a thin block
-THICK = 0.5  # height over the patch's length from which a block is thick
-THICK_REACH = 0.2  # and (L + H) over the block's length up to which its far end is not felt then
+NEAR_END = 0.6  # patch length over the block's up to which a thin block's far end has no effect
+THICK = 0.5  # height over the patch's length above which a block is thick
+THICK_REACH = 0.2  # (L + H) over the block's length up to which a thick block's far end has none
 
 
 class NoDrop(ValueError):
@@ -38,38 +40,38 @@ class NoDrop(ValueError):
     reason : str
         Why, in words.
     status : {"stable", "beyond", "unknown"}
-        Which kind of reason it is: see :mod:`nucleation.theory.status`.
+        The kind of reason, of :mod:`nucleation.theory.status`.
     """
 
-    def __init__(self, reason: str, status: str = UNKNOWN):
+    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
         super().__init__(reason)
         self.status = status
 
 
 class ExpectedDrop(NamedTuple):
-    """What is to be expected of a fault under its declared perturbation; lengths in m."""
+    """The expected drop of a fault under its declared perturbation; lengths in m."""
 
     stability_length: float  # L_s
     drop: Drop
     closed_form: ClosedForm
-    doubt: str  # why the answer should not be relied upon, empty if it should
+    doubt: str  # why the answer is uncertain, empty if it is not
     runaway_length: float = math.nan  # L_run where friction weakens little, else NaN
     runaway_status: str = VALUE  # "value", "stable", "beyond" or "unknown"
     runaway_reason: str = ""  # why there is no L_run, empty where there is
 
     @property
     def length(self) -> float:
-        """The length (m) at the drop: the law's median, or L_run if slow slip lasts until then."""
+        """The length (m) at the drop: the law's median, or L_run if slow slip lasts up to it."""
         return float(np.fmax(self.drop.length, self.runaway_length))
 
     @property
     def low(self) -> float:
-        """The least length (m) that is expected at the drop."""
+        """The least expected length (m) at the drop."""
         return float(np.fmax(self.drop.low, self.runaway_length * (1.0 - EARLIER)))
 
     @property
     def high(self) -> float:
-        """The largest length (m) that is expected at the drop."""
+        """The largest expected length (m) at the drop."""
         return float(np.fmax(self.drop.high, self.runaway_length * (1.0 + LATER)))
 
     @property
@@ -79,19 +81,27 @@ class ExpectedDrop(NamedTuple):
 
     @property
     def trusted(self) -> bool:
-        """Whether the law holds as far as its own numbers tell."""
+        """Whether the answer has no doubt."""
         return not self.doubt
 
 
 def expected_drop(parameters: Parameters) -> ExpectedDrop:
     """L_s and the length at the drop of a fault under its declared perturbation.
 
-    Mesh and steps do not matter.
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the fault; mesh and steps have no effect.
+
+    Returns
+    -------
+    ExpectedDrop
+        The lengths, and why they are uncertain if they are.
 
     Raises
     ------
     NoDrop
-        Nothing is perturbed, or no patch turns unstable.
+        If nothing is perturbed, or no patch turns unstable.
     ParameterError
         If it is no uniform fault that is pushed at its edge.
     """
@@ -105,14 +115,23 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
     except (NoInstability, NoPatch) as error:
         raise NoDrop(str(error), error.status) from None
     found = growth(history, declared)
-    drop = found.drop(declared.strength)
-    closed = found.closed_form(history, declared.strength)
-    stable = stability_length_of(parameters, critical)
-    known = ExpectedDrop(stable, drop, closed, "", *_runaway_length(parameters, critical))
+    runaway, status, reason = _runaway_length(parameters, critical)
+    known = ExpectedDrop(
+        stability_length=stability_length_of(parameters, critical),
+        drop=found.drop(declared.strength),
+        closed_form=found.closed_form(history, declared.strength),
+        doubt="",
+        runaway_length=runaway,
+        runaway_status=status,
+        runaway_reason=reason,
+    )
     return known._replace(doubt="; ".join(_doubts(history, known, critical)))
 
 
-def _runaway_length(parameters: Parameters, critical: float) -> tuple[float, str, str]:
+def _runaway_length(
+    parameters: Parameters,
+    critical: float,
+) -> tuple[float, str, str]:
     """L_run (m) with status and reason; NaN where weakening is strong or no patch runs away."""
     interface = interface_state(parameters)
     if interface.zeta >= WEAK * interface.a:
@@ -120,13 +139,18 @@ def _runaway_length(parameters: Parameters, critical: float) -> tuple[float, str
         return math.nan, UNKNOWN, f"it is computed for zeta/a < {WEAK:g}: zeta/a = {ratio:.3g}"
     patches = dataclasses.replace(Patches.of(parameters), law=None)
     try:
-        return runaway_point(patches, critical, parameters.friction.evolution), VALUE, ""
+        length = runaway_point(patches, critical, parameters.friction.evolution)
     except NoPatch as none:
         return math.nan, none.status, str(none)
+    return length, VALUE, ""
 
 
-def _doubts(history: ModeHistory, known: ExpectedDrop, critical: float) -> Iterator[str]:
-    """Why the answer should not be relied upon, a text for each reason."""
+def _doubts(
+    history: ModeHistory,
+    known: ExpectedDrop,
+    critical: float,
+) -> Iterator[str]:
+    """Why the answer is uncertain, a text for each reason."""
     if known.slips_slowly:
         yield from _doubts_of_runaway(history, known, critical)
     else:
@@ -134,13 +158,18 @@ def _doubts(history: ModeHistory, known: ExpectedDrop, critical: float) -> Itera
     yield from _doubts_of_block(history, known)
 
 
-def _doubts_of_runaway(history: ModeHistory, known: ExpectedDrop, critical: float) -> Iterator[str]:
-    """Why L_run should not be relied upon: it is that of constant a and b, and of few bodies."""
-    own, below = history.parameters, history.parameters.below
+def _doubts_of_runaway(
+    history: ModeHistory,
+    known: ExpectedDrop,
+    critical: float,
+) -> Iterator[str]:
+    """Why L_run is uncertain: it assumes constant a and b, and was tested on few bodies."""
+    own = history.parameters
+    below = own.below
     if below is not None and (below.material, below.geometry) != (own.material, own.geometry):
         yield (
-            "L_run was compared with simulations on a rigid base and between bodies alike, and not "
-            "between unlike ones"
+            "L_run was compared with simulations on a rigid base and between equal bodies, but not "
+            "between different ones"
         )
     constant = stability_length_of(own, critical, constant=True)
     if not abs(known.stability_length / constant - 1.0) < CONSTANT:
@@ -152,9 +181,12 @@ def _doubts_of_runaway(history: ModeHistory, known: ExpectedDrop, critical: floa
 
 
 def _doubts_of_law(
-    history: ModeHistory, drop: Drop, closed: ClosedForm, critical: float
+    history: ModeHistory,
+    drop: Drop,
+    closed: ClosedForm,
+    critical: float,
 ) -> Iterator[str]:
-    """Why the law of the drop should not be relied upon."""
+    """Why the law of the drop is uncertain."""
     longest = history.length[-1]
     if closed.effective >= STRONGEST:
         yield (
@@ -163,11 +195,11 @@ def _doubts_of_law(
         )
     if closed.front_length > LATEST_GROWTH * longest:
         yield (
-            "growth begins near the longest patch whose mode could be followed, at "
-            f"{closed.front_length / longest:.2g} of its length: how it goes on is not known"
+            "growth begins near the longest patch with a mode that could be followed, at "
+            f"{closed.front_length / longest:.2g} of its length: its further growth is not known"
         )
     if not np.isfinite([drop.length, drop.low, drop.high]).all():
-        yield "the drop lies beyond the lengths that the mode's trends are carried on to"
+        yield "the drop is beyond the lengths to which the mode's trends are continued"
         return
     grown = _growth_in_period(history, drop.length)
     if grown < SLOWEST_GROWTH:
@@ -178,19 +210,22 @@ def _doubts_of_law(
         )
     if drop.high > longest:
         yield (
-            "the drop lies beyond the patches whose mode could be followed, "
+            "the drop is beyond the patches with a mode that could be followed, "
             f"{longest / critical:.2g} L_c"
         )
 
 
-def _doubts_of_block(history: ModeHistory, known: ExpectedDrop) -> Iterator[str]:
+def _doubts_of_block(
+    history: ModeHistory,
+    known: ExpectedDrop,
+) -> Iterator[str]:
     """Whether the patch feels the far end of its block when it drops."""
     geometry = history.parameters.geometry
     highest = np.fmax(known.drop.high, known.runaway_length)
     if highest > NEAR_END * geometry.length:
         yield (
-            f"the patch would be {highest / geometry.length:.2g} of the block long, whose far "
-            "end it feels"
+            f"the patch would be {highest / geometry.length:.2g} of the block long, and would feel "
+            "the block's far end"
         )
     elif feels_far_end(known.length, geometry):
         reach = (known.length + geometry.height) / geometry.length
@@ -201,21 +236,42 @@ def _doubts_of_block(history: ModeHistory, known: ExpectedDrop) -> Iterator[str]
         )
 
 
-def feels_far_end(length: float, geometry: Geometry) -> bool:
-    """Whether a patch of a length (m) in a thick block feels the far end.
+def feels_far_end(
+    length: float,
+    geometry: Geometry,
+) -> bool:
+    """Whether a patch in a thick block feels the far end.
 
-    In a thin block the end is not felt at a distance of some heights. In a thick one its effect
-    falls off with the distance over ``L + H``: simulated drops in blocks of H = 1.2 m that are 8, 6
+    Parameters
+    ----------
+    length : float
+        Patch length (m).
+    geometry : Geometry
+        Of the block.
+
+    Returns
+    -------
+    bool
+        False for thin blocks.
+
+    Notes
+    -----
+    A thin block's end has no effect at a distance of some heights. In a thick one its effect
+    decreases with the distance over ``L + H``: simulated drops in blocks of H = 1.2 m that are 8, 6
     and 4 L_c long came 2.9, 5.8 and 9.8 % later than by the law, at 0.26, 0.34 and 0.51.
     """
     is_thick = geometry.height > THICK * length
     return is_thick and length + geometry.height > THICK_REACH * geometry.length
 
 
-def _growth_in_period(history: ModeHistory, length: float) -> float:
+def _growth_in_period(
+    history: ModeHistory,
+    length: float,
+) -> float:
     """The mode's growth in one of its periods at a patch length (m), by the trends."""
-    rate, turn = (
-        float(trend(history, part)(np.array([length]))[0])
-        for part in (history.rate.real, history.rate.imag)
-    )
-    return float(np.exp(2.0 * np.pi * rate / turn)) if turn > 0.0 else float("inf")
+    at = np.array([length])
+    rate = float(trend(history, history.rate.real)(at)[0])
+    frequency = float(trend(history, history.rate.imag)(at)[0])
+    if not frequency > 0.0:
+        return math.inf
+    return float(np.exp(2.0 * np.pi * rate / frequency))

@@ -1,7 +1,7 @@
 """Linear stability of the creeping patch itself, frozen at an instant of a simulation.
 
 The paper replaces the patch by homogeneous sliding. Here friction, state and the static elastic
-response of the block are linearised about the fields that the simulation has at one instant. For
+response of the block are linearised about the fields of the simulation at one instant. For
 perturbations of the displacement w and of psi = log(phi) at the slipping nodes, force balance
 reads (p = -f R at each node, R the nodal normal force)
 
@@ -30,17 +30,30 @@ from ..types import Array
 
 
 def frozen_patch(
-    operator: Operator, law: Friction, slip_rate: Array, state: Array, normal_force: Array,
+    operator: Operator,
+    law: Friction,
+    slip_rate: Array,
+    state: Array,
+    normal_force: Array,
     slowest: float,
-) -> FrozenPatch:  # fmt: skip
-    """Linearise the patch whose fields along the interface (n_x + 1,) are given.
+) -> FrozenPatch:
+    """Linearise the patch about given fields along the interface.
 
     Parameters
     ----------
-    operator : the static stiffness of the body or bodies (``s = 0``).
-    law : friction law, whose parameters may vary along the interface.
-    slip_rate, state, normal_force : at the nodes 0..n_x (m/s, s, N/m; positive in compression).
-    slowest : nodes that slip more slowly (m/s) are taken as stuck.
+    operator : BodyOperator
+        The static stiffness of the body or bodies (``s = 0``).
+    law : Friction
+        The friction law; its parameters may vary along the interface.
+    slip_rate, state, normal_force : ndarray
+        At the nodes (m/s, s, N/m; positive in compression), (n_x + 1,).
+    slowest : float
+        Slip rate (m/s) below which nodes count as stuck.
+
+    Returns
+    -------
+    FrozenPatch
+        Its coefficients at the slipping nodes.
     """
     grid = operator.body.grid
     first = grid.n_x + 1 - operator.body.free_nodes  # node 0 is driven, repeats another, or is free
@@ -48,15 +61,26 @@ def frozen_patch(
     if first and not grid.periodic:
         slipping &= grid.x <= NEAR * grid.length
     nodes = np.flatnonzero(slipping[first:]) + first
-    v, phi, force, law = slip_rate[nodes], state[nodes], normal_force[nodes], _at(law, nodes)
-    f = law.coefficient(v, phi)
-    f_v, f_phi = law.derivatives(v, phi)
+    v, phi, force = slip_rate[nodes], state[nodes], normal_force[nodes]
+    own_law = _at(law, nodes)
+    f = own_law.coefficient(v, phi)
+    f_v, f_phi = own_law.derivatives(v, phi)
+    g_v, g_psi = log_state_derivatives(own_law, v, phi)
     stiffness, coupling = operator.tangent(nodes + 1 - first)
-    by_w = -(stiffness + f[:, None] * coupling) / (f_v * force)[:, None]
-    return FrozenPatch(nodes, by_w, -f_phi * phi / f_v, *log_state_derivatives(law, v, phi))
+    by_force = (f_v * force)[:, None]
+    return FrozenPatch(
+        nodes=nodes,
+        by_w=-(stiffness + f[:, None] * coupling) / by_force,
+        by_log_state=-f_phi * phi / f_v,
+        evolution_by_rate=g_v,
+        evolution_by_log_state=g_psi,
+    )
 
 
-def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
+def _at(
+    law: Friction,
+    nodes: NDArray[np.intp],
+) -> Friction:
     """The law with its parameters at some nodes."""
     own = copy.copy(law)
     for name, value in vars(law).items():
@@ -66,29 +90,82 @@ def _at(law: Friction, nodes: NDArray[np.intp]) -> Friction:
 
 
 class Freezer:
-    """Freezes the patches of one run, which slip faster than a threshold (m/s)."""
+    """Linearises the patches of one run at given fields."""
 
-    def __init__(self, parameters: Parameters, threshold: float) -> None:
+    def __init__(
+        self,
+        parameters: Parameters,
+        threshold: float,
+    ) -> None:
+        """Prepare the run's static operator and its law.
+
+        Parameters
+        ----------
+        parameters : Parameters
+            Of the run.
+        threshold : float
+            Slip rate (m/s) below which nodes count as stuck.
+        """
         body = body_of(parameters)
-        self.parameters, self.grid, self.threshold = parameters, body.grid, threshold
+        self.parameters = parameters
+        self.grid = body.grid
+        self.threshold = threshold
         self.operator = body.operator(0.0)
         self._law = interface_of(parameters, body.grid).friction
 
-    def frozen(self, slip_rate: Array, state: Array, normal_force: Array) -> FrozenPatch:
-        """The patch of fields along the interface, as for :func:`frozen_patch`."""
+    def frozen(
+        self,
+        slip_rate: Array,
+        state: Array,
+        normal_force: Array,
+    ) -> FrozenPatch:
+        """The patch about fields along the interface.
+
+        Parameters
+        ----------
+        slip_rate, state, normal_force : ndarray
+            At the nodes (m/s, s, N/m; positive in compression), (n_x + 1,).
+
+        Returns
+        -------
+        FrozenPatch
+            Its coefficients at the slipping nodes.
+        """
         return frozen_patch(
-            self.operator, self._law, slip_rate, state, normal_force, self.threshold
+            self.operator,
+            self._law,
+            slip_rate,
+            state,
+            normal_force,
+            self.threshold,
         )
 
-    def oscillating(self, patch: FrozenPatch, slip_rate: Array) -> complex:
-        """Lambda (1/s) of its fastest growing oscillating mode, or NaN.
+    def oscillating(
+        self,
+        patch: FrozenPatch,
+        slip_rate: Array,
+    ) -> complex:
+        """The eigenvalue of the fastest growing oscillating mode.
 
-        The frequency's scale is V/D; without an edge that moves at V it is the patch's own v/D.
+        The frequency's scale is V/D; without an edge that moves at V it is v/D of the patch itself.
+
+        Parameters
+        ----------
+        patch : FrozenPatch
+            The patch.
+        slip_rate : ndarray
+            At the nodes (m/s), (n_x + 1,).
+
+        Returns
+        -------
+        complex
+            Lambda (1/s), or NaN without such a mode.
         """
-        own = 1.0
-        if self.parameters.loading.kind != "edge":
-            own = float(slip_rate.max()) / self.parameters.loading.velocity
-        return patch.oscillating(own * OSCILLATING / self.parameters.memory_time)
+        loading = self.parameters.loading
+        rate_over_v = 1.0
+        if loading.kind != "edge":
+            rate_over_v = float(slip_rate.max()) / loading.velocity
+        return patch.oscillating(rate_over_v * OSCILLATING / self.parameters.memory_time)
 
 
 class Frames(Freezer):
@@ -98,7 +175,8 @@ class Frames(Freezer):
         super().__init__(record.parameters, record.threshold)
         names = ("slip_rate", "state", "normal_stress")
         self._fields = [record.simulation[name].values[record.creep] for name in names]
-        self.time, self.length = record.time[record.creep], record.lengths[record.creep]
+        self.time = record.time[record.creep]
+        self.length = record.lengths[record.creep]
 
     def fields(self, i: int) -> tuple[Array, Array, Array]:
         """Slip rate (m/s), state (s) and nodal normal force (N/m) at a frame, at all nodes."""
@@ -107,5 +185,6 @@ class Frames(Freezer):
 
     def patch(self, i: int) -> tuple[FrozenPatch, complex]:
         """The frozen patch at a frame, and its oscillating mode."""
-        patch = self.frozen(*self.fields(i))
-        return patch, self.oscillating(patch, self._fields[0][i])
+        rate, state, force = self.fields(i)
+        patch = self.frozen(rate, state, force)
+        return patch, self.oscillating(patch, rate)

@@ -1,10 +1,10 @@
 """The length at which the creep patch of a simulation turns linearly unstable, free of its noise.
 
 Growth of the frozen patch (:mod:`nucleation.patch.frozen`) begins where the first of its modes
-stops decaying, which oscillates there (:mod:`nucleation.theory.creep.lengths`). Each instant of a
-run needs the spectrum of a dense matrix, and a run has some hundred of them: a few, spaced evenly
-in patch length, find the crossing by the fastest growing mode, and a line through the oscillating
-mode at the instants around it gives its length.
+stops decaying; that mode oscillates there (:mod:`nucleation.theory.creep.lengths`). Each instant of
+a run needs the spectrum of a dense matrix, and a run has some hundred of them. So a few instants,
+spaced evenly in patch length, give the rough crossing by the fastest growing mode. A line through
+the oscillating mode at the instants around it gives the length.
 """
 
 from collections.abc import Iterable
@@ -21,10 +21,10 @@ from ..types import Array, ComplexArray
 from .frozen import Frames
 
 FEWEST_NODES = 8  # a shorter patch is not resolved
-SCANNED = 40  # instants that find the crossing,
-NEAR = 60  # and those around it, at most, through which the line is laid:
-AROUND = 0.08  # within this part of the crossing's length
-REFITS = 2  # the second about the first one's crossing
+SCANNED = 40  # instants that give the rough crossing
+NEAR = 60  # instants around it, at most, to which the line is fitted
+AROUND = 0.08  # their range of lengths, to either side, over the crossing's length
+REFITS = 2  # the second is about the crossing of the first
 FEWEST_NEAR = 4  # instants for a line
 
 FITTED = {
@@ -34,7 +34,7 @@ FITTED = {
     "stability_length_error": Variable("m", "standard error of L_s", "L_s"),
     "stability_frequency": Variable("1/s", "angular frequency where growth begins", "omega"),
 }
-"""What is read from a patch where its growth begins."""
+"""Variables of the patch where its growth begins."""
 
 FOLLOWED = {
     "x": RECORDED["x"],
@@ -50,34 +50,50 @@ FOLLOWED = {
 }
 
 
-def follow_patch(simulation: xr.Dataset, settings: ExtractionSettings) -> xr.Dataset:
+def follow_patch(
+    simulation: xr.Dataset,
+    settings: ExtractionSettings,
+) -> xr.Dataset:
     """Growth of the frozen patch along a run up to its onset, and the length where it begins.
 
-    The dataset has :data:`FOLLOWED`: patches on ``instant``, the mode where growth begins on ``x``.
-    NaN where no mode oscillates, and where growth does not begin.
+    Parameters
+    ----------
+    simulation : Dataset
+        Record of a run.
+    settings : ExtractionSettings
+        Definitions of the onset and of the patch's length.
+
+    Returns
+    -------
+    Dataset
+        The variables :data:`FOLLOWED`: patches on ``instant``, the mode where growth begins on
+        ``x``. NaN where no mode oscillates, and where growth does not begin.
     """
-    record = _Creep(Record(simulation, settings))
-    frames = np.flatnonzero(record.length >= FEWEST_NODES * record.grid.dx)
-    scanned = evenly(frames, record.length, SCANNED)
-    crossing = rough_crossing(record.length[scanned], record.fastest(scanned).real)
+    spectra = _Spectra(Record(simulation, settings))
+    frames = np.flatnonzero(spectra.length >= FEWEST_NODES * spectra.grid.dx)
+    scanned = evenly(frames, spectra.length, SCANNED)
+    crossing = rough_crossing(spectra.length[scanned], spectra.fastest(scanned).real)
     fit = dict.fromkeys(FITTED, float("nan"))
-    mode = np.zeros(record.grid.n_x + 1, dtype=complex)
+    near = frames
     for _ in range(REFITS):
         if np.isfinite(crossing):
-            near = frames[np.abs(record.length[frames] / crossing - 1.0) < AROUND]
-            near = evenly(near, record.length, NEAR)
-            fit = fitted_crossing(record.length[near], record.growth(near))
+            near = frames[np.abs(spectra.length[frames] / crossing - 1.0) < AROUND]
+            near = evenly(near, spectra.length, NEAR)
+            fit = fitted_crossing(spectra.length[near], spectra.growth(near))
             crossing = fit["stability_length"]
-    if np.isfinite(fit["stability_length"]):
-        at = near[np.abs(record.length[near] - fit["stability_length"]).argmin()]
-        patch, _ = record.patch(at)
-        mode[patch.nodes], _ = patch.mode(record.growth([at])[0])
-    found = record.dataset(fit, mode)
+    mode = np.zeros(spectra.grid.n_x + 1, dtype=complex)
+    if np.isfinite(crossing):
+        distance = np.abs(spectra.length[near] - crossing)
+        at = near[distance.argmin()]
+        patch, _ = spectra.patch(at)
+        (rate,) = spectra.growth([at])
+        mode[patch.nodes], _ = patch.mode(rate)
+    found = spectra.dataset(fit, mode)
     return found.assign_attrs(parameters=simulation.attrs["parameters"])
 
 
-class _Creep(Frames):
-    """The frames of a run whose spectra are known once asked for."""
+class _Spectra(Frames):
+    """The frames of a run with their eigenvalues, each computed once."""
 
     def __init__(self, record: Record) -> None:
         super().__init__(record)
@@ -85,24 +101,46 @@ class _Creep(Frames):
 
     def fastest(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing mode at some frames, or NaN."""
-        return np.array([self._rates(i)[0] for i in frames], dtype=complex)
+        rates = [self._rates(i) for i in frames]
+        return np.array([fastest for fastest, _ in rates], dtype=complex)
 
     def growth(self, frames: Iterable[int]) -> ComplexArray:
         """Eigenvalues (1/s) of the fastest growing oscillating mode at some frames, or NaN."""
-        return np.array([self._rates(i)[1] for i in frames], dtype=complex)
+        rates = [self._rates(i) for i in frames]
+        return np.array([pair for _, pair in rates], dtype=complex)
 
     def _rates(self, frame: int) -> tuple[complex, complex]:
         if frame not in self._known:
             patch, pair = self.patch(frame)
-            fastest = patch.eigenvalues[0] if patch.nodes.size else complex(np.nan, np.nan)
+            fastest = complex(np.nan, np.nan)
+            if patch.nodes.size:
+                fastest = patch.eigenvalues[0]
             self._known[frame] = (fastest, pair)
         return self._known[frame]
 
-    def dataset(self, fit: dict[str, float], mode: ComplexArray) -> xr.Dataset:
-        """What :func:`follow_patch` returns."""
+    def dataset(
+        self,
+        fit: dict[str, float],
+        mode: ComplexArray,
+    ) -> xr.Dataset:
+        """The dataset of :func:`follow_patch`.
+
+        Parameters
+        ----------
+        fit : dict
+            Values of :data:`FITTED`, by name.
+        mode : ndarray
+            Slip in the mode where growth begins, (n_x + 1,).
+
+        Returns
+        -------
+        Dataset
+            The variables :data:`FOLLOWED` at all frames with known eigenvalues.
+        """
         frames = sorted(self._known)
-        fastest, pairs = np.array([self._known[i] for i in frames]).reshape(-1, 2).T
-        columns = {
+        rates = [self._known[i] for i in frames]
+        fastest, pairs = np.array(rates).reshape(-1, 2).T
+        on_instant = {
             "instant_time": self.time[frames],
             "patch_length": self.length[frames],
             "growth_rate": fastest.real,
@@ -110,12 +148,12 @@ class _Creep(Frames):
             "oscillation_growth": pairs.real,
             "oscillation_frequency": pairs.imag,
         }
+        on_x = {"mode_real": mode.real, "mode_imaginary": mode.imag}
         found = xr.Dataset(
             {
-                **{name: ("instant", values) for name, values in columns.items()},
+                **{name: ("instant", values) for name, values in on_instant.items()},
                 **fit,
-                "mode_real": ("x", mode.real),
-                "mode_imaginary": ("x", mode.imag),
+                **{name: ("x", values) for name, values in on_x.items()},
             },
             coords={"x": self.grid.x},
             attrs={"parameters": self.parameters.to_json()},
@@ -123,19 +161,56 @@ class _Creep(Frames):
         return annotate(found, FOLLOWED)
 
 
-def evenly(frames: NDArray[np.intp], length: Array, number: int) -> NDArray[np.intp]:
-    """At most `number` of some frames, spaced evenly in patch length (m)."""
+def evenly(
+    frames: NDArray[np.intp],
+    length: Array,
+    number: int,
+) -> NDArray[np.intp]:
+    """Some of the frames, spaced evenly in patch length.
+
+    Parameters
+    ----------
+    frames : ndarray
+        Indices of frames, rising.
+    length : ndarray
+        Patch length (m) at each frame of the run.
+    number : int
+        At most as many are chosen.
+
+    Returns
+    -------
+    ndarray
+        Indices of frames.
+    """
     if frames.size <= number:
         return frames
-    wanted = np.linspace(length[frames[0]], length[frames[-1]], number)
-    return frames[np.unique(np.searchsorted(length[frames], wanted).clip(0, frames.size - 1))]
+    lengths = length[frames]
+    wanted = np.linspace(lengths[0], lengths[-1], number)
+    nearest = np.searchsorted(lengths, wanted)
+    nearest = nearest.clip(0, frames.size - 1)
+    return frames[np.unique(nearest)]
 
 
-def rough_crossing(length: Array, growth: Array) -> float:
-    """Patch length (m) that best divides decay from growth, NaN without either.
+def rough_crossing(
+    length: Array,
+    growth: Array,
+) -> float:
+    """Patch length that best divides decay from growth.
 
-    The range of lengths on the wrong side of it is the least possible: on a coarse mesh the
-    front's hops take growth to and fro.
+    The range of lengths with the wrong sign is the least possible: on a coarse mesh the growth rate
+    fluctuates as the front moves from node to node.
+
+    Parameters
+    ----------
+    length : ndarray
+        Patch lengths (m), rising, (n,).
+    growth : ndarray
+        Growth rates (1/s), or NaN, (n,).
+
+    Returns
+    -------
+    float
+        The length (m), NaN without growth or without decay.
     """
     usable = np.isfinite(growth)
     length, growth = length[usable], growth[usable]
@@ -144,29 +219,53 @@ def rough_crossing(length: Array, growth: Array) -> float:
     ranges = np.gradient(length) * np.sign(growth)
     wrong = np.append(0.0, np.cumsum(ranges))  # less the same constant for each division
     at = int(wrong.argmin())
-    return float(length[min(at, length.size - 1)]) if at else float("nan")
+    if at == 0:
+        return float("nan")
+    return float(length[min(at, length.size - 1)])
 
 
-def fitted_crossing(length: Array, growth: ComplexArray) -> dict[str, float]:
-    """Where a line through eigenvalues (1/s) over patch length (m) crosses zero growth.
+def fitted_crossing(
+    length: Array,
+    growth: ComplexArray,
+) -> dict[str, float]:
+    """Where a line through eigenvalues over patch length crosses zero growth.
 
-    The front advances by one node at a time, and growth varies within each hop: the scatter about
+    The front advances by one node at a time, and growth varies within each hop. The scatter about
     the line over its slope gives the range of lengths at which growth may begin.
+
+    Parameters
+    ----------
+    length : ndarray
+        Patch lengths (m), (n,).
+    growth : ndarray
+        Eigenvalues (1/s), or NaN, (n,).
+
+    Returns
+    -------
+    dict
+        Values of :data:`FITTED`, by name; NaN if the line does not cross zero within the lengths.
     """
+    none = dict.fromkeys(FITTED, float("nan"))
     usable = np.isfinite(growth)
     length, growth = length[usable], growth[usable]
     if length.size < FEWEST_NEAR:
-        return dict.fromkeys(FITTED, float("nan"))
+        return none
     centre = length.mean()
-    slope, level = np.polyfit(length - centre, growth.real, 1)
-    if slope <= 0.0 or not length.min() <= centre - level / slope <= length.max():
-        return dict.fromkeys(FITTED, float("nan"))
-    turn, frequency = np.polyfit(length - centre, growth.imag, 1)
+    offset = length - centre
+    slope, level = np.polyfit(offset, growth.real, 1)
+    if slope <= 0.0:
+        return none
     crossing = centre - level / slope
-    scatter = np.std(growth.real - level - slope * (length - centre), ddof=2) / slope
+    if not length.min() <= crossing <= length.max():
+        return none
+    turn, frequency = np.polyfit(offset, growth.imag, 1)
+    misfit = growth.real - level - slope * offset
+    scatter = np.std(misfit, ddof=2) / slope
     lever = np.hypot(1.0, (crossing - centre) / length.std())
-    values = (
-        crossing, crossing - scatter, crossing + scatter, scatter * lever / np.sqrt(length.size),
-        frequency + turn * (crossing - centre),
-    )  # fmt: skip
-    return dict(zip(FITTED, map(float, values), strict=True))
+    return {
+        "stability_length": float(crossing),
+        "stability_length_low": float(crossing - scatter),
+        "stability_length_high": float(crossing + scatter),
+        "stability_length_error": float(scatter * lever / np.sqrt(length.size)),
+        "stability_frequency": float(frequency + turn * (crossing - centre)),
+    }

@@ -1,21 +1,21 @@
-"""The oscillating mode of the creeping patch along its creep, and how a forcing stirs it.
+"""The oscillating mode of the creeping patch along its creep, and its response to a forcing.
 
-The patches of :mod:`nucleation.theory.creep.front` have what the law of the drop asks for: time and
-Lambda at each length, and the left eigenvector. The mode's complex amplitude A obeys
+The patches of :mod:`nucleation.theory.creep.front` have everything that the law of the drop needs:
+time and Lambda at each length, and the left eigenvector. The mode's complex amplitude A obeys
 
     dA/dt = Lambda A + eps g(t) xi,
 
-scaled such that A = 1 where the slip rate swings by V. The left eigenvector gives g: linearised
-force balance makes of each kind of forcing (:mod:`nucleation.model.perturbation`)
+scaled such that A = 1 where the slip rate swings by V. The left eigenvector gives g. By linearised
+force balance each kind of forcing (:mod:`nucleation.model.perturbation`) acts as
 
     normal_load      f sigma eps xi(t)
     drive_velocity   a displacement U of the edge, with the slip ``p U``, ``(K1 + f S2) p = 0``
     strength         f sigma eps xi(x)
     state            eps (V/D) xi(x, t) in d(dpsi)/dt
 
-An infinite block is loaded evenly, so that a load acts on friction alone. Left out is what freezing
-leaves out: dl/dt, and the nodes at the front that begin to slip (docs/patch_stability.md). Either
-changes growth by some 0.2 1/s, where Re Lambda comes to 3 1/s.
+An infinite block is loaded evenly, so that a load acts on friction alone. As in the frozen patch,
+dl/dt and the nodes at the front that begin to slip are neglected (docs/patch_stability.md). Either
+changes growth by some 0.2 1/s, where Re Lambda reaches 3 1/s.
 """
 
 import dataclasses
@@ -25,25 +25,27 @@ from numpy.typing import NDArray
 
 from ..model.parameters import Parameters
 from ..theory.creep.front import Advance, advance, first_growing, oscillating
-from ..theory.creep.lengths import NoPatch, Patches
 from ..theory.creep.linearised import local_coefficients
-from ..theory.creep.modes import edge_slip
+from ..theory.creep.patches import NoPatch, Patches
+from ..theory.creep.steady import edge_slip
 from ..theory.status import STABLE
 from ..types import Array, ComplexArray
 
-FIRST, LAST, INSTANTS = 0.8, 1.7, 24  # lengths over L_s that are followed, and how many
-SLOWED = 0.45  # frequency over that at L_s below which a patch leaves its oscillation behind
-FEWEST = 6  # instants of which trends can be made,
-NARROWED = 3  # and how often a narrower range of lengths is tried for them
-JUMP = 2.0  # change of the rate, over that to the next instant, which is one to another mode
-PLACES = 400  # along x, for what depends on it
+FIRST, LAST = 0.8, 1.7  # lengths over L_s that are followed
+INSTANTS = 24  # number of lengths
+SLOWED = 0.45  # frequency over that at L_s below which a patch no longer oscillates
+FEWEST = 6  # instants from which trends can be made
+NARROWED = 3  # number of times that a narrower range of lengths is tried for them
+JUMP = 2.0  # change of the rate, over that to the next instant, at which another mode is fastest
+PLACES = 400  # along x
 
 
 @dataclasses.dataclass(frozen=True)
 class ModeHistory:
     """The oscillating mode along the creep, on (instant) or (instant, x).
 
-    The weights are those of ``A`` in each kind of forcing, for a mode whose slip rate swings by V.
+    The weights are those of ``A`` in each kind of forcing, for a mode with a slip rate that swings
+    by V.
     """
 
     parameters: Parameters
@@ -57,31 +59,47 @@ class ModeHistory:
     state: ComplexArray  # g (1) of a source in d log(phi)/dt at each place
 
 
-def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
-    """The mode of a run's creep, by the theory whose critical length is given (m).
+def mode_history(
+    parameters: Parameters,
+    theory_length: float,
+) -> ModeHistory:
+    """The mode of a run's creep.
 
-    NoPatch if none turns unstable within the lengths looked at, or its creep opens the fault.
+    Parameters
+    ----------
+    parameters : Parameters
+        Of the run.
+    theory_length : float
+        L_c (m) of its fault.
+
+    Returns
+    -------
+    ModeHistory
+        The mode at the instants at which it can be followed.
+
+    Raises
+    ------
+    NoPatch
+        If no patch of the lengths tried turns unstable, its creep opens the fault, or the mode
+        oscillates in too few of them.
     """
-    patches, loading = Patches.of(parameters), parameters.loading
     if not np.isfinite(theory_length):
         raise NoPatch("homogeneous sliding is stable", STABLE)
-    start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
-    stable = first_growing(patches, theory_length, *start)
+    patches, loading = Patches.of(parameters), parameters.loading
+    initial_stress = loading.initial_shear_stress / loading.normal_stress
+    stable = first_growing(patches, theory_length, loading.initial_state, initial_stress)
     lengths = stable * np.linspace(FIRST, LAST, INSTANTS)
     for _ in range(NARROWED + 1):
-        found = advance(patches, lengths, *start)
+        found = advance(patches, lengths, loading.initial_state, initial_stress)
         rates = oscillating(found)
         known = followed(found.length, rates, stable)
         if known.size >= FEWEST:
             break
-        middle = int(np.searchsorted(lengths, stable))
-        first, last = (known[0], known[-1]) if known.size else (middle, middle - 1)
-        low, high = lengths[max(first - 1, 0)], lengths[min(last + 1, INSTANTS - 1)]
-        lengths = np.linspace(low, high, INSTANTS)
+        lengths = _narrower(lengths, known, stable)
     else:
         raise NoPatch(
             f"growth begins at a patch length of {stable:.4g} m, and the mode does not oscillate "
-            "long enough around it for its growth to be followed"
+            "long enough around it to determine its growth"
         )
     x = np.linspace(0.0, found.length[-1], PLACES)
     rows = [_weights(patches, found, int(i), complex(rates[i]), x) for i in known]
@@ -89,26 +107,60 @@ def mode_history(parameters: Parameters, theory_length: float) -> ModeHistory:
     load, drive, strength, state = columns
     memory = parameters.memory_time
     return ModeHistory(
-        parameters, x, found.time[known], found.length[known], rates[known] / memory,
-        load / memory, drive / memory, strength / memory, state,
-    )  # fmt: skip
+        parameters=parameters,
+        x=x,
+        time=found.time[known],
+        length=found.length[known],
+        rate=rates[known] / memory,
+        normal_load=load / memory,
+        drive=drive / memory,
+        strength=strength / memory,
+        state=state,
+    )
 
 
-def followed(length: Array, rates: ComplexArray, stable: float) -> NDArray[np.intp]:
-    """Indices of the lengths at which a rate is that of the mode whose growth begins at L_s.
+def _narrower(
+    lengths: Array,
+    known: NDArray[np.intp],
+    stable: float,
+) -> Array:
+    """Lengths (m) over the narrower range in which the mode is known, or around L_s."""
+    middle = int(np.searchsorted(lengths, stable))
+    first, last = middle, middle - 1
+    if known.size:
+        first, last = known[0], known[-1]
+    low = lengths[max(first - 1, 0)]
+    high = lengths[min(last + 1, INSTANTS - 1)]
+    return np.linspace(low, high, INSTANTS)
 
-    The mode is followed from L_s to either side, until it leaves its oscillation behind or the
-    rate jumps: there another mode is the fastest growing one that oscillates.
+
+def followed(
+    length: Array,
+    rates: ComplexArray,
+    stable: float,
+) -> NDArray[np.intp]:
+    """Indices of the lengths at which a rate belongs to the mode that begins to grow at L_s.
+
+    The mode is followed from L_s to either side, until it no longer oscillates or the rate jumps:
+    there another mode is the fastest growing one that oscillates.
 
     Parameters
     ----------
-    length : patch lengths (m), rising, (n,).
-    rates : Lambda of the fastest growing oscillating mode at each, NaN without one, (n,).
-    stable : L_s (m).
+    length : ndarray
+        Patch lengths (m), rising, (n,).
+    rates : ndarray
+        Lambda of the fastest growing oscillating mode at each, NaN without one, (n,).
+    stable : float
+        L_s (m).
+
+    Returns
+    -------
+    ndarray
+        The indices, rising.
     """
-    at_stable = np.interp(stable, length, rates.imag)
-    above = length > stable
-    left = above & ~((rates.imag > SLOWED * at_stable) & (rates.real > 0.0))
+    slowest = SLOWED * np.interp(stable, length, rates.imag)
+    grows = (rates.imag > slowest) & (rates.real > 0.0)
+    left = (length > stable) & ~grows
     end = int(np.argmax(left)) if left.any() else length.size
     middle = int(np.searchsorted(length[:end], stable))
     first = last = min(middle, end - 1)
@@ -121,7 +173,7 @@ def followed(length: Array, rates: ComplexArray, stable: float) -> NDArray[np.in
 
 
 def _continues(rates: ComplexArray) -> bool:
-    """Whether the first of three neighbouring rates is about where the others point to."""
+    """Whether the first of three neighbouring rates is near the line through the others."""
     if not np.isfinite(rates).all():
         return False
     if rates.size < 3:
@@ -131,25 +183,35 @@ def _continues(rates: ComplexArray) -> bool:
 
 
 def _weights(
-    patches: Patches, found: Advance, i: int, rate: complex, x: Array
+    patches: Patches,
+    found: Advance,
+    i: int,
+    rate: complex,
+    x: Array,
 ) -> tuple[complex, complex, ComplexArray, ComplexArray]:
     """The weights of a :class:`ModeHistory`, time in D/V."""
     patch, creep, law = found.patches[i], found.creeps[i], patches.law
     assert law is not None
+    modes = creep.response.modes
+    places = creep.slip_rate.size
     friction = local_coefficients(law, patches.velocity, creep.slip_rate, found.log_states[i])
-    n = creep.slip_rate.size
-    # a mode of largest displacement 1 and its conjugate swing the slip rate by 2 |Lambda|
+    # a mode with the largest displacement 1 and its conjugate swing the slip rate by 2 |Lambda|
     left = 2.0 * abs(rate) * patch.amplitude(rate)
-    by_rate = left[:n] + patch.evolution_by_rate * left[n:]
+    by_slip, by_state = left[:places], left[places:]
+    by_rate = by_slip + patch.evolution_by_rate * by_state
     by_force = -by_rate / (creep.normal_stress * friction.by_rate)
-    base = float(patches.one.friction[0])
-    follows = creep.response.modes.values @ edge_slip(creep.response, base, base).rates
-    drive = -complex(left[:n] @ follows) * rate / law.characteristic_slip_distance
-    theta = creep.response.modes.theta
-    places, shares = found.length[i] * np.cos(theta), np.sin(theta) * found.length[i]
-    shares = shares * 0.5 * np.pi / n
-    along = [
-        np.interp(x, places[::-1], (weights / shares)[::-1], right=0.0) * (x[1] - x[0])
-        for weights in (by_force * friction.friction * creep.normal_stress, left[n:])
-    ]
-    return complex(by_force @ friction.friction), drive, along[0], along[1]
+    uniform = patches.constants[0]
+    slip_of_edge = modes.values @ edge_slip(creep.response, uniform, uniform).rates
+    drive = -complex(by_slip @ slip_of_edge) * rate / law.characteristic_slip_distance
+    position = found.length[i] * np.cos(modes.theta)
+    spacing = np.sin(modes.theta) * found.length[i]
+    spacing = spacing * 0.5 * np.pi / places
+
+    def along_x(weights: ComplexArray) -> ComplexArray:
+        density = weights / spacing
+        along = np.interp(x, position[::-1], density[::-1], right=0.0)
+        return along * (x[1] - x[0])
+
+    load = complex(by_force @ friction.friction)
+    strength = along_x(by_force * friction.friction * creep.normal_stress)
+    return load, drive, strength, along_x(by_state)

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import xarray as xr
 
-from ..analysis.progress import Progress
 from ..datasets import netcdf, provenance
 from ..model.friction.registry import plugins
 from ..model.parameters import Parameters
 from ..simulation.checkpoints import Checkpoint, Stopped
 from ..simulation.control import Instant
+from ..simulation.progress import Progress
 from ..simulation.run import simulate
 from . import code
 from .messages import LOGGER

@@ -5,6 +5,6 @@ any fault with ``theory.js``, ``stability.js`` and ``lengths.js``. The page of :
 has only that part.
 """
 
-from ..installed import require
+from ..configuration.installed import require
 
 require("report")

@@ -1,8 +1,8 @@
 """Checkpoints: a simulation that is killed loses at most the last minute.
 
-A checkpoint holds arrays from which a run goes on to the last bit as if it had never stopped, and
-a fingerprint of the parameters and the code that made them. It is plain numbers: loading one
-executes nothing.
+A run resumes from the arrays of a checkpoint and gives the same result to the last bit as if it had
+never stopped. A checkpoint also holds a fingerprint of the parameters and of the code. It consists
+of plain numbers: loading it executes nothing.
 """
 
 import contextlib
@@ -19,32 +19,34 @@ from types import FrameType
 from typing import TextIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..datasets.files import replacing
 from ..model.quantities import ParameterError
+from ..types import Arrays
 
-Arrays = dict[str, NDArray]
-
-EVERY = 60.0  # wall time (s) between checkpoints, unless the variable says otherwise
+EVERY = 60.0  # wall time (s) between checkpoints, unless the variable gives another
 VARIABLE = "NUCLEATION_CHECKPOINT_EVERY"
 SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
-"""What asks a run to stop: a scheduler's time limit or pre-emption, Ctrl-C, a closed terminal."""
+"""Signals that stop a run: a scheduler's time limit or pre-emption, Ctrl-C, a closed terminal."""
 
 
 class Stopped(Exception):
-    """A run was asked to stop and has left a checkpoint."""
+    """A signal stopped the run, which has left a checkpoint."""
 
 
 class Checkpoint:
-    """The checkpoint of one run, beside the place of its result.
+    """The checkpoint of one run, in a file beside that of its result.
 
     Parameters
     ----------
-    path : file of the checkpoint.
-    fingerprint : identifies the parameters and the code; a checkpoint of others is refused.
-    every : wall time (s) between checkpoints, by default that of :func:`interval`.
-    log : where messages go.
+    path : path
+        The checkpoint's file.
+    fingerprint : str
+        Identifies the parameters and the code; a checkpoint with another one is refused.
+    every : float, optional
+        Wall time (s) between checkpoints, by default that of :func:`interval`.
+    log : file, optional
+        Receives the messages, by default stderr.
     """
 
     def __init__(
@@ -55,51 +57,70 @@ class Checkpoint:
         every: float | None = None,
         log: TextIO | None = None,
     ) -> None:
-        self.path, self._fingerprint = Path(path), fingerprint
+        self.path = Path(path)
+        self._fingerprint = fingerprint
         self._every = interval() if every is None else every
-        self._log, self._last = log or sys.stderr, time.monotonic()
-        self.asked: str | None = None  # name of the signal that has asked to stop
+        self._log = log or sys.stderr
+        self._last = time.monotonic()
+        self._signal: str | None = None  # name of the signal that stops the run
 
     def load(self) -> Arrays | None:
-        """The stored arrays, or None if there are none of this run; says why it goes on or not."""
+        """Read the stored arrays; None if there is no valid checkpoint of this run.
+
+        The log says whether the run resumes, or why it does not.
+        """
         if not self.path.exists():
             return None
         try:
-            with np.load(self.path, allow_pickle=False) as stored:
-                if any(part.compress_type != zipfile.ZIP_STORED for part in stored.zip.infolist()):
-                    raise ValueError("it is compressed, and may be larger than the memory")
-                arrays = {name: stored[name] for name in stored.files}
-            fingerprint, content = str(arrays.pop("fingerprint")), str(arrays.pop("content"))
+            arrays = self._read()
+            fingerprint = str(arrays.pop("fingerprint"))
+            content = str(arrays.pop("content"))
             if content != _digest(arrays):
-                raise ValueError("its content is not what was stored")
-        except Exception as error:  # of damaged bytes, the archive's reader raises all sorts
-            self._say(f"{self.path} is damaged ({error}): the run starts at the beginning")
+                raise ValueError("its content has changed since it was stored")
+        except Exception as error:  # damaged bytes make the archive's reader raise all sorts
+            self._report(f"{self.path} is damaged ({error}): the run starts at the beginning")
             return None
         if fingerprint != self._fingerprint:
-            self._say(
-                f"{self.path} is of other code or parameters: the run starts at the beginning"
+            self._report(
+                f"{self.path} belongs to other code or parameters: the run starts at the beginning"
             )
             return None
-        self._say(f"the run goes on from {self.path}")
+        self._report(f"the run resumes from {self.path}")
         return arrays
 
+    def _read(self) -> Arrays:
+        """All arrays of the file, with fingerprint and digest."""
+        with np.load(self.path, allow_pickle=False) as stored:
+            for part in stored.zip.infolist():
+                if part.compress_type != zipfile.ZIP_STORED:
+                    raise ValueError("it is compressed, and may be larger than the memory")
+            return {name: stored[name] for name in stored.files}
+
     def keep(self, arrays: Callable[[], Arrays]) -> None:
-        """Store what `arrays` returns if it is time to, or if a signal has asked to stop.
+        """Store a checkpoint if the interval is over, or if a signal stops the run.
+
+        Parameters
+        ----------
+        arrays : callable
+            Returns the arrays to be stored.
 
         Raises
         ------
         Stopped
-            After a checkpoint that a signal has asked for.
+            After the checkpoint, if a signal stops the run.
         """
-        if self.asked is None and time.monotonic() - self._last < self._every:
+        if self._signal is None and time.monotonic() - self._last < self._every:
             return
         stored = arrays()
-        labels = {"fingerprint": self._fingerprint, "content": _digest(stored)}
+        labels = {
+            "fingerprint": np.array(self._fingerprint),
+            "content": np.array(_digest(stored)),
+        }
         with replacing(self.path) as temporary, temporary.open("wb") as file:
-            np.savez(file, **{name: np.array(text) for name, text in labels.items()}, **stored)  # type: ignore[arg-type]
+            np.savez(file, **labels, **stored)  # type: ignore[arg-type]
         self._last = time.monotonic()
-        if self.asked is not None:
-            raise Stopped(f"stopped by {self.asked}; a further run goes on from {self.path}")
+        if self._signal is not None:
+            raise Stopped(f"stopped by {self._signal}; a further run resumes from {self.path}")
 
     def remove(self) -> None:
         """Delete the checkpoint, once the result is safe."""
@@ -107,23 +128,27 @@ class Checkpoint:
 
     @contextlib.contextmanager
     def listening(self) -> Iterator[None]:
-        """While this lasts a signal of :data:`SIGNALS` stops the run after its present step."""
-        before = {number: signal.signal(number, self._ask) for number in SIGNALS}
+        """In this context a signal of :data:`SIGNALS` stops the run after its present step."""
+        before = {number: signal.signal(number, self._stop) for number in SIGNALS}
         try:
             yield
         finally:
             for number, handler in before.items():
                 signal.signal(number, handler)
 
-    def _ask(self, number: int, _: FrameType | None) -> None:
-        self.asked = signal.Signals(number).name
+    def _stop(
+        self,
+        number: int,
+        _: FrameType | None,
+    ) -> None:
+        self._signal = signal.Signals(number).name
 
-    def _say(self, message: str) -> None:
+    def _report(self, message: str) -> None:
         print(message, file=self._log, flush=True)
 
 
 def interval() -> float:
-    """Wall time (s) between checkpoints, by the environment: it is no part of what a run is.
+    """Wall time (s) between checkpoints, set by the environment: the result does not depend on it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Control of the step size: from one accepted step to the next, or the reason why there is none."""
+"""Control of the step size, from one accepted step to the next."""
 
 import dataclasses
 
@@ -16,16 +16,31 @@ SMALLEST_SHRINKING = 0.2  # of the step size after a rejection
 
 
 class SimulationFailure(RuntimeError):
-    """The time integration could not go on; `outcome` names why."""
+    """The time integration cannot continue.
 
-    def __init__(self, outcome: Outcome, state: State, reason: str) -> None:
+    Parameters
+    ----------
+    outcome : Outcome
+        How the run ended.
+    state : State
+        State after the last accepted step.
+    reason : str
+        More about the failure, for the message.
+    """
+
+    def __init__(
+        self,
+        outcome: Outcome,
+        state: State,
+        reason: str,
+    ) -> None:
         super().__init__(f"{outcome.value} at t = {state.time:.9g} s ({reason})")
         self.outcome = outcome
 
 
 @dataclasses.dataclass(frozen=True)
 class Control:
-    """What the control of the step size carries from one accepted step to the next."""
+    """Memory of the step-size control between accepted steps."""
 
     wanted: float  # leading coefficient beta (s) of the next step
     steps: int = 0  # accepted so far
@@ -42,11 +57,38 @@ class Instant:
 
 
 def accepted_step(
-    dynamics: Dynamics, stepping: Stepping, state: State, control: Control, longest: float
+    dynamics: Dynamics,
+    stepping: Stepping,
+    state: State,
+    control: Control,
+    longest: float,
 ) -> Instant:
-    """The next step whose error is within the tolerance; `longest` is the largest beta (s)."""
+    """Make the next step, so short that its error is within the tolerance.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        Makes a step of a given size.
+    stepping : Stepping
+        Tolerance and shortest step.
+    state, control : State, Control
+        Result of the last accepted step.
+    longest : float
+        Largest leading coefficient beta (s).
+
+    Returns
+    -------
+    Instant
+
+    Raises
+    ------
+    SimulationFailure
+        If the step would have to be shorter than ``stepping.shortest_step``.
+    """
     scheme = dynamics.scheme
-    wanted, rejected, growth = control.wanted, control.rejected, scheme.largest_growth
+    wanted = control.wanted
+    rejected = control.rejected
+    growth = scheme.largest_growth
     cause: NewtonFailure | None = None  # of the last rejection, if it was not the error estimate
     while True:
         rung = rung_below(min(wanted, longest))
@@ -58,14 +100,18 @@ def accepted_step(
             new, report = dynamics.advance(state, rung)
         except NewtonFailure as failure:
             cause = failure
-            wanted, rejected, growth = 0.5 * beta, rejected + 1, 1.0
+            rejected += 1
+            wanted = 0.5 * beta
+            growth = 1.0  # the next step does not return to a size at which Newton's method failed
             continue
         factor = _step_factor(report.error / stepping.tolerance, scheme)
         if report.error > stepping.tolerance and np.isfinite(report.error):
-            wanted, rejected, cause = beta * min(factor, 0.9), rejected + 1, None
+            cause = None
+            rejected += 1
+            wanted = beta * min(factor, 0.9)
             continue
-        factor = min(factor, growth)  # not at once back to where Newton's method failed
-        wanted = scheme.coefficient(new.last_step * factor, new.last_step)
+        step = new.last_step * min(factor, growth)
+        wanted = scheme.coefficient(step, new.last_step)
         return Instant(new, report, Control(wanted, control.steps + 1, rejected))
 
 

@@ -1,28 +1,28 @@
-"""What drives a run: the loads as functions of time.
+"""Drives: the loads on a run as functions of time.
 
-A :class:`Drive` says what is imposed on the body and on its interface at an instant; a step asks
-for the instant at which it ends. It must be a function of time alone, whatever the steps are, and
-the same in a run that goes on from a checkpoint. Drives that are not steady are other classes
-of a declared perturbation: an edge velocity V(t) with its integral U(t), a normal stress in
-:meth:`Drive.load`, a strength that varies along x, a forcing of the state.
+A :class:`Drive` gives the velocity of the driven edge, the loads on the body, the strength of the
+interface and the forcing of its state at any time; a step evaluates it at its end. A drive must be
+a function of time alone: independent of the steps, and the same after a restart from a checkpoint.
 """
 
 import dataclasses
-from typing import Any, ClassVar, Protocol
+from collections.abc import Callable, Mapping
+from typing import ClassVar, Protocol
 
 import numpy as np
 
-from ..fem.grid import Field
+from ..fem.grid import Field, Grid
 from ..model.parameters import Parameters
 from ..types import Array
 from .realisation import Series, Sheet, profile
 
-Recorded = tuple[tuple[str, ...], Array]
+_Recorded = tuple[tuple[str, ...], Array]
+"""A variable of a record: its dimensions, and its values."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Imposed:
-    """What is imposed on the driven edge and on the interface at one instant."""
+    """Boundary conditions on the driven edge and on the interface at one instant."""
 
     time: float  # s
     displacement: float  # m, U(t) of the driven edge
@@ -37,24 +37,25 @@ class Drive(Protocol):
 
     @property
     def velocity(self) -> float:
-        """The usual velocity (m/s) of the driven edge, the scale of slip rates."""
+        """Unperturbed velocity (m/s) of the driven edge, the scale of slip rates."""
 
     @property
     def moves(self) -> bool:
-        """Whether an edge or a side is moved; the load is then the force on it."""
+        """Whether an edge or a side is moved; the driving force is then the force on it."""
 
     def at(self, time: float) -> Imposed:
-        """What is imposed on driven edge and interface at a time (s)."""
+        """Boundary conditions at a time (s)."""
 
     def load(self, time: float) -> Field:
-        """The body's external load (N/m) at a time (s)."""
+        """External load (N/m) on the body at a time (s)."""
 
-    def realised(self, steps: Array, frames: Array) -> Recorded | None:
-        """The relative perturbation as a variable of a record: dimensions and values, if any.
+    def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
+        """The relative perturbation as a variable of a record, None if nothing is perturbed.
 
         Parameters
         ----------
-        steps, frames : times (s) of all steps, and of the frames that show the interface.
+        times : mapping of str to ndarray
+            Times (s) along the dimensions ``step`` (all steps) and ``time`` (the frames).
         """
         return None
 
@@ -68,152 +69,176 @@ class Steady:
     moves: ClassVar[bool] = True
 
     def at(self, time: float) -> Imposed:
-        """What is imposed on driven edge and interface at a time (s)."""
+        """Boundary conditions at a time (s)."""
         return Imposed(time, self.velocity * time, self.velocity)
 
     def load(self, time: float) -> Field:
-        """The same load (N/m) at all times."""
+        """The constant load (N/m)."""
         return self.constant_load
 
-    def realised(self, steps: Array, frames: Array) -> Recorded | None:
-        """Nothing is perturbed."""
+    def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
+        """None: nothing is perturbed."""
         return None
 
 
 @dataclasses.dataclass(frozen=True)
-class Remote:
-    """No edge moves; in its place far loads rise with the displacement that it would have had.
+class _Remote:
+    """A far shear load that rises with the displacement of an imaginary driven edge.
 
-    So the rate of the shear stress fluctuates where an edge's velocity would.
+    No edge moves. Where the edge's velocity would fluctuate, the rate of the far load does.
     """
 
     near: Steady
     start: Field  # N/m, the far load at time zero
-    rising: Field  # N/m per m of that displacement
+    rising: Field  # N/m per m of the edge's displacement
     moves: ClassVar[bool] = False
 
     @property
     def velocity(self) -> float:
-        """The scale (m/s) of slip rates."""
         return self.near.velocity
 
     def at(self, time: float) -> Imposed:
-        """What is imposed at a time (s)."""
         imposed = self.near.at(time)
-        return dataclasses.replace(imposed, displacement=0.0, velocity=0.0, acceleration=0.0)
+        return dataclasses.replace(
+            imposed,
+            displacement=0.0,
+            velocity=0.0,
+            acceleration=0.0,
+        )
 
     def load(self, time: float) -> Field:
-        """The load (N/m) at a time (s)."""
-        risen = self.rising.times(self.near.at(time).displacement)
+        displacement = self.near.at(time).displacement
+        risen = self.rising.times(displacement)
         return self.near.load(time).plus(self.start).plus(risen)
 
-    def realised(self, steps: Array, frames: Array) -> Recorded | None:
-        """The perturbation of what it is made of."""
-        return self.near.realised(steps, frames)
+    def realised(self, times: Mapping[str, Array]) -> _Recorded | None:
+        return self.near.realised(times)
 
 
 @dataclasses.dataclass(frozen=True)
-class Perturbed(Steady):
-    """A steady drive and what a perturbation of relative strength eps adds to it."""
+class _InTime(Steady):
+    """A steady drive with a perturbation ``eps xi(t)``, the same everywhere."""
 
     strength: float  # eps
-
-
-@dataclasses.dataclass(frozen=True)
-class InTime(Perturbed):
-    """A perturbation that is one function of time, the same everywhere."""
-
     series: Series
 
-    def realised(self, steps: Array, frames: Array) -> Recorded:
-        """``eps xi`` at every step."""
-        return ("step",), self.strength * np.array([self.series.value(t) for t in steps])
+    def realised(self, times: Mapping[str, Array]) -> _Recorded:
+        values = np.array([self.series.value(time) for time in times["step"]])
+        return ("step",), self.strength * values
 
 
 @dataclasses.dataclass(frozen=True)
-class FluctuatingVelocity(InTime):
+class _FluctuatingVelocity(_InTime):
     """An edge that moves at ``V [1 + eps xi(t)]``."""
 
     def at(self, time: float) -> Imposed:
-        """What is imposed at a time (s): U(t) and its derivatives are those of the series."""
-        size, series = self.strength, self.series
+        size = self.strength
+        ahead = size * self.series.integral(time)
+        faster = size * self.series.value(time)
         return Imposed(
             time,
-            self.velocity * (time + size * series.integral(time)),
-            self.velocity * (1.0 + size * series.value(time)),
-            acceleration=self.velocity * size * series.slope(time),
+            displacement=self.velocity * (time + ahead),
+            velocity=self.velocity * (1.0 + faster),
+            acceleration=self.velocity * size * self.series.slope(time),
         )
 
 
 @dataclasses.dataclass(frozen=True)
-class FluctuatingLoad(InTime):
+class _FluctuatingLoad(_InTime):
     """A stress ``sigma0 [1 + eps xi(t)]`` on the top."""
 
     def load(self, time: float) -> Field:
-        """The load (N/m) at a time (s)."""
-        return self.constant_load.times(1.0 + self.strength * self.series.value(time))
+        larger = self.strength * self.series.value(time)
+        return self.constant_load.times(1.0 + larger)
 
 
 @dataclasses.dataclass(frozen=True)
-class UnevenStrength(Perturbed):
+class UnevenStrength(Steady):
     """A friction coefficient ``f(v, phi) [1 + eps xi(x)]``."""
 
+    strength: float  # eps
     uneven: Array  # xi at the nodes 0..n_x
 
     def at(self, time: float) -> Imposed:
-        """What is imposed at a time (s)."""
+        """Boundary conditions at a time (s)."""
         factor = 1.0 + self.strength * self.uneven
         return dataclasses.replace(super().at(time), strength=factor)
 
-    def realised(self, steps: Array, frames: Array) -> Recorded:
+    def realised(self, times: Mapping[str, Array]) -> _Recorded:
         """``eps xi`` along x."""
         return ("x",), self.strength * self.uneven
 
 
 @dataclasses.dataclass(frozen=True)
-class ForcedState(Perturbed):
+class _ForcedState(Steady):
     """A state variable that evolves by ``d log(phi)/dt = g + eps (V/D) xi(x, t)``."""
 
+    strength: float  # eps
     rate: float  # V/D, 1/s
     sheet: Sheet
 
     def at(self, time: float) -> Imposed:
-        """What is imposed at a time (s)."""
         forcing = (self.strength * self.rate) * self.sheet.values(time)
         return dataclasses.replace(super().at(time), state_forcing=forcing)
 
-    def realised(self, steps: Array, frames: Array) -> Recorded:
-        """``eps xi`` along x, in every frame."""
-        return ("time", "x"), self.strength * np.array([self.sheet.values(t) for t in frames])
+    def realised(self, times: Mapping[str, Array]) -> _Recorded:
+        values = np.array([self.sheet.values(time) for time in times["time"]])
+        return ("time", "x"), self.strength * values
 
 
-def drive_of(parameters: Parameters, body: Any) -> Drive:
-    """The drive that parameters ask for: an edge or a top that moves, or a far load that rises.
+class _LoadedBody(Protocol):
+    """An elastic body, as far as its loads are concerned."""
 
-    Of the body it takes the grid and ``top_load``, of a normal and perhaps a shear stress (Pa).
+    @property
+    def grid(self) -> Grid:
+        """The mesh; its lowest nodes are those of the interface."""
+
+    @property
+    def top_load(self) -> Callable[..., Field]:
+        """Load (N/m) of a normal stress (Pa), and in a period of a shear stress (Pa), on top."""
+
+
+def drive_of(parameters: Parameters, body: _LoadedBody) -> Drive:
+    """The drive of a run: a moving edge or top, or a far load that rises.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run, with its loading and its perturbation.
+    body : Body
+        The elastic body on which the loads act.
+
+    Returns
+    -------
+    Drive
     """
-    loading, near = parameters.loading, near_drive(parameters, body)
+    loading = parameters.loading
+    near = _near_drive(parameters, body)
     if loading.kind != "remote":
         return near
     shear = body.top_load(0.0, 1.0)
-    per_displacement = loading.stress_rate / loading.velocity
     start = shear.times(loading.initial_shear_stress)
-    return Remote(near, start, shear.times(per_displacement))
+    per_displacement = loading.stress_rate / loading.velocity
+    return _Remote(near, start, shear.times(per_displacement))
 
 
-def near_drive(parameters: Parameters, body: Any) -> Steady:
-    """What moves, and the normal load: steady where nothing is perturbed."""
-    declared, loading = parameters.perturbation, parameters.loading
-    velocity, load = loading.velocity, body.top_load(loading.normal_stress)
+def _near_drive(parameters: Parameters, body: _LoadedBody) -> Steady:
+    """The moving edge and the normal load, with their declared perturbation."""
+    declared = parameters.perturbation
+    velocity = parameters.loading.velocity
+    load = body.top_load(parameters.loading.normal_stress)
     if not declared.acts:
         return Steady(velocity, load)
-    steady, x = (velocity, load, declared.strength), body.grid.x
-    seed, scale = declared.seed, declared.correlation_length
+    strength, seed = declared.strength, declared.seed
     time = declared.correlation_time * parameters.memory_time
+    length = declared.correlation_length
     if declared.kind == "drive_velocity":
-        return FluctuatingVelocity(*steady, Series(seed, time))
+        return _FluctuatingVelocity(velocity, load, strength, Series(seed, time))
     if declared.kind == "normal_load":
-        return FluctuatingLoad(*steady, Series(seed, time))
+        return _FluctuatingLoad(velocity, load, strength, Series(seed, time))
     if declared.kind == "strength":
-        return UnevenStrength(*steady, profile(seed, scale, x))
-    return ForcedState(*steady, 1.0 / parameters.memory_time, Sheet(seed, time, scale, x))
+        uneven = profile(seed, length, body.grid.x)
+        return UnevenStrength(velocity, load, strength, uneven)
+    rate = 1.0 / parameters.memory_time
+    sheet = Sheet(seed, time, length, body.grid.x)
+    return _ForcedState(velocity, load, strength, rate, sheet)

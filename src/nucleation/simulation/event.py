@@ -1,12 +1,13 @@
 """The abrupt drop of the driving force that marks the onset of accelerating slip (Text S2.2).
 
-While the patch creeps, the magnitude of the driving force changes over seconds; in the event it
-falls within milliseconds. The event is found when the force has fallen by a given fraction below
-its largest value of a short time window, the memory time D/V of friction, while the interface slips
-fast somewhere: a slow decrease, as in an oscillation of the creeping patch that decays again, is no
-event, nor is a force that follows a fluctuating load. Where an edge is pushed the fast slip has to
-be the patch's: a free corner at the far end may slip fast as well, and drives nothing. And the
-patch has to be longer than a few elements: what a mesh can't resolve slips fast too.
+While the patch creeps, the driving force changes over seconds; in the event it falls within
+milliseconds. An event needs three things:
+
+- the force falls by a given fraction below its largest value of the last memory time D/V;
+- the interface slips fast at that moment. Otherwise a decaying oscillation of the creeping patch or
+  a fluctuating load would count as an event. Where an edge is pushed, the patch itself has to slip
+  fast: fast slip at the free corner of the far end does not drive an event;
+- the patch is longer than a few elements, since slip that the mesh cannot resolve is fast as well.
 """
 
 import enum
@@ -39,50 +40,81 @@ class Outcome(enum.Enum):
 WINDOW = 1.0  # in units of D/V
 FAST = 10.0  # slip rate over V that the creeping patch does not reach
 NEAR = 0.5  # part of the block, from a pushed edge, in which its patch is sought
-SLIPPING = 0.01  # slip rate over V above which an element's node is the patch's
+SLIPPING = 0.01  # slip rate over V at the edge of the patch
 FEW = 4  # elements: a patch has more of them when its event begins
 
 
 def where_patch_is_sought(parameters: Parameters, x: Array) -> NDArray[np.bool_]:
-    """The nodes, at x (m), at which a run's patch may be: next to an edge that is pushed."""
+    """Select the nodes at which the patch may be: those near the edge, if an edge is pushed.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run.
+    x : ndarray, shape (n,)
+        Positions (m) of the nodes.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+    """
     if parameters.loading.kind != "edge":
         return np.ones(x.size, dtype=bool)
     return x <= NEAR * parameters.geometry.length
 
 
-def long_after(parameters: Parameters, x: Array, times: Array, slip_rates: Array) -> float:
-    """Time (s) after which the patch has been longer than :data:`FEW` elements.
+def long_after(
+    parameters: Parameters,
+    x: Array,
+    times: Array,
+    slip_rates: Array,
+) -> float:
+    """Find the time (s) after which the patch has been longer than :data:`FEW` elements.
+
+    Between two frames the nearest one counts, as for the length of the patch.
 
     Parameters
     ----------
     parameters : Parameters
-        Of the run.
-    x, times : ndarray, shape (n,) and (frames,)
-        Positions (m) of the nodes, and times (s) of the frames.
+        Parameters of the run.
+    x : ndarray, shape (n,)
+        Positions (m) of the nodes.
+    times : ndarray, shape (frames,)
+        Times (s) of the frames.
     slip_rates : ndarray, shape (frames, n)
-        Slip rates (m/s). Between frames the nearest one counts, as for the patch's length.
+        Slip rates (m/s).
 
     Returns
     -------
     float
-        Minus infinity if it always was, infinity if it never was.
+        Minus infinity if the patch always was longer, infinity if it never was.
     """
     near = np.abs(slip_rates[:, where_patch_is_sought(parameters, x)])
     nodes = np.count_nonzero(near > SLIPPING * parameters.loading.velocity, axis=1)
     (long,) = np.nonzero(nodes > FEW + 1)
     if not long.size:
         return np.inf
-    if long[0] == 0:
+    first = int(long[0])
+    if first == 0:
         return -np.inf
-    return float(times[long[0] - 1 : long[0] + 1].mean())
+    return float(times[first - 1 : first + 1].mean())
+
+
+Burst = tuple[float, float, float]
+"""Time (s), largest slip rate (m/s) and its position (m)."""
 
 
 class PatchBursts:
-    """Tells whether the interface slips fast because its patch does; fed step by step.
+    """Detects from step to step whether the patch slips fast.
 
     A burst lasts as long as the interface slips faster than :data:`FAST` anywhere. Where an edge is
-    pushed, a burst is the patch's once its fastest point is in the half of the block next to the
-    edge, later than the memory time D/V. Under other loads a patch may be anywhere.
+    pushed, a burst belongs to the patch once its fastest point is in the half of the block next to
+    the edge, later than the memory time D/V. Under other loads the patch may be anywhere.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run.
     """
 
     def __init__(self, parameters: Parameters) -> None:
@@ -90,10 +122,27 @@ class PatchBursts:
         self._fast = FAST * parameters.loading.velocity
         self._from = parameters.memory_time if pushed else -np.inf
         self._end = NEAR * parameters.geometry.length if pushed else np.inf
-        self.own = False  # whether the burst that goes on is the patch's
+        self.own = False  # whether the present burst belongs to the patch
 
-    def at(self, time: float, rate: float, position: float) -> bool:
-        """Whether the patch slips fast at a time (s): by the largest rate (m/s) and its x (m)."""
+    def at(
+        self,
+        time: float,
+        rate: float,
+        position: float,
+    ) -> bool:
+        """Take in the next step and return whether the patch slips fast.
+
+        Parameters
+        ----------
+        time : float
+            Time (s) at the end of the step.
+        rate, position : float
+            Largest slip rate (m/s) on the interface, and its position (m).
+
+        Returns
+        -------
+        bool
+        """
         if rate <= self._fast:
             self.own = False
         elif time > self._from and position <= self._end:
@@ -102,16 +151,28 @@ class PatchBursts:
 
 
 class DropWatch:
-    """Tells when the force has dropped abruptly; fed with one value after another."""
+    """Detects from step to step whether the force has dropped abruptly.
 
-    def __init__(self, window: float, drop: float = EVENT_DROP) -> None:
-        """`window` in seconds, `drop` as a fraction of the force."""
-        self._window, self._drop = window, drop
+    Parameters
+    ----------
+    window : float
+        Time (s) within which the force has to fall.
+    drop : float
+        Fraction by which it has to fall.
+    """
+
+    def __init__(
+        self,
+        window: float,
+        drop: float = EVENT_DROP,
+    ) -> None:
+        self._window = window
+        self._drop = drop
         self._largest: deque[tuple[float, float]] = deque()  # falling maxima of the window
 
     @property
     def maxima(self) -> Array:
-        """Times (s) and force magnitudes (N/m) that are still of interest, shape (n, 2)."""
+        """Times (s) and force magnitudes (N/m) that may still matter, shape (n, 2)."""
         return np.array(self._largest).reshape(-1, 2)
 
     @maxima.setter
@@ -123,14 +184,29 @@ class DropWatch:
         """Time (s) of the window's largest force, from which a drop is counted."""
         return self._largest[0][0]
 
-    def dropped(self, time: float, force: float, fast: bool = True) -> bool:
-        """Whether the force magnitude (N/m) at this time (s) completes an abrupt drop.
+    def dropped(
+        self,
+        time: float,
+        force: float,
+        fast: bool = True,
+    ) -> bool:
+        """Take in the next force and return whether it completes an abrupt drop.
 
-        `fast` tells whether the patch slips fast now (:class:`PatchBursts`).
+        Parameters
+        ----------
+        time, force : float
+            Time (s), and magnitude of the force (N/m) at this time.
+        fast : bool
+            Whether the patch slips fast at this time (:class:`PatchBursts`).
+
+        Returns
+        -------
+        bool
         """
         while self._largest and self._largest[-1][1] <= force:
             self._largest.pop()
         self._largest.append((time, force))
         while self._largest[0][0] < time - self._window:
             self._largest.popleft()
-        return bool(fast) and force < (1.0 - self._drop) * self._largest[0][1]
+        largest = self._largest[0][1]
+        return bool(fast) and force < (1.0 - self._drop) * largest

@@ -1,7 +1,10 @@
 """Compiled passes over the interface's nodes, for Newton's method and the control of steps.
 
-The interface has some hundred nodes: an operation of NumPy on them costs little more than its call,
-and a step had some two hundred. What calls a friction law or a transform is not here.
+The interface has some hundred nodes. On so few an operation of NumPy costs little more than its
+call, and a step had some two hundred of them. Functions that call a friction law or a transform are
+elsewhere.
+
+All arrays are over nodes: 0..n_x, or the free nodes, which are the last ones of the interface.
 """
 
 import numpy as np
@@ -13,27 +16,59 @@ LARGEST_SHIFT = 2.0  # of asinh(v / v0) in one Newton step
 
 @compiled
 def balance(
-    tangential, normal, coefficient, slope, v, elastic, least, tolerance, rounding, strength
+    tangential,
+    normal,
+    coefficient,
+    slope,
+    v,
+    elastic,
+    least,
+    tolerance,
+    rounding,
+    strength,
 ):
-    """Residual ``p + f R`` and damping ``R df/dv`` at the free nodes, the error, and f at all.
+    """Residual of the interface's equations, and its error.
 
-    `normal`, `v` and what follows from it are given at the nodes 0..n_x, the first of which is not
-    free if an edge is driven; f and its slope count `strength` times. The error is the largest, in
-    units of what is tolerated: a relative change of the slip rate, from the `least` one on, and
-    what displacements are rounded by; NaN if it is so anywhere.
+    The error is the largest residual over its tolerance. Tolerated are a relative change of the
+    slip rate and the round-off of displacements.
+
+    Parameters
+    ----------
+    tangential, elastic : ndarray, shape (free nodes,)
+        Tangential force p (N/m), and its elastic slope (N/m per m/s).
+    normal, coefficient, slope, v, least : ndarray, shape (n_x + 1,)
+        Normal force R (N/m), friction coefficient f, df/dv (s/m), slip rate (m/s), and the slip
+        rate (m/s) below which changes count as relative to it.
+    tolerance, rounding : float
+        Tolerated relative change of the slip rate, and slip rate (m/s) within round-off.
+    strength : float or ndarray, shape (n_x + 1,)
+        Factor on f and its slope.
+
+    Returns
+    -------
+    residual, damping : ndarray, shape (free nodes,)
+        ``p + f R`` (N/m) and ``R df/dv`` (N/m per m/s).
+    error : float
+        NaN if it is NaN at any node.
+    friction : ndarray, shape (n_x + 1,)
+        ``strength f``.
     """
     n = elastic.size
     first = normal.size - n
-    slope, friction = strength * slope, strength * coefficient
+    slope = strength * slope
+    friction = strength * coefficient
     resolved = tolerance * (np.abs(v) + least)
-    residual, damping = np.empty(n), np.empty(n)
-    largest, undefined = 0.0, False
+    residual = np.empty(n)
+    damping = np.empty(n)
+    largest = 0.0
+    undefined = False
     for i in range(n):
         j = i + first
-        r, d = tangential[i] + friction[j] * normal[j], slope[j] * normal[j]
-        residual[i], damping[i] = r, d
-        scale = (elastic[i] + abs(d)) * resolved[j] + elastic[i] * rounding
-        error = abs(r) / scale
+        residual[i] = tangential[i] + friction[j] * normal[j]
+        damping[i] = slope[j] * normal[j]
+        total_slope = elastic[i] + abs(damping[i])
+        scale = total_slope * resolved[j] + elastic[i] * rounding
+        error = abs(residual[i]) / scale
         undefined |= error != error
         if error > largest:
             largest = error
@@ -41,8 +76,23 @@ def balance(
 
 
 @compiled
-def coupled(elastic, damping, ratio):
-    """The nodes, from 0 for the interface's first, where ``elastic > ratio |damping|``."""
+def coupled(
+    elastic,
+    damping,
+    ratio,
+):
+    """Free nodes, counted from 0, that elasticity couples: ``elastic > ratio |damping|``.
+
+    Parameters
+    ----------
+    elastic, damping : ndarray, shape (free nodes,)
+        Slopes (N/m per m/s) by elasticity and by friction.
+    ratio : float
+
+    Returns
+    -------
+    ndarray of int, shape (coupled nodes,)
+    """
     nodes = np.empty(elastic.size, dtype=np.intp)
     number = 0
     for i in range(elastic.size):
@@ -53,9 +103,33 @@ def coupled(elastic, damping, ratio):
 
 
 @compiled
-def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
-    """``beta (D + f N) + R df/dv`` among the active nodes, in single precision, transposed."""
-    step, matrix = np.float32(beta), np.empty_like(stiffness)
+def newton_matrix(
+    stiffness,
+    coupling,
+    coefficient,
+    damping,
+    active,
+    beta,
+):
+    """``beta (D + f N) + R df/dv`` between the active nodes, transposed, in single precision.
+
+    Parameters
+    ----------
+    stiffness, coupling : ndarray, shape (active nodes, active nodes)
+        D and N between the active nodes (N/m per m).
+    coefficient, damping : ndarray, shape (free nodes,)
+        f, and ``R df/dv`` (N/m per m/s).
+    active : ndarray of int
+        The active nodes.
+    beta : float
+        Leading coefficient of the step (s).
+
+    Returns
+    -------
+    ndarray, shape (active nodes, active nodes)
+    """
+    step = np.float32(beta)
+    matrix = np.empty_like(stiffness)
     for a in range(active.size):
         f = np.float32(coefficient[active[a]])
         for b in range(active.size):
@@ -65,8 +139,29 @@ def newton_matrix(stiffness, coupling, coefficient, damping, active, beta):
 
 
 @compiled
-def direction(residual, elastic, damping, active, solved):
-    """Newton's direction: what has been solved for at the active nodes, the others are alone."""
+def direction(
+    residual,
+    elastic,
+    damping,
+    active,
+    solved,
+):
+    """Newton's direction: that of the coupled system at active nodes, node by node elsewhere.
+
+    Parameters
+    ----------
+    residual, elastic, damping : ndarray, shape (free nodes,)
+        Residual (N/m), and its slopes by elasticity and by friction (N/m per m/s).
+    active : ndarray of int
+        The active nodes.
+    solved : ndarray, shape (active nodes,)
+        Solution of the coupled system (m/s).
+
+    Returns
+    -------
+    ndarray, shape (free nodes,)
+        Change of the slip rates (m/s).
+    """
     change = np.empty(residual.size)
     for i in range(residual.size):
         change[i] = residual[i] / -(elastic[i] + damping[i])
@@ -76,11 +171,26 @@ def direction(residual, elastic, damping, active, solved):
 
 
 @compiled
-def updated(v, change, v0):
+def updated(
+    v,
+    change,
+    v0,
+):
     """``v + change`` (m/s), but a slip rate that shrinks does so in asinh(v / v0).
 
-    Friction is concave in v > 0: from above, Newton's method goes far beyond the root. Both
+    Friction is concave in v > 0: from above, Newton's method overshoots the root by far. Both
     forms agree to first order in the change, so that convergence stays quadratic.
+
+    Parameters
+    ----------
+    v, change : ndarray, shape (free nodes,)
+        Slip rates and their change (m/s).
+    v0 : float
+        Regularisation slip rate (m/s).
+
+    Returns
+    -------
+    ndarray, shape (free nodes,)
     """
     new = np.empty(v.size)
     for i in range(v.size):
@@ -94,9 +204,29 @@ def updated(v, change, v0):
 
 
 @compiled
-def moved(v, velocity, beta, past, start):
-    """The displacement ``w = past + beta (v - V)`` (m), and by how much it is not `start`."""
-    w, change = np.empty(v.size), np.empty(v.size)
+def moved(
+    v,
+    velocity,
+    beta,
+    past,
+    start,
+):
+    """The displacement ``w = past + beta (v - V)`` and its difference from another one.
+
+    Parameters
+    ----------
+    v, past, start : ndarray, shape (free nodes,)
+        Slip rates (m/s), the past part of w, and the other displacement (m).
+    velocity, beta : float
+        V (m/s), and leading coefficient of the step (s).
+
+    Returns
+    -------
+    w, change : ndarray, shape (free nodes,)
+        In m.
+    """
+    w = np.empty(v.size)
+    change = np.empty(v.size)
     for i in range(v.size):
         w[i] = past[i] + beta * (v[i] - velocity)
         change[i] = w[i] - start[i]
@@ -104,10 +234,24 @@ def moved(v, velocity, beta, past, start):
 
 
 @compiled
-def reach(v, before, tolerated, least):
-    """The number of nodes up to the last one whose slip rate is another by more than tolerated.
+def reach(
+    v,
+    before,
+    tolerated,
+    least,
+):
+    """Number of nodes up to the last one at which the slip rate has changed.
 
-    That is `tolerated` times the slip rate, from `least` on.
+    Parameters
+    ----------
+    v, before, least : ndarray, shape (n_x + 1,)
+        Slip rates, those before, and the rates below which changes count as relative to them (m/s).
+    tolerated : float
+        Relative change that does not count.
+
+    Returns
+    -------
+    int
     """
     slack = tolerated * (np.abs(before) + least)
     for i in range(v.size - 1, -1, -1):
@@ -117,26 +261,67 @@ def reach(v, before, tolerated, least):
 
 
 @compiled
-def expected(rates, log_states, weights, scale, largest):
-    """Slip rates and states extrapolated from past ones, (number, nodes), by their `weights`.
+def expected(
+    rates,
+    log_states,
+    weights,
+    scale,
+    largest,
+):
+    """Extrapolate slip rates, as asinh(v / scale), and states.
 
-    Slip rates count as asinh(v / scale), at most as that of `largest`, and are given so, too.
+    Parameters
+    ----------
+    rates, log_states : ndarray, shape (past, n_x + 1)
+        Past slip rates (m/s) and log(phi), newest first.
+    weights : ndarray, shape (past,)
+        Weights of the past values.
+    scale : float
+        Slip rate (m/s).
+    largest : float
+        Bound on the extrapolated asinh(v / scale).
+
+    Returns
+    -------
+    scaled, rate, log_state : ndarray, shape (n_x + 1,)
+        asinh(v / scale), slip rates (m/s) and log(phi).
     """
     past, n = rates.shape
-    scaled, rate, log_state = np.empty(n), np.empty(n), np.empty(n)
+    scaled = np.empty(n)
+    rate = np.empty(n)
+    log_state = np.empty(n)
     for i in range(n):
         z = psi = 0.0
         for k in range(past):
             z += weights[k] * np.arcsinh(rates[k, i] / scale)
             psi += weights[k] * log_states[k, i]
-        scaled[i], log_state[i] = min(max(z, -largest), largest), psi
+        scaled[i] = min(max(z, -largest), largest)
         rate[i] = scale * np.sinh(scaled[i])
+        log_state[i] = psi
     return scaled, rate, log_state
 
 
 @compiled
-def changed(rate, scaled, scale):
-    """Largest distance of slip rates, as asinh(v / scale), from others."""
+def changed(
+    rate,
+    scaled,
+    scale,
+):
+    """Largest distance of slip rates from others, in asinh(v / scale).
+
+    Parameters
+    ----------
+    rate : ndarray, shape (n_x + 1,)
+        Slip rates (m/s).
+    scaled : ndarray, shape (n_x + 1,)
+        The others, as asinh(v / scale).
+    scale : float
+        Slip rate (m/s).
+
+    Returns
+    -------
+    float
+    """
     largest = 0.0
     for i in range(scaled.size):
         largest = max(largest, abs(np.arcsinh(rate[i] / scale) - scaled[i]))
@@ -144,8 +329,28 @@ def changed(rate, scaled, scale):
 
 
 @compiled
-def distance(scaled, log_state, rate, psi, scale):
-    """Largest distance of slip rates, as asinh(v / scale), and states from expected ones."""
+def distance(
+    scaled,
+    log_state,
+    rate,
+    psi,
+    scale,
+):
+    """Largest distance of slip rates, in asinh(v / scale), and of log(phi) from expected ones.
+
+    Parameters
+    ----------
+    scaled, log_state : ndarray, shape (n_x + 1,)
+        Expected asinh(v / scale) and log(phi).
+    rate, psi : ndarray, shape (n_x + 1,)
+        Slip rates (m/s) and log(phi).
+    scale : float
+        Slip rate (m/s).
+
+    Returns
+    -------
+    float
+    """
     largest = changed(rate, scaled, scale)
     for i in range(psi.size):
         largest = max(largest, abs(psi[i] - log_state[i]))

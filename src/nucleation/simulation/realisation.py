@@ -1,21 +1,21 @@
 """Realisations of a smooth Gaussian process in time, along x, or in both.
 
-A realisation lives on its own grid of spacing ``d``, as a series of cubic B-splines with
+A realisation has its own grid of spacing ``d``. On it, it is a series of cubic B-splines with
 independent standard normal coefficients ``a_i`` and a random phase,
 
     xi(s) = sum_i a_i B(s / d + phase - i) / sqrt(m),     m = int B(u)^2 du = 151/315.
 
-It has two continuous derivatives, so that the time stepping keeps its order. Over all seeds it is
-stationary, with zero mean, unit variance, and with the septic B-spline as its correlation:
+It has two continuous derivatives, so the time stepping keeps its order. Over all seeds it is
+stationary with zero mean and unit variance. Its correlation is the septic B-spline:
 
     <xi(s) xi(s + r)> = B_7(r / d) / m,     int B_7(r / d) / m dr = d / m,
     S(omega) = int <xi xi> exp(-i omega r) dr = (d / m) sinc(omega d / 2)^8.
 
 The correlation time (or length) is the integral above, so ``d = m`` correlation times.
 
-Every coefficient is a pure function of the seed and its index, by the counter-based generator
-Philox and the inverse of the normal distribution: any part of a realisation can be computed without
-the parts before it, the same on every mesh, with every step and after every restart.
+Every coefficient is a pure function of the seed and of its index, by the counter-based generator
+Philox and the inverse of the normal distribution. So any part of a realisation can be computed
+without the parts before it, and it is the same on every mesh, with all steps and after a restart.
 """
 
 from collections import OrderedDict
@@ -32,70 +32,144 @@ ROWS_KEPT = 8  # of a sheet; four are in use at one time
 PHASE, SERIES, PROFILE, SHEET = range(4)  # independent streams of one seed
 
 
-def normals(seed: int, stream: int, row: int, number: int) -> Array:
-    """The first standard normal numbers of a row of a stream, shape (number,).
+def normals(
+    seed: int,
+    stream: int,
+    row: int,
+    number: int,
+) -> Array:
+    """The first standard normal numbers in a row of a stream.
 
-    More of them begin with the same ones. Made from the generator's raw integers, as numpy does
-    not promise its normal numbers to stay the same from version to version.
+    A larger number of them begins with the same ones. They are made from the raw integers of the
+    generator, since NumPy does not guarantee equal normal numbers in all its versions.
+
+    Parameters
+    ----------
+    seed, stream, row : int
+        Seed, one of its independent streams, and a row of the stream.
+    number : int
+        How many numbers.
+
+    Returns
+    -------
+    ndarray, shape (number,)
     """
     return ndtri(_uniform(seed, stream, row, number))
 
 
-def _uniform(seed: int, stream: int, row: int, number: int) -> Array:
+def _uniform(
+    seed: int,
+    stream: int,
+    row: int,
+    number: int,
+) -> Array:
     """Numbers in (0, 1), one for each 64 random bits."""
-    generator = np.random.Philox(counter=[0, row, stream, 0], key=[seed, 0])
+    counter = [0, row, stream, 0]
+    generator = np.random.Philox(counter=counter, key=[seed, 0])
     bits = generator.random_raw(number) >> np.uint64(12)  # 52 bits, so that 1 is not reached
     return (bits.astype(np.float64) + 0.5) * 2.0**-52
 
 
 def spline(u: float | Array) -> Array:
     """Values at ``0 <= u < 1`` of the four cubic B-splines about -1, 0, 1, 2; shape (4, ...)."""
-    return np.array(
-        [
-            (1.0 - u) ** 3,
-            4.0 + u * u * (3.0 * u - 6.0),
-            1.0 + u * (3.0 + u * (3.0 - 3.0 * u)),
-            u**3,
-        ]
-    ) / 6.0  # fmt: skip
+    values = [
+        (1.0 - u) ** 3,
+        4.0 + u * u * (3.0 * u - 6.0),
+        1.0 + u * (3.0 + u * (3.0 - 3.0 * u)),
+        u**3,
+    ]
+    return np.array(values) / 6.0
 
 
-def spline_slope(u: float) -> Array:
-    """Their derivatives, shape (4,)."""
-    return np.array([-((1.0 - u) ** 2), u * (3.0 * u - 4.0), 1.0 + u * (2.0 - 3.0 * u), u * u]) / 2
+def _spline_slope(u: float) -> Array:
+    """Derivatives of the four splines, shape (4,)."""
+    values = [
+        -((1.0 - u) ** 2),
+        u * (3.0 * u - 4.0),
+        1.0 + u * (2.0 - 3.0 * u),
+        u * u,
+    ]
+    return np.array(values) / 2
 
 
-def spline_integral(u: float) -> Array:
-    """Their integrals from far left up to u, shape (4,)."""
+def _spline_integral(u: float) -> Array:
+    """Integrals of the four splines from far left up to u, shape (4,)."""
 
     def middle(z: float) -> float:
         return 0.5 + z * (4.0 + z * z * (0.75 * z - 2.0)) / 6.0
 
-    return np.array([1.0 - (1.0 - u) ** 4 / 24.0, middle(u), 1.0 - middle(1.0 - u), u**4 / 24.0])
+    values = [
+        1.0 - (1.0 - u) ** 4 / 24.0,
+        middle(u),
+        1.0 - middle(1.0 - u),
+        u**4 / 24.0,
+    ]
+    return np.array(values)
 
 
 def correlation(lag: ArrayLike, scale: float) -> Array:
-    """``<xi(s) xi(s + lag)>`` for a correlation time or length `scale`, in the unit of `lag`."""
-    u = np.abs(np.asarray(lag, dtype=float)) / (MEAN_SQUARE * scale)
-    binomial = (1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)
-    septic = sum(c * np.maximum(4.0 - u - k, 0.0) ** 7 for k, c in enumerate(binomial))
-    return np.asarray(septic) / (5040.0 * MEAN_SQUARE)
+    """Correlation ``<xi(s) xi(s + lag)>``.
+
+    Parameters
+    ----------
+    lag : array_like
+        Difference in time (s) or position (m).
+    scale : float
+        Correlation time (s) or length (m).
+
+    Returns
+    -------
+    ndarray, shape of `lag`
+    """
+    spacing = MEAN_SQUARE * scale
+    u = np.abs(np.asarray(lag, dtype=float)) / spacing
+    septic = np.zeros_like(u)
+    for k, binomial in enumerate((1.0, -8.0, 28.0, -56.0, 70.0, -56.0, 28.0, -8.0)):
+        septic = septic + binomial * np.maximum(4.0 - u - k, 0.0) ** 7
+    return septic / (5040.0 * MEAN_SQUARE)
 
 
 def spectral_density(omega: ArrayLike, correlation: float) -> Array:
-    """S(omega) (s, or m) at an angular frequency (or wavenumber) for a correlation time (length).
+    """Spectral density S(omega) of unit variance: ``int S d omega / (2 pi) = 1``.
 
-    Of unit variance: ``int S d omega / (2 pi) = 1``.
+    Parameters
+    ----------
+    omega : array_like
+        Angular frequencies (1/s) or wavenumbers (1/m).
+    correlation : float
+        Correlation time (s) or length (m).
+
+    Returns
+    -------
+    ndarray, shape of `omega`
+        In s, or in m.
     """
-    half = 0.5 * MEAN_SQUARE * correlation * np.asarray(omega, dtype=float)
+    half_spacing = 0.5 * MEAN_SQUARE * correlation
+    half = half_spacing * np.asarray(omega, dtype=float)
     return correlation * np.sinc(half / np.pi) ** 8
 
 
-class Series:
-    """A realisation in time, from time zero on."""
+def _place(position: float) -> tuple[int, float]:
+    """Index of the first of the four splines that are not zero at a position, and place in them."""
+    first = int(position)
+    return first, position - first
 
-    def __init__(self, seed: int, correlation: float) -> None:
-        """`correlation` is the correlation time (s)."""
+
+class Series:
+    """A realisation in time, from time zero on.
+
+    Parameters
+    ----------
+    seed : int
+    correlation : float
+        Correlation time (s).
+    """
+
+    def __init__(
+        self,
+        seed: int,
+        correlation: float,
+    ) -> None:
         self.spacing = MEAN_SQUARE * correlation
         self.phase = float(_uniform(seed, PHASE, SERIES, 1)[0])
         self._seed = seed
@@ -104,67 +178,110 @@ class Series:
 
     def value(self, time: float) -> float:
         """``xi`` at a time (s)."""
-        first, u = self._place(time)
+        first, u = _place(self._position(time))
         return float(spline(u) @ self._used(first)) / MEAN_SQUARE**0.5
 
     def slope(self, time: float) -> float:
         """``d xi / dt`` (1/s) at a time (s)."""
-        first, u = self._place(time)
-        return float(spline_slope(u) @ self._used(first)) / (MEAN_SQUARE**0.5 * self.spacing)
+        first, u = _place(self._position(time))
+        slope = float(_spline_slope(u) @ self._used(first))
+        return slope / (MEAN_SQUARE**0.5 * self.spacing)
 
     def integral(self, time: float) -> float:
         """``int xi dt`` (s) from zero to a time (s)."""
-        return (self._primitive(time) - self._primitive(0.0)) * self.spacing / MEAN_SQUARE**0.5
+        difference = self._primitive(time) - self._primitive(0.0)
+        return difference * self.spacing / MEAN_SQUARE**0.5
 
     def coefficients(self, until: float) -> Array:
-        """``a_i``, (i, 1), of which the values up to a time (s) are made."""
-        first, _ = self._place(until)
+        """Coefficients ``a_i`` of the values up to a time (s), shape (i, 1)."""
+        first, _ = _place(self._position(until))
         self._used(first)
         return self._coefficients[: first + 4, None]
 
-    def _primitive(self, time: float) -> float:
-        first, u = self._place(time)
-        return float(spline_integral(u) @ self._used(first) + self._before[first])
+    def _position(self, time: float) -> float:
+        return time / self.spacing + self.phase
 
-    def _place(self, time: float) -> tuple[int, float]:
-        """Index of the first of the four splines that are not zero at a time, and place in them."""
-        s = time / self.spacing + self.phase
-        return int(s), s - int(s)
+    def _primitive(self, time: float) -> float:
+        first, u = _place(self._position(time))
+        own = _spline_integral(u) @ self._used(first)
+        return float(own + self._before[first])
 
     def _used(self, first: int) -> Array:
+        """The four coefficients from an index on."""
         while first + 4 > self._coefficients.size:
-            more = normals(self._seed, SERIES, self._coefficients.size // BLOCK, BLOCK)
+            row = self._coefficients.size // BLOCK
+            more = normals(self._seed, SERIES, row, BLOCK)
             self._coefficients = np.append(self._coefficients, more)
             self._before = np.append(0.0, np.cumsum(self._coefficients))
         return self._coefficients[first : first + 4]
 
 
 class _Positions:
-    """Splines along x at given positions: the part of profiles and sheets that never changes."""
+    """Splines along x at given positions (m): the part of profiles and sheets that is constant."""
 
-    def __init__(self, seed: int, correlation: float, x: Array, stream: int) -> None:
-        s = x / (MEAN_SQUARE * correlation) + _uniform(seed, PHASE, stream, 2)[1]
+    def __init__(
+        self,
+        seed: int,
+        correlation: float,
+        x: Array,
+        stream: int,
+    ) -> None:
+        phase = _uniform(seed, PHASE, stream, 2)[1]
+        s = x / (MEAN_SQUARE * correlation) + phase
         self._first = np.floor(s).astype(int)
         self._weights = spline(s - self._first) / MEAN_SQUARE**0.5
         self.number = int(self._first.max()) + 4
 
     def values(self, coefficients: Array) -> Array:
         """The series at all positions, for :attr:`number` coefficients."""
-        used = coefficients[self._first[None] + np.arange(4)[:, None]]
+        indices = self._first[None] + np.arange(4)[:, None]
+        used = coefficients[indices]
         return (self._weights * used).sum(axis=0)
 
 
-def profile(seed: int, correlation: float, x: Array) -> Array:
-    """A realisation along x at positions (m) of at least zero, for a correlation length (m)."""
+def profile(
+    seed: int,
+    correlation: float,
+    x: Array,
+) -> Array:
+    """A realisation along x.
+
+    Parameters
+    ----------
+    seed : int
+    correlation : float
+        Correlation length (m).
+    x : ndarray, shape (n,)
+        Positions (m), at least zero.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+        ``xi`` at the positions.
+    """
     positions = _Positions(seed, correlation, x, PROFILE)
     return positions.values(normals(seed, PROFILE, 0, positions.number))
 
 
 class Sheet:
-    """A realisation in time and along x, at fixed positions: the product of both correlations."""
+    """A realisation in time and along x: its correlation is the product of both correlations.
 
-    def __init__(self, seed: int, correlation_time: float, correlation_length: float, x: Array):
-        """Correlation time (s) and length (m), and the positions (m)."""
+    Parameters
+    ----------
+    seed : int
+    correlation_time, correlation_length : float
+        Correlation time (s) and length (m).
+    x : ndarray, shape (n,)
+        Positions (m), at least zero.
+    """
+
+    def __init__(
+        self,
+        seed: int,
+        correlation_time: float,
+        correlation_length: float,
+        x: Array,
+    ) -> None:
         self.spacing = MEAN_SQUARE * correlation_time
         self.phase = float(_uniform(seed, PHASE, SHEET, 1)[0])
         self._seed = seed
@@ -172,18 +289,18 @@ class Sheet:
         self._rows: OrderedDict[int, Array] = OrderedDict()
 
     def values(self, time: float) -> Array:
-        """``xi`` at a time (s) at all positions."""
-        s = time / self.spacing + self.phase
-        first = int(s)
-        rows = np.array([self._row(first + j) for j in range(4)])
-        return spline(s - first) @ rows / MEAN_SQUARE**0.5
+        """``xi`` at a time (s) at all positions, shape (n,)."""
+        first, u = _place(time / self.spacing + self.phase)
+        rows = np.array([self._row(first + i) for i in range(4)])
+        return spline(u) @ rows / MEAN_SQUARE**0.5
 
     def coefficients(self, until: float) -> Array:
-        """``a_i(x)``, (i, x), at all positions, of which the values up to a time (s) are made."""
-        number = int(until / self.spacing + self.phase) + 4
-        return np.array([self._row(i) for i in range(number)])
+        """Coefficients ``a_i(x)`` of the values up to a time (s), shape (i, n)."""
+        first, _ = _place(until / self.spacing + self.phase)
+        return np.array([self._row(i) for i in range(first + 4)])
 
     def _row(self, index: int) -> Array:
+        """Coefficients ``a_i(x)`` of one index, shape (n,)."""
         if index not in self._rows:
             drawn = normals(self._seed, SHEET, index, self._positions.number)
             self._rows[index] = self._positions.values(drawn)

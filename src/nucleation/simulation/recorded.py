@@ -1,4 +1,4 @@
-"""What a simulation may record. What shares these variables does not depend on the solver."""
+"""Variables that a simulation may record. This module does not load the solver."""
 
 from ..datasets.variables import Variable
 

@@ -1,57 +1,75 @@
-"""Recording a run: interface fields at adaptive times, the drive at every step, bulk snapshots."""
+"""Recording a run: interface fields at adaptive times, and the drive at every step."""
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..datasets.variables import annotate
 from ..model.parameters import Parameters
 from ..model.recording import STUCK_BELOW
-from ..types import Array
+from ..types import Array, Arrays
 from . import passes, remarks
 from .event import WINDOW, DropWatch, PatchBursts, long_after
 from .recorded import RECORDED
+from .snapshots import Snapshots
 from .state import State
 from .step import Dynamics, StepReport
 
 LONGEST_PAUSE = 0.4  # longest time between frames, in units of D/V
 FRAME_CHANGE = 0.5  # a frame whenever asinh(v / V) has changed by this much at some node
-INTERFACE = ("slip_rate", "state", "normal_stress", "slip", "shear_stress")
-FOR_LENGTHS = INTERFACE[:3]  # of which patch, edge and the frozen patch's stability are made
+FRAME_STEPS = 40  # largest number of steps between frames
+
+FOR_LENGTHS = ("slip_rate", "state", "normal_stress")
+"""Fields from which patch, edge and the frozen patch's stability are computed."""
+
+INTERFACE = (*FOR_LENGTHS, "slip", "shear_stress")
+ONLY_IN_FULL = ("step_size", "newton_iterations")  # no length is computed from these
 PER_STEP = (
-    "step_time", "driving_force", "maximal_slip_rate", "fastest_position", "step_size",
-    "newton_iterations",
-)  # fmt: skip
-ONLY_IN_FULL = PER_STEP[4:]  # of which no length is made
-BULK = ("displacement_x", "displacement_y", "velocity_x", "velocity_y")
-FRAME_STEPS = 40  # and at least every so many steps
-SNAPSHOT_RATES = (3.0, 30.0, 300.0, 3000.0)  # a bulk snapshot when max v / V first exceeds these
+    "step_time",
+    "driving_force",
+    "maximal_slip_rate",
+    "fastest_position",
+    *ONLY_IN_FULL,
+)
 
 
 class Recorder:
-    """Collects the states of one run and makes the dataset."""
+    """Collects the states of one run and makes the dataset.
 
-    def __init__(self, parameters: Parameters, dynamics: Dynamics) -> None:
-        self.parameters, self._level = parameters, parameters.recording
-        self.grid, self._body, self._drive = dynamics.grid, dynamics.body, dynamics.drive
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run.
+    dynamics : Dynamics
+        Body and drive of the run.
+    """
+
+    def __init__(
+        self,
+        parameters: Parameters,
+        dynamics: Dynamics,
+    ) -> None:
+        self.parameters = parameters
+        self.grid = dynamics.grid
+        self._body = dynamics.body
+        self._drive = dynamics.drive
+        self._level = parameters.recording
         self._velocity = parameters.loading.velocity
-        self._fields = INTERFACE if self._level.covers("interface") else FOR_LENGTHS
         self._longest_pause = LONGEST_PAUSE * parameters.memory_time
-        self._rows: list[tuple[float, float, float, float, float, int]] = []
-        self._frames: list[tuple[float, Array]] = []
-        self._snapshots: list[tuple[float, Array]] = []
-        self._snapshots_below: list[Array] = []  # at the same times, on a second body
-        self._last_scaled = np.empty(0)
+        self._fields = INTERFACE if self._level.covers("interface") else FOR_LENGTHS
+        self._rows: list[tuple[float, ...]] = []  # of PER_STEP
+        self._frame_times: list[float] = []
+        self._frames: list[Array] = []  # of the fields
+        self._last_scaled = np.empty(0)  # asinh(v / V) of the last frame
         self._last_frame_step = 0
-        self._next_snapshot_rate = 0
-        self._watch = DropWatch(WINDOW * parameters.memory_time, parameters.stepping.event_drop)
+        self._snapshots = Snapshots(dynamics)
+        window = WINDOW * parameters.memory_time
+        self._watch = DropWatch(window, parameters.stepping.event_drop)
         self._bursts = PatchBursts(parameters)
         self._event_time = np.inf
         self._onset_time = np.inf
-        self._short_drop_time = np.inf  # of the first drop whose patch was too short
+        self._short_drop_time = np.inf  # of the first drop with too short a patch
         self._time = 0.0
 
     @property
@@ -61,36 +79,59 @@ class Recorder:
 
     @property
     def covers_event(self) -> bool:
-        """Whether the event has begun and the time asked for after it has passed."""
+        """Whether the event has begun, and ``stepping.time_after_event`` has passed since then."""
         return self._time >= self._event_time + self.parameters.stepping.time_after_event
 
-    def record(self, state: State, report: StepReport) -> None:
-        """Take in the initial state or one accepted step."""
+    def record(
+        self,
+        state: State,
+        report: StepReport,
+    ) -> None:
+        """Take in the initial state or one accepted step.
+
+        Parameters
+        ----------
+        state : State
+        report : StepReport
+            Report of the step that led to this state.
+        """
         interface = report.interface
         node = passes.largest_at(interface.slip_rate)
-        fastest, position = float(abs(interface.slip_rate[node])), float(self.grid.x[node])
+        fastest = float(abs(interface.slip_rate[node]))
+        position = float(self.grid.x[node])
         self._time = state.time
-        force, step, iterations = report.driving_force, state.last_step, interface.iterations
-        self._rows.append((state.time, force, fastest, position, step, iterations))
+        row = (
+            state.time,
+            report.driving_force,
+            fastest,
+            position,
+            state.last_step,
+            interface.iterations,
+        )
+        self._rows.append(row)
         fast = self._bursts.at(state.time, fastest, position)
         dropped = self._watch.dropped(state.time, abs(report.driving_force), fast)
         if dropped and np.isinf(self._event_time):
             self._take_in_drop()
-        self._maybe_frame(state, report)
-        self._maybe_snapshot(state, fastest)
+        if self._frame_is_due(state.time, interface.slip_rate):
+            self._take_frame(state, report)
+        if self._level.covers("everything"):
+            self._snapshots.take(state, fastest)
 
     def _take_in_drop(self) -> None:
         """A drop of the force is the event if the patch was long enough when it began."""
         onset = self._watch.since
-        times = np.array([time for time, _ in self._frames])
-        rates = np.array([fields[0] for _, fields in self._frames])
-        if onset > long_after(self.parameters, self.grid.x, times, rates):
-            self._event_time, self._onset_time = self._time, onset
+        times = np.array(self._frame_times)
+        rates = np.array([fields[0] for fields in self._frames])
+        long_enough = long_after(self.parameters, self.grid.x, times, rates)
+        if onset > long_enough:
+            self._event_time = self._time
+            self._onset_time = onset
         else:
             self._short_drop_time = min(self._short_drop_time, onset)
 
     def remarks(self) -> list[str]:
-        """What makes the event, or that there is none, doubtful."""
+        """Reasons to doubt the event, or that there is none."""
         times, _, rates, positions = np.array([row[:4] for row in self._rows]).T
         elsewhere = remarks.fastest_elsewhere(
             self.parameters, times, rates, positions, self._onset_time
@@ -105,122 +146,113 @@ class Recorder:
         """Width of the front (elements) at the onset; infinite without an event."""
         if np.isinf(self._onset_time):
             return np.inf
-        times = np.array([time for time, _ in self._frames])
-        _, fields = self._frames[int(np.abs(times - self._onset_time).argmin())]
-        return remarks.front_width(self.parameters, self.grid.x, fields[1])
+        distances = np.abs(np.array(self._frame_times) - self._onset_time)
+        state = self._frames[int(distances.argmin())][1]
+        return remarks.front_width(self.parameters, self.grid.x, state)
 
-    def _maybe_frame(self, state: State, report: StepReport) -> None:
-        rate = report.interface.slip_rate
-        due = (
-            not self._frames
-            or state.time - self._frames[-1][0] >= self._longest_pause
-            or len(self._rows) - self._last_frame_step >= FRAME_STEPS
-            or passes.changed(rate, self._last_scaled, self._velocity) >= FRAME_CHANGE
-        )
-        if not due:
-            return
-        self._last_scaled = np.arcsinh(rate / self._velocity)
+    def _frame_is_due(
+        self,
+        time: float,
+        slip_rate: Array,
+    ) -> bool:
+        if not self._frames:
+            return True
+        if time - self._frame_times[-1] >= self._longest_pause:
+            return True
+        if len(self._rows) - self._last_frame_step >= FRAME_STEPS:
+            return True
+        change = passes.changed(slip_rate, self._last_scaled, self._velocity)
+        return bool(change >= FRAME_CHANGE)
+
+    def _take_frame(
+        self,
+        state: State,
+        report: StepReport,
+    ) -> None:
+        interface = report.interface
+        lengths = self.grid.nodal_lengths
+        displacement = self._drive.at(state.time).displacement
+        values = {
+            "slip_rate": interface.slip_rate,
+            "state": np.exp(interface.log_state),
+            "normal_stress": -interface.normal / lengths,
+            "slip": displacement + self._body.on_all_nodes(interface.w, 0.0),
+            "shear_stress": -interface.tangential / lengths,
+        }
+        self._last_scaled = np.arcsinh(interface.slip_rate / self._velocity)
         self._last_frame_step = len(self._rows)
-        interface, lengths = report.interface, self.grid.nodal_lengths
-        slip = self._drive.at(state.time).displacement + self._body.on_all_nodes(interface.w, 0.0)
-        fields = (
-            interface.slip_rate, np.exp(interface.log_state), -interface.normal / lengths,
-            slip, -interface.tangential / lengths,
-        )  # fmt: skip
-        self._frames.append((state.time, np.array(fields[: len(self._fields)])))
+        self._frame_times.append(state.time)
+        recorded = [values[name] for name in self._fields]
+        self._frames.append(np.array(recorded))
 
-    def _maybe_snapshot(self, state: State, fastest: float) -> None:
-        if not self._level.covers("everything"):
-            return
-        rates = SNAPSHOT_RATES[self._next_snapshot_rate :]
-        exceeded = sum(fastest > rate * self._velocity for rate in rates)
-        if not self._snapshots or exceeded:
-            self._next_snapshot_rate += exceeded
-            self._snapshots.append((state.time, self._bulk(state)))
-            if self._body.grid_below is not None:
-                self._snapshots_below.append(self._bulk_below(state))
-
-    def _bulk(self, state: State) -> Array:
-        """Displacement and velocity at the nodes, shape (4, n_y + 1, n_x + 1)."""
-        edge = self._drive.at(state.time)
-        x, y = self._body.nodal_values(state.displacement)
-        rate_x, rate_y = self._body.nodal_values(state.velocity)
-        return np.array([x + edge.displacement, y, rate_x + edge.velocity, rate_y])
-
-    def _bulk_below(self, state: State) -> Array:
-        """The same of a second body, its levels from the interface down."""
-        fields = state.displacement, state.velocity
-        return np.array([v for field in fields for v in self._body.nodal_values_below(field)])
-
-    def to_arrays(self) -> dict[str, NDArray]:
-        """Everything recorded, as plain arrays by name, to be stored; exact."""
+    def to_arrays(self) -> Arrays:
+        """The exact record as plain arrays by name, to be stored."""
         return {
             "rows": np.array(self._rows),
-            "frame_times": np.array([t for t, _ in self._frames]),
-            "frames": np.array([fields for _, fields in self._frames]),
+            "frame_times": np.array(self._frame_times),
+            "frames": np.array(self._frames),
             "last_frame_step": np.array(self._last_frame_step),
-            "snapshot_times": np.array([t for t, _ in self._snapshots]),
-            "snapshots": np.array([fields for _, fields in self._snapshots]),
-            "snapshots_below": np.array(self._snapshots_below),
-            "next_snapshot_rate": np.array(self._next_snapshot_rate),
+            **self._snapshots.to_arrays(),
             "watched": self._watch.maxima,
-            "event_times": np.array([self._event_time, self._onset_time, self._short_drop_time]),
+            "event_times": np.array(
+                [
+                    self._event_time,
+                    self._onset_time,
+                    self._short_drop_time,
+                ]
+            ),
             "own_burst": np.array(self._bursts.own),
         }
 
-    def restore(self, arrays: Mapping[str, NDArray]) -> None:
+    def restore(self, arrays: Mapping[str, Array]) -> None:
         """The inverse of :meth:`to_arrays`, on a recorder of the same parameters."""
-        self._rows = [(*row[:5], int(row[5])) for row in arrays["rows"].tolist()]
-        self._frames = list(zip(arrays["frame_times"].tolist(), arrays["frames"], strict=True))
-        self._last_scaled = np.arcsinh(self._frames[-1][1][0] / self._velocity)
+        self._rows = []
+        for *values, iterations in arrays["rows"].tolist():
+            self._rows.append((*values, int(iterations)))
+        self._frame_times = arrays["frame_times"].tolist()
+        self._frames = list(arrays["frames"])
+        self._last_scaled = np.arcsinh(self._frames[-1][0] / self._velocity)
         self._last_frame_step = int(arrays["last_frame_step"])
-        times = arrays["snapshot_times"].tolist()
-        self._snapshots = list(zip(times, arrays["snapshots"], strict=True))
-        self._snapshots_below = list(arrays["snapshots_below"])
-        self._next_snapshot_rate = int(arrays["next_snapshot_rate"])
+        self._snapshots.restore(arrays)
         self._watch.maxima = arrays["watched"]
         self._event_time, self._onset_time, self._short_drop_time = arrays["event_times"].tolist()
         self._bursts.own = bool(arrays["own_burst"])
         self._time = self._rows[-1][0]
 
     def dataset(self) -> xr.Dataset:
-        """What was recorded, of :data:`RECORDED`."""
+        """The record of the run so far, with the variables of :data:`RECORDED`."""
         return annotate(self._dataset(), RECORDED)
 
     def _dataset(self) -> xr.Dataset:
-        times = np.array([t for t, _ in self._frames])
-        frames = np.array([fields for _, fields in self._frames])
-        rows = dict(zip(PER_STEP, map(np.array, zip(*self._rows, strict=True)), strict=True))
-        data: dict[str, Any] = {name: (("step",), values) for name, values in rows.items()}
-        data |= {name: (("time", "x"), frames[:, i]) for i, name in enumerate(self._fields)}
-        dataset = xr.Dataset(data, {"time": times, "x": self.grid.x})
+        data: dict[str, tuple[Sequence[str], Array]] = {}
+        per_step = zip(*self._rows, strict=True)
+        for name, values in zip(PER_STEP, per_step, strict=True):
+            data[name] = ("step",), np.array(values)
+        frames = np.array(self._frames)
+        for i, name in enumerate(self._fields):
+            data[name] = ("time", "x"), frames[:, i]
+        dataset = xr.Dataset(data, {"time": self._frame_times, "x": self.grid.x})
         dataset.attrs["parameters"] = self.parameters.to_json()
         if not self._level.covers("interface"):
             return self._for_lengths(dataset)
-        realised = self._drive.realised(rows["step_time"], times)
+        times = {
+            "step": dataset["step_time"].values,
+            "time": dataset["time"].values,
+        }
+        realised = self._drive.realised(times)
         if realised is not None:
             dataset["perturbation"] = realised
-        return dataset.assign(self._bodies()) if self._level.covers("everything") else dataset
+        if self._level.covers("everything"):
+            return dataset.assign(self._snapshots.dataset())
+        return dataset
 
     def _for_lengths(self, dataset: xr.Dataset) -> xr.Dataset:
-        """Less: without what no length needs, and zero where the fault is stuck."""
+        """The smallest record: only the variables for lengths, zero where the fault is stuck."""
         fast = np.abs(dataset["slip_rate"].values) >= STUCK_BELOW * self._velocity
         slips = fast.copy()
         slips[:, 1:] |= fast[:, :-1]  # and nodes beside it, between which edges are
         slips[:, :-1] |= fast[:, 1:]
-        kept = {name: dataset[name].where(slips, 0.0).astype(np.float32) for name in FOR_LENGTHS}
-        return dataset.drop_vars(ONLY_IN_FULL).assign(kept)
-
-    def _bodies(self) -> xr.Dataset:
-        """The snapshots of the bodies."""
-        bulk = np.array([fields for _, fields in self._snapshots])
-        times = np.array([t for t, _ in self._snapshots])
-        data: dict[str, Any] = {"snapshot_time": (("snapshot",), times)}
-        data |= {name: (("snapshot", "y", "x"), bulk[:, i]) for i, name in enumerate(BULK)}
-        coords = {"y": self.grid.y, "x": self.grid.x}
-        below = self._body.grid_below
-        if below is not None:
-            coords["second_y"] = -below.y
-            for i, values in enumerate(np.moveaxis(np.array(self._snapshots_below), 1, 0)):
-                data[f"second_{BULK[i]}"] = ("snapshot", "second_y", "x"), values
-        return xr.Dataset(data, coords=coords)
+        reduced = dataset.drop_vars(ONLY_IN_FULL)
+        for name in FOR_LENGTHS:
+            reduced[name] = dataset[name].where(slips, 0.0).astype(np.float32)
+        return reduced

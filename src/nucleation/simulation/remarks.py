@@ -1,26 +1,33 @@
-"""What the status of a run adds to how it ended: whatever makes its event, or none, doubtful."""
+"""Remarks in the status of a run: reasons to doubt its event, or that it has none."""
 
 import numpy as np
 
 from ..model.parameters import Parameters
 from ..types import Array
-from .event import FAST, FEW, PatchBursts, where_patch_is_sought
+from .event import FAST, FEW, Burst, PatchBursts, where_patch_is_sought
 
 RESOLVED = 1.25
-"""Least width of the front in elements: below, four fifths of the state's change, or more, are
-within one element. With two to three elements to a process zone the width is 1.4 to 3."""
+"""Smallest width of a resolved front, in elements.
+
+Below it, four fifths or more of the state's change are within one element. With two to three
+elements to a process zone the width is 1.4 to 3.
+"""
 
 FRONT = 1.0
 """Change of the logarithm of the state that makes a front."""
 
 
-def front_width(parameters: Parameters, x: Array, state: Array) -> float:
-    """Width of the front in elements: the state's change over the steepest between two nodes.
+def front_width(
+    parameters: Parameters,
+    x: Array,
+    state: Array,
+) -> float:
+    """Width of the front in elements: total change of log(phi) over the steepest one.
 
     Parameters
     ----------
     parameters : Parameters
-        Of the run, which say where its patch is sought.
+        Parameters of the run; its loading determines where the patch is sought.
     x : ndarray, shape (n,)
         Positions (m) of the nodes.
     state : ndarray, shape (n,)
@@ -29,7 +36,7 @@ def front_width(parameters: Parameters, x: Array, state: Array) -> float:
     Returns
     -------
     float
-        Infinite if the state changes by less than a factor e, so that there is no front.
+        Infinite if there is no front: the state changes by less than a factor e.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         log_state = np.log(state[where_patch_is_sought(parameters, x)])
@@ -37,48 +44,52 @@ def front_width(parameters: Parameters, x: Array, state: Array) -> float:
     known = log_state[np.isfinite(log_state)]
     if not known.size or np.ptp(known) < FRONT:
         return np.inf
-    return float(np.ptp(known) / changes[np.isfinite(changes)].max())
+    steepest = changes[np.isfinite(changes)].max()
+    return float(np.ptp(known) / steepest)
 
 
 def fastest_elsewhere(
-    parameters: Parameters, times: Array, rates: Array, positions: Array, until: float
-) -> tuple[float, float, float] | None:
-    """The fastest slip before a time that is not the patch's, by all steps of a run.
+    parameters: Parameters,
+    times: Array,
+    rates: Array,
+    positions: Array,
+    until: float,
+) -> Burst | None:
+    """Find the fastest slip outside the patch before a given time.
 
     Parameters
     ----------
     parameters : Parameters
-        Of the run.
+        Parameters of the run.
     times, rates, positions : ndarray, shape (steps,)
-        Time (s), largest slip rate (m/s), and where it is (m).
+        Time (s), largest slip rate (m/s) and its position (m) at every step.
     until : float
         Onset of the event (s), or infinity.
 
     Returns
     -------
-    tuple or None
-        Its time (s), slip rate (m/s) and place (m), if anything but the patch slips fast.
+    Burst or None
+        None if only the patch slips fast.
     """
     bursts = PatchBursts(parameters)
-    steps = zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True)
+    steps = list(zip(times.tolist(), rates.tolist(), positions.tolist(), strict=True))
     own = np.array([bursts.at(*step) for step in steps], dtype=bool)
     fast = rates > FAST * parameters.loading.velocity
-    elsewhere = np.where(fast & ~own & (times < until), rates, 0.0)
-    if not elsewhere.any():
+    counts = fast & ~own & (times < until)
+    if not counts.any():
         return None
-    at = int(elsewhere.argmax())
-    return float(times[at]), float(rates[at]), float(positions[at])
+    return steps[int(np.where(counts, rates, 0.0).argmax())]
 
 
 def of_front(width: float) -> list[str]:
-    """What to say of a front at the onset, by its width in elements."""
+    """Remark on an unresolved front at the onset, by its width in elements."""
     if width >= RESOLVED:
         return []
     return [f"not resolved: at the onset the front is {width:.1f} elements wide"]
 
 
-def of_slip_elsewhere(found: tuple[float, float, float] | None) -> list[str]:
-    """What to say of fast slip that is not the patch's."""
+def of_slip_elsewhere(found: Burst | None) -> list[str]:
+    """Remark on fast slip outside the patch, as :func:`fastest_elsewhere` finds it."""
     if found is None:
         return []
     time, rate, place = found
@@ -86,7 +97,7 @@ def of_slip_elsewhere(found: tuple[float, float, float] | None) -> list[str]:
 
 
 def of_short_patch(time: float) -> list[str]:
-    """What to say of a drop at a time (s), infinite if there is none, with too short a patch."""
+    """Remark on a drop at a time (s) with too short a patch; infinite if there was none."""
     if not np.isfinite(time):
         return []
-    return [f"no event: the drop at t = {time:.4g} s, whose patch had {FEW} elements or fewer"]
+    return [f"no event: the drop at t = {time:.4g} s began with a patch of {FEW} elements or fewer"]

@@ -1,7 +1,7 @@
 """The simulation: physics, finite elements and stepping put together.
 
 :func:`run` yields one state after another; :func:`simulate` records them into a dataset. Both can
-go on from arrays stored earlier, to the last bit as if they had never stopped.
+resume from stored arrays, and give the same result to the last bit as if they had never stopped.
 """
 
 import resource
@@ -12,12 +12,11 @@ from functools import partial
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from ..fem.bodies import body_of
 from ..fem.grid import Grid
 from ..model.parameters import FIRST_STEP, Parameters
-from ..types import Array
+from ..types import Array, Arrays
 from .control import Control, Instant, SimulationFailure, accepted_step
 from .drive import drive_of
 from .event import Outcome
@@ -29,33 +28,46 @@ from .step import Dynamics
 from .stepping import BDF
 
 NEWTON = 1e-3
-"""Of Newton's tolerance over the step's, at most; nor is it above a perturbation's strength."""
+"""Largest tolerance of Newton's method over that of the step, if the run is perturbed."""
 
 
 def composed(parameters: Parameters) -> Dynamics:
-    """The dynamics that parameters ask for: here a further drive or scheme is chosen."""
+    """The dynamics of a run: a further drive or scheme is chosen here."""
     body = body_of(parameters)
-    interface, drive = interface_of(parameters, body.grid), drive_of(parameters, body)
+    interface = interface_of(parameters, body.grid)
+    drive = drive_of(parameters, body)
     return Dynamics(body, interface, drive, BDF(body.crossing_time))
 
 
 def interface_of(parameters: Parameters, grid: Grid) -> Interface:
-    """The frictional interface with what varies along it."""
-    varied, loading = parameters.heterogeneity, parameters.loading
-    friction, tolerance = parameters.friction, Interface.tolerance  # quiet runs live on round-off
-    extra: Array | float = 0.0
+    """The frictional interface of a run, with its heterogeneity.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run.
+    grid : Grid
+        The mesh of its body.
+
+    Returns
+    -------
+    Interface
+    """
+    varied = parameters.heterogeneity
+    loading = parameters.loading
+    friction = parameters.friction
+    tolerance = Interface.tolerance  # an unperturbed run is perturbed by round-off alone
     if parameters.perturbation.acts:
-        declared = min(NEWTON * parameters.stepping.tolerance, parameters.perturbation.strength)
-        tolerance = max(tolerance, declared)
-    if varied.varies != "none":
-        factor = varied.factor(grid.x, grid.length, grid.periodic)
-        friction = varied.friction(friction, loading.velocity, factor)
-        if varied.varies == "normal_stress":
-            extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
+        coarse = NEWTON * parameters.stepping.tolerance
+        tolerance = max(tolerance, min(coarse, parameters.perturbation.strength))
+    if varied.varies == "none":
+        return Interface(friction, tolerance)
+    factor = varied.factor(grid.x, grid.length, grid.periodic)
+    friction = varied.friction(friction, loading.velocity, factor)
+    extra: Array | float = 0.0
+    if varied.varies == "normal_stress":
+        extra = loading.normal_stress * (factor - 1.0) * grid.nodal_lengths
     return Interface(friction, tolerance, extra_normal=extra)
-
-
-Arrays = dict[str, NDArray]
 
 
 def run(
@@ -67,28 +79,37 @@ def run(
 
     Parameters
     ----------
-    parameters : everything the result depends on.
-    start : state and control of an instant of an earlier run with the same parameters: yields
-        what follows it there, to the last bit.
-    dynamics : what is to step, by default the usual composition for the parameters.
+    parameters : Parameters
+        Everything the result depends on.
+    start : tuple of State and Control, optional
+        State and control of an instant of an earlier run with the same parameters. The steps that
+        followed it there are yielded, the same to the last bit.
+    dynamics : Dynamics, optional
+        By default :func:`composed` from the parameters.
+
+    Yields
+    ------
+    Instant
 
     Raises
     ------
     SimulationFailure
-        The step size fell below ``stepping.shortest_step``, for its own sake or because every
-        longer step ends in tension.
+        If the step size fell below ``stepping.shortest_step``, also if every longer step ends in
+        tension.
     """
     dynamics = composed(parameters) if dynamics is None else dynamics
     longest_step = parameters.longest_step
     longest = dynamics.scheme.coefficient(longest_step, longest_step)
     if start is None:
         state, report = at_rest(dynamics, parameters.loading)
-        start = state, Control(min(FIRST_STEP * parameters.memory_time, longest))
-        yield Instant(state, report, start[1])
-    state, control = start
+        control = Control(min(FIRST_STEP * parameters.memory_time, longest))
+        yield Instant(state, report, control)
+    else:
+        state, control = start
     while True:
         instant = accepted_step(dynamics, parameters.stepping, state, control, longest)
-        state, control = instant.state, instant.control
+        state = instant.state
+        control = instant.control
         yield instant
 
 
@@ -101,24 +122,34 @@ def simulate(
 ) -> xr.Dataset:
     """Run one simulation to its end and return its record.
 
-    It has the interface's fields on (time, x), the driving force and the step sizes on (step), some
-    fields of the bulk on (snapshot, y, x), of :data:`nucleation.simulation.recorded.RECORDED`, and
-    the outcome as attributes. ``status`` says how the run ended and, after semicolons, what makes
-    its event doubtful (:mod:`.remarks`). A run that fails has what it recorded.
-
     Parameters
     ----------
-    parameters : everything the result depends on.
-    progress : called with every accepted step.
-    start : arrays that `keep` was offered by an earlier run with the same parameters; the run goes
-        on from there, to the last bit as if it had never stopped.
-    keep : called after every step with a function that returns all that the run is made of at this
-        instant, to be stored for `start` (:class:`nucleation.simulation.checkpoints.Checkpoint`).
+    parameters : Parameters
+        Everything the result depends on.
+    progress : callable, optional
+        Called with every accepted step.
+    start : dict of ndarray, optional
+        Arrays that `keep` received from an earlier run with the same parameters. The run resumes
+        there, with the same result to the last bit as if it had never stopped.
+    keep : callable, optional
+        Called after every step with a function that returns all arrays of the run at this instant,
+        to be stored for `start` (:class:`nucleation.simulation.checkpoints.Checkpoint`).
+
+    Returns
+    -------
+    Dataset
+        The interface's fields on (time, x), the driving force and the step sizes on (step), some
+        fields of the bulk on (snapshot, y, x), see
+        :data:`nucleation.simulation.recorded.RECORDED`. The attribute ``status`` says how the run
+        ended and, after semicolons, why its event is doubtful (:mod:`.remarks`). A run that fails
+        has everything recorded until then.
     """
     began = time.perf_counter()
+    earlier = 0.0
     dynamics = composed(parameters)
     recorder = Recorder(parameters, dynamics)
-    control, position, earlier = Control(0.0), None, 0.0
+    control = Control(0.0)
+    position = None
     if start is not None:
         recorder.restore(start)
         control = Control(float(start["wanted"]), recorder.steps, int(start["rejected"]))
@@ -155,8 +186,12 @@ def simulate(
     return dataset
 
 
-def _arrays(instant: Instant, recorder: Recorder, seconds: float) -> Arrays:
-    """All that a run is made of after a step, from which it can go on."""
+def _arrays(
+    instant: Instant,
+    recorder: Recorder,
+    seconds: float,
+) -> Arrays:
+    """All arrays of a run after a step, from which it can resume."""
     control = {
         "wanted": np.array(instant.control.wanted),
         "rejected": np.array(instant.control.rejected),
@@ -167,5 +202,7 @@ def _arrays(instant: Instant, recorder: Recorder, seconds: float) -> Arrays:
 
 def peak_megabytes() -> float:
     """Largest resident memory of this process so far (MB)."""
-    kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return kilobytes / (1e6 if sys.platform == "darwin" else 1e3)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    if sys.platform == "darwin":
+        return peak / 1e6  # given in bytes there, and in kilobytes elsewhere
+    return peak / 1e3

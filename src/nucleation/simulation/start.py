@@ -1,8 +1,8 @@
 """The start of a run: the body at rest under its load, on an interface that can carry the stress.
 
-An elastic body that is pressed down without slip has a large shear stress at its free corner, which
-grows without bound as the mesh is refined: the base holds back what Poisson's ratio widens. Where
-that stress is above the strength, the interface has slipped already when the block was loaded.
+If an elastic body is pressed down without slip, the shear stress at its free corner grows without
+bound as the mesh is refined: the base prevents the expansion by Poisson's ratio. Where that stress
+exceeds the strength, the interface has slipped already while the block was loaded.
 """
 
 import numpy as np
@@ -22,45 +22,80 @@ def at_rest(dynamics: Dynamics, loading: Loading) -> tuple[State, StepReport]:
     Parameters
     ----------
     dynamics : Dynamics
-        What is to step from there.
+        Body, interface and drive of the run.
     loading : Loading
-        Its ``initial_stress`` says whether the interface starts in uniform shear, or without slip
-        except where that leaves more shear than the interface can carry.
+        With ``initial_stress`` the interface starts in uniform shear. Otherwise it starts without
+        slip, except where it cannot carry the shear stress.
+
+    Returns
+    -------
+    State, StepReport
     """
-    body, grid, imposed = dynamics.body, dynamics.grid, dynamics.drive.at(0.0)
-    n, operator, load = body.free_nodes, body.operator(0.0), dynamics.load(imposed)
-    response = operator.respond(load, np.zeros(n))
+    body = dynamics.body
+    imposed = dynamics.drive.at(0.0)
+    load = dynamics.load(imposed)
+    operator = body.operator(0.0)
+    response = operator.respond(load, np.zeros(body.free_nodes))
     if loading.initial_stress == "uniform_shear" and loading.kind != "remote":
-        forces = -loading.initial_shear_stress * grid.nodal_lengths[-n:]
-        stiffness, _ = operator.tangent(np.arange(1, n + 1))
-        slipped = np.linalg.solve(stiffness, forces - response.tangential)
-        response = operator.respond(load, slipped)
+        response = _in_uniform_shear(dynamics, loading, operator, load, response)
     else:
         response = _relaxed(dynamics, loading, operator, load, response)
     balance = operator.balance(response, response.w)
-    slip_rate = body.on_all_nodes(np.zeros(n), imposed.velocity)
-    log_state = np.full(grid.n_x + 1, float(np.log(loading.initial_state)))
-    motion = body.at_rest(balance.displacement, imposed.velocity)
-    state = State.beginning(motion, slip_rate, log_state, response.w, balance.memory)
-    normal = response.normal + dynamics.interface.extra_normal
-    # at rest no friction acts on the driven edge's own node
-    tangential = body.on_all_nodes(response.tangential, 0.0)
-    interface = InterfaceSolution(slip_rate, log_state, tangential, normal, response.w, 0)
-    force = float(tangential[grid.own].sum()) - dynamics.frame_inertia(imposed)
-    return state, StepReport(interface, force, 0.0)
+    slip_rate = body.on_all_nodes(np.zeros(body.free_nodes), imposed.velocity)
+    log_state = np.full_like(slip_rate, np.log(loading.initial_state))
+    state = State.beginning(
+        body.at_rest(balance.displacement, imposed.velocity),
+        slip_rate,
+        log_state,
+        response.w,
+        balance.memory,
+    )
+    interface = InterfaceSolution(
+        slip_rate,
+        log_state,
+        # at rest no friction acts on the driven edge's own node
+        tangential=body.on_all_nodes(response.tangential, 0.0),
+        normal=response.normal + dynamics.interface.extra_normal,
+        w=response.w,
+        iterations=0,
+    )
+    friction = float(interface.tangential[dynamics.grid.own].sum())
+    force = friction - dynamics.frame_inertia(imposed)
+    return state, StepReport(interface, force, error=0.0)
+
+
+def _in_uniform_shear(
+    dynamics: Dynamics,
+    loading: Loading,
+    operator: Operator,
+    load: Field,
+    response: Response,
+) -> Response:
+    """The response after the slip with which all nodes bear the initial shear stress."""
+    n = dynamics.body.free_nodes
+    nodes = np.arange(1, n + 1)
+    stiffness, _ = operator.tangent(nodes)
+    forces = -loading.initial_shear_stress * dynamics.grid.nodal_lengths[-n:]
+    slip = np.linalg.solve(stiffness, forces - response.tangential)
+    return operator.respond(load, slip)
 
 
 def _relaxed(
-    dynamics: Dynamics, loading: Loading, operator: Operator, load: Field, response: Response
+    dynamics: Dynamics,
+    loading: Loading,
+    operator: Operator,
+    load: Field,
+    response: Response,
 ) -> Response:
-    """The response once all nodes have slipped that bore more shear than their strength.
+    """The response after slip of all nodes that bore more shear than their strength.
 
-    These bear their strength, that of sliding at V. Where no node did, it is `response` itself.
+    These then bear their strength, that of sliding at V. Without such nodes it is `response`.
     """
     n = dynamics.body.free_nodes
     friction = dynamics.interface.friction
     of_law = friction.coefficient(loading.velocity, loading.initial_state)
-    coefficient = np.broadcast_to(of_law, dynamics.grid.n_x + 1)[-n:]
+    on_all_nodes = np.broadcast_to(of_law, dynamics.grid.n_x + 1)
+    coefficient = on_all_nodes[-n:]
 
     def normal_forces(now: Response) -> Array:
         return (now.normal + dynamics.interface.extra_normal)[-n:]
@@ -76,7 +111,9 @@ def _relaxed(
         nodes = np.flatnonzero(slipped)
         stiffness, coupling = operator.tangent(nodes + 1)
         signed = (direction * coefficient)[nodes]
-        excess = signed * normal_forces(response)[nodes] - response.tangential[nodes]
+        strength = signed * normal_forces(response)[nodes]
+        excess = strength - response.tangential[nodes]
+        matrix = stiffness - signed[:, None] * coupling
         w = response.w.copy()
-        w[nodes] += np.linalg.solve(stiffness - signed[:, None] * coupling, excess)
+        w[nodes] += np.linalg.solve(matrix, excess)
         response = operator.respond(load, w)

@@ -1,7 +1,7 @@
-"""The state of a run: everything that the next step takes from the past.
+"""The state of a run: all past values from which the next step is computed.
 
-The body's last motions, as many as the scheme asks for, and the last values of the interface's
-fields, from which the next ones are extrapolated.
+These are the last motions of the body and the last values of the interface's fields, as many as
+the scheme uses.
 """
 
 from __future__ import annotations
@@ -12,34 +12,54 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..fem.grid import Field, Motion
-from ..types import Array
+from ..types import Array, Arrays
 
 
 @dataclasses.dataclass(frozen=True)
 class State:
-    """A body and its interface at one instant; past values are newest first, the present included.
+    """A body and its interface at one instant, with their past values.
 
-    ``past_times`` (s), ``past_slip_rates`` (m/s) and ``past_log_states`` over the nodes 0..n_x, and
-    ``past_w`` (m, the slip less that of the driven edge) over the nodes 1..n_x.
+    The past includes the present, and begins with it.
     """
 
     motions: tuple[Motion, ...]
-    past_times: Array
-    past_slip_rates: Array
-    past_log_states: Array
-    past_w: Array
+    past_times: Array  # s
+    past_slip_rates: Array  # m/s, (past, nodes 0..n_x)
+    past_log_states: Array  # (past, nodes 0..n_x)
+    past_w: Array  # m, slip less that of the driven edge, (past, nodes 1..n_x)
     body_memory: Array  # the body's own, see nucleation.fem.condensed
 
     @classmethod
     def beginning(
-        cls, motion: Motion, slip_rate: Array, log_state: Array, w: Array, body_memory: Array
+        cls,
+        motion: Motion,
+        slip_rate: Array,
+        log_state: Array,
+        w: Array,
+        body_memory: Array,
     ) -> State:
-        """The state at time zero, without a past."""
+        """The state at time zero, without a past.
+
+        Parameters
+        ----------
+        motion : Motion
+            Motion of the body.
+        slip_rate, log_state : ndarray, shape (n_x + 1,)
+            Slip rates (m/s) and log(phi) at the nodes 0..n_x.
+        w : ndarray, shape (n_x,)
+            Slip less that of the driven edge (m), at the nodes 1..n_x.
+        body_memory : ndarray
+            Memory of the body.
+
+        Returns
+        -------
+        State
+        """
         return cls((motion,), np.zeros(1), slip_rate[None], log_state[None], w[None], body_memory)
 
-    def to_arrays(self) -> dict[str, Array]:
-        """The state as plain arrays by name, to be stored; exact."""
-        arrays = {name: np.asarray(getattr(self, name)) for name in PLAIN}
+    def to_arrays(self) -> Arrays:
+        """The exact state as plain arrays by name, to be stored."""
+        arrays = {name: np.asarray(getattr(self, name)) for name in _PLAIN}
         for i, motion in enumerate(self.motions):
             arrays |= motion.to_arrays(f"motion_{i}")
         return arrays
@@ -47,9 +67,10 @@ class State:
     @classmethod
     def from_arrays(cls, arrays: Mapping[str, Array]) -> State:
         """The inverse of :meth:`to_arrays`."""
-        number = sum(name.startswith("motion_") and name.endswith("_momentum") for name in arrays)
-        motions = tuple(Motion.from_arrays(f"motion_{i}", arrays) for i in range(number))
-        return cls(motions, **{name: arrays[name] for name in PLAIN})
+        motions: list[Motion] = []
+        while f"motion_{len(motions)}_momentum" in arrays:
+            motions.append(Motion.from_arrays(f"motion_{len(motions)}", arrays))
+        return cls(tuple(motions), **{name: arrays[name] for name in _PLAIN})
 
     @property
     def time(self) -> float:
@@ -58,8 +79,9 @@ class State:
 
     @property
     def last_step(self) -> float:
-        """Length of the step that led here (s), zero at the start."""
-        return float(self.past_times[0] - self.past_times[min(1, self.past_times.size - 1)])
+        """Length of the last step (s), zero at the start."""
+        before = min(1, self.past_times.size - 1)
+        return float(self.past_times[0] - self.past_times[before])
 
     @property
     def displacement(self) -> Field:
@@ -68,7 +90,7 @@ class State:
 
     @property
     def velocity(self) -> Field:
-        """Its rate (m/s)."""
+        """Rate (m/s) of the displacement."""
         return self.motions[0].velocity
 
     @property
@@ -77,12 +99,30 @@ class State:
         return self.motions[0].momentum
 
 
-PLAIN = tuple(field.name for field in dataclasses.fields(State) if field.name != "motions")
+_PLAIN = tuple(field.name for field in dataclasses.fields(State) if field.name != "motions")
 
 
-def pushed(newest: Array | float, past: Array, most: int) -> Array:
-    """The newest value before the past ones, `most` in all."""
+def pushed(
+    newest: Array | float,
+    past: Array,
+    most: int,
+) -> Array:
+    """Put the newest value before the past ones and drop the oldest.
+
+    Parameters
+    ----------
+    newest : ndarray or float
+    past : ndarray, shape (past, ...)
+        Past values, newest first.
+    most : int
+        Largest number of values that are kept.
+
+    Returns
+    -------
+    ndarray, shape (at most `most`, ...)
+    """
     kept = past[: most - 1]
     result = np.empty((kept.shape[0] + 1, *past.shape[1:]))
-    result[0], result[1:] = newest, kept
+    result[0] = newest
+    result[1:] = kept
     return result

@@ -1,10 +1,10 @@
 """One implicit step of a body on its frictional interface: state in, state out.
 
-A step is pure: it returns a new state and changes nothing, so a rejected step leaves no trace and
-a stored state restarts the run exactly. What steps is composed of four parts that know nothing of
-each other (:func:`nucleation.simulation.run.composed` has the usual ones): a body
+A step returns a new state and changes nothing else. So a rejected step leaves no trace, and a
+stored state restarts the run exactly. A step combines four parts that do not know each other
+(:func:`nucleation.simulation.run.composed` makes the usual ones): a body
 (:mod:`nucleation.fem.condensed`), an interface (:mod:`.interface`), a drive (:mod:`.drive`) and a
-scheme (:mod:`nucleation.simulation.stepping`).
+scheme (:mod:`.stepping`).
 """
 
 import dataclasses
@@ -32,7 +32,7 @@ SLIGHT_SLIP = 1e-2  # nor those that slip by less than this part of D within the
 
 @dataclasses.dataclass(frozen=True)
 class StepReport:
-    """What a step tells besides the new state."""
+    """Results of a step that are not part of the new state."""
 
     interface: InterfaceSolution
     driving_force: float  # f_d (N/m), negative in compression
@@ -40,28 +40,67 @@ class StepReport:
 
 
 class Dynamics:
-    """A body on an interface under a drive, ready to step by a scheme.
+    """A body on an interface under a drive, advanced by a scheme.
 
-    With ``u_x = U(t) + w_x`` the body is seen from its driven edge: where that accelerates, inertia
-    acts as a body force ``-rho U''`` along x.
+    With ``u_x = U(t) + w_x`` the body is seen from its driven edge. Where the edge accelerates,
+    inertia acts as a body force ``-rho U''`` along x.
+
+    Parameters
+    ----------
+    body : ElasticBody
+        The elastic body, or the pair of bodies.
+    interface : Solver
+        The interface on which it slides.
+    drive : Drive
+        Loads and boundary conditions.
+    scheme : BDF
+        The formulas of the steps.
     """
 
-    def __init__(self, body: ElasticBody, interface: Solver, drive: Drive, scheme: BDF) -> None:
-        self.body, self.interface, self.drive, self.scheme = body, interface, drive, scheme
+    def __init__(
+        self,
+        body: ElasticBody,
+        interface: Solver,
+        drive: Drive,
+        scheme: BDF,
+    ) -> None:
+        self.body = body
+        self.interface = interface
+        self.drive = drive
+        self.scheme = scheme
         self.grid = body.grid
         self._operators: OrderedDict[float, Operator] = OrderedDict()
         self._slip_distance = float(np.min(interface.friction.characteristic_slip_distance))
 
-    def advance(self, state: State, rung: int) -> tuple[State, StepReport]:
-        """One step with the leading coefficient of a rung of the step-size ladder.
+    def advance(
+        self,
+        state: State,
+        rung: int,
+    ) -> tuple[State, StepReport]:
+        """Make one step.
 
-        NewtonFailure, if the interface's equations were not solved, asks for a lower rung.
+        Parameters
+        ----------
+        state : State
+            State before the step.
+        rung : int
+            Rung of the step's leading coefficient.
+
+        Returns
+        -------
+        State, StepReport
+
+        Raises
+        ------
+        NewtonFailure
+            If the interface's equations were not solved; a lower rung may help.
         """
         step = self.scheme.step(rung, state.past_times)
         time = state.time + step.length
-        operator, imposed = self.operator(step.s), self.drive.at(time)
+        operator = self.operator(step.s)
+        imposed = self.drive.at(time)
         load = self._load_with_past(state, step, imposed)
-        guess = extrapolated(state, step, self.drive.velocity, self._slip_distance)
+        guess = _extrapolated(state, step, self.drive.velocity, self._slip_distance)
         past = Past.of(state, step.interface, imposed, step.first)
         rates = guess.slip_rate[-self.body.free_nodes :]
         w = past.w + past.beta * (rates - imposed.velocity)
@@ -71,18 +110,14 @@ class Dynamics:
             balance = operator.balance(response, solution.w, expected)
             if balance.holds:
                 break
-        formula, motions = step.body, state.motions
-        motion = self.body.motion(formula.past, formula.beta, balance.displacement, motions)
+        formula = step.body
+        motion = self.body.motion(formula.past, formula.beta, balance.displacement, state.motions)
         new = self._pushed(state, time, solution, motion, balance.memory)
-        force = solution.tangential[self.grid.own].sum()
-        if self.drive.moves:
-            # discrete balance along x: what is moved carries what friction and inertia leave
-            force = force - _rate_of_momentum(step, motion, motions)
-        force = float(force) - self.frame_inertia(imposed)
+        force = self._driving_force(state, step, imposed, solution, motion)
         return new, StepReport(solution, force, step.error(guess.distance(solution)))
 
     def operator(self, s: float) -> Operator:
-        """The body's operator ``K + s M``, of the most recently used ones (`s` in 1/s^2)."""
+        """The body's operator ``K + s M`` (`s` in 1/s^2), cached if it was used recently."""
         if s not in self._operators:
             operator = self.body.operator(s)
             most = max(4, int(OPERATOR_MEMORY / operator.megabytes))
@@ -93,28 +128,57 @@ class Dynamics:
         return self._operators[s]
 
     def load(self, imposed: Imposed) -> Field:
-        """The load (N/m) at an instant, the inertia of an accelerated frame included."""
+        """The load (N/m) at an instant, with the inertia of an accelerated frame."""
         load = self.drive.load(imposed.time)
         if imposed.acceleration == 0.0:
             return load
         return load.plus(self.body.translation_load(imposed.acceleration))
 
     def frame_inertia(self, imposed: Imposed) -> float:
-        """What the driven edge needs to accelerate the whole body with it (N/m)."""
+        """Force (N/m) by which the driven edge accelerates the whole body with it."""
         return self.body.total_mass * imposed.acceleration
 
-    def _load_with_past(self, state: State, step: Step, imposed: Imposed) -> Field:
-        """The load at the end of the step and the inertia that its formula takes from the past."""
+    def _load_with_past(
+        self,
+        state: State,
+        step: Step,
+        imposed: Imposed,
+    ) -> Field:
+        """The load at the end of the step, with the past part of inertia."""
         terms = []
         for c, motion in zip(step.body.past, state.motions, strict=False):
-            terms += [(c, motion.displacement), (c * step.body.beta, motion.velocity)]
+            terms.append((c, motion.displacement))
+            terms.append((c * step.body.beta, motion.velocity))
         return self.body.inertia_load(step.s, terms, self.load(imposed))
 
+    def _driving_force(
+        self,
+        state: State,
+        step: Step,
+        imposed: Imposed,
+        solution: InterfaceSolution,
+        motion: Motion,
+    ) -> float:
+        """The driving force f_d (N/m) from the discrete balance along x.
+
+        The force on a moving edge balances friction and the rate of momentum.
+        """
+        force = solution.tangential[self.grid.own].sum()
+        if self.drive.moves:
+            force = force - _rate_of_momentum(step, motion, state.motions)
+        return float(force) - self.frame_inertia(imposed)
+
     def _pushed(
-        self, state: State, time: float, solution: InterfaceSolution, motion: Motion, memory: Array
+        self,
+        state: State,
+        time: float,
+        solution: InterfaceSolution,
+        motion: Motion,
+        memory: Array,
     ) -> State:
-        """The state with new values before the past ones that the scheme still needs."""
-        most, slid = self.scheme.instants, passes.largest_size(solution.w)
+        """The state with the new values, and the past ones that the scheme still needs."""
+        most = self.scheme.instants
+        slid = passes.largest_size(solution.w)
         motions = (motion, *state.motions[: self.scheme.levels - 1])
         return State(
             self.body.settled(motions, time - state.time, slid),
@@ -126,7 +190,11 @@ class Dynamics:
         )
 
 
-def _rate_of_momentum(step: Step, motion: Motion, motions: tuple[Motion, ...]) -> float:
+def _rate_of_momentum(
+    step: Step,
+    motion: Motion,
+    motions: tuple[Motion, ...],
+) -> float:
     """Rate of the momentum along x (N/m) by the step's formula."""
     change = motion.momentum
     for c, past in zip(step.body.past, motions, strict=False):
@@ -134,30 +202,49 @@ def _rate_of_momentum(step: Step, motion: Motion, motions: tuple[Motion, ...]) -
     return change / step.body.beta
 
 
-class Guess(NamedTuple):
-    """The interface at the end of a step as its past lets expect it, nodes 0..n_x."""
+class _Guess(NamedTuple):
+    """Extrapolated slip rates and states of the interface at the end of a step, nodes 0..n_x."""
 
-    scaled: Array  # asinh(v / scale), as which slip rates count
+    scaled: Array  # asinh(v / scale)
     slip_rate: Array  # m/s
     log_state: Array
     scale: float  # m/s
 
     def distance(self, solution: InterfaceSolution) -> float:
-        """Largest distance to what it turned out to be, in asinh(v / scale) and log(phi)."""
-        found = solution.slip_rate, solution.log_state
-        return passes.distance(self.scaled, self.log_state, *found, self.scale)
+        """Largest distance to the solution, in asinh(v / scale) and log(phi)."""
+        return passes.distance(
+            self.scaled,
+            self.log_state,
+            solution.slip_rate,
+            solution.log_state,
+            self.scale,
+        )
 
 
-def extrapolated(state: State, step: Step, velocity: float, distance: float) -> Guess:
+def _extrapolated(
+    state: State,
+    step: Step,
+    velocity: float,
+    distance: float,
+) -> _Guess:
     """Slip rates and states at the end of a step, by polynomials through the past ones.
 
-    Slip rates count as asinh(v / scale), relative from a scale on. The scale's last term lets the
-    steps grow over the elastic waves that ring in the body after an event: they shake the slip
-    rates, but move the interface by next to nothing.
+    Slip rates are extrapolated as asinh(v / scale): above the scale by relative changes. After an
+    event elastic waves ring in the body. They shake the slip rates but hardly move the interface;
+    the last term of the scale lets the steps become longer than these waves.
     """
     fastest = passes.largest_size(state.past_slip_rates[0])
-    scale = max(SLOW * velocity, SLOW_IN_EVENT * fastest, SLIGHT_SLIP * distance / step.length)
+    scale = max(
+        SLOW * velocity,
+        SLOW_IN_EVENT * fastest,
+        SLIGHT_SLIP * distance / step.length,
+    )
     largest = min(LARGEST_RATE_EXPONENT, math.asinh(10.0 * fastest / scale))
-    past = state.past_slip_rates, state.past_log_states
-    scaled, rate, log_state = passes.expected(*past, step.extrapolation, scale, largest)
-    return Guess(scaled, rate, log_state, scale)
+    scaled, rate, log_state = passes.expected(
+        state.past_slip_rates,
+        state.past_log_states,
+        step.extrapolation,
+        scale,
+        largest,
+    )
+    return _Guess(scaled, rate, log_state, scale)

@@ -24,34 +24,65 @@ from ..types import Array
 
 LARGEST_GROWTH = 2.0  # BDF2 is zero-stable up to a growth of 1 + sqrt(2) per step,
 LARGEST_GROWTH_OF_BDF3 = 1.5  # BDF3 up to (1 + sqrt(5)) / 2
+RUNGS_PER_OCTAVE = 4
+QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step
 
 
 @dataclasses.dataclass(frozen=True)
 class Formula:
     """Coefficients of one step: ``y = sum_i past_i y_{n-i} + beta dy/dt``, newest value first."""
 
-    step: float
-    beta: float
+    step: float  # s
+    beta: float  # s
     past: tuple[float, ...]
 
     @classmethod
-    def bdf2(cls, beta: float, previous_step: float) -> Formula:
-        """The BDF2 step with leading coefficient `beta` (s) after `previous_step` (s)."""
+    def bdf2(
+        cls,
+        beta: float,
+        previous_step: float,
+    ) -> Formula:
+        """The BDF2 step with a given leading coefficient.
+
+        Parameters
+        ----------
+        beta, previous_step : float
+            Leading coefficient (s), and length of the step before (s).
+
+        Returns
+        -------
+        Formula
+        """
         half = beta - 0.5 * previous_step
         step = half + math.sqrt(half * half + beta * previous_step)
         r = step / previous_step
-        return cls(step, beta, ((1 + r) ** 2 / (1 + 2 * r), -(r**2) / (1 + 2 * r)))
+        c1 = (1 + r) ** 2 / (1 + 2 * r)
+        c2 = -(r**2) / (1 + 2 * r)
+        return cls(step, beta, (c1, c2))
 
     @classmethod
     def backward_euler(cls, beta: float) -> Formula:
-        """The first step, of first order."""
+        """The first step, of first order, by its leading coefficient (s)."""
         return cls(beta, beta, (1.0, 0.0))
 
     @classmethod
-    def bdf3(cls, step: float, past_times: Array) -> Formula:
-        """The BDF3 step of length `step` (s) after three past times (s), newest first.
+    def bdf3(
+        cls,
+        step: float,
+        past_times: Array,
+    ) -> Formula:
+        """The BDF3 step: the derivative of the cubic through the new and the past values.
 
-        It is the derivative of the cubic through the new and the past values.
+        Parameters
+        ----------
+        step : float
+            Length of the step (s).
+        past_times : ndarray, shape (3,)
+            Past times (s), newest first.
+
+        Returns
+        -------
+        Formula
         """
         a, b, c = (step + past_times[0] - past_times).tolist()  # from each past time to the new one
         beta = 1.0 / (1.0 / a + 1.0 / b + 1.0 / c)
@@ -63,23 +94,30 @@ class Formula:
         return cls(step, beta, past)
 
     def from_past(self, values: Array) -> Array:
-        """What the step takes from past values, newest first along the first axis.
+        """The weighted sum of past values, newest first along the first axis.
 
-        Values that are not there yet count as zero: the first step has one past value.
+        Missing values count as zero: the first step has one past value.
         """
         used = min(len(self.past), values.shape[0])
         return np.asarray(self.past[:used]) @ values[:used]
 
 
-def beta_of_step(step: float, previous_step: float) -> float:
-    """The leading coefficient (s) of a BDF2 step."""
-    r = step / previous_step
-    return step * (1 + r) / (1 + 2 * r)
-
-
 def extrapolation_weights(time: float, past: Array) -> Array:
-    """Lagrange weights that extrapolate values at the `past` times (s) to `time` (s)."""
-    times, weights = past.tolist(), [1.0] * past.size
+    """Lagrange weights that extrapolate past values.
+
+    Parameters
+    ----------
+    time : float
+        Time (s) to which they extrapolate.
+    past : ndarray, shape (n,)
+        Times (s) of the past values.
+
+    Returns
+    -------
+    ndarray, shape (n,)
+    """
+    times = past.tolist()
+    weights = [1.0] * past.size
     for i, own in enumerate(times):
         for j, other in enumerate(times):
             if i != j:
@@ -90,19 +128,30 @@ def extrapolation_weights(time: float, past: Array) -> Array:
 def error_factor(formula: Formula, past: Array) -> float:
     """Local error of the BDF2 step over the difference of step and quadratic extrapolation.
 
-    `past` holds the three last times (s), newest first. The local error is ``B y'''`` with
-    ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))`` and the extrapolation's is ``A y'''`` with
-    ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
+    Parameters
+    ----------
+    formula : Formula
+        The BDF2 step.
+    past : ndarray, shape (3,)
+        Past times (s), newest first.
+
+    Returns
+    -------
+    float
+
+    Notes
+    -----
+    The local error is ``B y'''`` with ``B = h^3 (1 + r)^2 / (6 r (1 + 2 r))``. The extrapolation's
+    is ``A y'''`` with ``A = h (h + h') (h + h' + h'') / 6``, of opposite sign.
     """
-    h, (now, before, earlier) = formula.step, past.tolist()
-    first, second = now - before, now - earlier
+    h = formula.step
+    now, before, earlier = past.tolist()
+    first = now - before
+    second = now - earlier
     r = h / first
     scheme = h**3 * (1 + r) ** 2 / (6 * r * (1 + 2 * r))
     extrapolation = h * (h + first) * (h + second) / 6
     return scheme / (scheme + extrapolation)
-
-
-RUNGS_PER_OCTAVE = 4
 
 
 def rung_below(beta: float) -> int:
@@ -110,17 +159,9 @@ def rung_below(beta: float) -> int:
     return math.floor(RUNGS_PER_OCTAVE * math.log2(beta) + 1e-9)
 
 
-def rung_nearest(beta: float) -> int:
-    """The rung whose value is nearest to `beta` (s)."""
-    return round(RUNGS_PER_OCTAVE * math.log2(beta))
-
-
 def rung_value(rung: int) -> float:
     """The value of beta (s) of a rung."""
     return 2.0 ** (rung / RUNGS_PER_OCTAVE)
-
-
-QUASI_STATIC = 10.0  # crossings of the body by shear waves within a step
 
 
 @dataclasses.dataclass(frozen=True)
@@ -135,7 +176,7 @@ class Step:
 
     @property
     def length(self) -> float:
-        """The time (s) that it covers."""
+        """Length of the step (s)."""
         return self.body.step
 
     def error(self, distance: float) -> float:
@@ -144,7 +185,7 @@ class Step:
 
     @property
     def s(self) -> float:
-        """The weight (1/s^2) of inertia in the body's operator ``K + s M``."""
+        """Weight (1/s^2) of inertia in the body's operator ``K + s M``."""
         return 1.0 / self.body.beta**2
 
 
@@ -153,56 +194,91 @@ class BDF:
     """BDF2 for the body, and BDF3 for slip and state while the body is quasi-static.
 
     BDF3 is not stable for undamped waves that a step resolves. Where waves cross the body many
-    times within a step, inertia (kept at second order) is a small correction, and the third order
-    follows the nucleating mode with longer steps.
+    times within a step, inertia (kept at second order) is a small correction, and with the third
+    order longer steps follow the nucleating mode.
 
     The leading coefficients of BDF2 are taken from the ladder; its steps follow from them.
     """
 
     crossing_time: float = np.inf  # s, of the body by shear waves
 
-    levels = 2  # motions of the body that a step takes from the past,
-    instants = 3  # and values of the interface's fields
+    levels = 2  # past motions of the body that a step uses,
+    instants = 3  # and past values of the interface's fields
     error_order = 3  # power of the step's length in its local error
     largest_growth = LARGEST_GROWTH  # of the length from one step to the next
 
-    def step(self, rung: int, past_times: Array) -> Step:
-        """The step with the leading coefficient of a rung, after past times (s), newest first."""
-        beta, known = rung_value(rung), past_times.size
+    def step(
+        self,
+        rung: int,
+        past_times: Array,
+    ) -> Step:
+        """The next step.
+
+        Parameters
+        ----------
+        rung : int
+            Rung of its leading coefficient.
+        past_times : ndarray, shape (past,)
+            Past times (s), newest first: one, two or three of them.
+
+        Returns
+        -------
+        Step
+        """
+        beta = rung_value(rung)
+        known = past_times.size
         if known == 1:
             formula = Formula.backward_euler(beta)
         else:
             formula = Formula.bdf2(beta, float(past_times[0] - past_times[1]))
-        # the second step's guess is too poor to tell an error from
+        # the second step's guess is too poor for an error estimate
         share = error_factor(formula, past_times) if known == self.instants else 0.0
         weights = extrapolation_weights(float(past_times[0]) + formula.step, past_times)
         interface = self._on_interface(formula, past_times)
         return Step(formula, interface, weights, share, known == 1)
 
-    def _on_interface(self, formula: Formula, past_times: Array) -> Formula:
-        """The formula for slip and state."""
-        if past_times.size < 3 or formula.step < QUASI_STATIC * self.crossing_time:
+    def _on_interface(
+        self,
+        formula: Formula,
+        past_times: Array,
+    ) -> Formula:
+        """The formula for slip and state: BDF3 if the step is quasi-static and grows slowly."""
+        step = formula.step
+        if past_times.size < 3 or step < QUASI_STATIC * self.crossing_time:
             return formula
         now, before, earlier = past_times.tolist()
-        last, last_but_one = now - before, before - earlier
-        if formula.step > LARGEST_GROWTH_OF_BDF3 * last or (
-            last > LARGEST_GROWTH_OF_BDF3 * last_but_one
-        ):
+        last = now - before
+        last_but_one = before - earlier
+        if step > LARGEST_GROWTH_OF_BDF3 * last:
             return formula
-        return Formula.bdf3(formula.step, past_times)
+        if last > LARGEST_GROWTH_OF_BDF3 * last_but_one:
+            return formula
+        return Formula.bdf3(step, past_times)
 
-    def coefficient(self, step: float, previous_step: float) -> float:
-        """The leading coefficient (s) of a step after a previous one (both in s)."""
-        return beta_of_step(step, previous_step)
+    def coefficient(
+        self,
+        step: float,
+        previous_step: float,
+    ) -> float:
+        """Leading coefficient of a BDF2 step.
 
-    def rung(self, step: float, previous_step: float) -> int:
-        """The rung of a step that has been taken, from its length and the previous one's (s)."""
-        return rung_nearest(beta_of_step(step, previous_step))
+        Parameters
+        ----------
+        step, previous_step : float
+            Length of the step and of the one before (s).
+
+        Returns
+        -------
+        float
+            In s.
+        """
+        r = step / previous_step
+        return step * (1 + r) / (1 + 2 * r)
 
     def steady_rung(self, step: float) -> int:
         """The largest rung on which steps of one length are no longer than `step` (s)."""
-        return rung_below(beta_of_step(step, step))
+        return rung_below(self.coefficient(step, step))
 
     def steady_step(self, rung: int) -> float:
-        """The length (s) of the steps that stay on a rung: at a constant beta, 3/2 of it."""
+        """Length (s) of the steps that stay on a rung: 3/2 of its beta."""
         return 1.5 * rung_value(rung)

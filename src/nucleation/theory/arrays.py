@@ -1,4 +1,4 @@
-"""The linear theory over arrays of parameters, as :mod:`nucleation.api` offers it."""
+"""The linear theory over arrays of parameters, the functions of :mod:`nucleation.api`."""
 
 from functools import cache
 from typing import Any, NamedTuple
@@ -8,11 +8,13 @@ import numpy as np
 from ..model.parameters import names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import magnitude
+from ..types import Array, ComplexArray
 from .critical import stability_reason
 from .crossings import largest_crossings, marginal_frequencies
-from .fault import QUANTITIES, Fault, Values, labelled, takes_fault
+from .fault import Fault, takes_fault
 from .spectrum import Systems
 from .transfer import as_wavenumber
+from .values import QUANTITIES, Values, labelled
 
 WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
 
@@ -20,8 +22,8 @@ WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
 class CriticalMode(NamedTuple):
     """The marginally stable mode with the largest wavenumber: arrays, DataArrays or quantities.
 
-    Its ``exp(i omega t - i k_c x)`` runs along +x if omega is positive. Where the bodies are mirror
-    images both signs are marginal, and the positive one is given.
+    Its ``exp(i omega t - i k_c x)`` propagates along +x if omega is positive. Where the bodies are
+    mirror images both signs are marginal, and the positive one is given.
     """
 
     length: Any  # L_c = 2 pi/k_c (m)
@@ -60,23 +62,37 @@ def critical_length(**fault: Values) -> Any:
 
 @takes_fault
 def critical_mode(**fault: Values) -> CriticalMode:
-    """Critical length, wavenumber and angular frequency, as :func:`critical_length`.
+    """Critical length, wavenumber and angular frequency of the linear theory.
 
-    The `velocity` is needed for the frequency. NaN where homogeneous sliding is stable.
+    Parameters
+    ----------
+    **fault
+        The parameters of :class:`~nucleation.theory.fault.Fault`, with the `velocity`.
+
+    Returns
+    -------
+    CriticalMode
+        Each field of the kind and shape that :func:`critical_length` returns; NaN where
+        homogeneous sliding is stable.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is missing, unknown or outside its range.
     """
     return _critical(_with_velocity(fault_of(fault)))
 
 
 @takes_fault
 def spectrum(wavenumber: Values, **fault: Values) -> Any:
-    """Growth rates of both modes of homogeneous sliding, the roots of Eq. (5); needs `velocity`.
+    """Growth rates of both modes of homogeneous sliding, the roots of Eq. (5).
 
     Parameters
     ----------
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`.
+        The parameters of :class:`~nucleation.theory.fault.Fault`, with the `velocity`.
 
     Returns
     -------
@@ -87,15 +103,19 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
     Raises
     ------
     ParameterError, ValueError
-        If a parameter, or the wavenumber, is missing, unknown or outside its range.
+        If a parameter or the wavenumber is missing, unknown or outside its range.
     """
-
-    def rates(systems: Systems, k: Any) -> Any:
-        return systems.growth_rates(as_wavenumber(k))
 
     own = _with_velocity(fault_of(fault))
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
     own.broadcast(wavenumber=k)
+
+    def rates(
+        systems: Systems,
+        k: Array,
+    ) -> ComplexArray:
+        return systems.growth_rates(as_wavenumber(k))
+
     found = own.evaluate(rates, k, rows=2, dtype=complex)
     if labelled(found):
         found = found.rename(row="root")
@@ -111,8 +131,8 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     wavenumber : array_like or DataArray
         k (1/m), not zero; broadcasts with the parameters.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`; those of friction do not matter
-        and may be left out.
+        The parameters of :class:`~nucleation.theory.fault.Fault`; those of friction have no effect
+        and are optional.
 
     Returns
     -------
@@ -123,18 +143,21 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     Raises
     ------
     ParameterError, ValueError
-        If a parameter, or the wavenumber, is missing, unknown or outside its range.
+        If a parameter or the wavenumber is missing, unknown or outside its range.
     """
     neutral = {"normal_stress": 1e6, "a": 0.01, "slip_distance": 1e-6, "friction": 0.0}
-    if fault.keys().isdisjoint({"zeta", "b"}):
+    if "zeta" not in fault and "b" not in fault:
         neutral["zeta"] = 0.01
-
-    def functions(systems: Systems, k: Any) -> Any:
-        return systems.pair.transfer_functions(as_wavenumber(k))
-
     own = fault_of(neutral | fault)
     k = magnitude("wavenumber", wavenumber, WAVENUMBER)
     own.broadcast(wavenumber=k)
+
+    def functions(
+        systems: Systems,
+        k: Array,
+    ) -> tuple[Array, Array]:
+        return systems.pair.transfer_functions(as_wavenumber(k))
+
     shear, normal = own.evaluate(functions, k, rows=2)
     return (
         named(shear, "G1", "1", "shear response", own),
@@ -143,22 +166,24 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
 
 
 def _critical(fault: Fault) -> CriticalMode:
-    def points(systems: Systems) -> Any:
+    def points(systems: Systems) -> tuple[Array, Array, Array]:
         k = largest_crossings(systems)
         return 2.0 * np.pi / k, k, marginal_frequencies(systems, k)
 
-    length, wavenumber, frequency = fault.evaluate(points, rows=3)
+    length, k, omega = fault.evaluate(points, rows=3)
     mirrored = np.logical_not(fault.bodies_differ)
-    frequency = frequency + (abs(frequency) - frequency) * mirrored  # keeps the dimensions' names
+    omega = omega + (abs(omega) - omega) * mirrored  # keeps the dimensions' names
     return CriticalMode(
-        named(length, "critical_length", "m", "critical nucleation length", fault),
-        named(wavenumber, "critical_wavenumber", "1/m", "critical wavenumber", fault),
-        named(frequency, "critical_frequency", "rad/s", "frequency of the critical mode", fault),
+        length=named(length, "critical_length", "m", "critical nucleation length", fault),
+        wavenumber=named(k, "critical_wavenumber", "1/m", "critical wavenumber", fault),
+        angular_frequency=named(
+            omega, "critical_frequency", "rad/s", "frequency of the critical mode", fault
+        ),
     )
 
 
 def reason_of_stability(fault: Fault) -> str:
-    """Why homogeneous sliding of one fault is stable at every wavelength, where it is.
+    """Why homogeneous sliding of one stable fault is stable at every wavelength.
 
     Raises
     ------
@@ -167,29 +192,32 @@ def reason_of_stability(fault: Fault) -> str:
     """
     reasons: list[str] = []
 
-    def note(systems: Systems) -> Any:
-        reasons.extend(stability_reason(systems.at(np.array([i]))) for i in range(systems.a.size))
+    def note(systems: Systems) -> Array:
+        for i in range(systems.a.size):
+            reasons.append(stability_reason(systems.at(np.array([i]))))
         return systems.a
 
     fault.evaluate(note)
     if len(reasons) != 1:
-        raise ParameterError("the reason of stability is that of one fault, not of arrays")
+        raise ParameterError("only one fault has a reason of stability, and not arrays of faults")
     return reasons[0]
 
 
 @cache
 def aliases() -> dict[str, str]:
-    """What else simulations and studies call the parameters of :class:`Fault`."""
+    """The parameters of :class:`Fault` by the other names that simulations and studies use."""
     known = names()
     found: dict[str, str] = {}
     for name in QUANTITIES.keys() - {"far_side"}:
         full = known.full(name)
-        found |= dict.fromkeys({full, known.short(full), *known.others(full)} - {name}, name)
+        others = {full, known.short(full), *known.others(full)}
+        for alias in others - {name}:
+            found[alias] = name
     return found
 
 
 def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Keywords, some of which may be :func:`aliases`, by the names of :class:`Fault`."""
+    """Keywords with the names of :class:`Fault` in place of :func:`aliases`."""
     found: dict[str, Any] = {}
     for key, value in parameters.items():
         name = aliases().get(key, key)
@@ -200,7 +228,7 @@ def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
 
 
 def fault_of(parameters: dict[str, Any]) -> Fault:
-    """The fault of keywords, some of which may be :func:`aliases`."""
+    """The fault with the given keywords; some of them may be :func:`aliases`."""
     try:
         return Fault(**without_aliases(parameters))
     except TypeError as error:  # a keyword that is missing or unknown
@@ -213,8 +241,29 @@ def _with_velocity(fault: Fault) -> Fault:
     return fault
 
 
-def named(values: Any, name: str, units: str, long_name: str, fault: Fault) -> Any:
-    """A DataArray with name and unit; a pint quantity if the fault has one; else the array."""
+def named(
+    values: Any,
+    name: str,
+    units: str,
+    long_name: str,
+    fault: Fault,
+) -> Any:
+    """A result in the form of the fault's parameters.
+
+    Parameters
+    ----------
+    values : ndarray or DataArray
+        Plain numbers in SI units.
+    name, units, long_name : str
+        Of the result; only a DataArray has the names.
+    fault : Fault
+        The fault; if one of its parameters was a pint quantity, so is the result.
+
+    Returns
+    -------
+    DataArray, pint quantity or ndarray
+        Same shape.
+    """
     if labelled(values):
         return values.rename(name).assign_attrs(units=units, long_name=long_name)
     return values if fault.registry is None else fault.registry.Quantity(values, units)

@@ -12,8 +12,21 @@ from .crossings import marginal_stiffness
 from .stiffness import Array
 
 
-def bimaterial_contrast(upper: Material, lower: Material) -> float:
+def bimaterial_contrast(
+    upper: Material,
+    lower: Material,
+) -> float:
     """The bimaterial contrast beta of two half-spaces (Eq. 8).
+
+    Parameters
+    ----------
+    upper, lower : Material
+        Materials of the two half-spaces.
+
+    Returns
+    -------
+    float
+        beta, dimensionless.
 
     Notes
     -----
@@ -22,16 +35,31 @@ def bimaterial_contrast(upper: Material, lower: Material) -> float:
     body it is ``(1 - 2 nu1)/[2 (1 - nu1)]``, 1/4 for ``nu1 = 1/3``.
     """
     psi = lower.shear_modulus / upper.shear_modulus
-    nu1, nu2 = upper.in_plane_ratio, lower.in_plane_ratio
+    nu1 = upper.in_plane_ratio
+    nu2 = lower.in_plane_ratio
     difference = psi * (1.0 - 2.0 * nu1) - (1.0 - 2.0 * nu2)
-    return difference / (2.0 * (psi * (1.0 - nu1) + (1.0 - nu2)))
+    total = psi * (1.0 - nu1) + (1.0 - nu2)
+    return difference / (2.0 * total)
 
 
-def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
+def bimaterial_length_ratio(
+    f_beta: ArrayLike,
+    zeta_over_a: ArrayLike,
+) -> Array:
     """L_c of two half-spaces over ``L_c^M = pi M ell / (zeta sigma0)`` (Eq. 9, Fig. 2).
 
-    Of f beta, of either sign, and zeta/a, which broadcast; negative with ``L_c^M`` for
-    ``zeta < 0``, NaN where sliding is stable.
+    Parameters
+    ----------
+    f_beta : array_like
+        Friction coefficient times bimaterial contrast, of either sign.
+    zeta_over_a : array_like
+        Velocity weakening over direct effect; broadcasts with `f_beta`.
+
+    Returns
+    -------
+    ndarray
+        The ratio, broadcast shape; negative as ``L_c^M`` is for ``zeta < 0``, NaN where sliding is
+        stable.
 
     Notes
     -----
@@ -40,13 +68,33 @@ def bimaterial_length_ratio(f_beta: ArrayLike, zeta_over_a: ArrayLike) -> Array:
     positive numbers. Equally ``1 - |f beta|/w`` with ``w = |omega| ell / V`` the positive root of
     ``a w^2 - |f beta| (a + zeta) w - zeta = 0``.
     """
-    z = np.asarray(zeta_over_a, dtype=float)
+    coupling = np.asarray(f_beta, dtype=float)
+    zeta = np.asarray(zeta_over_a, dtype=float)
     with np.errstate(invalid="ignore"):  # 0/0 without coupling and weakening
-        return z / marginal_stiffness(f_beta, 1.0, z)[1]
+        _, h_plus = marginal_stiffness(coupling, 1.0, zeta)
+        return zeta / h_plus
 
 
-def thin_limit_length(height: ArrayLike, material: Material, interface: InterfaceState) -> Array:
-    """L_c (m) of a block on a rigid base as ``Hk -> 0`` (Eq. 11), shape of the height (m).
+def thin_limit_length(
+    height: ArrayLike,
+    material: Material,
+    interface: InterfaceState,
+) -> Array:
+    """L_c of a block on a rigid base as ``Hk -> 0`` (Eq. 11).
+
+    Parameters
+    ----------
+    height : array_like
+        Height H (m) of the block.
+    material : Material
+        Of the block.
+    interface : InterfaceState
+        Friction linearised about steady sliding.
+
+    Returns
+    -------
+    ndarray
+        L_c (m), shape of the height.
 
     Raises
     ------
@@ -55,8 +103,8 @@ def thin_limit_length(height: ArrayLike, material: Material, interface: Interfac
     """
     if interface.zeta <= 0.0:
         raise NoInstability(
-            f"zeta = {interface.zeta:g} is not positive: without velocity weakening a thin layer "
-            "slides stably"
+            f"zeta = {interface.zeta:g} is not positive: "
+            "without velocity weakening a thin layer slides stably"
         )
     modulus = material.shear_modulus / (1.0 - material.in_plane_ratio)
     weakening_length = interface.slip_length / (interface.zeta * interface.normal_stress)

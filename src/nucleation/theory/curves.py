@@ -8,6 +8,7 @@ from ..datasets.variables import Variable, annotate, some
 from ..model.friction.law import Friction
 from ..model.linearised import InterfaceState
 from ..model.material import Material
+from ..types import Array
 from .closed_forms import bimaterial_length_ratio, thin_limit_length
 from .critical import critical_wavenumber
 from .settings import Curves
@@ -32,39 +33,75 @@ CURVES = {
 
 
 def theory_dataset(
-    material: Material, friction: Friction, interface: InterfaceState, curves: Curves
+    material: Material,
+    friction: Friction,
+    interface: InterfaceState,
+    curves: Curves,
 ) -> xr.Dataset:
     """All curves of the linear theory.
 
     Parameters
     ----------
-    material : of the block.
-    friction : the full law with the parameters of Table S1.
-    interface : the main text's rounded friction, on which the curve of Figure 3 stands; at its
-        velocity the full law is expanded.
-    curves : where to compute.
+    material : Material
+        Of the block.
+    friction : Friction
+        The full law with the parameters of Table S1.
+    interface : InterfaceState
+        The main text's rounded friction, used for the curve of Figure 3; the full law is expanded
+        at its velocity.
+    curves : Curves
+        Where to compute.
+
+    Returns
+    -------
+    Dataset
+        The variables :data:`CURVES`.
     """
     parts = (
         length_curve(material, interface, np.array(curves.heights)),
-        bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
-        friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
+        _bimaterial_curves(np.array(curves.f_beta), np.array(curves.zeta_over_a)),
+        _friction_curves(friction, interface.velocity, np.array(curves.slip_rates)),
     )
     return annotate(xr.merge(parts), CURVES)
 
 
-def length_curve(material: Material, interface: InterfaceState, height: np.ndarray) -> xr.Dataset:
-    """Critical length, wavenumber and frequency against the height (m) (Figure 3)."""
-    points = [critical_wavenumber(Body(material, h, "traction"), RIGID, interface) for h in height]
+def length_curve(
+    material: Material,
+    interface: InterfaceState,
+    height: Array,
+) -> xr.Dataset:
+    """Critical length, wavenumber and frequency against the height (Figure 3).
+
+    Parameters
+    ----------
+    material : Material
+        Of the block.
+    interface : InterfaceState
+        Friction linearised about steady sliding.
+    height : ndarray
+        Heights (m) of the block.
+
+    Returns
+    -------
+    Dataset
+        On the dimension ``height``.
+    """
+    blocks = [Body(material, h, "traction") for h in height]
+    points = [critical_wavenumber(block, RIGID, interface) for block in blocks]
     values = {
         "critical_length": [point.length for point in points],
         "critical_wavenumber": [point.wavenumber for point in points],
         "critical_frequency": [point.angular_frequency for point in points],
         "thin_limit_length": thin_limit_length(height, material, interface),
     }
-    return xr.Dataset({k: ("height", v) for k, v in values.items()}, {"height": height})
+    on_height = {name: ("height", column) for name, column in values.items()}
+    return xr.Dataset(on_height, {"height": height})
 
 
-def bimaterial_curves(f_beta: np.ndarray, zeta_over_a: np.ndarray) -> xr.Dataset:
+def _bimaterial_curves(
+    f_beta: Array,
+    zeta_over_a: Array,
+) -> xr.Dataset:
     """Critical length of bimaterial half-spaces over that without contrast (Figure 2)."""
     ratio = bimaterial_length_ratio(f_beta[None, :], zeta_over_a[:, None])
     return xr.Dataset(
@@ -73,7 +110,11 @@ def bimaterial_curves(f_beta: np.ndarray, zeta_over_a: np.ndarray) -> xr.Dataset
     )
 
 
-def friction_curves(friction: Friction, velocity: float, slip_rate: np.ndarray) -> xr.Dataset:
+def _friction_curves(
+    friction: Friction,
+    velocity: float,
+    slip_rate: Array,
+) -> xr.Dataset:
     """Steady-state friction, full law and logarithmic expansion about `velocity` (Figure S1)."""
     state = friction.characteristic_slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
     expansion = friction.expansion(velocity)

@@ -1,4 +1,4 @@
-"""Where the theory's curves are computed, as the configuration says."""
+"""Settings of the theory's curves: where they are computed."""
 
 import dataclasses
 
@@ -8,8 +8,8 @@ from ..model.checked import Checked
 from ..model.quantities import quantity
 
 
-def _spaced(low: float, high: float, number: int) -> tuple[float, ...]:
-    return tuple(float(f"{x:.6g}") for x in np.geomspace(low, high, number))
+def _rounded(values: np.ndarray) -> tuple[float, ...]:
+    return tuple(float(f"{x:.6g}") for x in values)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -17,18 +17,32 @@ class Curves(Checked):
     """Where the theory's curves are computed."""
 
     heights: tuple[float, ...] = quantity(
-        "block heights of the theory's curve in Figure 3", unit="m", low=0.0, high=1e6,
-        symbol="H", default=_spaced(0.003, 0.15, 80),
-    )  # fmt: skip
+        "block heights of the theory's curve in Figure 3",
+        unit="m",
+        low=0.0,
+        high=1e6,
+        symbol="H",
+        default=_rounded(np.geomspace(0.003, 0.15, 80)),
+    )
     f_beta: tuple[float, ...] = quantity(
-        "friction coefficient times bimaterial contrast in Figure 2", low=-10.0, high=10.0,
-        symbol="f beta", default=tuple(float(f"{x:.6g}") for x in np.linspace(0.0, 0.5, 101)),
-    )  # fmt: skip
+        "friction coefficient times bimaterial contrast in Figure 2",
+        low=-10.0,
+        high=10.0,
+        symbol="f beta",
+        default=_rounded(np.linspace(0.0, 0.5, 101)),
+    )
     zeta_over_a: tuple[float, ...] = quantity(
-        "velocity weakening over direct effect in Figure 2", low=0.0, high=1e6,
-        symbol="zeta/a", default=(0.1, 0.3, 1.0, 3.0, 10.0),
-    )  # fmt: skip
+        "velocity weakening over direct effect in Figure 2",
+        low=0.0,
+        high=1e6,
+        symbol="zeta/a",
+        default=(0.1, 0.3, 1.0, 3.0, 10.0),
+    )
     slip_rates: tuple[float, ...] = quantity(
-        "slip rates of steady sliding in Figure S1", unit="m/s", low=0.0, high=1e4,
-        symbol="v", default=_spaced(1e-11, 1e1, 241),
-    )  # fmt: skip
+        "slip rates of steady sliding in Figure S1",
+        unit="m/s",
+        low=0.0,
+        high=1e4,
+        symbol="v",
+        default=_rounded(np.geomspace(1e-11, 1e1, 241)),
+    )

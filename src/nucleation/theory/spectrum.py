@@ -9,18 +9,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..model.linearised import InterfaceState
 from ..types import ComplexArray
-from .stiffness import Array, Pair
+from .stiffness import Array, LayerPair
 from .transfer import Body, RigidBody, as_wavenumber
 
 
 class Systems(NamedTuple):
-    """Pairs of bodies that slide upon each other, one or many, as the linear theory sees them."""
+    """Pairs of bodies in steady sliding, one or many: the input of the linear theory."""
 
-    pair: Pair
+    pair: LayerPair
     friction: Array
     a: Array  # direct effect
     zeta: Array  # velocity weakening
-    softness: Array  # mu ell/sigma0 (m), mu of Pair.modulus
+    softness: Array  # mu ell/sigma0 (m), mu of LayerPair.modulus
     rate: Array  # V/ell (1/s)
 
     @property
@@ -29,14 +29,22 @@ class Systems(NamedTuple):
         return self.a + self.zeta
 
     def at(self, index: NDArray) -> Systems:
-        """The systems of an index."""
-        return Systems(self.pair.at(index), *(x[index] for x in self[1:]))
+        """The systems of an index or a mask."""
+        return Systems(
+            pair=self.pair.at(index),
+            friction=self.friction[index],
+            a=self.a[index],
+            zeta=self.zeta[index],
+            softness=self.softness[index],
+            rate=self.rate[index],
+        )
 
     def load_and_coupling(self, wavenumber: Array) -> tuple[Array, Array]:
         """``g = mu |k| ell |G1|/sigma0`` and ``rho = f G2/|G1|`` at wavenumbers (1/m)."""
-        found = self.pair.stiffness(wavenumber, whole=False)
+        found = self.pair.stiffness(wavenumber)
         g = self.softness * np.abs(wavenumber) * found.xx
-        return g, self.friction * found.xy / found.xx
+        rho = self.friction * found.xy / found.xx
+        return g, rho
 
     def growth_rates(self, wavenumber: Array) -> ComplexArray:
         """Both roots Lambda (1/s) of Eq. (5), the faster one first, shape ``(2,) + broadcast``.
@@ -51,19 +59,43 @@ class Systems(NamedTuple):
         half = 0.5 * (gamma - self.zeta) / self.a
         product = gamma / self.a
         root = np.sqrt(half**2 - product)
-        root = np.where((np.conj(half) * root).real < 0.0, -root, root)
+        opposite = (np.conj(half) * root).real < 0.0
+        root = np.where(opposite, -root, root)
         larger = -(half + root)
-        pair = np.stack([larger, product / larger])
-        pair = np.where(pair[0].real >= pair[1].real, pair, pair[::-1])
-        return pair * self.rate
+        roots = np.stack([larger, product / larger])
+        in_order = roots[0].real >= roots[1].real
+        ordered = np.where(in_order, roots, roots[::-1])
+        return np.asarray(ordered * self.rate, dtype=complex)
 
 
-def system(upper: Body | RigidBody, lower: Body | RigidBody, interface: InterfaceState) -> Systems:
-    """One system of two bodies and their interface."""
-    pair = Pair(upper.layers, lower.layers)
-    s = interface
-    softness = pair.modulus * s.slip_length / s.normal_stress
-    return Systems(pair, s.friction, s.a, s.zeta, softness, s.velocity / s.slip_length)
+def system(
+    upper: Body | RigidBody,
+    lower: Body | RigidBody,
+    interface: InterfaceState,
+) -> Systems:
+    """One system of two bodies and their interface; its fields are single numbers.
+
+    Parameters
+    ----------
+    upper, lower : Body or RigidBody
+        The two bodies, at most one of them rigid.
+    interface : InterfaceState
+        Friction linearised about steady sliding.
+
+    Returns
+    -------
+    Systems
+        The one system.
+    """
+    pair = LayerPair(upper.layers, lower.layers)
+    return Systems(
+        pair=pair,
+        friction=np.asarray(interface.friction),
+        a=np.asarray(interface.a),
+        zeta=np.asarray(interface.zeta),
+        softness=pair.modulus * interface.slip_length / interface.normal_stress,
+        rate=np.asarray(interface.velocity / interface.slip_length),
+    )
 
 
 def growth_rates(
@@ -72,8 +104,25 @@ def growth_rates(
     lower: Body | RigidBody,
     interface: InterfaceState,
 ) -> ComplexArray:
-    """Both roots Lambda (1/s) of Eq. (5) at wavenumbers k (1/m), of either sign and not zero.
+    """Both roots Lambda of Eq. (5) of one system.
 
-    Shape ``(2,) + k.shape``; the root that grows faster comes first.
+    Parameters
+    ----------
+    wavenumber : array_like
+        k (1/m), of either sign and not zero.
+    upper, lower : Body or RigidBody
+        The two bodies, at most one of them rigid.
+    interface : InterfaceState
+        Friction linearised about steady sliding.
+
+    Returns
+    -------
+    ndarray
+        Lambda (1/s), complex, shape ``(2,) + k.shape``; the root that grows faster comes first.
+
+    Raises
+    ------
+    ValueError
+        If the wavenumber is zero or not finite, or both bodies are rigid.
     """
     return system(upper, lower, interface).growth_rates(as_wavenumber(wavenumber))

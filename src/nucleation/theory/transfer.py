@@ -1,19 +1,19 @@
 """Quasi-static response of elastic bodies to a Fourier mode of interfacial slip (Text S1.1).
 
 All fields vary as ``exp(Lambda t - i k x)``. The upper body (1) occupies ``0 < y < H1``, the lower
-body (2) ``-H2 < y < 0``; in plane stress nu stands for ``nu/(1 + nu)``. One body responds to
+body (2) ``-H2 < y < 0``; in plane stress ``nu/(1 + nu)`` replaces nu. One body responds to
 tractions by ``du_i = M_ij dsigma_yj``, and a pair of bodies that slides without opening by
 
     dsigma_xy = -mu k G1 deps,    dsigma_yy = i mu k G2 deps .
 
 Each body is a stiffness matrix A that depends on ``q = |k| H`` alone (:mod:`.stiffness`), with the
-lower body mirrored: ``-A_xy`` changes sign. In ``G = (M1 - M2)^-1`` the stiffnesses act in series;
-for 2x2 matrices that is, without a subtraction in the diagonal entries,
+lower body mirrored: ``-A_xy`` changes sign. In ``G = (M1 - M2)^-1`` the stiffnesses act in series.
+For 2x2 matrices there is a form without a subtraction in the diagonal entries,
 
     (A^-1 + B^-1)^-1 = (det(B) A + det(A) B) / det(A + B) .
 
-So nothing is lost when M is singular (a free body translates as a whole for Hk -> 0) or when the
-pair is ill-conditioned.
+So the result is accurate also where M is singular (a free body translates as a whole for Hk -> 0)
+or where the pair is ill-conditioned.
 """
 
 import dataclasses
@@ -26,7 +26,7 @@ from ..model.checked import Checked
 from ..model.material import ANTIPLANE, Material
 from ..model.parameters import Parameters
 from ..model.quantities import quantity
-from .stiffness import FAR_SIDES, Array, Layers, Pair, require_far_side
+from .stiffness import FAR_SIDES, Array, LayerPair, Layers, require_far_side
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,15 +35,21 @@ class Body(Checked):
 
     material: Material = Material()
     height: float = quantity(
-        "height of the body (inf: half-space)", unit="m", low=0.0, high=math.inf, closed="high",
-        symbol="H", default=math.inf,
-    )  # fmt: skip
+        "height of the body (inf: half-space)",
+        unit="m",
+        low=0.0,
+        high=math.inf,
+        closed="high",
+        symbol="H",
+        default=math.inf,
+    )
     far_side: str = quantity(
         "condition on the side away from the interface: velocity (u_x and sigma_yy imposed), "
         "traction or free (sigma_xy and sigma_yy imposed), clamped (u_x and u_y imposed) or "
         "roller (u_y and sigma_xy imposed)",
-        choices=tuple(FAR_SIDES), default="velocity",
-    )  # fmt: skip
+        choices=tuple(FAR_SIDES),
+        default="velocity",
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -54,11 +60,11 @@ class Body(Checked):
         """The body as one layer."""
         material = self.material
         return Layers(
-            material.shear_modulus,
-            material.in_plane_ratio,
-            self.height,
-            self.far_side,
-            material.plane == ANTIPLANE,
+            shear_modulus=np.asarray(material.shear_modulus),
+            poisson_ratio=np.asarray(material.in_plane_ratio),
+            height=np.asarray(self.height),
+            far_side=self.far_side,
+            antiplane=material.plane == ANTIPLANE,
         )
 
 
@@ -68,16 +74,15 @@ class RigidBody:
 
     @property
     def layers(self) -> None:
-        """None, which stands for it in a :class:`~nucleation.theory.stiffness.Pair`."""
+        """None, as in :class:`~nucleation.theory.stiffness.LayerPair`."""
 
 
 RIGID = RigidBody()
 
 
 def bodies_of(parameters: Parameters) -> tuple[Body, Body | RigidBody]:
-    """The upper and the lower body of a run, with the far sides that its loading gives them."""
-    moved = parameters.loading.kind == "top"
-    far_side = "velocity" if moved else "free"
+    """The upper and the lower body of a run, with the far sides that follow from its loading."""
+    far_side = "velocity" if parameters.loading.kind == "top" else "free"
     upper = Body(parameters.material, parameters.geometry.height, far_side)
     below = parameters.below
     if below is None:
@@ -94,18 +99,34 @@ def as_wavenumber(wavenumber: ArrayLike) -> Array:
 
 
 def transfer_functions(
-    wavenumber: ArrayLike, upper: Body | RigidBody, lower: Body | RigidBody
+    wavenumber: ArrayLike,
+    upper: Body | RigidBody,
+    lower: Body | RigidBody,
 ) -> tuple[Array, Array]:
-    """G1 and G2 (dimensionless) of a pair of bodies, at most one of them rigid, shape of k.
+    """G1 and G2 of a pair of bodies.
 
-    The wavenumber k (1/m) may have either sign but not be zero; G1 is odd and G2 even in it.
+    Parameters
+    ----------
+    wavenumber : array_like
+        k (1/m), of either sign and not zero.
+    upper, lower : Body or RigidBody
+        The two bodies, at most one of them rigid.
+
+    Returns
+    -------
+    G1, G2 : ndarray
+        Dimensionless, shape of k; G1 is odd and G2 even in it.
+
+    Raises
+    ------
+    ValueError
+        If a wavenumber is zero or not finite, or both bodies are rigid.
 
     Notes
     -----
     ``G1 = -G_xx/(mu k)`` and ``G2 = -i G_yx/(mu k)`` with ``G = (M1 - M2)^-1`` (Eqs. S-defG and
     S-sig_G) and mu of the upper body, or of the lower one if the upper one is rigid.
     """
-    k, pair = as_wavenumber(wavenumber), Pair(upper.layers, lower.layers)
-    if pair.upper is pair.lower is None:
-        raise ValueError("at least one of the two bodies must be deformable")
+    pair = LayerPair(upper.layers, lower.layers)
+    k = as_wavenumber(wavenumber)
     return pair.transfer_functions(k)

@@ -1,9 +1,8 @@
-"""Functions of a layer's number ``q = |k| H``, from which nothing overflows and nothing cancels."""
+"""Functions of the layer number ``q = |k| H``, free of overflow and cancellation."""
 
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from ..types import Array
 
@@ -11,25 +10,25 @@ _ORDERS = np.arange(17.0, 3.0, -2.0)
 _COEFFICIENTS = (1.0 / ((_ORDERS - 1.0) * _ORDERS)).tolist()
 
 
-def scaled_sinh_excess(x: ArrayLike) -> Array:
+def _scaled_sinh_excess(x: Array) -> Array:
     """``(sinh(x) - x) exp(-x)`` for ``x >= 0`` without cancellation (power series below 1)."""
-    x = np.asarray(x, dtype=float)
     decay = np.exp(-x)
     direct = -0.5 * np.expm1(-2.0 * x) - x * decay
     if np.all(x >= 1.0):
         return direct
     small = np.minimum(x, 1.0)
-    square, series = small**2, 1.0
+    square = small**2
+    series = 1.0
     for coefficient in _COEFFICIENTS:
         series = 1.0 + series * square * coefficient
     return np.where(x < 1.0, small**3 / 6.0 * series * decay, direct)
 
 
 class Waves:
-    """Functions of ``q = |k| H``, times ``exp(-2q)``, of which the stiffness is made; lazy.
+    """The functions of ``q = |k| H`` in a layer's stiffness, times ``exp(-2q)``.
 
-    All are positive. Without the factor all increase with q; with it, each is monotonic for
-    ``q >= 1``, since q exp(-2q) and q^2 exp(-2q) fall there.
+    Each is computed when first used. All are positive. Without the factor all increase with q; with
+    it, each is monotonic for ``q >= 1``, since q exp(-2q) and q^2 exp(-2q) decrease there.
     """
 
     def __init__(self, q: Array) -> None:
@@ -68,10 +67,10 @@ class Waves:
     @cached_property
     def excess(self) -> Array:
         """``sinh 2q - 2q``."""
-        return scaled_sinh_excess(2.0 * self.q)
+        return _scaled_sinh_excess(2.0 * self.q)
 
     @cached_property
     def square_excess(self) -> Array:
         """``sinh^2 q - q^2``."""
         sinh_plus = -0.5 * np.expm1(-2.0 * self.q) + self.q * np.exp(-self.q)
-        return scaled_sinh_excess(self.q) * sinh_plus
+        return _scaled_sinh_excess(self.q) * sinh_plus

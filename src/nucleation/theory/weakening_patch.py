@@ -70,7 +70,7 @@ class WeakeningPatch:
         """
         basis = patch_basis(number)
         load, coupling = self.inside.load_and_coupling(2.0 * basis.wavenumber / width)
-        rate = 1j * frequency[:, None]
+        rate: ComplexArray = 1j * frequency[:, None].astype(complex)
         within, around = self._friction(self.inside, rate), self._friction(self.outside, rate)
         forward = 1.0 / (load * (1.0 - 1j * coupling) + around)
         backward = 1.0 / (load * (1.0 + 1j * coupling) + around)

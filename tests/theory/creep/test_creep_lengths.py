@@ -61,7 +61,8 @@ def test_numbers_of_modes():
 
         def finer(systems, length=length):
             patches = Patches(systems)
-            growth = patches.growth(float(length), 2 * patches.number)
+            rates = patches.at(float(length), 2 * patches.number).eigenvalues
+            growth = float(rates[0].real)
             slope = stability_point(patches, float(length) / 0.55).growth
             return np.full(systems.a.size, growth / slope)
 

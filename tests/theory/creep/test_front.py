@@ -55,6 +55,35 @@ def test_rounds_and_places_are_enough(monkeypatch):
     assert found_of(run) == pytest.approx(usual, rel=2e-3)
 
 
+@pytest.mark.parametrize("name", ["FLOOR", "OSCILLATING"])
+def test_limits_do_not_matter_within_a_factor_of_ten(monkeypatch, name):
+    """The slip rate at the front, and the least frequency of an oscillating mode."""
+    run = RUNS["converged-aging-H0.1-phi1-seed1"]
+    usual = getattr(front, name)
+    found = found_of(run)
+    for factor in (0.1, 10.0):
+        monkeypatch.setattr(front, name, factor * usual)
+        assert found_of(run) == pytest.approx(found, rel=1e-5)
+
+
+def test_a_high_slip_rate_at_the_front_would_matter(monkeypatch):
+    run = RUNS["converged-aging-H0.1-phi1-seed1"]
+    found = found_of(run)
+    monkeypatch.setattr(front, "FLOOR", 0.1)
+    assert found_of(run) != pytest.approx(found, rel=1e-3)
+
+
+def test_slip_at_the_front_is_not_slower_than_the_scale_of_friction():
+    """Below v0 contacts are at rest, and the law has no friction."""
+    parameters = RUNS["converged-aging-H0.1-phi1-seed1"].parameters
+    faster = parameters.replaced({"regularisation_slip_rate": 0.05 * parameters.loading.velocity})
+    slowest = [
+        advance(Patches.of(own), [0.3], 1.0).creeps[0].slip_rate.min()
+        for own in (parameters, faster)
+    ]
+    assert slowest[0] < 0.03 and slowest[1] == pytest.approx(0.05)
+
+
 def test_the_older_the_interface_the_later():
     patches = Patches.of(RUNS["converged-aging-H0.1-phi1-seed1"].parameters)
     times = [advance(patches, [0.3], age).time[0] for age in (1.0, 100.0, 1e4)]

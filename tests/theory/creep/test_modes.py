@@ -5,8 +5,9 @@ import pytest
 
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
-from nucleation.theory.creep import modes as module
-from nucleation.theory.creep.modes import creep, response
+from nucleation.theory.creep import response as module
+from nucleation.theory.creep.response import response
+from nucleation.theory.creep.steady import creep
 from nucleation.theory.critical import systems_of
 from nucleation.theory.transfer import RIGID, Body, transfer_functions
 

@@ -9,7 +9,7 @@ from scipy.special import sici
 from nucleation.api import stability_length
 from nucleation.theory.arrays import critical_length, fault_of
 from nucleation.theory.creep.lengths import stability_values
-from nucleation.theory.creep.modes import SLIMMEST, response
+from nucleation.theory.creep.response import SLIMMEST, response
 from nucleation.theory.creep.thin import thin_limit
 
 THIN_BLOCK = {

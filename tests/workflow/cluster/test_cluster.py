@@ -18,7 +18,7 @@ from nucleation.simulation.checkpoints import VARIABLE
 ROOT = Path(__file__).parents[3]
 OFTEN = ("--slurm-init-seconds-before-status-checks", "2")
 FIRST = "step 0:"  # in the log of a simulation that runs
-AGAIN = "the run goes on from"  # in the log of one that was stopped
+AGAIN = "the run resumes from"  # in the log of one that was stopped
 COSTS = ["wall_seconds", "peak_megabytes"]  # columns of the table that tell how long a run took
 
 # Four simulations of the quick configuration with so short steps that they can be hit midway.

@@ -1,11 +1,11 @@
 """Eqs. (6) to (9) and Figure 2 against simulations of two deformable bodies.
 
 The paper has these as theory alone. Lengths are those of the table of pairs
-(:func:`nucleation.patch.pairs.gather`), at the declared strength that it states; Eqs. (7) and (8)
-are also held against the elastic response that simulated modes between two sliding layers meet
-(:mod:`nucleation.verification.pair_modes`). The verdicts are a table of their own: the paper's own
-claims do not wait for these simulations. A length is the mean of a fault's realisations, and its
-range theirs.
+(:func:`nucleation.patch.tables.pairs.gather_pairs`), at the declared strength that it states; Eqs.
+(7) and (8) are also held against the elastic response that simulated modes between two sliding
+layers meet (:mod:`nucleation.verification.pair_modes`). The verdicts are a table of their own: the
+paper's own claims do not wait for these simulations. A length is the mean of a fault's
+realisations, and its range theirs.
 """
 
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from ...patch.pairs import chosen, of_role, over_realisations
+from ...patch.tables.pairs import chosen, of_role, over_realisations
 from ...types import Array
 from ...verification.pair_modes import DEEP, measured_response
 from ..claim import Computation, Result
@@ -33,7 +33,7 @@ CAUSE = (
 class PairEvidence(NamedTuple):
     """What the claims on two bodies are judged by."""
 
-    table: xr.Dataset  # of nucleation.patch.pairs.gather
+    table: xr.Dataset  # of nucleation.patch.tables.pairs.gather_pairs
     modes: xr.Dataset  # of nucleation.verification.pair_modes.pair_modes
 
 

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ...figures import laws, style
-from ...patch.pairs import over_realisations
+from ...patch.tables.pairs import over_realisations
 from ...theory.closed_forms import bimaterial_length_ratio
 
 _CONTRAST = np.linspace(-0.42, 0.42, 169)
@@ -26,7 +26,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.pairs.gather`.
+        From :func:`nucleation.patch.tables.pairs.gather_pairs`.
 
     Returns
     -------

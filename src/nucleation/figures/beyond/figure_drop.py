@@ -50,7 +50,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.drop_table.gather`.
+        From :func:`nucleation.patch.tables.drops.gather_drops`.
 
     Returns
     -------

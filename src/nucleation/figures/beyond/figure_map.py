@@ -13,7 +13,7 @@ from matplotlib.ticker import (
 )
 
 from ...figures import style
-from ...patch.map_table import mean_over_seeds
+from ...patch.tables.map import mean_over_seeds
 
 _RATIOS = (0.45, 1.0)  # range of the colours
 _CONTOURS = (0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.2)
@@ -36,7 +36,7 @@ def draw(grid: xr.Dataset) -> Figure:
     Parameters
     ----------
     grid : Dataset
-        From :func:`nucleation.patch.map_table.on_grid`.
+        From :func:`nucleation.patch.tables.map.on_grid`.
 
     Returns
     -------

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from ...answers.formulas import FINITE_PATCH
 from ...figures import laws, style
-from ...patch.pairs import over_realisations
+from ...patch.tables.pairs import over_realisations
 
 _SIDES = (
     ("free", "o", style.VERMILLION),
@@ -31,7 +31,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.pairs.gather`.
+        From :func:`nucleation.patch.tables.pairs.gather_pairs`.
 
     Returns
     -------

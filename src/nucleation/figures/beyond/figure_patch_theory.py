@@ -16,7 +16,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.theory_table.gather`.
+        From :func:`nucleation.patch.tables.theory.gather_theory`.
 
     Returns
     -------

@@ -44,7 +44,7 @@ def draw(
     Parameters
     ----------
     table : Dataset
-        The study's table of lengths, from :func:`nucleation.analysis.lengths.gather`.
+        The study's table of lengths, from :func:`nucleation.analysis.lengths.lengths_table`.
     varied : dict
         Each parameter with several values in the study, and its value in every run, in the order of
         the table.

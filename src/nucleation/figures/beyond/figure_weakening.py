@@ -9,7 +9,11 @@ from matplotlib.ticker import NullFormatter, StrMethodFormatter
 from ...figures import laws, style
 
 _LINES = {
-    "stability_length": (r"$L_s$: the patch turns unstable", style.BLUE, "-"),
+    "stability_length": (
+        r"$L_s$: the patch turns unstable",
+        style.BLUE,
+        "-",
+    ),
     "runaway_length": (
         r"$L_{run}$: slow slip has no end but an event",
         style.VERMILLION,
@@ -32,7 +36,7 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.patch.weakening_table.gather`.
+        From :func:`nucleation.patch.tables.weakening.gather_weakening`.
 
     Returns
     -------
@@ -70,7 +74,14 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
         if dropped.size:
             mean = dropped.mean()
             bars = [[mean - dropped.min()], [dropped.max() - mean]]
-            axes.errorbar(at, mean, bars, fmt="o", color=style.BLACK, markersize=4.0)
+            axes.errorbar(
+                at,
+                mean,
+                bars,
+                fmt="o",
+                color=style.BLACK,
+                markersize=4.0,
+            )
     style.level(axes, 0.5)
     axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", ylim=(0.4, 1.6))
     axes.set_xticks(_TICKS)

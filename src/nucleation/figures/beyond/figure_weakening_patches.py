@@ -16,8 +16,16 @@ LOOKS = {
 """Label, marker and colour of each outcome of a run."""
 
 THEORY = "$W_c$ by theory"
-RIGID = 1.158 / np.pi  # of half-spaces, with surroundings that don't slip
-TICKS = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0)  # of the surroundings' strengthening
+RIGID = 1.158 / np.pi  # for half-spaces with surroundings that do not slip
+TICKS = (
+    0.05,
+    0.1,
+    0.2,
+    0.5,
+    1.0,
+    2.0,
+    5.0,
+)  # of the surroundings' strengthening
 
 
 @style.styled
@@ -27,20 +35,36 @@ def draw(table: xr.Dataset) -> Figure:
     Parameters
     ----------
     table : Dataset
-        From :func:`nucleation.analysis.weakening_patches.gather`.
+        From :func:`nucleation.analysis.weakening_patches.weakening_patches_table`.
+
+    Returns
+    -------
+    Figure
+        A panel for each zeta/a.
     """
     rounded = table.assign(ratio=table["zeta_over_a"].round(3)).sortby("strengthening")
-    kinds = sorted(laws.groups(rounded, "ratio"), key=lambda rows: float(rows["ratio"][0]))
+    kinds = sorted(
+        laws.groups(rounded, "ratio"),
+        key=lambda rows: float(rows["ratio"][0]),
+    )
     figure, panels = style.panels(1, len(kinds), 7.5)
     for axes, letter, rows in zip(np.ravel(panels), "abcdefgh", kinds, strict=False):
         _draw_weakening(axes, rows)
-        axes.set_title(rf"({letter}) $\zeta/a$ = {float(rows['ratio'][0]):.2g}", loc="left")
+        axes.set_title(
+            rf"({letter}) $\zeta/a$ = {float(rows['ratio'][0]):.2g}",
+            loc="left",
+        )
     first = np.ravel(panels)[0]
     first.set_ylabel("Width of the patch $W/L_c$")
     entries = style.entries(first)
     for label, marker, colour in LOOKS.values():
         entries[label] = style.key(label, marker, colour=colour, mfc="none")
-    figure.legend(entries.values(), entries, loc="outside upper center", ncols=len(entries))
+    figure.legend(
+        entries.values(),
+        entries,
+        loc="outside upper center",
+        ncols=len(entries),
+    )
     return figure
 
 
@@ -49,12 +73,23 @@ def _draw_weakening(axes: Axes, rows: xr.Dataset) -> None:
     theory = laws.where(rows, outcome="theory")
     curve = theory["smallest_width"] / theory["critical_length"]
     axes.plot(theory["strengthening"], curve, color=style.BLACK, label=THEORY)
-    style.level(axes, RIGID)
+    style.level(axes, RIGID, label="asperity, rigid surroundings")
     for name, (_, marker, colour) in LOOKS.items():
         own = laws.where(rows, outcome=name)
         width = own["width"] / own["critical_length"]
-        axes.plot(own["strengthening"], width, marker, color=colour, mfc="none")
-    axes.set(xscale="log", xlabel=r"Strengthening around $-\zeta_{out}/\zeta$", ylim=(0.0, None))
+        axes.plot(
+            own["strengthening"],
+            width,
+            marker,
+            color=colour,
+            mfc="none",
+        )
+    top = 1.08 * float((rows["width"] / rows["critical_length"]).max())
+    axes.set(
+        xscale="log",
+        xlabel=r"Strengthening around $-\zeta_{out}/\zeta$",
+        ylim=(0.0, top),
+    )
     axes.set_xticks(TICKS)
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())

@@ -29,7 +29,7 @@ class StateEvolution(Protocol):
     @staticmethod
     def implicit_log_state(
         history: Array,
-        step: float,
+        step: Array | float,
         rate: Array,
     ) -> tuple[Array, Array]:
         """Solve ``psi = history + step * dpsi/dt(psi, rate)`` for ``psi = log(phi)``.
@@ -38,7 +38,7 @@ class StateEvolution(Protocol):
         ----------
         history : ndarray
             Part of psi that follows from earlier steps, shape (nodes,).
-        step : float
+        step : ndarray or float
             Time step times the coefficient of the time scheme (s).
         rate : ndarray
             ``w / D`` (1/s), shape (nodes,).

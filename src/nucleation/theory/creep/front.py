@@ -1,14 +1,14 @@
-"""The advancing front: what it costs to break contacts, and when the patch has a length.
+"""The advancing front: its fracture energy, and the time at which the patch has a length.
 
-Ahead of the front the interface has aged at rest. As the front passes, the state falls with slip to
-that of steady sliding, and friction from its peak: the area below is the front's fracture energy.
-Where the patch moves on slowly its fields depend on time through L alone. At each L, with the speed
-dL/dt and the slip rate along the patch,
+Ahead of the front the interface has aged at rest. As the front passes, the state decreases with
+slip to that of steady sliding, and friction from its peak: the area below is the front's fracture
+energy. Where the patch advances slowly its fields depend on time through L alone. At each L, with
+the speed dL/dt and the slip rate along the patch,
 
-- the state at a distance xi behind the front is what ``dphi/dt = g(phi w/D)`` makes of the one
-  ahead in the time ``xi/(dL/dt)``, and friction f follows at each place;
-- the slip is in balance with that strength, ``-(K1 + f S2) u = f sigma0``, and the edge has moved
-  as far as it takes for a front without a singularity: U(L), and ``t = U/V``;
+- the state at a distance xi behind the front follows from the one ahead by ``dphi/dt = g(phi w/D)``
+  during the time ``xi/(dL/dt)``, and friction f follows at each place;
+- the slip is in balance with that strength, ``-(K1 + f S2) u = f sigma0``, and the edge has the
+  displacement for which the front has no singularity: U(L), and ``t = U/V``;
 - the slip rate is ``(du/dL)/(dU/dL) V`` at fixed x.
 
 The three are repeated until they agree. Nothing is fitted and there is no time step.
@@ -23,25 +23,32 @@ from numpy.typing import ArrayLike, NDArray
 from ...model.friction.law import Friction
 from ...types import Array
 from ..status import BEYOND
-from .lengths import NoPatch, Patches
 from .linearised import FrozenPatch, creeping_patch, local_coefficients
-from .modes import MORE_MODES, Creep, EdgeSlip, Half, edge_slip, modes, response
+from .modes import mirror_modes
+from .patches import NoPatch, Patches, require_contact
+from .response import MORE_MODES, response
+from .steady import Creep, EdgeSlip, edge_slip
 
-ROUNDS = 4  # of the three equations: each takes off more than nine tenths of the error
-FINE = 400  # angles at which the state behind the front is followed,
-AT_REST = 100  # and times of the interface ahead
+ROUNDS = 4  # of the three equations: each removes more than nine tenths of the error
+FINE = 400  # angles at which the state behind the front is followed
+AT_REST = 100  # times of the interface ahead
+FIRST_REST = 1e-4  # the first of them, over the last
 STEP = 0.01  # of log L, in derivatives by L
-FLOOR = 1e-3  # slip rate over V with which the front sets in, or the law's v0 if that is more:
-# friction falls to zero below it, and contacts there are as if at rest
-SHORTEST, TRIED = 0.3, 14  # patches that are tried for L_s: from which part of L_c on, how many,
-NEAR = np.array([-0.05, 0.0, 0.05])  # and those through which Re Lambda is laid, log(L/L_s)
-CLOSE = 2e-3  # relative, within which the parabola's L_s has to have decay and growth,
-NARROW = 1e-4  # and the bracket of one that is bisected
-OSCILLATING = 0.01  # angular frequency, over V/D, below which a mode counts as not oscillating
+FLOOR = 1e-3
+"""Slip rate over V at which the front begins, or the law's v0 if that is larger: friction
+vanishes below it, and contacts there are as if at rest."""
+
+SHORTEST = 0.3  # where the search for L_s starts, over L_c
+TRIED = 14  # number of patches that are tried
+NEAR = np.array([-0.05, 0.0, 0.05])  # log(L/L_s) of the patches to which a parabola is fitted
+CLOSE = 2e-3  # relative, within which the parabola's L_s must have decay and growth
+NARROW = 1e-4  # relative width of a bracket at which bisection ends
+OSCILLATING = 0.01  # angular frequency over V/D below which a mode counts as not oscillating
+REAL = 1e-9  # imaginary part below which a parabola's root is real
 
 
 class Advance(NamedTuple):
-    """A patch at some lengths as its front moves on; all in SI units but the patches."""
+    """A patch at some lengths as its front advances; all in SI units but the patches."""
 
     length: Array  # L (m), (n,)
     time: Array  # since the edge began to move (s)
@@ -51,111 +58,185 @@ class Advance(NamedTuple):
     log_states: Array  # log(phi), phi in s, at the angles of the modes, (n, N)
 
 
+class _Front:
+    """The three equations of an advancing front, at some patch lengths (m)."""
+
+    def __init__(
+        self,
+        patches: Patches,
+        length: Array,
+        initial_state: float,
+        initial_stress: float,
+        number: int,
+    ) -> None:
+        assert patches.law is not None
+        self.law = patches.law
+        self.velocity = patches.velocity
+        self.distance = self.law.characteristic_slip_distance
+        self.initial_state = initial_state
+        self.initial_stress = initial_stress
+        self.modes = mirror_modes(number)
+        self.floor = max(FLOOR, self.law.regularisation_slip_rate / self.velocity)
+        self.length = length
+        self.responses = [
+            [response(patches.one, one, number) for one in length * np.exp(step)]
+            for step in (-STEP, 0.0, STEP)
+        ]
+        steady_friction = self.law.expansion(self.velocity).f0
+        self.friction = np.full((length.size, number), steady_friction)
+        self.log_states = np.zeros_like(self.friction)
+        self.update_slip()
+        self.rates = _column(self.slips[1], "rates")
+
+    def update_slip(self) -> None:
+        """Slip in balance with the strength, time and speed; each at three neighbouring lengths."""
+        self.slips = [self._slips(row) for row in self.responses]
+        before, at, after = (_column(row, "loaded") for row in self.slips)
+        self.by_length = (after - before) / (2.0 * STEP * self.length)
+        self.time = at * self.distance / self.velocity
+        self.speed = self.velocity / (self.by_length * self.distance)
+
+    def _slips(self, row: list) -> list[EdgeSlip]:
+        """Slip of patches of given strength, loaded from a uniform stress."""
+        return [
+            edge_slip(one, friction, friction - self.initial_stress)
+            for one, friction in zip(row, self.friction, strict=True)
+        ]
+
+    def update_rates(self) -> None:
+        """Modes' coefficients of ``(du/dL)/(dU/dL)`` at fixed x.
+
+        The derivative is taken at fixed theta, which moves with the front, and corrected by ``x/L
+        u'``.
+        """
+        own = self.modes
+        before, at, after = (_column(row, "slip") for row in self.slips)
+        growing = (after - before) / (2.0 * STEP) @ own.values.T
+        moving = (at @ own.gradients.T) * np.cos(own.theta)
+        values = (growing - moving) / (self.length * self.by_length)[:, None]
+        sines = (values - own.values[:, 0]) @ own.inverse.T
+        edge = np.ones((self.length.size, 1))
+        self.rates = np.concatenate([edge, sines], axis=1)
+
+    def update_state(self) -> None:
+        """log(phi) and friction behind the front, at the modes' angles, (n, N)."""
+        law, own = self.law, self.modes
+        theta = np.linspace(0.0, 0.5 * np.pi, FINE + 1)
+        speeds = law.slip_speed(self._slip_rate(own.at(theta))) / self.distance
+        log_state = self._state_ahead()
+        along = [log_state]
+        distances = self.length[:, None] * -np.diff(np.cos(theta))
+        steps = distances / self.speed[:, None]
+        for j in range(FINE):
+            speed = 0.5 * (speeds[:, j] + speeds[:, j + 1])
+            log_state = _stepped(law, log_state, steps[:, j], speed)
+            along.append(log_state)
+        self.log_states = np.array(
+            [np.interp(own.theta, theta, of_length) for of_length in np.transpose(along)]
+        )
+        slip_rate = self._slip_rate(own.values)
+        self.friction, *_ = law.coefficient_and_slopes(slip_rate, self.log_states)
+
+    def _slip_rate(self, modes: Array) -> Array:
+        """Slip rate (m/s) at the angles of some values of the modes, (n, angle)."""
+        return self.velocity * np.maximum(self.rates @ modes.T, self.floor)
+
+    def _state_ahead(self) -> Array:
+        """log(phi) of the interface that has aged at rest until the front reaches it, (n,)."""
+        speed_at_rest = float(self.law.slip_speed(0.0)) / self.distance
+        speed = np.full(self.length.size, speed_at_rest)
+        log_state = np.full(self.length.size, np.log(self.initial_state))
+        ends = np.append(0.0, np.geomspace(FIRST_REST, 1.0, AT_REST))
+        for part in np.diff(ends):  # in steps that grow as the state does
+            log_state = _stepped(self.law, log_state, part * self.time, speed)
+        return log_state
+
+    def creep(self, i: int) -> Creep:
+        """The creep at one of the lengths."""
+        bodies = self.responses[1][i]
+        slip = self.slips[1][i]
+        creep = Creep(
+            response=bodies,
+            slip_rate=np.maximum(self.modes.values @ self.rates[i], self.floor),
+            normal_stress=1.0 + bodies.normal @ slip.slip,
+            loaded=slip.loaded,
+        )
+        require_contact(creep)
+        return creep
+
+
+def _column(slips: list[EdgeSlip], name: str) -> Array:
+    """One field of several slips."""
+    return np.array([getattr(slip, name) for slip in slips])
+
+
+def _stepped(
+    law: Friction,
+    log_state: Array,
+    step: Array,
+    rate: Array,
+) -> Array:
+    """log(phi) after a time at a slip speed over D (1/s), extrapolated from one and two steps."""
+    evolve = law.evolution_law.implicit_log_state
+    half, _ = evolve(log_state, 0.5 * step, rate)
+    two_halves, _ = evolve(half, 0.5 * step, rate)
+    one, _ = evolve(log_state, step, rate)
+    return 2.0 * two_halves - one
+
+
 def advance(
-    patches: Patches, lengths: ArrayLike, initial_state: float, initial_stress: float = 0.0,
-    number: int | None = None,
-) -> Advance:  # fmt: skip
-    """The patch of one fault at some lengths (m), with its advancing front.
+    patches: Patches,
+    lengths: ArrayLike,
+    initial_state: float,
+    initial_stress: float = 0.0,
+    number: int = MORE_MODES,
+) -> Advance:
+    """The patch of one fault at some lengths, with its advancing front.
 
     Parameters
     ----------
-    patches : with a friction law and its velocity; pushed at the edge.
-    initial_state, initial_stress : phi_0 (s), and the shear stress over sigma0, when the edge
-        begins to move.
-    number : of modes; more than steady creep needs, by default.
+    patches : Patches
+        With a friction law and its velocity; pushed at the edge.
+    lengths : array_like
+        Patch lengths (m), shape (n,).
+    initial_state : float
+        phi_0 (s) when the edge begins to move.
+    initial_stress : float
+        Shear stress over sigma0 when the edge begins to move.
+    number : int
+        Number of modes; more than steady creep needs, by default.
+
+    Returns
+    -------
+    Advance
+        Time, speed and linearised patch at each length.
 
     Raises
     ------
     NoPatch
-        If the creep takes all of the compression somewhere, or no edge is pushed.
+        If the creep removes all of the compression somewhere, or no edge is pushed.
     """
     if patches.loading != "edge":
-        raise NoPatch("a front that advances is known of a patch that is pushed at its edge alone")
-    law, velocity, number = patches.law, patches.velocity, number or MORE_MODES
-    own = modes(number)
-    assert law is not None
-    distance, length = law.characteristic_slip_distance, np.atleast_1d(np.asarray(lengths, float))
-    around = length * np.exp(STEP * np.array([-1.0, 0.0, 1.0]))[:, None]
-    held = [[response(patches.one, one, number) for one in row] for row in around]
-    floor = max(FLOOR, law.regularisation_slip_rate / velocity)
-    friction = np.full((length.size, number), law.expansion(velocity).f0)
-    psi = np.zeros_like(friction)
-    rates = np.zeros((length.size, number + 1))
-    for turn in range(ROUNDS + 1):
-        slips = [_slips(row, friction, initial_stress) for row in held]
-        loaded = np.array([[slip.loaded for slip in row] for row in slips])
-        by_length = (loaded[2] - loaded[0]) / (2.0 * STEP * length)
-        time, speed = loaded[1] * distance / velocity, velocity / (by_length * distance)
-        if turn == 0:
-            rates = np.array([slip.rates for slip in slips[1]])
-        else:
-            rates = _rates(own, length, slips, by_length)
-        if turn < ROUNDS:
-            psi, friction = _behind(
-                law, velocity, own, length, time, speed, rates, floor, initial_state
-            )
-    creeps, frozen = [], []
-    for i, slip in enumerate(slips[1]):
-        rate = np.maximum(own.values @ rates[i], floor)
-        creep = Creep(held[1][i], rate, 1.0 + held[1][i].normal @ slip.slip, slip.loaded)
-        if creep.normal_stress.min() <= 0.0:
-            raise NoPatch(f"the creep opens the fault at a patch length of {length[i]:.4g} m")
-        creeps.append(creep)
-        frozen.append(creeping_patch(creep, local_coefficients(law, velocity, rate, psi[i])))
-    return Advance(length, time, speed, frozen, creeps, psi)
-
-
-def _slips(row: list, friction: Array, initial_stress: float) -> list[EdgeSlip]:
-    """Slip of patches of given strength, loaded from a uniform stress."""
-    return [edge_slip(one, f, f - initial_stress) for one, f in zip(row, friction, strict=True)]
-
-
-def _rates(own: Half, length: Array, slips: list[list[EdgeSlip]], by_length: Array) -> Array:
-    """Modes' coefficients of ``(du/dL)/(dU/dL)`` at fixed x: with theta fixed, less ``x/L u'``."""
-    before, at, after = (np.array([slip.slip for slip in row]) for row in slips)
-    growing = (after - before) / (2.0 * STEP) @ own.values.T
-    moving = (at @ own.gradients.T) * np.cos(own.theta)
-    values = (growing - moving) / (length * by_length)[:, None]
-    rest = (values - own.values[:, 0]) @ own.inverse.T
-    return np.concatenate([np.ones((length.size, 1)), rest], axis=1)
-
-
-def _behind(
-    law: Friction,
-    velocity: float,
-    own: Half,
-    length: Array,
-    time: Array,
-    speed: Array,
-    rates: Array,
-    floor: float,
-    initial_state: float,
-) -> tuple[Array, Array]:
-    """log(phi) and friction behind the front, at the modes' angles, (n, N)."""
-    theta = np.linspace(0.0, 0.5 * np.pi, FINE + 1)
-    v = velocity * np.maximum(rates @ own.at(theta).T, floor)
-    speeds = law.slip_speed(v) / law.characteristic_slip_distance
-    psi = np.full(length.size, np.log(initial_state))
-    # at rest, in steps that grow as the state does
-    at_rest = np.full(length.size, float(law.slip_speed(0.0)) / law.characteristic_slip_distance)
-    ends = np.append(0.0, np.geomspace(1e-4, 1.0, AT_REST))
-    for part in np.diff(ends):
-        psi = _stepped(law, psi, part * time, at_rest)
-    along = [psi]
-    steps = length[:, None] * -np.diff(np.cos(theta)) / speed[:, None]
-    for j in range(FINE):
-        psi = _stepped(law, psi, steps[:, j], 0.5 * (speeds[:, j] + speeds[:, j + 1]))
-        along.append(psi)
-    states = np.array([np.interp(own.theta, theta, one) for one in np.transpose(along)])
-    rate = velocity * np.maximum(rates @ own.values.T, floor)
-    return states, law.coefficient_and_slopes(rate, states)[0]
-
-
-def _stepped(law: Friction, psi: Array, step: Array, rate: Array) -> Array:
-    """log(phi) after a time at a slip speed over D (1/s), extrapolated from one and two steps."""
-    evolve = law.evolution_law.implicit_log_state
-    half = evolve(evolve(psi, 0.5 * step, rate)[0], 0.5 * step, rate)[0]
-    return 2.0 * half - evolve(psi, step, rate)[0]
+        raise NoPatch("only a patch that is pushed at its edge has a theory of the advancing front")
+    length = np.atleast_1d(np.asarray(lengths, dtype=float))
+    front = _Front(patches, length, initial_state, initial_stress, number)
+    for _ in range(ROUNDS):
+        front.update_state()
+        front.update_slip()
+        front.update_rates()
+    creeps = [front.creep(i) for i in range(length.size)]
+    frozen = []
+    for creep, log_state in zip(creeps, front.log_states, strict=True):
+        friction = local_coefficients(front.law, front.velocity, creep.slip_rate, log_state)
+        frozen.append(creeping_patch(creep, friction))
+    return Advance(
+        length=length,
+        time=front.time,
+        speed=front.speed,
+        patches=frozen,
+        creeps=creeps,
+        log_states=front.log_states,
+    )
 
 
 def oscillating(found: Advance) -> NDArray[np.complex128]:
@@ -169,14 +250,33 @@ def fastest(found: Advance) -> Array:
 
 
 def first_growing(
-    patches: Patches, critical: float, initial_state: float, initial_stress: float = 0.0
+    patches: Patches,
+    critical: float,
+    initial_state: float,
+    initial_stress: float = 0.0,
 ) -> float:
-    """L_s (m) of a patch with its advancing front; `critical` is L_c (m).
+    """L_s of a patch with its advancing front.
 
     Growth begins between two of the lengths tried, with a pair of modes that oscillates
-    (:mod:`nucleation.theory.creep.lengths`). L_s is where a parabola through the pair's growth
-    vanishes. Where the pair oscillates in a narrow window only, that is not where growth begins,
-    and L_s is bisected.
+    (:mod:`nucleation.theory.creep.lengths`). L_s is the root of a parabola through the pair's
+    growth. Where the pair oscillates in a narrow window only, the parabola's root is not where
+    growth begins, and L_s is bisected.
+
+    Parameters
+    ----------
+    patches : Patches
+        With a friction law and its velocity; pushed at the edge.
+    critical : float
+        L_c (m) of the fault.
+    initial_state : float
+        phi_0 (s) when the edge begins to move.
+    initial_stress : float
+        Shear stress over sigma0 when the edge begins to move.
+
+    Returns
+    -------
+    float
+        L_s (m).
 
     Raises
     ------
@@ -187,27 +287,12 @@ def first_growing(
     def advanced(lengths: ArrayLike) -> Advance:
         return advance(patches, lengths, initial_state, initial_stress)
 
-    tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
-    for lengths in (tried, tried * (1.0 / SHORTEST) ** (1.0 - 1.0 / TRIED)):
-        found = advanced(lengths)
-        growing = fastest(found) > 0.0
-        i = int(np.argmax(growing))
-        if growing[i]:
-            break
-    else:
-        raise NoPatch(
-            f"no patch up to {lengths[-1] / critical:.2g} L_c = {lengths[-1]:.4g} m has a growing "
-            "mode",
-            BEYOND,
-        )
-    if i == 0:
-        raise NoPatch(f"the patch grows its mode from {lengths[0] / critical:.2g} L_c on or before")
-    low, high = lengths[i - 1 : i + 1]
-    pair = oscillating(found)[i - 1 : i + 1].real
+    low, high, pair = _bracket(advanced, critical)
     if np.isfinite(pair).all():
-        at = float(np.exp(np.interp(0.0, pair, np.log([low, high]))))
-        onset = _vanishing(advanced, at)
-        before, after = fastest(advanced(onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])))
+        log_at = np.interp(0.0, pair, np.log([low, high]))
+        onset = _vanishing(advanced, float(np.exp(log_at)))
+        around = onset * np.array([1.0 - CLOSE, 1.0 + CLOSE])
+        before, after = fastest(advanced(around))
         if before < 0.0 < after:
             return onset
     while high / low > 1.0 + NARROW:
@@ -219,11 +304,43 @@ def first_growing(
     return float(np.sqrt(low * high))
 
 
-def _vanishing(advanced: Callable[[ArrayLike], Advance], at: float) -> float:
-    """Where a parabola through the pair's growth around a length (m) vanishes; `at` if nowhere."""
+def _bracket(
+    advanced: Callable[[ArrayLike], Advance],
+    critical: float,
+) -> tuple[float, float, Array]:
+    """Neighbouring lengths (m) without and with growth, and the oscillating modes' growth there."""
+    tried = np.geomspace(SHORTEST, 1.0, TRIED) * critical
+    longer = tried * (1.0 / SHORTEST) ** (1.0 - 1.0 / TRIED)
+    for lengths in (tried, longer):
+        found = advanced(lengths)
+        growing = fastest(found) > 0.0
+        if growing.any():
+            break
+    else:
+        longest = lengths[-1]
+        raise NoPatch(
+            f"no patch up to {longest / critical:.2g} L_c = {longest:.4g} m has a growing mode",
+            BEYOND,
+        )
+    i = int(np.argmax(growing))
+    if i == 0:
+        first = lengths[0] / critical
+        raise NoPatch(f"a mode of the patch grows at {first:.2g} L_c already, or before")
+    low, high = lengths[i - 1 : i + 1]
+    return low, high, oscillating(found)[i - 1 : i + 1].real
+
+
+def _vanishing(
+    advanced: Callable[[ArrayLike], Advance],
+    at: float,
+) -> float:
+    """Root of a parabola through the pair's growth around a length (m); `at` without a root."""
     growth = oscillating(advanced(at * np.exp(NEAR))).real
     if not np.isfinite(growth).all():
         return at
     roots = np.polynomial.Polynomial.fit(NEAR, growth, 2).roots()
-    real = roots[np.abs(roots.imag) < 1e-9].real
-    return float(at * np.exp(real[np.abs(real).argmin()])) if real.size else at
+    real = roots[np.abs(roots.imag) < REAL].real
+    if real.size == 0:
+        return at
+    nearest = real[np.abs(real).argmin()]
+    return float(at * np.exp(nearest))

@@ -1,10 +1,10 @@
-"""Linear algebra of a patch whose friction and elasticity are linearised: modes and amplitudes.
+"""Linear algebra of a patch with linearised friction and elasticity: modes and amplitudes.
 
 For perturbations of slip w and of psi = log(phi) at some places, force balance and the evolution of
-the state read ``dv = A dw + b dpsi``, b diagonal, and ``d(dpsi)/dt = g_v dv + g_psi dpsi``: an
-eigenvalue problem of twice their number. Its eigenvalues need no vectors: in a mode exp(Lambda t)
-each place has ``dpsi = g_v Lambda dw / (Lambda - g_psi)``, so that the few modes looked at are null
-vectors of the half as large
+the state read ``dv = A dw + b dpsi``, b diagonal, and ``d(dpsi)/dt = g_v dv + g_psi dpsi``. This is
+an eigenvalue problem of twice their number. Its eigenvectors are needed for few modes only. In a
+mode exp(Lambda t) each place has ``dpsi = g_v Lambda dw / (Lambda - g_psi)``, so that such a mode
+is the null vector of a matrix of half the size
 
     T(Lambda) = A - Lambda + diag(b g_v Lambda / (Lambda - g_psi)).
 """
@@ -19,11 +19,11 @@ from scipy.linalg import lu_factor, lu_solve
 
 from ...model.friction.law import Friction
 from ...types import Array, ComplexArray
-from .modes import Creep
+from .steady import Creep
 
 OSCILLATING = 0.1  # modes of a smaller angular frequency, over V/D, count as not oscillating
 INVERSE_ITERATIONS = 3  # towards the null vector of a matrix that is singular to round-off
-OFFSET = 1e-9  # relative, from the eigenvalue: T can be factorised there
+OFFSET = 1e-9  # relative, from the eigenvalue, so that T can be factorised
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,13 +40,15 @@ class FrozenPatch:
     def matrix(self) -> Array:
         """Jacobian of (dw, dpsi), shape (2 n, 2 n)."""
         g_v, b = self.evolution_by_rate, self.by_log_state
-        lower = np.diag(g_v * b + self.evolution_by_log_state)
-        return np.block([[self.by_w, np.diag(b)], [g_v[:, None] * self.by_w, lower]])
+        upper_right = np.diag(b)
+        lower_left = g_v[:, None] * self.by_w
+        lower_right = np.diag(g_v * b + self.evolution_by_log_state)
+        return np.block([[self.by_w, upper_right], [lower_left, lower_right]])
 
     @cached_property
     def eigenvalues(self) -> ComplexArray:
         """All eigenvalues Lambda (1/s), fastest growing first."""
-        values = np.linalg.eigvals(self.matrix)
+        values: ComplexArray = np.asarray(np.linalg.eigvals(self.matrix), dtype=complex)
         return values[np.argsort(-values.real)]
 
     def oscillating(self, frequency: float) -> complex:
@@ -55,30 +57,33 @@ class FrozenPatch:
         return complex(fast[0]) if fast.size else complex(np.nan, np.nan)
 
     def mode(self, eigenvalue: complex) -> tuple[ComplexArray, ComplexArray]:
-        """Displacement, of largest modulus 1, and log state of an eigenvalue's mode, (n,) each."""
+        """Displacement, with the largest modulus 1, and log state of a mode, (n,) each."""
         ratio = 1.0 / (eigenvalue - self.evolution_by_log_state)
         w = _null_vector(self._reduced(eigenvalue))
         w /= w[np.abs(w).argmax()]
         return w, self.evolution_by_rate * eigenvalue * ratio * w
 
     def amplitude(self, eigenvalue: complex) -> ComplexArray:
-        """Weights (2 n,) that give a mode's complex amplitude in any perturbation (dw, dpsi).
+        """Weights (2 n,) of a mode's complex amplitude in any perturbation (dw, dpsi).
 
-        They are the left eigenvector, orthogonal to all other modes, scaled to give 1 for
-        :meth:`mode`.
+        They are the left eigenvector, orthogonal to all other modes, scaled such that the amplitude
+        of :meth:`mode` is 1.
         """
         share = self.by_log_state / (eigenvalue - self.evolution_by_log_state)
         z = _null_vector(self._reduced(eigenvalue).T)
-        weights = np.append(z * (1.0 - self.evolution_by_rate * share), z * share)
-        return weights / (weights @ np.concatenate(self.mode(eigenvalue)))
+        of_w = z * (1.0 - self.evolution_by_rate * share)
+        of_log_state = z * share
+        weights = np.append(of_w, of_log_state)
+        mode = np.concatenate(self.mode(eigenvalue))
+        return weights / (weights @ mode)
 
     def _reduced(self, eigenvalue: complex) -> ComplexArray:
-        """T(Lambda), next to where it is singular."""
+        """T(Lambda), at a small offset from where it is singular."""
         value = eigenvalue * (1.0 + OFFSET)
+        feedback = self.by_log_state * self.evolution_by_rate
+        diagonal = value * (feedback / (value - self.evolution_by_log_state) - 1.0)
         matrix = self.by_w.astype(complex)
-        matrix[np.diag_indices_from(matrix)] += value * (
-            self.by_log_state * self.evolution_by_rate / (value - self.evolution_by_log_state) - 1.0
-        )
+        matrix[np.diag_indices_from(matrix)] += diagonal
         return matrix
 
 
@@ -92,21 +97,38 @@ def _null_vector(matrix: ComplexArray) -> ComplexArray:
     return vector
 
 
-def log_state_derivatives(law: Friction, slip_rate: Array, state: Array) -> tuple[Array, Array]:
-    """Derivatives of ``dpsi/dt`` by v at fixed psi (1/m) and by psi at fixed v (1/s).
+def log_state_derivatives(
+    law: Friction,
+    slip_rate: Array,
+    state: Array,
+) -> tuple[Array, Array]:
+    """Derivatives of ``dpsi/dt``, which is ``g(phi w / D) / phi`` with the evolution law g(omega).
 
-    With ``g(omega)`` the evolution law, ``dpsi/dt = g(phi w / D) / phi``.
+    Parameters
+    ----------
+    law : Friction
+        The friction law.
+    slip_rate : ndarray
+        v (m/s) at each place.
+    state : ndarray
+        phi (s) at each place.
+
+    Returns
+    -------
+    by_rate, by_log_state : ndarray
+        By v at fixed psi (1/m), and by psi at fixed v (1/s); same shape.
     """
-    speed, distance = law.slip_speed(slip_rate), law.characteristic_slip_distance
-    omega = state * speed / distance
+    speed = law.slip_speed(slip_rate)
+    distance = law.characteristic_slip_distance
     evolution = law.evolution_law
+    omega = state * speed / distance
     by_omega = evolution.slope(omega)
     by_rate = by_omega * slip_rate / (speed * distance)
     by_log_state = (by_omega * omega - evolution.growth(omega)) / state
     return by_rate, by_log_state
 
 
-class Coefficients(NamedTuple):
+class _LinearFriction(NamedTuple):
     """Friction linearised at each place, (N,); slip in D, time in D/V.
 
     ``df = by_rate dv + by_state dpsi`` and ``d(dpsi)/dt = evolution_by_rate dv +
@@ -120,34 +142,102 @@ class Coefficients(NamedTuple):
     evolution_by_state: Array
 
 
-def constant_coefficients(rate: Array, friction: float, a: float, zeta: float) -> Coefficients:
-    """Friction with constant a and b about steady sliding at each place."""
+def constant_coefficients(
+    rate: Array,
+    friction: float,
+    a: float,
+    zeta: float,
+) -> _LinearFriction:
+    """Friction with constant a and b about steady sliding at each place.
+
+    Parameters
+    ----------
+    rate : ndarray
+        Slip rates over V, (N,).
+    friction, a, zeta : float
+        Friction coefficient, direct effect and velocity weakening.
+
+    Returns
+    -------
+    _LinearFriction
+        Its coefficients, (N,).
+    """
     ones = np.ones_like(rate)
-    return Coefficients(friction * ones, a / rate, (a + zeta) * ones, -ones, -rate)
+    return _LinearFriction(
+        friction=friction * ones,
+        by_rate=a / rate,
+        by_state=(a + zeta) * ones,
+        evolution_by_rate=-ones,
+        evolution_by_state=-rate,
+    )
 
 
 def local_coefficients(
-    law: Friction, velocity: float, rate: Array, log_state: Array | None = None
-) -> Coefficients:
-    """A friction law linearised at slip rates over V (m/s) and states, log(phi), phi in s.
+    law: Friction,
+    velocity: float,
+    rate: Array,
+    log_state: Array | None = None,
+) -> _LinearFriction:
+    """A friction law linearised at each place.
 
-    The states are those of steady sliding by default.
+    Parameters
+    ----------
+    law : Friction
+        The friction law.
+    velocity : float
+        V (m/s).
+    rate : ndarray
+        Slip rates over V, (N,).
+    log_state : ndarray, optional
+        log(phi), phi in s, (N,); by default that of steady sliding.
+
+    Returns
+    -------
+    _LinearFriction
+        Its coefficients, (N,).
     """
-    v, distance = velocity * rate, law.characteristic_slip_distance
+    v = velocity * rate
     psi = np.log(law.steady_state(v)) if log_state is None else log_state
     f, f_v, f_psi = law.coefficient_and_slopes(v, psi)
     g_v, g_psi = log_state_derivatives(law, v, np.exp(psi))
+    distance = law.characteristic_slip_distance
     memory = distance / velocity
-    return Coefficients(f, velocity * f_v, f_psi, distance * g_v, memory * g_psi)
+    return _LinearFriction(
+        friction=f,
+        by_rate=velocity * f_v,
+        by_state=f_psi,
+        evolution_by_rate=distance * g_v,
+        evolution_by_state=memory * g_psi,
+    )
 
 
-def creeping_patch(creep: Creep, friction: Coefficients) -> FrozenPatch:
-    """The patch about its creep, at the angles of its modes: slip in D, time in D/V.
+def creeping_patch(
+    creep: Creep,
+    friction: _LinearFriction,
+) -> FrozenPatch:
+    """The patch linearised about its creep: slip in D, time in D/V.
 
-    ``dv = -[(K1 + f S2) dw / sigma + f_psi dpsi] / f_v``, with sigma and f those of each place.
+    ``dv = -[(K1 + f S2) dw / sigma + f_psi dpsi] / f_v``, with sigma and f at each place.
+
+    Parameters
+    ----------
+    creep : Creep
+        The creeping patch.
+    friction : _LinearFriction
+        Friction linearised at the same places.
+
+    Returns
+    -------
+    FrozenPatch
+        Its coefficients at the angles of the modes.
     """
-    held = creep.response
-    by_slip = held.coupled(friction.friction)[:, 1:] @ held.modes.inverse
-    by_slip = -by_slip / (creep.normal_stress * friction.by_rate)[:, None]
-    by_state = -friction.by_state / friction.by_rate
-    return FrozenPatch(np.arange(friction.by_rate.size), by_slip, by_state, *friction[3:])
+    response = creep.response
+    stiffness = response.coupled(friction.friction)[:, 1:] @ response.modes.inverse
+    by_force = creep.normal_stress * friction.by_rate
+    return FrozenPatch(
+        nodes=np.arange(friction.by_rate.size),
+        by_w=-stiffness / by_force[:, None],
+        by_log_state=-friction.by_state / friction.by_rate,
+        evolution_by_rate=friction.evolution_by_rate,
+        evolution_by_log_state=friction.evolution_by_state,
+    )

@@ -16,10 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
-DEGREE = 48
-"""Of the polynomials: eigenvalues to 1e-10 for zeta/a from 0.1 on."""
+from ...types import Array
+
+DEGREE = 48  # of the polynomials: eigenvalues to 1e-10 for zeta/a from 0.1 on
+LOWEST = 1e-3  # angular frequency over V/D at which the search begins
+PRECISION = 1e-12  # relative, of the frequency
 
 
 class ThinLimit(NamedTuple):
@@ -30,17 +32,23 @@ class ThinLimit(NamedTuple):
 
 
 @lru_cache(maxsize=4)
-def _second_derivative(degree: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _second_derivative(degree: int) -> tuple[Array, Array]:
     """Inner Chebyshev points y in (0, 1) and the matrix of ``d^2/dy^2`` with u = 0 at the ends."""
     points = np.cos(np.pi * np.arange(degree + 1) / degree)
     to_values = chebyshev.chebvander(points, degree)
     twice = chebyshev.chebder(np.eye(degree + 1), 2)
-    second = 4.0 * chebyshev.chebvander(points, degree - 2) @ twice @ np.linalg.inv(to_values)
-    return 0.5 * (points[1:-1] + 1.0), second[1:-1, 1:-1]
+    values_of_twice = chebyshev.chebvander(points, degree - 2)
+    second = 4.0 * values_of_twice @ twice @ np.linalg.inv(to_values)
+    inner = points[1:-1]
+    return 0.5 * (inner + 1.0), second[1:-1, 1:-1]
 
 
-def softest(ratio: float, frequency: float, degree: int = DEGREE) -> complex:
-    """``1/(zeta lambda)`` of the longest wave that an angular frequency over V/D has."""
+def _longest_wave(
+    ratio: float,
+    frequency: float,
+    degree: int,
+) -> complex:
+    """``1/(zeta lambda)`` of the longest wave at an angular frequency over V/D."""
     y, second = _second_derivative(degree)
     rate = 1j * frequency
     # 1/lambda u = (d^2/dy^2)^-1 [S (a S - zeta y)/(y (S + y))] u, with a = 1/ratio, zeta = 1
@@ -49,8 +57,23 @@ def softest(ratio: float, frequency: float, degree: int = DEGREE) -> complex:
     return complex(values[np.argmax(values.real)])
 
 
-def thin_limit(zeta_over_a: float, degree: int = DEGREE) -> ThinLimit:
+def thin_limit(
+    zeta_over_a: float,
+    degree: int = DEGREE,
+) -> ThinLimit:
     """Length and frequency of the thin limit; checked to 1e-6 from ``zeta/a = 0.2`` on.
+
+    Parameters
+    ----------
+    zeta_over_a : float
+        Velocity weakening over direct effect.
+    degree : int
+        Of the Chebyshev polynomials.
+
+    Returns
+    -------
+    ThinLimit
+        L_s over L_c, and the frequency of its mode over V/D.
 
     Raises
     ------
@@ -59,10 +82,14 @@ def thin_limit(zeta_over_a: float, degree: int = DEGREE) -> ThinLimit:
     """
     if not zeta_over_a > 0.0:
         raise ValueError(f"zeta/a = {zeta_over_a} is not allowed: without weakening nothing grows")
-    low, high = 1e-3, np.sqrt(zeta_over_a)  # homogeneous sliding oscillates with the latter
-    while high - low > 1e-12 * high:
+    low = LOWEST
+    high = np.sqrt(zeta_over_a)  # the frequency of homogeneous sliding
+    while high - low > PRECISION * high:
         middle = 0.5 * (low + high)
-        below = softest(zeta_over_a, middle, degree).imag > 0.0
-        low, high = (middle, high) if below else (low, middle)
-    found = softest(zeta_over_a, high, degree)
-    return ThinLimit(float(1.0 / (2.0 * np.pi * np.sqrt(found.real))), high)
+        if _longest_wave(zeta_over_a, middle, degree).imag > 0.0:
+            low = middle
+        else:
+            high = middle
+    found = _longest_wave(zeta_over_a, high, degree)
+    ratio = 1.0 / (2.0 * np.pi * np.sqrt(found.real))
+    return ThinLimit(float(ratio), high)

@@ -18,7 +18,7 @@ def slope(omega: ArrayLike) -> Array:
 
 def implicit_log_state(
     history: Array,
-    step: float,
+    step: Array | float,
     rate: Array,
 ) -> tuple[Array, Array]:
     """Closed form of ``psi = history + step (exp(-psi) - rate)`` by Wright's omega function.

@@ -7,9 +7,9 @@ import re
 import numpy as np
 import pytest
 
-from nucleation.analysis import progress
-from nucleation.analysis.progress import Progress
 from nucleation.model.parameters import Geometry, Mesh, Parameters, Stepping
+from nucleation.simulation import progress
+from nucleation.simulation.progress import Progress
 from nucleation.simulation.run import simulate
 
 COARSE = Parameters(

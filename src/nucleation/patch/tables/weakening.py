@@ -10,12 +10,12 @@ from typing import Any
 
 import xarray as xr
 
-from ..analysis.lengths import COLUMNS as LENGTHS
-from ..analysis.rows import RATIO_COLUMNS, Row, rows_of
-from ..datasets.variables import Variable, some, table
-from ..model.identity import fault
-from ..model.parameters import Parameters
-from .expected_drop import NoDrop, expected_drop
+from ...analysis.lengths import COLUMNS as LENGTHS
+from ...analysis.rows import RATIO_COLUMNS, Row, rows_of
+from ...datasets.variables import Variable, some, table
+from ...model.identity import fault
+from ...model.parameters import Parameters
+from ..expected_drop import NoDrop, expected_drop
 
 MEASURED = some(
     LENGTHS,
@@ -70,8 +70,11 @@ def expected(parameters: Parameters) -> Row:
     }
 
 
-def gather(drops: Iterable[xr.Dataset], runs: Iterable[dict[str, Any]]) -> xr.Dataset:
-    """:data:`COLUMNS` on ``run``.
+def gather_weakening(
+    drops: Iterable[xr.Dataset],
+    runs: Iterable[dict[str, Any]],
+) -> xr.Dataset:
+    """The simulated drops of all runs beside the theory of their faults.
 
     Parameters
     ----------
@@ -79,6 +82,11 @@ def gather(drops: Iterable[xr.Dataset], runs: Iterable[dict[str, Any]]) -> xr.Da
         Tables of lengths of the studies.
     runs : iterable of dict
         One run of each fault, from :meth:`nucleation.configuration.runs.Run.to_dict`.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``.
     """
     by_fault = {}
     for run in runs:
@@ -89,10 +97,11 @@ def gather(drops: Iterable[xr.Dataset], runs: Iterable[dict[str, Any]]) -> xr.Da
     def of_fault(key: str) -> Row:
         return expected(by_fault[key])
 
+    names = (*MEASURED, "zeta_over_a", "fault")
     rows = []
     for lengths in drops:
         ratio = lengths["velocity_weakening"] / lengths["direct_effect"]
         complete = lengths.assign(zeta_over_a=ratio)
-        for row in rows_of(complete, names=(*MEASURED, "zeta_over_a", "fault")):
+        for row in rows_of(complete, names=names):
             rows.append(row | of_fault(row["fault"]))
     return table(rows, COLUMNS)

@@ -1,0 +1,1 @@
+"""Tables of many runs that have L_s or the law of the drop beside the simulated lengths."""

@@ -1,0 +1,184 @@
+"""Simulated drops beside the law's, one row for each run.
+
+The law uses the theory's patches (:mod:`nucleation.patch.mode_history`). The drop of a quiet run
+depends on mesh, steps and round-off. Its row has the strength at which a fluctuating load, or
+state, would give the law's median at that length: the noise of that mesh with those steps, in the
+units of a declared perturbation.
+"""
+
+import contextlib
+import dataclasses
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...analysis.lengths import COLUMNS as LENGTHS
+from ...analysis.rows import Row, rows_of
+from ...datasets.variables import Variable, some, table
+from ...model.identity import fault
+from ...model.parameters import Parameters
+from ...model.perturbation import Perturbation
+from ...theory.creep.patches import NoPatch
+from ..delay import Growth, growth
+from ..growth import FITTED
+from ..mode_history import ModeHistory, mode_history
+
+MEASURED = some(
+    LENGTHS,
+    "study",
+    "role",
+    "id",
+    "evolution",
+    "height",
+    "kind",
+    "strength",
+    "seed",
+    "correlation_length",
+    "n_x",
+    "n_y",
+    "block_length",
+    "longest_step",
+    "onset_time",
+    "length",
+    "theory_length",
+)
+
+PREDICTED = {
+    "stability_length": FITTED["stability_length"],
+    "predicted_length": Variable("m", "length at the drop by the law, median", "L_d"),
+    "predicted_low": Variable("m", "length by which 16 % have dropped by the law", "L_d"),
+    "predicted_high": Variable("m", "length by which 84 % have dropped by the law", "L_d"),
+    "closed_form_length": Variable("m", "length at the drop by the law in one line", "L_d"),
+    "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
+    "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
+    "floor_state": Variable("1", "strength of the state at which the law drops there"),
+}
+
+COLUMNS = {**MEASURED, **PREDICTED, "fault": LENGTHS["fault"]}
+
+NOISE_FLOORS = some(
+    COLUMNS,
+    "study",
+    "role",
+    "id",
+    "evolution",
+    "height",
+    "n_x",
+    "n_y",
+    "longest_step",
+    "onset_time",
+    "length",
+    "theory_length",
+    "stability_length",
+    "floor_normal_load",
+    "floor_state",
+    "fault",
+)
+"""Columns that a quiet run has."""
+
+QUIET_KINDS = ("normal_load", "state")
+"""Kinds of perturbation in which the noise of a quiet run is expressed."""
+
+WEAK = 1e-5  # strength at which the one line gives L_s of a quiet run, which has no strength
+
+
+class _Law:
+    """The law of the drop for one fault, from the mode along its creep."""
+
+    def __init__(self, history: ModeHistory) -> None:
+        self.history = history
+        self._known: dict[tuple[str, float], Growth] = {}
+
+    def growth(
+        self,
+        kind: str,
+        correlation_length: float = 0.0,
+    ) -> Growth:
+        """The mode's growth under one kind of perturbation; 0 is the usual correlation length."""
+        key = kind, correlation_length
+        if key not in self._known:
+            declared = Perturbation(kind=kind)
+            if correlation_length:
+                declared = dataclasses.replace(declared, correlation_length=correlation_length)
+            self._known[key] = growth(self.history, declared)
+        return self._known[key]
+
+    def row(self, run: Row) -> Row:
+        """The columns :data:`PREDICTED` of one run; NaN where they do not apply."""
+        none = dict.fromkeys(PREDICTED, float("nan"))
+        if run["kind"] == "none":
+            return none | self._row_of_quiet_run(run["length"])
+        law = self.growth(run["kind"], run["correlation_length"])
+        drop = law.drop(run["strength"])
+        closed = law.closed_form(self.history, run["strength"])
+        return none | {
+            "stability_length": closed.front_length,
+            "predicted_length": drop.length,
+            "predicted_low": drop.low,
+            "predicted_high": drop.high,
+            "closed_form_length": closed.length,
+            "effective_strength": closed.effective,
+        }
+
+    def _row_of_quiet_run(self, length: float) -> Row:
+        closed = self.growth("normal_load").closed_form(self.history, WEAK)
+        floors = {f"floor_{kind}": self.growth(kind).strength_at(length) for kind in QUIET_KINDS}
+        return {"stability_length": closed.front_length, **floors}
+
+
+def gather_drops(
+    drops: Iterable[xr.Dataset],
+    runs: Iterable[dict[str, Any]],
+    quiet: Iterable[xr.Dataset] = (),
+) -> xr.Dataset:
+    """The drops of all runs beside the law, for the faults of some runs.
+
+    Parameters
+    ----------
+    drops, quiet : iterable of Dataset
+        Tables with :data:`MEASURED` and ``fault``.
+    runs : iterable of dict
+        One run of each fault, from :meth:`nucleation.configuration.runs.Run.to_dict`. A fault is
+        left out if the theory cannot follow its patches.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``.
+    """
+    laws = {}
+    for run in runs:
+        parameters = Parameters.from_dict(run["parameters"])
+        with contextlib.suppress(NoPatch):
+            laws[fault(parameters)] = _Law(mode_history(parameters, run["theory_length"]))
+    rows = []
+    for measured in (*drops, *quiet):
+        for row in rows_of(measured, names=(*MEASURED, "fault")):
+            if row["fault"] in laws:
+                rows.append(row | laws[row["fault"]].row(row))
+    return table(rows, COLUMNS)
+
+
+def noise_floors(
+    quiet: Iterable[xr.Dataset],
+    runs: Iterable[dict[str, Any]],
+) -> xr.Dataset:
+    """The noise of the meshes of quiet runs with their steps.
+
+    Parameters
+    ----------
+    quiet : iterable of Dataset
+        Tables with :data:`MEASURED` and ``fault``.
+    runs : iterable of dict
+        One run of each fault, from :meth:`nucleation.configuration.runs.Run.to_dict`.
+
+    Returns
+    -------
+    Dataset
+        :data:`NOISE_FLOORS` on ``run``.
+    """
+    found = gather_drops(quiet, runs)
+    unperturbed = np.flatnonzero(found["kind"].values == "none")
+    return found[list(NOISE_FLOORS)].isel(run=unperturbed)

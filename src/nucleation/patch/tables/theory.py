@@ -1,0 +1,201 @@
+"""L_s by the theory of the creeping patch beside L_s of simulations: a row for each fault."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...analysis.lengths import COLUMNS as LENGTHS
+from ...analysis.lengths import description
+from ...datasets.shared import SHARED
+from ...datasets.variables import Variable, annotate, some, table, to_csv
+from ...model.identity import fault
+from ...model.linearised import linearised
+from ...model.parameters import Parameters
+from ...theory.closed_forms import bimaterial_contrast
+from ...theory.creep.front import advance, first_growing, oscillating
+from ...theory.creep.lengths import stability_point
+from ...theory.creep.patches import NoPatch, Patches
+from ...theory.creep.thin import thin_limit
+from ..growth import FITTED
+
+COLUMNS = {
+    **some(
+        LENGTHS,
+        "id",
+        "study",
+        "role",
+        "evolution",
+        "friction_law",
+        "height",
+    ),
+    **some(SHARED, "zeta_over_a", "f_beta"),
+    "theory_length": LENGTHS["theory_length"],
+    "stability_length": FITTED["stability_length"],
+    "creep_length": LENGTHS["creep_length"],
+    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
+    "front_frequency": Variable("1/s", "angular frequency there, by theory", "omega"),
+    "front_time": Variable("s", "time at which the patch has that length, by theory", "t"),
+    "fault": LENGTHS["fault"],
+}
+"""``stability_length`` is that of the simulations, a mean over runs with other noise or mesh."""
+
+DRAWN = {
+    "curve_ratio": Variable("1", "weakening over direct effect", "zeta/a"),
+    "curve_length": Variable("1", "L_s over L_c of a thin layer", "L_s/L_c"),
+    "shown_beta": Variable("1", "friction times bimaterial contrast", "f beta"),
+    "shown_x": Variable("1", "distance from the edge over L_s", "x/L_s"),
+    "shown_rate": Variable("1", "slip rate of the creep over V", "v/V"),
+    "shown_stress": Variable("1", "compression over the applied one", "sigma/sigma0"),
+}
+"""The thin limit's curve, and the creep of some faults at their L_s."""
+
+CURVE = np.geomspace(0.2, 30.0, 40)  # zeta/a of the thin limit's curve
+PROFILES = 4  # number of faults with their creep: evenly over the contrasts
+
+_PREDICTED = ("creep_length", "front_length", "front_frequency", "front_time")
+
+
+def gather_theory(
+    runs: Iterable[dict[str, Any]],
+    tables: Iterable[xr.Dataset],
+) -> xr.Dataset:
+    """The table, the thin limit's curve and the creep of some faults.
+
+    Parameters
+    ----------
+    runs : iterable of dict
+        From :meth:`nucleation.configuration.runs.Run.to_dict`.
+    tables : iterable of Dataset
+        On ``run``, with ``id`` and ``stability_length`` (m); runs without it are left out.
+
+    Returns
+    -------
+    Dataset
+        :data:`COLUMNS` on ``run``, :data:`DRAWN` on ``curve``, ``case`` and ``place``.
+    """
+    known = _stability_lengths(tables)
+    faults: dict[tuple[str, str], list[dict[str, Any]]] = {}
+    for run in runs:
+        if run["id"] in known:
+            key = run["study"], fault(Parameters.from_dict(run["parameters"]))
+            faults.setdefault(key, []).append(run)
+    rows = []
+    for same in faults.values():
+        mean = float(np.mean([known[run["id"]] for run in same]))
+        rows.append(_row(same[0], mean))
+    firsts = [same[0] for same in faults.values()]
+    by_name = {run["id"]: run for run in firsts}
+    length_ratios = [thin_limit(ratio).length_ratio for ratio in CURVE]
+    drawn = xr.Dataset(
+        {
+            "curve_ratio": ("curve", CURVE),
+            "curve_length": ("curve", length_ratios),
+            **_profiles(rows, by_name),
+        }
+    )
+    return annotate(table(rows, COLUMNS).merge(drawn), DRAWN)
+
+
+def theory_files(
+    runs: Iterable[dict[str, Any]],
+    tables: Iterable[xr.Dataset],
+) -> dict[str, Any]:
+    """The dataset of :func:`gather_theory`, and its rows as CSV.
+
+    Parameters
+    ----------
+    runs, tables : iterable
+        As for :func:`gather_theory`.
+
+    Returns
+    -------
+    dict
+        By the ending of the file's name.
+    """
+    found = gather_theory(runs, tables)
+    return {".nc": found, ".csv": to_csv(found[list(COLUMNS)])}
+
+
+def _stability_lengths(tables: Iterable[xr.Dataset]) -> dict[str, float]:
+    """Simulated L_s (m) of each run that has it, by its name."""
+    found = {}
+    for measured in tables:
+        names = measured["id"].values
+        lengths = measured["stability_length"].values
+        for name, length in zip(names, lengths, strict=True):
+            if np.isfinite(length):
+                found[str(name)] = float(length)
+    return found
+
+
+def _row(
+    run: dict[str, Any],
+    measured: float,
+) -> dict[str, Any]:
+    """The columns of one fault, from its first run and its mean simulated L_s (m)."""
+    parameters = Parameters.from_dict(run["parameters"])
+    interface = linearised(parameters.friction, parameters.loading)
+    below = parameters.below
+    f_beta = 0.0
+    if below is not None:
+        f_beta = interface.friction * bimaterial_contrast(parameters.material, below.material)
+    row = description(run) | dict.fromkeys(_PREDICTED, math.nan)
+    row |= {
+        "zeta_over_a": interface.zeta / interface.a,
+        "f_beta": f_beta,
+        "stability_length": measured,
+    }
+    patches = Patches.of(parameters)
+    critical = run["theory_length"]
+    loading = parameters.loading
+    start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
+    try:
+        row["creep_length"] = stability_point(replace(patches, law=None), critical).length
+        row["front_length"] = first_growing(patches, critical, *start)
+        made = advance(patches, [row["front_length"]], *start)
+        row["front_frequency"] = float(oscillating(made)[0].imag) / parameters.memory_time
+        row["front_time"] = float(made.time[0])
+    except NoPatch:
+        pass
+    return row
+
+
+def _profiles(
+    rows: list[dict[str, Any]],
+    runs: dict[str, dict[str, Any]],
+) -> dict[str, Any]:
+    """The creep of some faults at their L_s, over the range of contrasts."""
+    known = [row for row in rows if row["front_length"] > 0.0]
+    if not known:
+        return {}
+    shown = _evenly_over_contrast(known)
+    contrasts, places, rates, stresses = [], [], [], []
+    for row in shown:
+        parameters = Parameters.from_dict(runs[row["id"]]["parameters"])
+        patches = Patches.of(parameters)
+        made = advance(patches, [row["front_length"]], parameters.loading.initial_state)
+        (creep,) = made.creeps
+        contrasts.append(row["f_beta"])
+        places.append(np.cos(creep.response.modes.theta))
+        rates.append(creep.slip_rate)
+        stresses.append(creep.normal_stress)
+    at = "case", "place"
+    return {
+        "shown_beta": ("case", contrasts),
+        "shown_x": (at, np.array(places)),
+        "shown_rate": (at, np.array(rates)),
+        "shown_stress": (at, np.array(stresses)),
+    }
+
+
+def _evenly_over_contrast(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Up to :data:`PROFILES` rows with different contrasts, in their order."""
+    ordered = sorted(rows, key=lambda row: row["f_beta"])
+    different = list({round(row["f_beta"], 6): row for row in ordered}.values())
+    places = np.linspace(0, len(different) - 1, PROFILES).round().astype(int)
+    shown = {different[i]["id"]: different[i] for i in places}
+    return list(shown.values())

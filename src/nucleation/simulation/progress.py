@@ -1,0 +1,194 @@
+"""Progress of a simulation on a terminal or in a log, and how the user interrupts it."""
+
+import contextlib
+import math
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, TextIO
+
+import numpy as np
+import xarray as xr
+from tqdm import tqdm
+
+from ..fem.grid import Grid
+from ..model.linearised import linearised
+from ..model.parameters import Parameters
+from ..theory.critical import NoInstability, run_length
+from . import run
+from .control import Instant, SimulationFailure
+from .event import SLIPPING, Outcome
+from .patch import Extent
+
+PAUSE = 10.0  # s of wall time between the lines of a log
+PAUSE_ON_TERMINAL = 0.2
+NEARLY = 0.99  # largest part done by the patch: the event is then at hand, or under way
+
+
+class Progress:
+    """Shows how far a run has come; it is called with every accepted step.
+
+    The part done is the simulated time over the end time, or the length of the patch over that of
+    the linear theory if that is more. It never falls. The event comes somewhat before the theory's
+    length and takes many short steps, so the remaining wall time cannot be predicted. The steps per
+    second are shown instead.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Parameters of the run.
+    stream : file
+        A terminal shows a bar, any other file gets lines.
+    terminal : bool
+        Whether the stream shows a bar although it is no terminal, as in a notebook.
+    name : str
+        Name of the run, with which each line of a log begins.
+    """
+
+    def __init__(
+        self,
+        parameters: Parameters,
+        stream: TextIO,
+        terminal: bool = False,
+        name: str = "",
+    ) -> None:
+        loading = parameters.loading
+        x = Grid.of(parameters.geometry, parameters.mesh).x
+        self._patch = Extent(x, SLIPPING * loading.velocity, loading.kind)
+        self._end = parameters.stepping.end_time
+        self._expected_length = math.inf  # if sliding is stable by the theory
+        with contextlib.suppress(NoInstability):
+            interface = linearised(parameters.friction, loading)
+            self._expected_length = run_length(parameters, interface)
+        self._stream = stream
+        self._start_of_line = f"{name}: " if name else ""
+        self._bar = None
+        self._pause = PAUSE
+        if terminal or stream.isatty():
+            style = "{l_bar}{bar}|{postfix}"
+            self._bar = tqdm(total=100, file=stream, bar_format=style, leave=False)
+            self._pause = PAUSE_ON_TERMINAL
+        self._began = time.monotonic()
+        self._first_step: int | None = None  # a resumed run does not begin at step 0
+        self._part = 0.0
+        self._next = 0.0
+
+    def __call__(self, instant: Instant) -> None:
+        """Show an accepted step, unless another one was shown a moment ago."""
+        now = time.monotonic()
+        if now < self._next:
+            return
+        self._next = now + self._pause
+        state, control = instant.state, instant.control
+        rate = instant.report.interface.slip_rate
+        length = self._patch.reach(rate)
+        done = int(100.0 * self.part_done(state.time, length))
+        speed = self._speed(control.steps, now)
+        text = (
+            f"t = {state.time:.5g} s, dt = {state.last_step:.3g} s, "
+            f"max v = {float(np.abs(rate).max()):.3g} m/s, patch {length:.3g} m"
+        )
+        if self._bar is not None:
+            self._bar.n = done
+            self._bar.set_postfix_str(f"{text}, {speed}")
+            return
+        line = (
+            f"{self._start_of_line}step {control.steps}: {text}, "
+            f"rejected {control.rejected}, {done} % of the way, {speed}"
+        )
+        print(line, file=self._stream, flush=True)
+
+    def part_done(
+        self,
+        simulated: float,
+        length: float,
+    ) -> float:
+        """Part of the run that is done; it never falls.
+
+        It is 1 at the end time only: before that nobody knows whether the event is over.
+
+        Parameters
+        ----------
+        simulated : float
+            Simulated time (s).
+        length : float
+            Length of the patch (m).
+
+        Returns
+        -------
+        float
+            Between 0 and 1.
+        """
+        by_length = min(length / self._expected_length, NEARLY)
+        by_time = simulated / self._end
+        self._part = min(max(self._part, by_time, by_length), 1.0)
+        return self._part
+
+    def close(self) -> None:
+        """Remove the bar."""
+        if self._bar is not None:
+            self._bar.close()
+
+    def _speed(
+        self,
+        steps: int,
+        now: float,
+    ) -> str:
+        """Steps per second of wall time since this process began or resumed the run, as text."""
+        if self._first_step is None:
+            self._first_step = steps
+            self._began = now
+        passed = now - self._began
+        if passed <= 0.0:
+            return "begun"
+        return f"{(steps - self._first_step) / passed:.3g} steps/s"
+
+
+def simulate(
+    parameters: Parameters,
+    *,
+    progress: bool | Callable[[Instant], object] = False,
+    **more: Any,
+) -> xr.Dataset:
+    """Run one simulation until it ends or the user interrupts it, and return its record.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        Everything the result depends on.
+    progress : bool or callable
+        True shows a bar on a terminal or in a notebook; a callable is called with every step.
+    **more
+        `start` and `keep` of :func:`nucleation.simulation.run.simulate`.
+
+    Returns
+    -------
+    Dataset
+        Record of :func:`nucleation.simulation.run.simulate`. If the user interrupts the run (Ctrl-C
+        or the notebook's stop button), the record ends there and its attribute ``completed`` is 0.
+    """
+    bar = None
+    watch = progress if callable(progress) else None
+    if progress is True:
+        bar = watch = Progress(parameters, sys.stderr, terminal="ipykernel" in sys.modules)
+    interrupts: list[int] = []
+
+    def after_step(instant: Instant) -> None:
+        if watch is not None:
+            watch(instant)
+        if interrupts:
+            raise SimulationFailure(Outcome.INTERRUPTED, instant.state, "by the user")
+
+    # only the main thread may handle signals
+    main = threading.current_thread() is threading.main_thread()
+    if main:
+        before = signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+    try:
+        return run.simulate(parameters, progress=after_step, **more)
+    finally:
+        if main:
+            signal.signal(signal.SIGINT, before)
+        if bar is not None:
+            bar.close()

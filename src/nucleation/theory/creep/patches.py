@@ -1,0 +1,182 @@
+"""The creeping patches of one fault, of any length, and the reasons why there is none."""
+
+from __future__ import annotations
+
+import dataclasses
+from functools import cached_property
+
+import numpy as np
+
+from ...model.friction.law import Friction
+from ...model.linearised import interface_state
+from ...model.parameters import Parameters
+from ..critical import systems_of
+from ..estimates import loading_rate
+from ..spectrum import Systems
+from ..status import UNKNOWN
+from ..transfer import bodies_of
+from .linearised import FrozenPatch, constant_coefficients, creeping_patch, local_coefficients
+from .response import modes_for, response
+from .steady import Creep, creep
+
+
+class NoPatch(ValueError):
+    """No patch of the lengths tried turns unstable, or none keeps contact.
+
+    Parameters
+    ----------
+    reason : str
+        Why, in words.
+    status : {"stable", "beyond", "unknown"}
+        The kind of reason, of :mod:`nucleation.theory.status`.
+    """
+
+    def __init__(self, reason: str, status: str = UNKNOWN) -> None:
+        super().__init__(reason)
+        self.status = status
+
+
+@dataclasses.dataclass(frozen=True)
+class Patches:
+    """The creeping patches of one fault, of any length.
+
+    A patch begins at an ``edge`` that is pushed, at a free side under a moved ``top``, or in the
+    interior under a ``remote`` load. Without an edge `load_rate` is the rate of the shear stress
+    that loads it, over ``sigma0 V/D``; with constant a and b it has no effect.
+    """
+
+    one: Systems  # a single fault, all fields of shape (1,)
+    law: Friction | None = None  # which gives the local a(v) and b(v); by default constant
+    velocity: float = 1.0  # V (m/s), which a law needs
+    loading: str = "edge"
+    load_rate: float = 1.0
+
+    @classmethod
+    def of(cls, parameters: Parameters) -> Patches:
+        """The patches of a run, with its own friction law.
+
+        Without an edge that is pushed a patch begins where the declared heterogeneity is. It begins
+        at a free side if that is nearer than the block's height. Else it begins in the interior,
+        since friction has no shear stress to support at the side itself.
+        """
+        one = systems_of([(*bodies_of(parameters), interface_state(parameters))])
+        loading, block = parameters.loading, parameters.geometry
+        pushed = cls(one, parameters.friction, loading.velocity)
+        if loading.kind == "edge":
+            return pushed
+        from_side = 0.5 * block.length
+        centre = parameters.heterogeneity.centre
+        if centre is not None:
+            from_side = min(centre, block.length - centre)
+        at_side = loading.kind == "top" and from_side < block.height
+        rate = loading_rate(parameters) * parameters.memory_time / loading.normal_stress
+        begins = "top" if at_side else "remote"
+        return dataclasses.replace(pushed, loading=begins, load_rate=rate)
+
+    @cached_property
+    def number(self) -> int:
+        """Number of modes that the fault needs."""
+        return modes_for(self.one)
+
+    @property
+    def constants(self) -> tuple[float, float, float]:
+        """f, a and zeta of the fault at V."""
+        one = self.one
+        return float(one.friction[0]), float(one.a[0]), float(one.zeta[0])
+
+    def creep(
+        self,
+        length: float,
+        number: int | None = None,
+    ) -> Creep:
+        """The creep of a patch.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        number : int, optional
+            Number of modes; by default as many as the fault needs.
+
+        Returns
+        -------
+        Creep
+            Slip rate and normal stress along the patch.
+
+        Raises
+        ------
+        NoPatch
+            If the creep removes all of the compression somewhere.
+        """
+        bodies = response(self.one, length, number or self.number, self.loading)
+        load_rate = None if self.loading == "edge" else self.load_rate
+        found = creep(bodies, self.constants[0], load_rate)
+        require_contact(found)
+        return found
+
+    def at(
+        self,
+        length: float,
+        number: int | None = None,
+    ) -> FrozenPatch:
+        """The linearised patch; slip in D, time in D/V.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        number : int, optional
+            Number of modes; by default as many as the fault needs.
+
+        Returns
+        -------
+        FrozenPatch
+            Its coefficients at the angles of the modes.
+
+        Raises
+        ------
+        NoPatch
+            If the creep removes all of the compression somewhere.
+        """
+        creep = self.creep(length, number)
+        if self.law is None:
+            friction = constant_coefficients(creep.slip_rate, *self.constants)
+        else:
+            friction = local_coefficients(self.law, self.velocity * creep.fastest, creep.slip_rate)
+        return creeping_patch(creep, friction)
+
+    def growth(self, length: float) -> float:
+        """Re Lambda over V/D of the fastest growing mode, oscillating or not."""
+        return float(self.at(length).eigenvalues[0].real)
+
+    def rate_near(
+        self,
+        length: float,
+        rate: complex,
+        number: int | None = None,
+    ) -> complex:
+        """The eigenvalue that is nearest to a given one.
+
+        Parameters
+        ----------
+        length : float
+            Patch length (m).
+        rate : complex
+            Lambda over V/D, the given one.
+        number : int, optional
+            Number of modes; by default as many as the fault needs.
+
+        Returns
+        -------
+        complex
+            Lambda over V/D.
+        """
+        rates = self.at(length, number).eigenvalues
+        return complex(rates[np.abs(rates - rate).argmin()])
+
+
+def require_contact(creep: Creep) -> None:
+    """Raise NoPatch if the creep removes all of the compression somewhere."""
+    if creep.normal_stress.min() <= 0.0:
+        length = creep.response.length
+        raise NoPatch(f"the creep opens the fault at a patch length of {length:.4g} m")

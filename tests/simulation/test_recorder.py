@@ -1,0 +1,62 @@
+"""When a recorder takes frames and snapshots, on made-up states."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from nucleation.model.parameters import Geometry, Mesh, Parameters
+from nucleation.simulation.recording import Recorder
+from nucleation.simulation.run import composed
+from nucleation.simulation.start import at_rest
+
+PARAMETERS = Parameters(geometry=Geometry(height=0.02, length=0.4), mesh=Mesh(n_x=16, n_y=4))
+V = PARAMETERS.loading.velocity
+MEMORY = PARAMETERS.memory_time
+
+
+@pytest.fixture(scope="module")
+def start():
+    dynamics = composed(PARAMETERS)
+    return dynamics, *at_rest(dynamics, PARAMETERS.loading)
+
+
+def recorded(start, times, rates):
+    """The record of some instants (s), with one slip rate (m/s) at all nodes."""
+    dynamics, state, report = start
+    recorder = Recorder(PARAMETERS, dynamics)
+    for time, rate in zip(times, rates, strict=True):
+        slip_rate = np.full_like(report.interface.slip_rate, rate)
+        interface = dataclasses.replace(report.interface, slip_rate=slip_rate)
+        recorder.record(
+            dataclasses.replace(state, past_times=np.array([time])),
+            dataclasses.replace(report, interface=interface),
+        )
+    return recorder.dataset()
+
+
+def test_a_frame_every_forty_steps(start):
+    times = 1e-6 * MEMORY * np.arange(100)
+    record = recorded(start, times, np.full(100, V))
+    np.testing.assert_array_equal(record["time"], times[[0, 40, 80]])
+
+
+def test_a_frame_every_four_tenths_of_the_memory_time(start):
+    times = 0.05 * MEMORY * np.arange(25) * (1 + 1e-9)
+    record = recorded(start, times, np.full(25, V))
+    np.testing.assert_array_equal(record["time"], times[[0, 8, 16, 24]])
+
+
+def test_a_frame_when_a_slip_rate_has_changed_by_half_its_logarithm(start):
+    """For fast slip asinh(v / V) grows as log(v)."""
+    rates = 1e4 * V * np.exp(0.1001 * np.arange(21))
+    times = 1e-6 * MEMORY * np.arange(21)
+    record = recorded(start, times, rates)
+    np.testing.assert_array_equal(record["time"], times[[0, 5, 10, 15, 20]])
+
+
+def test_a_snapshot_when_slip_first_exceeds_three_times_a_power_of_ten(start):
+    factors = np.array([1.0, 2.9, 3.1, 29.0, 31.0, 2.0, 31.0, 310.0, 2.9e3, 3.1e3, 1e6])
+    times = 1e-6 * MEMORY * np.arange(factors.size)
+    record = recorded(start, times, factors * V)
+    np.testing.assert_array_equal(record["snapshot_time"], times[[0, 2, 4, 7, 9]])
