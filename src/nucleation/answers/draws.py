@@ -108,7 +108,7 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     value = parse(key, median.strip(), entry)
     number = NUMBER.fullmatch(median)
     unit = number[3] if number else ""
-    low, high = (parse(key, _with_unit(end, unit), entry) for end in ends)
+    low, high = (parse(key, with_default_unit(end, unit), entry) for end in ends)
     in_order = low <= value <= high and low < high
     if not in_order or not np.isfinite([low, high]).all():
         raise ParameterError(
@@ -118,8 +118,20 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     return Range(value, low, high)
 
 
-def _with_unit(text: str, unit: str) -> str:
-    """A number with a unit; its own unit has precedence."""
+def with_default_unit(text: str, unit: str) -> str:
+    """A number with a unit.
+
+    Parameters
+    ----------
+    text : str
+        The number, with its own unit or without one.
+    unit : str
+        The unit of a number without one.
+
+    Returns
+    -------
+    str
+    """
     number = NUMBER.fullmatch(text)
     lacks_unit = number is not None and not number[3]
     return f"{text} {unit}" if lacks_unit else text

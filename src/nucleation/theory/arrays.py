@@ -7,6 +7,7 @@ import numpy as np
 
 from ..model.parameters import names
 from ..model.quantities import ParameterError, Quantity
+from ..model.synonyms import hint
 from ..model.units import magnitude
 from ..types import Array, ComplexArray
 from .critical import stability_reason
@@ -229,9 +230,16 @@ def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
 
 def fault_of(parameters: dict[str, Any]) -> Fault:
     """The fault with the given keywords; some of them may be :func:`aliases`."""
+    known = without_aliases(parameters)
+    for name in known:
+        if name not in QUANTITIES:
+            suggestion = hint(name, QUANTITIES) or f"known: {', '.join(QUANTITIES)}"
+            raise ParameterError(
+                f"the fault got an unexpected keyword argument {name!r}; {suggestion}"
+            )
     try:
-        return Fault(**without_aliases(parameters))
-    except TypeError as error:  # a keyword that is missing or unknown
+        return Fault(**known)
+    except TypeError as error:  # a keyword that is missing
         raise ParameterError(str(error).replace("Fault.__init__()", "the fault")) from None
 
 
