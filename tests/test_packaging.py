@@ -254,7 +254,7 @@ def test_pages_are_cited_by_an_address_that_is_there(light, tmp_path):
     said = outside(light, tmp_path, "-m", "nucleation", "drop", "--paper", "--height", "2cm")
     said += outside(light, tmp_path, *LENGTH)
     pages = re.findall(r"[^\s(]*doc[^\s(]*\.md", said)
-    assert {Path(page).name for page in pages} == {"drop.md", "patch_theory.md"}
+    assert {Path(page).name for page in pages} == {"drop.md", "creeping_patch.md"}
     assert all(Path(page).is_absolute() and Path(page).is_file() for page in pages)
 
 

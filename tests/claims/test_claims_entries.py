@@ -155,7 +155,7 @@ def test_agreement_says_how_many_heights_are_within_a_quarter(rows):
 
 
 def test_the_whole_wavelength_is_right_for_weaker_weakening(rows):
-    """By finite differences of the thin layer's equation (T) of docs/patch_theory.md."""
+    """By finite differences of the thin layer's equation (T) of docs/creeping_patch.md."""
     reason = rows["stability-lost-at-length"]["reason"]
     stated = re.search(r"gives ([\d., ]+) for \$\\zeta/a\$ = ([\d., ]+)\. So", reason)
     lengths, weakenings = ([float(x) for x in part.split(", ")] for part in stated.groups())

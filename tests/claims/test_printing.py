@@ -30,7 +30,7 @@ Short: $L_c$ falls.
 |---|---|
 | 0.1 | $10^{-5}$ |
 
-See [two bodies](two_bodies.md) and [a page](https://example.org), `zeta/a`.
+See [two bodies](loadings.md#two-deformable-bodies) and [a page](https://example.org), `zeta/a`.
 
 ## References
 

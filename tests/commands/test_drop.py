@@ -62,7 +62,7 @@ def test_text(nucleation, law):
     critical = run_length(law.parameters, interface_state(law.parameters))
     assert 0.4 < critical < 0.5 and f"L_c    {critical:.4g} m" in ended.out
     assert f"L_s    0.25 m      {0.25 / critical:.3g} L_c" in ended.out
-    assert f"L_d    0.32 m      {0.32 / critical:.3g} L_c" in ended.out
+    assert f"L      0.32 m      {0.32 / critical:.3g} L_c" in ended.out
     assert "0.31 m" in ended.out and "0.33 m" in ended.out and "13.5 to 14.5 s" in ended.out
     assert "normal_load, relative strength 0.0001, correlated over 1 D/V" in ended.out
     assert "docs/drop.md" in ended.out and "DO NOT" not in ended.out

@@ -1,4 +1,4 @@
-"""The table of eight faults in the theory's page, computed again from its own columns."""
+"""The tables of eight faults in docs/drop.md: the lengths, computed again from the constants."""
 
 import math
 import re
@@ -20,13 +20,23 @@ from nucleation.api import (
 )
 from nucleation.model.friction.constants import full_law
 
-PAGE = Path(__file__).parents[2] / "docs" / "theory.md"
+PAGE = Path(__file__).parents[2] / "docs" / "drop.md"
+CONSTANTS, LENGTHS = 12, 5  # columns of both tables
+
+
+def table(columns):
+    """The cells of the table with so many columns, by the fault's name."""
+    part = PAGE.read_text(encoding="utf-8").partition("## Eight faults")[2].partition("## ")[0]
+    lines = [line.strip("|").split("|") for line in part.splitlines() if line.startswith("| ")]
+    _, *faults = [cells for cells in lines if len(cells) == columns]
+    return {name.strip(): [cell.strip() for cell in cells] for name, *cells in faults}
 
 
 def rows():
-    part = PAGE.read_text().partition("## Eight faults")[2].partition("## ")[0]
-    lines = [line for line in part.splitlines() if line.startswith("| ")][1:]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    """Each fault with its constants and its lengths."""
+    constants, lengths = table(CONSTANTS), table(LENGTHS)
+    assert list(constants) == list(lengths)
+    return [[name, *constants[name], *lengths[name]] for name in constants]
 
 
 def second_body(text, height):

@@ -45,13 +45,14 @@ def install_debian(arguments, directory):
     )
 
 
-def simulation(arguments, directory):
-    """The command line's simulation says what it would run."""
-    assert arguments[0] == "simulate", arguments
+def command_line(arguments, directory):
+    """A simulation prints its plan. The commands that take seconds are run."""
+    program = [sys.executable, "-m", "nucleation"]
+    if arguments[0] != "simulate":
+        assert "L_s" in run([*program, *arguments])
+        return
     output, *options = arguments[1:]
-    planned = run(
-        [sys.executable, "-m", "nucleation", "simulate", directory / output, *options, "--dry-run"]
-    )
+    planned = run([*program, "simulate", directory / output, *options, "--dry-run"])
     assert "theory: critical length" in planned
 
 
@@ -76,7 +77,7 @@ RULES = {
     "pipx": packages,
     "uvx": packages,
     "docker": container,
-    "nucleation": simulation,
+    "nucleation": command_line,
     "workflow/install-debian.sh": install_debian,
 }
 

@@ -171,7 +171,7 @@ LOADED = {
 
 @pytest.mark.parametrize("kind", LOADED)
 def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
-    """They begin where the fault is weakest: the numbers of docs/patch_theory.md, coarser."""
+    """They begin where the fault is weakest: the numbers of docs/creeping_patch.md, coarser."""
     parameters = dataclasses.replace(
         LOADED[kind],
         friction=LAW.with_expansion(1e-5, 0.41, 0.0017, 0.0039),

@@ -105,7 +105,7 @@ def followed():
 
 
 def test_kicks_decay_below_and_grow_above_as_the_frozen_patch_says(followed):
-    """They grow somewhat faster, by about what the patch itself does: docs/patch_stability.md."""
+    """They grow somewhat faster, by about what the patch itself does: docs/creeping_patch.md."""
     measured = np.array([twin.measured() for twin in followed])
     frozen = np.array([np.mean(twin.frozen) for twin in followed])
     assert measured.real[0] < -0.5 and frozen.real[0] < -0.5

@@ -217,9 +217,9 @@ def test_bad_parameters_are_refused():
 
 @pytest.mark.slow
 def test_table_of_the_page():
-    """docs/patch_theory.md has W_c/L_c between half-spaces."""
-    page = Path(__file__).parents[2] / "docs" / "patch_theory.md"
-    _, head, table = page.read_text(encoding="utf-8").partition("| zeta/a | r = 0.1 |")
+    """docs/creeping_patch.md has W_c/L_c between half-spaces."""
+    page = Path(__file__).parents[2] / "docs" / "creeping_patch.md"
+    _, head, table = page.read_text(encoding="utf-8").partition(r"| $\zeta/a$ | $r$ = 0.1 |")
     strengthening = [0.1, *map(float, re.findall(r"[\d.]+", table.partition("\n")[0]))]
     rows = re.findall(r"^\| ([\d.]+) \| (.*) \|$", table.partition("\n\n")[0], re.MULTILINE)
     assert head and len(rows) == 6

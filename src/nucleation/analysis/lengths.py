@@ -151,7 +151,7 @@ def lengths_table(
 
 
 def _creep_length(run: dict[str, Any]) -> float:
-    """L_s of steady creep with constant a and b (docs/patch_theory.md); NaN if there is none.
+    """L_s of steady creep with constant a and b (docs/creeping_patch.md); NaN if there is none.
 
     Without an edge, also NaN where stress or parameters, not only f, vary along the interface.
     """

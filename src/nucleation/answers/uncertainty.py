@@ -121,7 +121,7 @@ def length_quantiles(
     ... )
     >>> median = found["value"].sel(key="critical_length", quantile=0.5)
     >>> round(float(median), 2)
-    2.51
+    2.52
     """
     parameters = without_aliases(fault) | {"weakening_rate": weakening_rate}
     drawn = draw(parameters, draws, seed)

@@ -3,7 +3,7 @@
 The width W of the patch is compared with the smallest width that nucleates, W_c
 (:mod:`nucleation.theory.weakening_patch`). Below W_c the patch creeps. Above W_c slip is unstable
 and grows into a limit cycle of slow slip or into an event. The transition between these two is
-known from simulations (docs/patch_theory.md), not from a theory.
+known from simulations (docs/creeping_patch.md), not from a theory.
 """
 
 from __future__ import annotations

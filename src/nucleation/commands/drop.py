@@ -202,7 +202,7 @@ def _rows(found: ExpectedDrop) -> list[tuple[str, float, str]]:
         ]
     return [
         ("L_s", stability, "it turns unstable"),
-        ("L_d", found.drop.length, "half of the realisations have dropped,"),
+        ("L", found.drop.length, "half of the realisations have dropped,"),
         ("", found.drop.low, "16 % of them,"),
         ("", found.drop.high, "84 % of them"),
     ]

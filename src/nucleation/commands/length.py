@@ -270,7 +270,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
     """L_s with its meaning, and the effect of the friction law's scales on it."""
     loading = theory["loading"]
     length = theory["stability_length"]
-    head = f"The creeping patch itself, {BEGINS[loading]} (docs/patch_theory.md):"
+    head = f"The creeping patch itself, {BEGINS[loading]} (docs/creeping_patch.md):"
     if not math.isfinite(length):
         return [head, f"  no L_s: {theory['stability_length_reason']}"]
     value = f"{length:.4g} m"

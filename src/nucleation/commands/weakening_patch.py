@@ -82,7 +82,7 @@ def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> lis
     -------
     list of str
     """
-    head = "A weakening patch among strengthening surroundings (docs/patch_theory.md):"
+    head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch.smallest_width
     if math.isnan(smallest):
         lines = [head, "  no W_c: the patch is stable, or its surroundings are not"]

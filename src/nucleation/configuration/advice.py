@@ -145,7 +145,7 @@ def changing_friction(run: Run) -> Iterator[Advice]:
         f"{scales} beside V = {velocity:g} m/s: a = {a:.3g}, b = {b:.3g} at V, "
         f"{a_near:.3g}, {b_near:.3g} at V/10. L_s is {length}, with constant a and b "
         f"{length_if_constant}; give smaller scales unless these are intended "
-        "(docs/patch_theory.md)",
+        "(docs/creeping_patch.md)",
     )
 
 

@@ -1,4 +1,4 @@
-"""The loading of a fault, and the initial state of its interface (docs/loading.md).
+"""The loading of a fault, and the initial state of its interface (docs/loadings.md).
 
 The kind of loading determines the boundary conditions, the measured load and the ends of a patch.
 Each consequence is implemented in its own wing: the body in :mod:`nucleation.fem.bodies`, the
@@ -12,7 +12,7 @@ from .checked import Checked
 from .quantities import ParameterError, quantity
 
 LOADINGS = ("edge", "top", "remote")
-"""Kinds of loading: docs/loading.md."""
+"""Kinds of loading: docs/loadings.md."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,6 +24,11 @@ class Loading(Checked):
     ParameterError
         Also if the kind is remote and the stress rate is zero, or the kind is another one and the
         stress rate is not zero.
+
+    Examples
+    --------
+    >>> Loading(velocity=1e-6).velocity
+    1e-06
     """
 
     normal_stress: float = quantity(

@@ -30,7 +30,13 @@ FIRST_STEP = 2.0e-6
 
 @dataclasses.dataclass(frozen=True)
 class Stepping(Checked):
-    """Control of the time integration."""
+    """Control of the time integration.
+
+    Examples
+    --------
+    >>> Stepping(end_time=10.0).end_time
+    10.0
+    """
 
     end_time: float = quantity(
         "simulated time",
@@ -91,7 +97,14 @@ class _SecondBlock(NamedTuple):
 
 @dataclasses.dataclass(frozen=True)
 class Parameters:
-    """Everything one simulation depends on; two equal objects give the same result."""
+    """Everything one simulation depends on; two equal objects give the same result.
+
+    Examples
+    --------
+    >>> parameters = Parameters(geometry=Geometry(height=0.01, length=1.0))
+    >>> parameters.geometry.height
+    0.01
+    """
 
     material: Material = Material()
     friction: Friction = dataclasses.field(default_factory=Friction)  # loads its law by name
@@ -170,7 +183,7 @@ class Parameters:
                 raise ParameterError(
                     f"{key} = {value} is not allowed with {computation}, which applies only to a "
                     f"uniform fault that is pushed at its edge: it must be {needed}; measure = "
-                    "stability gives L_s of other faults, docs/loading.md"
+                    "stability gives L_s of other faults, docs/loadings.md"
                 )
 
     @property

@@ -14,7 +14,7 @@ force drops in one phase of the oscillation, once in a period. In a period the p
 a length is P, averaged over one period's growth about it. With Re Lambda linear in L and a steady
 front the median is, in one line,
 
-    L_d = L_s + sqrt(2 (dL/dt) log(1/eps_eff) / (d Re Lambda/dL)),
+    L = L_s + sqrt(2 (dL/dt) log(1/eps_eff) / (d Re Lambda/dL)),
     eps_eff = eps sqrt(abs(g)^2 S log 2) [pi / ((d Re Lambda/dL) dL/dt)]^(1/4)      (the median).
 
 The law assumes that the first burst of slip drops the force. A burst at a rate of a few V may come

@@ -14,7 +14,7 @@ force balance each kind of forcing (:mod:`nucleation.model.perturbation`) acts a
     state            eps (V/D) xi(x, t) in d(dpsi)/dt
 
 An infinite block is loaded evenly, so that a load acts on friction alone. As in the frozen patch,
-dl/dt and the nodes at the front that begin to slip are neglected (docs/patch_stability.md). Either
+dl/dt and the nodes at the front that begin to slip are neglected (docs/creeping_patch.md). Either
 changes growth by some 0.2 1/s, where Re Lambda reaches 3 1/s.
 """
 

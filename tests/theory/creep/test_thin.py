@@ -50,7 +50,7 @@ def test_shooting_agrees(ratio):
 
 
 def test_strong_weakening():
-    """The closed forms of docs/patch_theory.md, by quadrature."""
+    """The closed forms of docs/creeping_patch.md, by quadrature."""
     share = 1.0 / (2.0 * (np.euler_gamma + np.log(2.0 * np.pi) - sici(2.0 * np.pi)[1]))
 
     def projected(function, n):

@@ -47,10 +47,10 @@ MEASURED = some(
 
 PREDICTED = {
     "stability_length": FITTED["stability_length"],
-    "predicted_length": Variable("m", "length at the drop by the law, median", "L_d"),
-    "predicted_low": Variable("m", "length by which 16 % have dropped by the law", "L_d"),
-    "predicted_high": Variable("m", "length by which 84 % have dropped by the law", "L_d"),
-    "closed_form_length": Variable("m", "length at the drop by the law in one line", "L_d"),
+    "predicted_length": Variable("m", "length at the drop by the law, median", "L"),
+    "predicted_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
+    "predicted_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
+    "closed_form_length": Variable("m", "length at the drop by the law in one line", "L"),
     "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
     "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
     "floor_state": Variable("1", "strength of the state at which the law drops there"),

@@ -16,6 +16,7 @@ from ...datasets.variables import Variable, some, table
 from ...model.identity import fault
 from ...model.parameters import Parameters
 from ..expected_drop import NoDrop, expected_drop
+from ..growth import FITTED
 
 MEASURED = some(
     LENGTHS,
@@ -36,9 +37,9 @@ MEASURED = some(
 )
 
 EXPECTED = {
-    "stability_length": Variable("m", "stability length of the patch by theory", "L_s"),
+    "stability_length": FITTED["stability_length"],
     "runaway_length": Variable("m", "runaway length by theory, NaN where zeta/a > 2", "L_run"),
-    "law_length": Variable("m", "length at the drop by the law, median", "L_d"),
+    "law_length": Variable("m", "length at the drop by the law, median", "L"),
     "expected_length": Variable("m", "expected length at the drop", "L"),
     "expected_low": Variable("m", "least length at the drop that is expected", "L"),
     "expected_high": Variable("m", "largest length at the drop that is expected", "L"),

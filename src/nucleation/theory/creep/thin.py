@@ -6,9 +6,9 @@ A thin layer on a rigid base resists slip by ``2 mu H/(1 - nu) d^2u/dx^2``. The 
 
     y (S + y) u'' = lambda S (a S - zeta y) u ,      u(0) = u(1) = 0 .
 
-Since Eq. (11) has ``zeta lambda = 4 pi^2`` at L_c, ``(L/L_c)^2 = zeta lambda/(4 pi^2)``. Derived
-line by line in ``docs/patch_theory.md``; here it is solved in Chebyshev polynomials, and in a test
-by its power series and by shooting.
+Since Eq. (11) has ``zeta lambda = 4 pi^2`` at L_c, ``(L/L_c)^2 = zeta lambda/(4 pi^2)``. The
+derivation is in ``docs/creeping_patch.md``. It is solved in Chebyshev polynomials here, and by its
+power series and by shooting in a test.
 """
 
 from functools import lru_cache
