@@ -2,9 +2,9 @@
 
 import doctest
 import inspect
-import sys
 import math
 import signal
+import sys
 
 import numpy as np
 import pint
