@@ -42,6 +42,12 @@ class NoDrop(ValueError):
         Why, in words.
     status : {"stable", "beyond", "unknown"}
         The kind of reason, of :mod:`nucleation.theory.status`.
+
+    Examples
+    --------
+    >>> error = NoDrop("no patch turns unstable", "stable")
+    >>> str(error), error.status
+    ('no patch turns unstable', 'stable')
     """
 
     def __init__(self, reason: str, status: str = UNKNOWN) -> None:
@@ -105,6 +111,17 @@ def expected_drop(parameters: Parameters) -> ExpectedDrop:
         If nothing is perturbed, or no patch turns unstable.
     ParameterError
         If it is no uniform fault that is pushed at its edge.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry, Parameters, Perturbation
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     perturbation=Perturbation(kind="normal_load", strength=1e-4),
+    ... )
+    >>> found = expected_drop(parameters)
+    >>> round(found.stability_length, 3), round(found.length, 2)
+    (0.134, 0.16)
     """
     parameters.require_edge("the law of the drop")
     declared = parameters.perturbation
