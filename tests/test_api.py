@@ -4,6 +4,7 @@ import doctest
 import inspect
 import math
 import signal
+import sys
 
 import numpy as np
 import pint
@@ -170,7 +171,10 @@ def test_named_arrays_keep_their_names():
         ({"b": None}, "zeta or b"),
         ({"far_side": "glued"}, "far_side = 'glued' is not allowed.*velocity, traction"),
         ({"second_shear_modulus": 60e9}, "friction is missing"),
-        ({"viscosity": 1.0}, "unexpected keyword argument 'viscosity'"),
+        ({"viscosity": 1.0}, "unexpected keyword argument 'viscosity'; known: shear_modulus, "),
+        ({"Dc": 1e-6}, "unexpected keyword argument 'Dc'; did you mean slip_distance?"),
+        ({"sigma_n": 1e6}, "unexpected keyword argument 'sigma_n'; did you mean normal_stress?"),
+        ({"youngs_modulus": 1e9}, r"give shear_modulus: mu = E/\(2 \(1 \+ nu\)\)"),
         ({"second_shear_modulus": 0.0, "friction": 0.6}, "second_shear_modulus = 0.0 Pa"),
         ({"height": np.ones(2), "a": xr.DataArray([0.01], dims="a")}, "named dimensions"),
     ],
@@ -197,6 +201,30 @@ def test_everything_announced_is_there_and_documented():
         assert inspect.getdoc(getattr(api, name)), name
     with pytest.raises(AttributeError, match="no attribute 'simulations'"):
         api.simulations  # noqa: B018
+
+
+TAKE_A_WHILE = (
+    "expected_drop",
+    "film",
+    "length_quantiles",
+    "runaway_length",
+    "specimen_quantiles",
+)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.slow if name in TAKE_A_WHILE else ())
+        for name in api.__all__
+    ],
+)
+def test_each_name_has_an_example(name):
+    announced = getattr(api, name)
+    names = vars(sys.modules[announced.__module__]) | {name: announced}
+    own = doctest.DocTestParser().get_doctest(announced.__doc__, dict(names), name, None, None)
+    assert own.examples
+    assert doctest.DocTestRunner().run(own).failed == 0
 
 
 def test_example_of_the_module():

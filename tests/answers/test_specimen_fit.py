@@ -97,7 +97,7 @@ def test_no_answer():
         ({"length": -1.0}, r"length = -1.0 m is not allowed: length of the specimen along"),
         ({"length": [1.0, 2.0]}, "a specimen is one"),
         ({"a": np.array([0.01, 0.02])}, "a specimen is one"),
-        ({"normal_stress": 1e6}, "normal_stress is not allowed: it is what is looked for"),
+        ({"normal_stress": 1e6}, "normal_stress is not allowed: it is the parameter to find"),
         ({"within": (1e6, 1e5)}, r"within = \(1e\+06, 100000\) Pa is no range"),
         ({"within": (-1.0, 1e5)}, r"normal_stress = -1.0 Pa is not allowed"),
         ({"slip_distance": -1.0}, "slip_distance = -1.0 m is not allowed"),

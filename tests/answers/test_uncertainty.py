@@ -187,6 +187,9 @@ def test_files_of_other_programs(tmp_path, text, encoding):
     [
         ("", "is empty"),
         ("a,b\n", "no row of samples"),
+        ("Dc (um)\n5\n", "column 'Dc .um.' is unknown; did you mean slip_distance"),
+        ("a-b\n-0.1\n", "column 'a-b' is unknown; give zeta: zeta = b - a"),
+        ("E (GPa)\n3\n", r"unknown; give shear_modulus: mu = E/\(2 \(1 \+ nu\)\)"),
         ("slip_distnce (um)\n5\n", "column 'slip_distnce .um.' is unknown.*mean slip_distance"),
         ("slip_distance (MPa)\n5\n", "column 'slip_distance .MPa.'.*stress, but m is needed"),
         ("slip_distance (um),a\n5,.01\n\n6,\n", "line 4, column 'a': the cell is empty"),

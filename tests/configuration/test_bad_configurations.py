@@ -38,6 +38,14 @@ BAD = {
     ),
     "unknown section": (changed("materials", {}), ["materials = {}", "did you mean material?"]),
     "unknown key": (changed("material.densty", 1.0), ["material.densty", "mean density?"]),
+    "Young's modulus": (
+        changed("material.youngs_modulus", 3e9),
+        ["material.youngs_modulus", "unknown key; give shear_modulus: mu = E/(2 (1 + nu))"],
+    ),
+    "symbol of another text": (
+        with_run(height=0.01, Dc=1e-6),
+        [f"{LAST}.Dc = 1e-06 is not allowed: unknown key; did you mean slip_distance?"],
+    ),
     "far from any key": (changed("loading.zzz", 1), ["loading.zzz = 1", "known keys: normal_st"]),
     "velocity twice": (
         changed("main_text_interface.velocity", 1e-5),

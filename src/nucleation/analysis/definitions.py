@@ -21,7 +21,13 @@ REBOUND = 0.1  # a rise by less than this part of the fall that follows belongs 
 
 @dataclasses.dataclass(frozen=True)
 class ExtractionSettings(Checked):
-    """How the critical nucleation length is read from a simulation."""
+    """How the critical nucleation length is read from a simulation.
+
+    Examples
+    --------
+    >>> ExtractionSettings(drop=0.02).drop
+    0.02
+    """
 
     edge_threshold: float = quantity(
         "slip rate at the edge of the creep patch over the imposed velocity",

@@ -45,6 +45,17 @@ def extract(
     -------
     dict
         :data:`MEASURED` by name (s, m); all NaN if the run has no event.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping, simulate
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     mesh=Mesh(n_x=16, n_y=2),
+    ...     stepping=Stepping(end_time=0.02),
+    ... )
+    >>> extract(simulate(parameters))["length"]  # the run ends before its event
+    nan
     """
     record = Record(simulation, settings)
     if record.onset is None:

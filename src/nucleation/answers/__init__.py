@@ -1,4 +1,5 @@
-"""What is asked of a fault: all lengths in use, with the error of its numbers, and backwards.
+"""Answers about a fault: nucleation lengths in use, their uncertainty, and inverse problems.
 
-They stand on the linear theory (:mod:`nucleation.theory`) and that of the creeping patch.
+They are based on the theory of homogeneous sliding and of the creeping patch
+(:mod:`nucleation.theory`).
 """

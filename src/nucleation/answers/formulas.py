@@ -1,9 +1,9 @@
-"""What the nucleation lengths in use are made of; :mod:`.in_use` lists them.
+"""Formulas of the nucleation lengths in use, which :mod:`.in_use` lists.
 
-All are full lengths (not half-lengths), in plane strain, with ``mu* = mu/(1 - nu)``,
-``b = a + zeta`` and ``zeta = b - a``; a and b belong to **natural** logarithms. SI units; numbers,
-arrays or DataArrays. What is computed outside its range of validity is NaN. In plane stress nu is
-to be ``nu/(1 + nu)``.
+All lengths are full lengths (not half-lengths) in plane strain, with ``mu* = mu/(1 - nu)`` and
+``zeta = b - a``; a and b are coefficients of **natural** logarithms. Values are in SI units;
+numbers, arrays or DataArrays. A length outside its range of validity is NaN. For plane stress
+replace nu by ``nu/(1 + nu)``.
 """
 
 import dataclasses
@@ -21,25 +21,25 @@ LOCALISED_LIMIT = 0.3781
 """Largest a/b at which a patch of fixed length accelerates (Rubin and Ampuero, 2005)."""
 
 LOCALISED_FACTOR = 2.0 * 1.3774
-"""That length over L_b."""
+"""The length of this patch over L_b."""
 
 CRACK_LIMIT = 0.5
 """Least a/b at which a patch expands like a crack (Rubin and Ampuero, 2005)."""
 
 THIN = 0.3
-"""Largest ``2 pi H/L`` at which a layer counts as thin: Eq. (11) is then 8 % above the theory."""
+"""Largest ``2 pi H/L`` of a thin layer: Eq. (11) is then 8 % above the theory."""
 
 FINITE_PATCH = 1.158
-"""Least unstable length, in ``mu*/W``, of a patch that weakens by W per slip (Uenishi-Rice)."""
+"""Shortest unstable patch over ``mu*/W``; its strength falls by W per slip (Uenishi-Rice)."""
 
 NEGLIGIBLE = 0.1
-"""Largest a/b of a law whose direct effect is left out, and largest ``f |beta|`` of a pair whose
-coupling of slip to normal stress is: a tenth of what is kept."""
+"""Largest a/b at which the direct effect may be neglected, and largest ``f |beta|`` at which the
+coupling of slip to normal stress may be: a tenth of the terms that are kept."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Setting:
-    """Two identical half-spaces, or a layer on a rigid body, with what the formulas take of them.
+    """The parameters in the formulas: two identical half-spaces, or a layer on a rigid body.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Setting:
     poisson_ratio, a, b, zeta : array_like
         Dimensionless.
     slip_distance, height, weakening_rate : array_like
-        D and H (m), and the fall of strength per slip, W (Pa/m).
+        D and H (m), and the decrease of strength per slip, W (Pa/m).
     """
 
     shear_modulus: Values
@@ -69,14 +69,14 @@ class Setting:
     def conventional(self, eta: Values) -> Any:
         """Critical length ``eta mu D/(zeta sigma0)`` (m) of a spring block (Eq. 3).
 
-        The patch's stiffness per area ``eta mu/L`` (Eq. 2) undercuts the critical one,
+        The patch's stiffness per area ``eta mu/L`` (Eq. 2) is less than the critical one,
         ``K_c/A = zeta sigma0/D`` (Eq. 1). eta depends on the crack model.
         """
         softness = eta * self.shear_modulus * self.slip_distance
         return valid(self.zeta > 0.0, softness / (nan0(self.zeta) * self.normal_stress))
 
     def plane(self, factor: float) -> Any:
-        """The same with mu* in the place of mu: ``factor mu* D/(zeta sigma0)`` (m)."""
+        """Critical length with mu* in place of mu: ``factor mu* D/(zeta sigma0)`` (m)."""
         return self.conventional(factor / (1.0 - self.poisson_ratio))
 
     def state_evolution(self) -> Any:
@@ -85,9 +85,10 @@ class Setting:
         return valid(self.b > 0.0, length)
 
     def thin(self, square: Any) -> Any:
-        """``2 pi sqrt{square}`` (m), where the layer is thin beside it; of an area (m^2)."""
+        """``2 pi sqrt(square)`` (m) where the layer is thin compared with it; square in m^2."""
         length = 2.0 * math.pi * np.sqrt(square)
-        return valid(2.0 * math.pi * self.height < THIN * length, length)
+        is_thin = 2.0 * math.pi * self.height < THIN * length
+        return valid(is_thin, length)
 
 
 def bimaterial(
@@ -96,11 +97,23 @@ def bimaterial(
     second_shear_modulus: Values,
     second_poisson_ratio: Values,
 ) -> tuple[Any, Any]:
-    """Modulus M (Pa) and contrast beta of two half-spaces (Eq. 8), the second one perhaps rigid.
+    """Modulus and contrast of two half-spaces (Eq. 8).
 
     Slip on their interface changes the shear stress as between two half-spaces of one material
-    with ``mu* = M``, and the normal stress by beta times as much, a quarter wavelength apart
+    with ``mu* = M``, and the normal stress by beta times as much, shifted by a quarter wavelength
     (Eq. 7). For identical materials M is ``mu*`` and beta vanishes.
+
+    Parameters
+    ----------
+    shear_modulus, second_shear_modulus : array_like
+        mu (Pa) of both bodies; inf for a rigid second body.
+    poisson_ratio, second_poisson_ratio : array_like
+        nu of both bodies.
+
+    Returns
+    -------
+    M, beta : array_like
+        In Pa, and dimensionless.
     """
     softness = shear_modulus / second_shear_modulus  # 1/psi, 0 for a rigid second body
     nu, nu2 = poisson_ratio, second_poisson_ratio
@@ -110,15 +123,35 @@ def bimaterial(
 
 
 def between_localised_and_crack(a: Values, b: Values) -> Any:
-    """Whether a/b is where neither of Rubin and Ampuero's lengths holds."""
+    """Whether a/b is in the gap between the ranges of Rubin and Ampuero's two lengths.
+
+    Parameters
+    ----------
+    a, b : array_like
+        Coefficients of friction, natural logarithms.
+
+    Returns
+    -------
+    bool or array_like of bool
+    """
     return (a >= LOCALISED_LIMIT * b) & (a <= CRACK_LIMIT * b)
 
 
 def valid(condition: Any, values: Any) -> Any:
-    """The values where the condition holds, NaN elsewhere; arrays or DataArrays."""
+    """The values where a condition holds, NaN elsewhere.
+
+    Parameters
+    ----------
+    condition, values : array_like
+        Numbers, arrays or DataArrays that broadcast.
+
+    Returns
+    -------
+    array_like
+    """
     return where(condition, values, np.nan)
 
 
 def nan0(values: Any) -> Any:
-    """The values, NaN in place of zero, which nothing may be divided by."""
+    """The values with NaN in place of zero, for use as a divisor."""
     return where(values != 0.0, values, np.nan)

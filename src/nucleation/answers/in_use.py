@@ -1,6 +1,6 @@
 """The nucleation lengths in use, each with formula, source and validity in words.
 
-What they are made of, and what holds for all of them, is :mod:`nucleation.answers.in_use`.
+Their common definitions are in :mod:`nucleation.answers.formulas`.
 """
 
 from __future__ import annotations
@@ -43,31 +43,47 @@ class Length:
     formula: str
     source: str
     validity: str
-    compute: Callable[[Any], Any]  # of a Setting, of the Fault itself where that is the system
-    needs: str = "zeta > 0"  # the condition on this fault's parameters, outside which it is NaN
-    beyond: str = ""  # what is known where that does not hold
+    compute: Callable[[Any], Any]
+    """The length (m) from a Setting; from the Fault if the system is THIS_FAULT."""
+    needs: str = "zeta > 0"
+    """The condition on the parameters without which the length is NaN."""
+    beyond: str = ""
+    """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
 
     def evaluate(self, fault: Fault, weakening_rate: Values) -> Any:
-        """The length (m) of a fault, NaN outside its validity."""
+        """The length of a fault.
+
+        Parameters
+        ----------
+        fault : Fault
+            One fault, or arrays of faults.
+        weakening_rate : array_like
+            Slip weakening W (Pa/m).
+
+        Returns
+        -------
+        array_like
+            In metres, NaN outside the validity.
+        """
         if self.system == THIS_FAULT:
             return self.compute(fault)
-        names = [field.name for field in dataclasses.fields(Setting)]
-        own = {"weakening_rate": weakening_rate, "poisson_ratio": fault.in_plane_ratios[0]}
+        own: dict[str, Any] = {
+            "weakening_rate": weakening_rate,
+            "poisson_ratio": fault.in_plane_ratios[0],
+        }
         if fault.plane == ANTIPLANE and self.system == RIGID_BASE:
             own["height"] = 0.5 * fault.height  # mu H resists slip, 2 mu H/(1 - nu) in the plane
-        two = self.system == TWO_MATERIALS
-        if two:
-            modulus, coupling = of_two_materials(fault)
-            own |= {"shear_modulus": modulus, "poisson_ratio": 0.0}  # of which mu* = M
-        value = self.compute(Setting(*(own[n] if n in own else getattr(fault, n) for n in names)))
-        return valid(coupling < formulas.NEGLIGIBLE, value) if two else value
+        if self.system != TWO_MATERIALS:
+            return self.compute(_setting(fault, own))
+        modulus, coupling = of_two_materials(fault)
+        own["shear_modulus"] = modulus
+        own["poisson_ratio"] = 0.0  # so that mu* = M
+        length = self.compute(_setting(fault, own))
+        return valid(coupling < formulas.NEGLIGIBLE, length)
 
     def facts(self, fault: Fault) -> dict[str, Any]:
-        """The quantities of a fault on which the validity of the length depends, by their name.
-
-        The height H is in metres.
-        """
+        """The quantities of a fault that decide whether the length is valid, by name; H in m."""
         with np.errstate(divide="ignore", invalid="ignore"):
             known = {
                 "a/b": fault.a / fault.b,
@@ -79,7 +95,7 @@ class Length:
         return {name: known[name] for mark, name in _FACTS.items() if mark in self.needs}
 
     def of_two(self) -> Length:
-        """The same for two materials, with M in the place of mu*."""
+        """The same length for two materials, with M in place of mu*."""
         return dataclasses.replace(
             self,
             key=f"{self.key}_two_materials",
@@ -93,23 +109,39 @@ class Length:
     def words(self) -> dict[str, str]:
         """Unit, title, formula, source, validity, system and condition, as attributes."""
         names = ("title", "formula", "source", "validity", "system", "needs", "beyond")
-        return {"units": "m", **{name: getattr(self, name) for name in names}}
+        found = {"units": "m"}
+        for name in names:
+            found[name] = getattr(self, name)
+        return found
 
 
 _FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L": "H"}
-"""Which quantity a condition depends on, by a part of :attr:`Length.needs`."""
+"""The quantity in a condition, by a part of :attr:`Length.needs`."""
+
+
+def _setting(fault: Fault, own: dict[str, Any]) -> Setting:
+    """The parameters of a fault, some of them replaced by `own` values."""
+    values = {}
+    for field in dataclasses.fields(Setting):
+        name = field.name
+        values[name] = own[name] if name in own else getattr(fault, name)
+    return Setting(**values)
 
 
 def of_two_materials(fault: Fault) -> tuple[Any, Any]:
-    """The modulus M (Pa) of the pair as half-spaces and ``f |beta|``, 0 in antiplane shear."""
+    """Modulus M (Pa) of the two materials as half-spaces, and ``f |beta|``."""
     nu, second_nu = fault.in_plane_ratios
     if fault.plane == ANTIPLANE:
         softness = fault.shear_modulus / fault.second_shear_modulus
         return 2.0 * fault.shear_modulus / (1.0 + softness), 0.0 * softness
     modulus, beta = formulas.bimaterial(
-        fault.shear_modulus, nu, fault.second_shear_modulus, second_nu
+        fault.shear_modulus,
+        nu,
+        fault.second_shear_modulus,
+        second_nu,
     )
-    return modulus, abs(beta) * (0.0 if fault.friction is None else fault.friction)
+    friction = 0.0 if fault.friction is None else fault.friction
+    return modulus, abs(beta) * friction
 
 
 def _stability_length(fault: Fault) -> Any:
@@ -119,14 +151,36 @@ def _stability_length(fault: Fault) -> Any:
 
 
 def _crack(s: Setting) -> Any:
-    length = 2.0 / math.pi * nan0((s.b - s.a) / nan0(s.b)) ** -2 * s.state_evolution()
-    return valid((s.a > formulas.CRACK_LIMIT * s.b) & (s.a < s.b), length)
+    weakening = (s.b - s.a) / nan0(s.b)
+    length = 2.0 / math.pi * nan0(weakening) ** -2 * s.state_evolution()
+    within = (s.a > formulas.CRACK_LIMIT * s.b) & (s.a < s.b)
+    return valid(within, length)
+
+
+def _localised(s: Setting) -> Any:
+    within = s.a < formulas.LOCALISED_LIMIT * s.b
+    return valid(within, formulas.LOCALISED_FACTOR * s.state_evolution())
+
+
+def _uenishi_rice(s: Setting) -> Any:
+    length = formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
+    return valid(s.weakening_rate > 0.0, length)
+
+
+def _thin_layer(s: Setting) -> Any:
+    length = valid(s.a < 0.5 * s.b, s.state_evolution())
+    return s.thin(2.0 * s.height * length)
+
+
+def _thin_limit(s: Setting) -> Any:
+    return s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi)
 
 
 def _loaded_patch(s: Setting) -> Any:
     within = (s.a > 0.0) & (s.a < NEAREST * s.b)
-    part = where(within, s.a / nan0(s.b), 0.5)
-    return valid(within, loaded_patch_factor(part) / (1.0 - part) * s.state_evolution())
+    ratio = where(within, s.a / nan0(s.b), 0.5)
+    length = loaded_patch_factor(ratio) / (1.0 - ratio) * s.state_evolution()
+    return valid(within, length)
 
 
 _GAP = (
@@ -193,10 +247,7 @@ _OF_ONE_MATERIAL = (
         validity="aging law, far above steady state; a/b < 0.3781",
         needs=f"a/b < {formulas.LOCALISED_LIMIT}",
         beyond=_GAP,
-        compute=lambda s: valid(
-            s.a < formulas.LOCALISED_LIMIT * s.b,
-            formulas.LOCALISED_FACTOR * s.state_evolution(),
-        ),
+        compute=_localised,
     ),
     Length(
         key="rubin_ampuero_crack",
@@ -215,9 +266,7 @@ _OF_ONE_MATERIAL = (
         source="Uenishi and Rice (2003)",
         validity="strength falls linearly with slip, without direct effect",
         needs=f"a/b < {formulas.NEGLIGIBLE} unless W is given",
-        compute=lambda s: valid(
-            s.weakening_rate > 0.0, formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
-        ),
+        compute=_uenishi_rice,
     ),
     Length(
         key="creeping_asperity",
@@ -245,7 +294,7 @@ _OF_ONE_MATERIAL = (
         validity=f"{_STEADY}; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"zeta > 0 and 2 pi H/L < {formulas.THIN}",
-        compute=lambda s: s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi),
+        compute=_thin_limit,
     ),
     Length(
         key="thin_layer",
@@ -255,15 +304,16 @@ _OF_ONE_MATERIAL = (
         validity="aging law, far above steady state; a/b < 1/2; 2 pi H/L << 1",
         system=RIGID_BASE,
         needs=f"a/b < 1/2 and 2 pi H/L < {formulas.THIN}",
-        compute=lambda s: s.thin(2.0 * s.height * valid(s.a < 0.5 * s.b, s.state_evolution())),
+        compute=_thin_layer,
     ),
 )
-LENGTHS = (
-    _OF_FAULT,
-    *_OF_ONE_MATERIAL,
-    *(x.of_two() for x in _OF_ONE_MATERIAL if x.system == HALF_SPACES and "mu*" in x.formula),
+_OF_TWO_MATERIALS = tuple(
+    length.of_two()
+    for length in _OF_ONE_MATERIAL
+    if length.system == HALF_SPACES and "mu*" in length.formula
 )
-"""The lengths in use, in the order in which they are listed."""
+LENGTHS = (_OF_FAULT, *_OF_ONE_MATERIAL, *_OF_TWO_MATERIALS)
+"""The lengths in use, in the order of their listing."""
 
 
 @takes_fault
@@ -276,50 +326,98 @@ def lengths_in_use(*, weakening_rate: Values | None = None, **fault: Values) -> 
         Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
         ``a/b < 0.1``.
     **fault
-        The parameters of :class:`~nucleation.theory.fault.Fault`. The system of each length is
-        its attribute ``system``: the second body matters to those of two materials alone, whose
-        key ends with ``_two_materials``.
+        The parameters of :class:`~nucleation.theory.fault.Fault`. The second body matters only to
+        the creeping patch and to the lengths of two materials, with keys that end with
+        ``_two_materials``.
 
     Returns
     -------
     Dataset
         One variable (m) for each, NaN outside its validity, with ``formula``, ``source``,
         ``validity``, ``system``, ``needs`` and ``beyond`` as attributes. Arrays without named
-        dimensions have the dimensions ``axis_0``, ``axis_1``, ... Its unit is each variable's
-        attribute ``units``, also where pint quantities were given.
+        dimensions have the dimensions ``axis_0``, ``axis_1``, ... The values are plain numbers in
+        metres, also for parameters that are pint quantities.
 
     Raises
     ------
     ParameterError
         If a parameter is missing, unknown or outside its range.
+
+    Examples
+    --------
+    >>> found = lengths_in_use(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    >>> round(float(found["rice_ruina"]), 3), found["rice_ruina"].attrs["formula"]
+    (0.628, '(pi/4) mu* D/(zeta sigma0)')
     """
     return lengths_of(fault_of(fault), weakening_rate)
 
 
 def lengths_of(fault: Fault, weakening_rate: Values | None = None) -> xr.Dataset:
-    """The same for a :class:`~nucleation.theory.fault.Fault`."""
+    """All lengths of a fault, as :func:`lengths_in_use`.
+
+    Parameters
+    ----------
+    fault : Fault
+        One fault, or arrays of faults.
+    weakening_rate : array_like, optional
+        Slip weakening W (Pa/m).
+
+    Returns
+    -------
+    Dataset
+    """
     import xarray as xr
 
     found = with_dimensions(values_of(fault, weakening_rate))
-    return xr.Dataset(
-        {length.key: found[length.key].assign_attrs(length.words()) for length in LENGTHS}
-    )
+    variables = {}
+    for length in LENGTHS:
+        variables[length.key] = found[length.key].assign_attrs(length.words())
+    return xr.Dataset(variables)
 
 
 def with_dimensions(found: dict[str, Any]) -> dict[str, xr.DataArray]:
-    """Arrays by key as DataArrays; those without named dimensions have ``axis_0``, ``axis_1``..."""
+    """Arrays by key as DataArrays; plain arrays get the dimensions ``axis_0``, ``axis_1``..."""
     import xarray as xr
 
-    plain = {k: x for k, x in found.items() if not labelled(x)}
+    plain = {key: array for key, array in found.items() if not labelled(array)}
     shape = np.broadcast_shapes(*map(np.shape, plain.values()))
     dims = [f"axis_{n}" for n in range(len(shape))]
-    return found | {k: xr.DataArray(np.broadcast_to(x, shape), dims=dims) for k, x in plain.items()}
+    named = dict(found)
+    for key, array in plain.items():
+        named[key] = xr.DataArray(np.broadcast_to(array, shape), dims=dims)
+    return named
 
 
 def values_of(
-    fault: Fault, weakening_rate: Values | None = None, lengths: Iterable[Length] = LENGTHS
+    fault: Fault,
+    weakening_rate: Values | None = None,
+    lengths: Iterable[Length] = LENGTHS,
 ) -> dict[str, Any]:
-    """The lengths (m) by key, as arrays or DataArrays."""
+    """Nucleation lengths as numbers, arrays or DataArrays.
+
+    Parameters
+    ----------
+    fault : Fault
+        One fault, or arrays of faults.
+    weakening_rate : array_like, optional
+        Slip weakening W (Pa/m) of Uenishi and Rice's length; ``b sigma0/D`` by default, where
+        ``a/b < 0.1``.
+    lengths : iterable of Length
+        The lengths to compute.
+
+    Returns
+    -------
+    dict
+        Lengths (m) by key, NaN outside their validity.
+
+    Raises
+    ------
+    ParameterError
+        If `weakening_rate` is outside its range.
+    """
     if weakening_rate is None:
         weakening_rate = fault.b * fault.normal_stress / fault.slip_distance
         small = fault.a < formulas.NEGLIGIBLE * fault.b
@@ -330,14 +428,17 @@ def values_of(
 
 
 def expanding_length(
-    fault: Fault, slip_rate: Values, far_slip_rate: Values, far_state_ratio: Values
+    fault: Fault,
+    slip_rate: Values,
+    far_slip_rate: Values,
+    far_state_ratio: Values,
 ) -> Any:
     """Length (m) of Rubin and Ampuero's expanding zone at a finite slip rate.
 
     Parameters
     ----------
     fault : Fault
-        Its first material is that of both half-spaces.
+        The material of its first body is that of both half-spaces.
     slip_rate : array_like
         Largest slip rate v (m/s).
     far_slip_rate : array_like
@@ -348,8 +449,8 @@ def expanding_length(
     Returns
     -------
     array_like
-        The full length; NaN outside ``1/2 < a/b < 1``, and where the slip rate is not above that
-        far ahead or the stress does not drop.
+        The full length (m); NaN outside ``1/2 < a/b < 1``, where the slip rate does not exceed the
+        one far ahead, and where the stress does not drop.
 
     Notes
     -----
@@ -357,9 +458,9 @@ def expanding_length(
 
         (2 L_b/pi) [(w + log W)/((1 - a/b) w + log W)]^2
 
-    At the tip the strength falls by ``b sigma0 (w + log W)`` over as many slip distances D; the
-    stress within falls by ``sigma0 [(b - a) w + b log W]``. For ``W = 1``, and for any W at
-    slip rates without bound, the length is that of ``rubin_ampuero_crack``.
+    At the tip the strength decreases by ``b sigma0 (w + log W)`` over ``w + log W`` slip distances
+    D; within the zone the stress decreases by ``sigma0 [(b - a) w + b log W]``. For ``W = 1``, and
+    for any W in the limit of infinite slip rate, the length is that of ``rubin_ampuero_crack``.
     """
     (unbounded,) = (length for length in LENGTHS if length.key == "rubin_ampuero_crack")
     asymptote = values_of(fault, lengths=[unbounded])["rubin_ampuero_crack"]

@@ -1,4 +1,4 @@
-"""Whether a fault has a length, and why not: the status that belongs to each NaN."""
+"""Nucleation lengths of faults with their status: the reason for each NaN."""
 
 from __future__ import annotations
 
@@ -19,24 +19,33 @@ if TYPE_CHECKING:
     import xarray as xr
 
 TITLES = {"critical_length": "critical length L_c", "stability_length": "stability length L_s"}
-"""The lengths of the theory, which come before those of the literature."""
+"""The lengths of the theory, listed before those of the literature."""
 
 LITERATURE = tuple(length for length in LENGTHS if length.system != THIS_FAULT)
+
+TITLES_OF_ALL = TITLES | {length.key: length.title for length in LITERATURE}
+"""The title of every length, by key."""
 
 
 class Answers(NamedTuple):
     """A length of one or many faults, with its status; arrays or DataArrays of equal shape."""
 
-    length: Any  # m, NaN where there is none
-    status: Any  # text: "value", "stable", "beyond" or "unknown"
-    reason: Any  # text, empty where there is a value
+    length: Any
+    """In metres, NaN where there is none."""
+    status: Any
+    """``value``, ``stable``, ``beyond`` or ``unknown``."""
+    reason: Any
+    """Why there is no value; empty where there is one."""
 
 
 @takes_fault
 def length_statuses(
-    *, weakening_rate: Values | None = None, loading: str = "edge", **fault: Values
+    *,
+    weakening_rate: Values | None = None,
+    loading: str = "edge",
+    **fault: Values,
 ) -> xr.Dataset:
-    """All nucleation lengths of a fault, and why there is none where one is NaN.
+    """All nucleation lengths of a fault, and the reason for each NaN.
 
     Parameters
     ----------
@@ -50,11 +59,11 @@ def length_statuses(
     Returns
     -------
     Dataset
-        ``length`` (m), ``status`` and ``reason`` over ``key``, which has ``critical_length``,
-        ``stability_length`` and the keys of :func:`~nucleation.answers.in_use.lengths_in_use`, and
-        over the dimensions of the fault. The status is ``value``; ``stable`` where no patch of any
-        length nucleates; ``beyond`` where the length is longer than the longest that was searched,
-        which the reason names; or ``unknown`` where a theory or formula does not apply.
+        ``length`` (m), ``status`` and ``reason`` over ``key`` and the dimensions of the fault. The
+        keys are ``critical_length``, ``stability_length`` and those of
+        :func:`~nucleation.answers.in_use.lengths_in_use`. The status is ``value``; ``stable`` where
+        no patch nucleates, however long; ``beyond`` where the length exceeds the range of the
+        search, which the reason states; or ``unknown`` where a theory or formula is not applicable.
 
     Raises
     ------
@@ -70,23 +79,40 @@ def length_statuses(
     """
     import xarray as xr
 
-    own = fault_of(fault)
-    answers = answers_of(own, weakening_rate, loading)
-    titles = TITLES | {length.key: length.title for length in LITERATURE}
+    answers = answers_of(fault_of(fault), weakening_rate, loading)
     found: dict[str, Any] = {}
     for position, name in enumerate(Answers._fields):
         arrays = with_dimensions({key: answer[position] for key, answer in answers.items()})
         alike = xr.broadcast(*arrays.values())
         index = xr.IndexVariable("key", list(arrays))
-        found[name] = xr.concat([x.drop_attrs() for x in alike], index).rename(name)
+        parts = [x.drop_attrs() for x in alike]
+        found[name] = xr.concat(parts, index).rename(name)
     found["length"] = found["length"].assign_attrs(units="m", long_name="length")
-    return xr.Dataset(found).assign_coords(title=("key", [titles[key] for key in answers]))
+    titles = [TITLES_OF_ALL[key] for key in answers]
+    return xr.Dataset(found).assign_coords(title=("key", titles))
 
 
 def answers_of(
-    fault: Fault, weakening_rate: Values | None = None, loading: str = "edge"
+    fault: Fault,
+    weakening_rate: Values | None = None,
+    loading: str = "edge",
 ) -> dict[str, Answers]:
-    """L_c, L_s and the lengths of the literature by key, each with its status."""
+    """L_c, L_s and the lengths of the literature, each with its status.
+
+    Parameters
+    ----------
+    fault : Fault
+        One fault, or arrays of faults.
+    weakening_rate : array_like, optional
+        Slip weakening W (Pa/m) of Uenishi and Rice's length.
+    loading : {"edge", "top", "remote"}
+        Where the creeping patch of L_s begins.
+
+    Returns
+    -------
+    dict
+        :class:`Answers` by key, as in :func:`length_statuses`.
+    """
     theory = answers_of_theory(fault, loading)
     found = {f"{criterion}_length": answer for criterion, answer in theory.items()}
     values = values_of(fault, weakening_rate, LITERATURE)
@@ -96,52 +122,75 @@ def answers_of(
 
 
 def answers_of_theory(fault: Fault, loading: str = "edge") -> dict[str, Answers]:
-    """L_c, by ``critical``, and L_s, by ``stability``, each with its status."""
+    """The lengths of the theory, each with its status.
+
+    Parameters
+    ----------
+    fault : Fault
+        One fault, or arrays of faults.
+    loading : {"edge", "top", "remote"}
+        Where the creeping patch of L_s begins.
+
+    Returns
+    -------
+    dict
+        L_c by the key ``critical``, L_s by ``stability``.
+    """
     length, _, _, status, reason = stability_answers(fault, None, loading)
-    return {"critical": critical_answers(fault), "stability": Answers(length, status, reason)}
+    return {
+        "critical": _critical_answers(fault),
+        "stability": Answers(length, status, reason),
+    }
 
 
-def critical_answers(fault: Fault) -> Answers:
+def _critical_answers(fault: Fault) -> Answers:
     """L_c with its status."""
 
     def points(systems: Systems) -> Any:
+        lengths = 2.0 * np.pi / largest_crossings(systems)
         found = np.full((3, systems.a.size), "", dtype=object)
-        found[0] = 2.0 * np.pi / largest_crossings(systems)
+        found[0] = lengths
         found[1] = VALUE
-        for i in np.flatnonzero(np.isnan(found[0].astype(float))):
-            found[1:, i] = STABLE, stability_reason(systems.at(np.array([i])))
+        for i in np.flatnonzero(np.isnan(lengths)):
+            found[1, i] = STABLE
+            found[2, i] = stability_reason(systems.at(np.array([i])))
         return found
 
     rows = fault.evaluate(points, rows=3, dtype=object)
-    return Answers(rows[:1].astype(float)[0], rows[1], rows[2])
+    lengths = rows[:1].astype(float)[0]
+    return Answers(lengths, rows[1], rows[2])
 
 
 def _literature_answers(one: Length, length: Any, fault: Fault) -> Answers:
     """A length of the literature with its status.
 
-    Where friction does not weaken with slip rate, no patch nucleates by a formula without a value.
+    A NaN means that the fault is stable if friction does not weaken with slip rate, and else that
+    the formula is not applicable.
     """
     facts = one.facts(fault)
     names = list(facts)
 
-    def text_of(value: float, *numbers: float) -> str:
+    def reason_of(value: float, *numbers: float) -> str:
         if np.isfinite(value):
             return ""
-        pairs = zip(names, numbers, strict=True)
-        known = ", ".join(f"{k} = {x:.4g}{' m' if k == 'H' else ''}" for k, x in pairs)
-        return f"needs {one.needs}: {known}"
+        known = []
+        for name, number in zip(names, numbers, strict=True):
+            unit = " m" if name == "H" else ""
+            known.append(f"{name} = {number:.4g}{unit}")
+        return f"needs {one.needs}: {', '.join(known)}"
 
     def status_of(value: float, zeta: float) -> str:
         if np.isfinite(value):
             return VALUE
         return STABLE if zeta <= 0.0 else UNKNOWN
 
-    reason = _elementwise(text_of, length, *facts.values())
-    return Answers(length, _elementwise(status_of, length, fault.zeta), reason)
+    reason = _elementwise(reason_of, length, *facts.values())
+    status = _elementwise(status_of, length, fault.zeta)
+    return Answers(length, status, reason)
 
 
 def _elementwise(function: Any, *arrays: Any) -> Any:
-    """A function of numbers that gives a text, at every point of arrays or DataArrays."""
+    """The texts that a function of numbers returns at every point of arrays or DataArrays."""
     at_each = np.vectorize(function, otypes=[object])
     if not any(map(labelled, arrays)):
         return at_each(*arrays)

@@ -1,23 +1,25 @@
-"""Quantiles of nucleation lengths whose parameters are known as ranges or as samples."""
+"""Quantiles of nucleation lengths of faults with uncertain parameters."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..theory.arrays import fault_of, without_aliases
 from ..theory.fault import Values, takes_fault
 from ..theory.status import BEYOND, STABLE
 from ..types import Array
 from .draws import Draws, Progress, draw
-from .status import LITERATURE, TITLES, Answers, answers_of
+from .status import TITLES_OF_ALL, Answers, answers_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
 QUANTILES = (0.05, 0.16, 0.5, 0.84, 0.95)
-AT_ONCE = 10
+_AT_ONCE = 10
 """Number of draws that are computed between two reports of progress."""
 
 
@@ -27,14 +29,14 @@ def quantiles(values: Array, shares: Array = np.array(QUANTILES)) -> Array:
     Parameters
     ----------
     values : ndarray
-        Of the draws, shape (n,); some may be infinite.
+        Values of the draws, shape (n,); some may be infinite.
     shares : ndarray
-        From 0 to 1, shape (m,).
+        Probabilities between 0 and 1, shape (m,).
 
     Returns
     -------
     ndarray
-        Of shape (m,); NaN of no values.
+        Shape (m,); NaN if there are no values.
     """
     if not values.size:
         return np.full(shares.size, np.nan)
@@ -44,39 +46,37 @@ def quantiles(values: Array, shares: Array = np.array(QUANTILES)) -> Array:
     above = np.ceil(position).astype(int)
     found = np.full(shares.size, np.inf)
     finite = np.isfinite(ordered[above])
-    low, high = ordered[below[finite]], ordered[above[finite]]
-    found[finite] = low + (position - below)[finite] * (high - low)
+    low = ordered[below[finite]]
+    high = ordered[above[finite]]
+    part = (position - below)[finite]
+    found[finite] = low + part * (high - low)
     return found
 
 
-def errors_of(values: Array) -> Array:
+def _errors_of(values: Array) -> Array:
     """Standard errors of the quantiles, from the binomial scatter of their shares.
 
-    Half the distance of the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``; infinite
-    if one of these is.
-
-    Parameters
-    ----------
-    values : ndarray
-        Of the draws, shape (n,); some may be infinite.
-
-    Returns
-    -------
-    ndarray
-        Of the shape of :data:`QUANTILES`.
+    Half the distance between the quantiles at ``q - s`` and ``q + s``, ``s^2 = q (1 - q)/n``;
+    infinite if one of them is.
     """
     shares = np.array(QUANTILES)
     scatter = np.sqrt(shares * (1.0 - shares) / max(values.size, 1))
-    low, high = (quantiles(values, shares + sign * scatter) for sign in (-1.0, 1.0))
+    low = quantiles(values, shares - scatter)
+    high = quantiles(values, shares + scatter)
     with np.errstate(invalid="ignore"):
         return np.where(np.isinf(high), np.inf, 0.5 * (high - low))
 
 
 @takes_fault
 def length_quantiles(
-    *, weakening_rate: Values | None = None, loading: str = "edge", draws: int = 1000,
-    seed: int = 0, progress: Progress | None = None, **fault: Any,
-) -> xr.Dataset:  # fmt: skip
+    *,
+    weakening_rate: Values | None = None,
+    loading: str = "edge",
+    draws: int = 1000,
+    seed: int = 0,
+    progress: Progress | None = None,
+    **fault: Any,
+) -> xr.Dataset:
     """Quantiles of all nucleation lengths of a fault whose parameters are uncertain.
 
     Parameters
@@ -85,11 +85,12 @@ def length_quantiles(
         Slip weakening W (Pa/m) of Uenishi and Rice's length.
     loading : {"edge", "top", "remote"}
         Where the creeping patch of L_s begins.
-    draws, seed : int
-        Number of faults, and where the random numbers start: see
-        :func:`~nucleation.answers.draws.draw`.
+    draws : int
+        Number of faults; see :func:`~nucleation.answers.draws.draw`.
+    seed : int
+        Random seed.
     progress : callable, optional
-        Called now and then with the number of draws that are done and that of all.
+        Called with the number of finished draws and the total number.
     **fault
         The parameters of :class:`~nucleation.theory.fault.Fault`. A text such as
         ``"0.5um (0.3 to 1)"`` is a :class:`~nucleation.answers.draws.Range`: median, 5 and 95 %
@@ -98,69 +99,90 @@ def length_quantiles(
     Returns
     -------
     Dataset
-        ``value(key, quantile)`` (m), infinite where so many draws are stable, in which no patch of
-        any length nucleates, or have an L_s beyond the longest that is searched; its standard
-        ``error(key, quantile)`` (m) by the finite number of draws; and the ``share(key)`` of the
-        valid draws that have the length. Draws for which a theory or formula does not apply are
-        left out of its quantiles. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and
-        those of :data:`~nucleation.answers.in_use.LENGTHS`. Attributes: ``draws``; ``invalid``,
-        no valid faults, with parameters that were ``outside``; ``stable``, without L_c;
-        ``beyond``, with L_c and an L_s that is longer than searched.
+        ``value(key, quantile)`` (m), its standard ``error(key, quantile)`` (m) by the finite number
+        of draws, and the ``share(key)`` of the valid draws that have the length. A length counts as
+        infinite if the draw is stable, so that no patch nucleates, or if L_s exceeds the range of
+        the search. Draws for which a theory or formula is not applicable are left out of its
+        quantiles. Keys: ``critical_length`` (L_c), ``stability_length`` (L_s) and those of
+        :data:`~nucleation.answers.in_use.LENGTHS`. Attributes, numbers of draws: ``draws``, all;
+        ``invalid``, no valid faults, because the parameters in ``outside`` are not allowed;
+        ``stable``, without L_c; ``beyond``, with L_c and an L_s beyond the range of the search.
 
     Raises
     ------
     ParameterError
         If a parameter is wrong or missing, or none is uncertain.
+
+    Examples
+    --------
+    >>> fault = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
+    >>> found = length_quantiles(
+    ...     **fault, a=0.010, b=0.015, slip_distance="5um (3 to 10)", draws=50
+    ... )
+    >>> median = found["value"].sel(key="critical_length", quantile=0.5)
+    >>> round(float(median), 2)
+    2.52
     """
-    drawn = draw(without_aliases(fault) | {"weakening_rate": weakening_rate}, draws, seed)
-    size = drawn.size
+    parameters = without_aliases(fault) | {"weakening_rate": weakening_rate}
+    drawn = draw(parameters, draws, seed)
     answers = _answers_of_draws(drawn, loading, progress)
     lengths = np.array([answer.length for answer in answers.values()])
     statuses = np.array([answer.status for answer in answers.values()])
-    counted = [with_never(x, status) for x, status in zip(lengths, statuses, strict=True)]
+    counted = {
+        key: with_never(length, status)
+        for key, length, status in zip(answers, lengths, statuses, strict=True)
+    }
     there = np.isfinite(lengths)
-    titles = TITLES | {length.key: length.title for length in LITERATURE}
     attributes = {
         "draws": drawn.total,
-        "invalid": drawn.total - size,
+        "invalid": drawn.total - drawn.size,
         "outside": ", ".join(drawn.invalid),
         "stable": int(np.sum(~there[0])),
         "beyond": int(np.sum(statuses == BEYOND)),
         "seed": seed,
     }
-    return table_of_quantiles(
-        dict(zip(titles, counted, strict=True)), titles, there.mean(axis=1), attributes
-    )
+    return table_of_quantiles(counted, TITLES_OF_ALL, there.mean(axis=1), attributes)
 
 
-def _answers_of_draws(drawn: Draws, loading: str, progress: Progress | None) -> dict[str, Answers]:
-    """The lengths of all draws, some at a time."""
-    parts = []
-    for start in range(0, drawn.size, AT_ONCE):
-        rows = slice(start, min(start + AT_ONCE, drawn.size))
-        values = drawn.at(rows)
+def _answers_of_draws(
+    drawn: Draws,
+    loading: str,
+    progress: Progress | None,
+) -> dict[str, Answers]:
+    """The lengths of all draws, computed in parts."""
+    parts: dict[str, list[list[Array]]] = {}
+    for start in range(0, drawn.size, _AT_ONCE):
+        stop = min(start + _AT_ONCE, drawn.size)
+        values = drawn.at(slice(start, stop))
         rate = values.pop("weakening_rate", None)
         found = answers_of(fault_of(values), rate, loading)
-        shape = (rows.stop - rows.start,)
-        parts.append({k: [np.broadcast_to(x, shape) for x in one] for k, one in found.items()})
+        for key, answer in found.items():
+            columns = [np.broadcast_to(column, (stop - start,)) for column in answer]
+            parts.setdefault(key, []).append(columns)
         if progress is not None:
-            progress(rows.stop, drawn.size)
-    return {
-        key: Answers(*(np.concatenate(x) for x in zip(*(part[key] for part in parts), strict=True)))
-        for key in parts[0]
-    }
+            progress(stop, drawn.size)
+
+    answers = {}
+    for key, of_key in parts.items():
+        columns = [np.concatenate(pieces) for pieces in zip(*of_key, strict=True)]
+        answers[key] = Answers(*columns)
+    return answers
 
 
 def with_never(lengths: Array, statuses: Any) -> Array:
-    """The lengths that count for quantiles: infinite where no patch nucleates.
+    """The lengths for quantiles: infinite where no patch nucleates.
 
     Parameters
     ----------
     lengths : ndarray
-        Of the draws (m), shape (n,).
-    statuses : ndarray
-        Of the draws, shape (n,): those that are stable or longer than searched count as infinite;
-        unknown ones are left out.
+        Lengths of the draws (m), shape (n,).
+    statuses : array_like
+        Their statuses, shape (n,).
+
+    Returns
+    -------
+    ndarray
+        Shape (m,): inf where the status is ``stable`` or ``beyond``, without ``unknown`` lengths.
     """
     never = np.isin(statuses, [STABLE, BEYOND])
     counted = np.where(never, np.inf, lengths)
@@ -168,19 +190,22 @@ def with_never(lengths: Array, statuses: Any) -> Array:
 
 
 def table_of_quantiles(
-    counted: dict[str, Array], titles: dict[str, str], share: Any, attributes: dict[str, Any]
+    counted: Mapping[str, Array],
+    titles: Mapping[str, str],
+    share: ArrayLike,
+    attributes: Mapping[str, Any],
 ) -> xr.Dataset:
-    """Quantiles and their errors by length.
+    """Quantiles and their errors for several lengths.
 
     Parameters
     ----------
-    counted : dict
-        Lengths of the draws (m) by key; some may be infinite.
-    titles : dict
-        The length in words, by key.
+    counted : mapping
+        Lengths of the draws (m), arrays of shape (n,) by key; some lengths may be infinite.
+    titles : mapping
+        Titles by key.
     share : array_like
         Share of the draws that have the length, in the order of the keys.
-    attributes : dict
+    attributes : mapping
         Attributes of the dataset.
 
     Returns
@@ -191,13 +216,16 @@ def table_of_quantiles(
     import xarray as xr
 
     values = [quantiles(x) for x in counted.values()]
-    errors = [errors_of(x) for x in counted.values()]
-    error = {"units": "m", "long_name": "standard error by the number of draws"}
+    errors = [_errors_of(x) for x in counted.values()]
+    both = ("key", "quantile")
+    of_value = {"units": "m", "long_name": "length"}
+    of_error = {"units": "m", "long_name": "standard error by the number of draws"}
+    of_share = {"units": "1", "long_name": "share of draws"}
     return xr.Dataset(
         {
-            "value": (("key", "quantile"), values, {"units": "m", "long_name": "length"}),
-            "error": (("key", "quantile"), errors, error),
-            "share": ("key", np.asarray(share), {"units": "1", "long_name": "share of draws"}),
+            "value": (both, values, of_value),
+            "error": (both, errors, of_error),
+            "share": ("key", np.asarray(share), of_share),
         },
         coords={
             "key": list(counted),

@@ -1,9 +1,9 @@
-"""Does a weakening patch creep, slip slowly or nucleate? For models of sequences of events.
+"""Behaviour of a weakening patch (creep, slow slip or event), for models of sequences of events.
 
-The width W of the patch is compared with the smallest one that nucleates, W_c
-(:mod:`nucleation.theory.weakening_patch`). Below W_c the patch creeps. Above it slip is unstable,
-and grows into a limit cycle of slow slip or into an event. Where slow slip ends is known from
-simulations (docs/creeping_patch.md), not from a theory.
+The width W of the patch is compared with the smallest width that nucleates, W_c
+(:mod:`nucleation.theory.weakening_patch`). Below W_c the patch creeps. Above W_c slip is unstable
+and grows into a limit cycle of slow slip or into an event. The transition between these two is
+known from simulations (docs/creeping_patch.md), not from a theory.
 """
 
 from __future__ import annotations
@@ -19,22 +19,26 @@ from ..theory.weakening_patch import weakening_patch_values
 from ..types import Array
 
 NUCLEATES = 1.3
-"""W over W_c from which on all simulated patches nucleated; some slipped slowly up to 1.22."""
+"""Least W/W_c at which all simulated patches nucleated; some slipped slowly up to 1.22."""
 
-CELLS = 3.0
+_CELLS = 3.0
 """Cells in a process zone that resolve it (Day and others, 2005)."""
 
-HALVINGS = 60  # of the interval of log k in which the process zone is sought
-SPAN = 1e6  # ratio of the longest to the shortest process zone that is sought, and back
+_HALVINGS = 60  # of the interval of log k in which the process zone is searched
+_SPAN = 1e6  # ratio of the longest process zone of the search to L_b/2, and of that to the shortest
 
 
 class PatchAnswer(NamedTuple):
-    """What becomes of the weakening patch of one fault."""
+    """The behaviour of a weakening patch of one fault."""
 
-    smallest_width: float  # W_c (m), NaN without one
-    width_ratio: float  # W/W_c, NaN without a width
-    outcome: str  # in words, empty without a width
-    cell_size: float  # largest one (m) that resolves the process zone, NaN without one
+    smallest_width: float
+    """W_c (m); NaN if no patch nucleates."""
+    width_ratio: float
+    """W/W_c; NaN without a width."""
+    outcome: str
+    """The behaviour in words; empty without a width."""
+    cell_size: float
+    """Largest cell (m) that resolves the process zone; NaN if there is no process zone."""
 
 
 def patch_answer(
@@ -43,7 +47,7 @@ def patch_answer(
     outside_a: Values | None = None,
     width: float | None = None,
 ) -> PatchAnswer:
-    """What becomes of a weakening patch among strengthening surroundings.
+    """The behaviour of a weakening patch among strengthening surroundings.
 
     Parameters
     ----------
@@ -66,11 +70,12 @@ def patch_answer(
     smallest = float(weakening_patch_values(fault, outside_zeta, outside_a))
     ratio = math.nan if width is None else width / smallest
     words = "" if width is None else outcome(ratio)
-    return PatchAnswer(smallest, ratio, words, process_zone(fault) / CELLS)
+    cell = process_zone(fault) / _CELLS
+    return PatchAnswer(smallest, ratio, words, cell)
 
 
 def outcome(width_ratio: float) -> str:
-    """What a patch does, in words, by its width over W_c."""
+    """The behaviour of a patch in words, from its width over W_c."""
     if math.isnan(width_ratio):
         return "no W_c: the patch is stable, or its surroundings are not"
     if width_ratio < 1.0:
@@ -91,11 +96,15 @@ def process_zone(fault: Fault) -> float:
 
     def zones(systems: Systems) -> Array:
         thick = systems.softness / systems.b
-        low, high = 1.0 / (SPAN * thick), SPAN / thick
-        for _ in range(HALVINGS):
+        low = 1.0 / (_SPAN * thick)
+        high = _SPAN / thick
+        for _ in range(_HALVINGS):
             middle = np.sqrt(low * high)
             stiff = systems.load_and_coupling(middle)[0] > systems.b
-            low, high = np.where(stiff, low, middle), np.where(stiff, middle, high)
+            low = np.where(stiff, low, middle)
+            high = np.where(stiff, middle, high)
         return 1.0 / low[None]
 
-    return float(fault.evaluate(zones)[0]) if float(fault.b) > 0.0 else math.nan
+    if float(fault.b) <= 0.0:
+        return math.nan
+    return float(fault.evaluate(zones)[0])

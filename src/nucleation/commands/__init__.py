@@ -1,4 +1,4 @@
-"""The command ``nucleation``: lengths of a fault, simulations, and what is in a dataset.
+"""The command ``nucleation``: lengths of a fault, simulations, and summaries of datasets.
 
 :func:`run` turns every failure into one message on the standard error and an exit code.
 """
@@ -31,7 +31,7 @@ Exit codes:
   {FAILED}    the simulation failed numerically; its record is kept beside
   {REFUSED}    a value, an option or a file is wrong, or can't be written
   {STABLE}    homogeneous sliding is stable: there is no critical length
-  {UNKNOWN}    the law of the drop does not reach this fault
+  {UNKNOWN}    the law of the drop is not applicable to this fault
   {INTERRUPTED}  interrupted
 """
 
@@ -47,13 +47,13 @@ COMMANDS = {
     "drop": "Length at which the force drops, of a fault under a declared perturbation.",
     "plot": "Draw L_c, L_s and the length at the drop over one or two parameters of a fault.",
     "simulate": "Simulate a block pushed from its side and write the record to OUTPUT (netCDF).",
-    "show": "Summarise a dataset of the project: what it is, how it was made, what is in it.",
+    "show": "Summarise a dataset of the project: its kind, origin and variables.",
 }
-"""The commands, each with the first sentence of its help: listing them imports none of them."""
+"""The first sentence of the help of each command, so that listing them imports none of them."""
 
 
-class LazyGroup(click.Group):
-    """Commands of this package, each imported when it is used: help and completion stay quick."""
+class _LazyGroup(click.Group):
+    """Commands of this package, each imported on use, so that help and completion are quick."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -70,12 +70,17 @@ class LazyGroup(click.Group):
             formatter.write_dl(list(COMMANDS.items()))
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        begun = [CompletionItem(k, help=v) for k, v in COMMANDS.items() if k.startswith(incomplete)]
+        begun = []
+        for name, help in COMMANDS.items():
+            if name.startswith(incomplete):
+                begun.append(CompletionItem(name, help=help))
         return begun + click.Command.shell_complete(self, ctx, incomplete)
 
 
 @click.command(
-    cls=LazyGroup, epilog=f"{EXIT_CODES}\n{COMPLETION}", context_settings={"max_content_width": 100}
+    cls=_LazyGroup,
+    epilog=f"{EXIT_CODES}\n{COMPLETION}",
+    context_settings={"max_content_width": 100},
 )
 @click.version_option(__version__, prog_name="nucleation")
 def main() -> None:
@@ -85,18 +90,36 @@ def main() -> None:
     """
 
 
+def _with_suggestion(error: click.NoSuchOption) -> click.NoSuchOption:
+    """The error for an unknown option, with a suggestion among those of the same command."""
+    from ..model.synonyms import hint
+
+    if error.ctx is None:
+        return error
+    known = []
+    for parameter in error.ctx.command.get_params(error.ctx):
+        known += [word for word in parameter.opts if word.startswith("--")]
+    suggestion = hint(error.option_name, known)
+    if not suggestion:
+        return error
+    message = f"No such option {error.option_name!r}; {suggestion}"
+    return click.NoSuchOption(error.option_name, message, ctx=error.ctx)
+
+
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command line, without its name, and return the exit code."""
     from ..datasets.variables import DatasetError
     from ..model.quantities import ParameterError
 
     try:
-        if os.environ.get("SOURCE_DATE_EPOCH"):  # NumPy can't be loaded whole with a wrong one
+        if os.environ.get("SOURCE_DATE_EPOCH"):  # a wrong one would stop the import of NumPy
             from ..datasets.provenance import moment
 
             moment()
         return main.main(arguments, prog_name="nucleation", standalone_mode=False) or DONE
     except click.ClickException as error:
+        if isinstance(error, click.NoSuchOption):
+            error = _with_suggestion(error)
         shown = io.StringIO()
         error.show(shown)
         click.echo(with_addresses(shown.getvalue()), err=True, nl=False)
@@ -104,7 +127,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.Abort:
         click.echo("Interrupted", err=True)
         return INTERRUPTED
-    except BrokenPipeError:  # such as `| head`: nobody is left to tell
+    except BrokenPipeError:  # such as `| head`: nobody reads the rest
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return REFUSED
     except OSError as error:

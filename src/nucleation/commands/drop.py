@@ -1,4 +1,4 @@
-"""``nucleation drop``: where a fault's force drops, under a perturbation of declared strength."""
+"""``nucleation drop``: the length at which the force drops, under a declared perturbation."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ from ..theory import status as status_words
 from ..theory.arrays import critical_length, reason_of_stability
 from ..theory.fault import Fault
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
-from .fault_options import of_parameters, plane_in_words, told
-from .options import merged, merged_parameters, parameter_options, planned, source_options, sourced
+from .options import parameter_options, source_options
 from .pages import with_addresses
+from .sources import merged, merged_parameters, planned, sourced
+from .system_text import fault_in, plane_in_words, system_of_run
 from .text import to_json
 from .uncertain_drop import print_drop_quantiles, uncertain_of
 from .uncertainty import draws_option, samples_option
@@ -29,30 +30,35 @@ from .uncertainty import draws_option, samples_option
 if TYPE_CHECKING:
     from ..patch.expected_drop import ExpectedDrop
 
-USUAL = {"perturbation": "normal_load", "strength": 1e-4}  # up to which the law is known
-GROUPS = ("material", "friction", "loading", "perturbation", "second_body")
-OWN = ("second_n_y", "second_grading", "loading", "stress_rate", "seed")
-"""What the law has of its own: mesh, steps, an edge that is pushed, and all realisations."""
+USUAL = {"perturbation": "normal_load", "strength": 1e-4}
+"""The perturbation by default; the law is verified up to this strength."""
 
-COMPARED = (
+_GROUPS = ("material", "friction", "loading", "perturbation", "second_body")
+_WITHOUT_EFFECT = ("second_n_y", "second_grading", "loading", "stress_rate", "seed")
+"""Parameters of these groups without effect: the law has no mesh, holds for an edge that is pushed,
+and covers all realisations."""
+
+_COMPARED = (
     "Against simulations of the paper's fault at strengths up to 1e-4 the median has an error of "
     "0.8 %\n(rms), 2 % at most; see docs/drop.md for others."
 )
 
-COMPARED_SLOW = (
+_COMPARED_SLOW = (
     "Friction weakens little here: the patch slips slowly in a limit cycle until there is none, "
-    "whatever\nthe perturbation. Simulated drops came at 0 to 8 % above L_run; see docs/drop.md."
+    "for any\nperturbation. In thin blocks simulated drops came from 1 % below to 10 % above "
+    "L_run; see docs/drop.md."
 )
 
 
 def _counts(name: str) -> bool:
-    """Whether a parameter, by its name in studies, decides on the drop."""
-    known = name in CONSTANTS or name == "height" or names().full(name).startswith(GROUPS)
-    return known and name not in OWN
+    """Whether a parameter, by its name in studies, has an effect on the drop."""
+    if name in CONSTANTS or name == "height":
+        return True
+    return names().full(name).startswith(_GROUPS) and name not in _WITHOUT_EFFECT
 
 
 COUNTING = tuple(filter(_counts, study_parameters()))
-"""The parameters that decide on the drop, by their names in studies."""
+"""The parameters with an effect on the drop, by their names in studies."""
 
 
 @click.command("drop", epilog=EXIT_CODES)
@@ -73,10 +79,11 @@ def command(
 ) -> int:
     """Length at which the force drops, of a fault under a declared perturbation.
 
-    A block is pushed from its side, as by `simulate`. Its creeping patch becomes unstable at L_s.
-    The force drops once the unstable mode has grown to the size of the loading, so the weaker the
-    perturbation, the later. The growth follows from the theory of the patch. A range "5um (3 to
-    10)", the median and the quantiles of 5 and 95 %, or --samples give quantiles of the length.
+    A block is pushed from its side, as by `simulate`. Its creeping patch turns unstable at L_s. The
+    force drops once the unstable mode has grown to the size of the loading, so a weaker
+    perturbation means a later drop. The growth follows from the theory of the patch. With a range
+    "5um (3 to 10)", the median and the quantiles of 5 and 95 %, or with --samples it prints
+    quantiles of the length.
 
     \b
     Example:
@@ -93,49 +100,53 @@ def command(
     if uncertain:
         return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
     parameters = merged_parameters(None, values)
-    fault, found, status, reason = of_parameters(parameters), None, status_words.VALUE, ""
+    fault = fault_in(parameters)
     critical = float(critical_length(**fault))
+    found = None
+    code, status, reason = DONE, status_words.VALUE, ""
     if math.isnan(critical):
         code, status = STABLE, status_words.STABLE
         reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
     else:
         run = planned(values, {}, results="results")  # not used
         critical = run.theory_length
-        # with the solver, which takes seconds
+        # imported here, since the solver takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
 
         try:
-            found, code = expected_drop(run.parameters), DONE
+            found = expected_drop(run.parameters)
         except NoDrop as error:
             code, status, reason = UNKNOWN, error.status, str(error)
         for topic, _, text in changing_friction(run):
             click.echo(f"Warning: {topic}: {with_addresses(text)}", err=True)
-    said = told(parameters, base, given)
+    system = system_of_run(parameters, base, given)
     if as_json:
         known = {
-            "system": said,
+            "system": system,
             "status": status,
             "reason": reason,
             "theory": {"critical_length": critical, "plane": parameters.material.plane},
             "perturbation": dataclasses.asdict(parameters.perturbation),
         }
-        click.echo(to_json(known | (_described(found) if found else {})))
+        answer = _described(found) if found else {}
+        click.echo(to_json(known | answer))
     else:
-        lines = [*said, *_lines(parameters, critical, found, reason)]
+        lines = [*system, *_lines(parameters, critical, found, reason)]
         click.echo(with_addresses("\n".join(lines)))
     return code
 
 
 def _cure(parameters: Parameters) -> str:
-    """What to change where the law's own scale, not the fault, may be why sliding is stable."""
-    v, v0 = parameters.loading.velocity, parameters.friction.regularisation_slip_rate
-    if v > 10.0 * v0:
+    """The parameter to change if the scale v0 of the friction law may be why sliding is stable."""
+    velocity = parameters.loading.velocity
+    v0 = parameters.friction.regularisation_slip_rate
+    if velocity > 10.0 * v0:
         return ""
-    return f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V = {v:g} m/s"
+    return f"; v0 = {v0:g} m/s, regularisation_slip_rate, must be far below V = {velocity:g} m/s"
 
 
 def _described(found: ExpectedDrop) -> dict[str, Any]:
-    """What JSON has of the drop."""
+    """The drop for JSON, in SI units."""
     return {
         "stability_length": found.stability_length,
         "runaway_length": found.runaway_length,
@@ -150,44 +161,60 @@ def _described(found: ExpectedDrop) -> dict[str, Any]:
 
 
 def _lines(
-    parameters: Parameters, critical: float, found: ExpectedDrop | None, reason: str
+    parameters: Parameters,
+    critical: float,
+    found: ExpectedDrop | None,
+    reason: str,
 ) -> list[str]:
+    """The lengths of the theory and of the drop, one line each."""
     if math.isnan(critical):
         return [f"No critical length: {reason}."]
+    value = f"{critical:.4g} m"
     lines = [
         f"Theory of homogeneous sliding, in {plane_in_words(parameters.material.plane)}:",
-        f"  L_c    {f'{critical:.4g} m':<26} critical nucleation length",
+        f"  L_c    {value:<26} critical nucleation length",
         "The creeping patch:",
     ]
     if found is None:
-        return [*lines, f"  The law of the drop does not reach this fault: {reason}."]
-    drop = found.drop
-    rows = [
-        ("L_s", found.stability_length, "it turns unstable"),
-        ("L", drop.length, "half of the realisations have dropped,"),
-        ("", drop.low, "16 % of them,"),
-        ("", drop.high, "84 % of them"),
-    ]
-    if found.slips_slowly:
-        rows[0] = ("L_s", found.stability_length, "it turns unstable: slow slip from here on,")
-        rows[1:] = [("L_run", found.runaway_length, "and to here, where the force drops")]
-    for name, length, meaning in rows:
+        return [*lines, f"  The law of the drop is not applicable to this fault: {reason}."]
+    for name, length, meaning in _rows(found):
+        value = f"{length:.4g} m"
         ratio = f"{length / critical:.3g} L_c"
-        lines.append(f"  {name:<6} {f'{length:.4g} m':<11} {ratio:<14} {meaning}")
+        lines.append(f"  {name:<6} {value:<11} {ratio:<14} {meaning}")
     if not found.slips_slowly:
-        times = f"{drop.time_low:.4g} to {drop.time_high:.4g} s"
-        lines.append(f"  t_d    {f'{drop.time:.4g} s':<26} {times}")
-    trusted = COMPARED_SLOW if found.slips_slowly else COMPARED
+        drop = found.drop
+        time = f"{drop.time:.4g} s"
+        lines.append(f"  t_d    {time:<26} {drop.time_low:.4g} to {drop.time_high:.4g} s")
+    lines.append(f"perturbed: {_perturbed(parameters.perturbation)}")
+    if found.doubt:
+        lines.append(f"DO NOT RELY ON IT: {found.doubt}.")
+    else:
+        lines.append(_COMPARED_SLOW if found.slips_slowly else _COMPARED)
+    return lines
+
+
+def _rows(found: ExpectedDrop) -> list[tuple[str, float, str]]:
+    """Symbol, length (m) and meaning of each length of the creeping patch."""
+    stability = found.stability_length
+    if found.slips_slowly:
+        return [
+            ("L_s", stability, "it turns unstable: slow slip from here on,"),
+            ("L_run", found.runaway_length, "and to here, where the force drops"),
+        ]
     return [
-        *lines,
-        f"perturbed: {_perturbed(parameters.perturbation)}",
-        f"DO NOT RELY ON IT: {found.doubt}." if found.doubt else trusted,
+        ("L_s", stability, "it turns unstable"),
+        ("L", found.drop.length, "half of the realisations have dropped,"),
+        ("", found.drop.low, "16 % of them,"),
+        ("", found.drop.high, "84 % of them"),
     ]
 
 
 def _perturbed(declared: Perturbation) -> str:
-    text = f"{declared.kind}, relative strength {declared.strength:g}, correlated over "
-    if declared.kind == "strength":
-        return f"{text}{declared.correlation_length:g} m"
-    along = f" and {declared.correlation_length:g} m" if declared.kind == "state" else ""
-    return f"{text}{declared.correlation_time:g} D/V{along}"
+    """The perturbation in words."""
+    time = f"{declared.correlation_time:g} D/V"
+    length = f"{declared.correlation_length:g} m"
+    scales = {"strength": length, "state": f"{time} and {length}"}
+    return (
+        f"{declared.kind}, relative strength {declared.strength:g}, "
+        f"correlated over {scales.get(declared.kind, time)}"
+    )

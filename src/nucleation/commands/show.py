@@ -1,4 +1,4 @@
-"""``nucleation show``: what is in a dataset of the project, and a picture of it."""
+"""``nucleation show``: summary and picture of a dataset of the project."""
 
 from __future__ import annotations
 
@@ -24,19 +24,21 @@ from ..model.linearised import linearised
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, run_length
 
-SHOWN_ROWS = 60
+_SHOWN_ROWS = 60
 
 
 @click.command("show", epilog=EXIT_CODES)
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option(
-    "--plot", type=click.Path(dir_okay=False, path_type=Path), metavar="OUT.png",
+    "--plot",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="OUT.png",
     help="draw it; PNG or PDF by the name, or GIF: a film of a simulation, which is run once more",
-)  # fmt: skip
+)
 @click.option("--force", is_flag=True, help="replace the plot if it exists")
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
-    """Summarise a dataset of the project: what it is, how it was made, what is in it.
+    """Summarise a dataset of the project: its kind, origin and variables.
 
     \b
     Example:
@@ -44,7 +46,7 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     """
     require("solver")
     dataset = netcdf.read(file)
-    kind = next(kind for kind in KINDS if set(kind.marks) <= set(map(str, dataset.variables)))
+    kind = _kind_of(dataset)
     if plot:
         _check_plot(plot, kind, force)
     if as_json:
@@ -58,40 +60,44 @@ def command(file: Path, plot: Path | None, force: bool, as_json: bool) -> int:
     return DONE
 
 
-def _as_json(dataset: xr.Dataset, kind: Kind) -> dict[str, Any]:
-    """What a dataset is, where it is from, its variables; its event or its rows."""
-    told: dict[str, Any] = {"kind": kind.name}
+def _as_json(dataset: xr.Dataset, kind: _Kind) -> dict[str, Any]:
+    """Kind, origin and variables of a dataset, and its event or its rows."""
+    found: dict[str, Any] = {"kind": kind.name}
     for name, value in dataset.attrs.items():
         if name in netcdf.TEXTS | {"key"}:
-            told[name] = json.loads(value) if name in netcdf.STRUCTURES else str(value)
-    told["variables"] = {
-        name: {key: variable.attrs.get(key, "") for key in ("long_name", "units")}
-        | {"sizes": dict(variable.sizes)}
-        for name, variable in dataset.variables.items()
-    }
-    if kind.name == SIMULATION:
-        told |= text.outcome(dataset)
+            found[name] = json.loads(value) if name in netcdf.STRUCTURES else str(value)
+    variables = {}
+    for name, variable in dataset.variables.items():
+        variables[name] = {
+            "long_name": variable.attrs.get("long_name", ""),
+            "units": variable.attrs.get("units", ""),
+            "sizes": dict(variable.sizes),
+        }
+    found["variables"] = variables
+    if kind.name == _SIMULATION:
+        found |= text.outcome(dataset)
     elif kind.summary is _length_rows:
-        told["rows"] = rows_of(dataset)
-    return told
+        found["rows"] = rows_of(dataset)
+    return found
 
 
-def _check_plot(plot: Path, kind: Kind, force: bool) -> None:
+def _check_plot(plot: Path, kind: _Kind, force: bool) -> None:
+    """Refuse a plot that can't be drawn or written."""
     require("figures")
     if not kind.figure:
-        known = ", ".join(k.name for k in KINDS if k.figure)
+        known = ", ".join(kind.name for kind in _KINDS if kind.figure)
         raise ParameterError(
             f"there is no plot of this kind of dataset, {kind.name}; of these there is: {known}"
         )
-    allowed = (".png", ".pdf", ".gif") if kind.name == SIMULATION else (".png", ".pdf")
+    allowed = (".png", ".pdf", ".gif") if kind.name == _SIMULATION else (".png", ".pdf")
     if plot.suffix not in allowed:
         ends = f"{', '.join(allowed[:-1])} or {allowed[-1]}"
         raise ParameterError(f"--plot = '{plot}' is not allowed: it must end in {ends}")
     require_writable(plot, force)
 
 
-def _save(dataset: xr.Dataset, kind: Kind, plot: Path) -> None:
-    """Write the figure as the project's are written, keeping the format asked for; or a film."""
+def _save(dataset: xr.Dataset, kind: _Kind, plot: Path) -> None:
+    """Write the figure in the style of the project, or a film, in the format of the name."""
     import matplotlib as mpl
 
     from ..datasets.files import replacing
@@ -101,20 +107,24 @@ def _save(dataset: xr.Dataset, kind: Kind, plot: Path) -> None:
         overview.film(dataset, plot)
         return
     module, _, function = kind.figure.rpartition(".")
-    draw = getattr(importlib.import_module(f"nucleation.figures.{module}"), function)
-    figure = draw(dataset)
+    figures = importlib.import_module(f"nucleation.figures.{module}")
+    figure = getattr(figures, function)(dataset)
     with mpl.rc_context(style.STYLE), replacing(plot) as temporary:
         figure.savefig(temporary, format=plot.suffix[1:])
 
 
-def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
+def _origin_lines(dataset: xr.Dataset, kind: _Kind) -> list[str]:
     """Command, date, code and versions."""
     attributes = dataset.attrs
-    lines = [f"{name}: {attributes[name]}" for name in ("command", "created") if name in attributes]
+    lines = []
+    for name in ("command", "created"):
+        if name in attributes:
+            lines.append(f"{name}: {attributes[name]}")
     if "code_digest" in attributes:
-        digest, verdict = attributes["code_digest"], ""
-        if kind.name == SIMULATION:
-            from ..pipeline.running import simulation_code  # with the solver, which is an extra
+        digest = attributes["code_digest"]
+        verdict = ""
+        if kind.name == _SIMULATION:
+            from ..pipeline.running import simulation_code  # imported here: the solver is an extra
 
             differs = digest != simulation_code(parameters_of(dataset))
             verdict = f", {'NOT ' if differs else ''}that of this installation"
@@ -122,85 +132,138 @@ def _origin_lines(dataset: xr.Dataset, kind: Kind) -> list[str]:
     if "key" in attributes:
         lines.append(f"key in the workflow: {attributes['key']}")
     if "versions" in attributes:
-        versions = json.loads(attributes["versions"]).items()
-        lines.append("versions: " + ", ".join(f"{name} {version}" for name, version in versions))
+        versions = json.loads(attributes["versions"])
+        listed = ", ".join(f"{name} {version}" for name, version in versions.items())
+        lines.append(f"versions: {listed}")
     return lines
 
 
 def _simulation_lines(dataset: xr.Dataset) -> list[str]:
-    attributes, parameters = dataset.attrs, parameters_of(dataset)
+    """Parameters, outcome, record, theory and event of a simulation."""
+    attributes = dataset.attrs
+    sizes = dataset.sizes
+    parameters = parameters_of(dataset)
     interface = linearised(parameters.friction, parameters.loading)
     try:
         theory = run_length(parameters, interface)
-        said = f"{theory:.4g} m, of the friction law expanded at V"
+        theory_text = f"{theory:.4g} m, of the friction law expanded at V"
     except NoInstability as error:
-        theory, said = math.nan, f"no critical length: {error}"
-    wall = f"{attributes['wall_seconds']:.4g} s of wall time"
+        theory = math.nan
+        theory_text = f"no critical length: {error}"
+    duration = float(dataset["step_time"][-1])
     return [
         *text.parameter_lines(parameters),
         f"status: {attributes['status']}",
-        f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, {wall}, "
-        f"{attributes['peak_megabytes']:.0f} MB",
-        f"record: {float(dataset['step_time'][-1]):.6g} s, {dataset.sizes['time']} frames of "
-        f"{dataset.sizes['x']} points, {dataset.sizes.get('snapshot', 0)} snapshots of the block",
-        f"theory: {said}",
+        f"steps: {attributes['steps']}, {attributes['rejected_steps']} rejected, "
+        f"{attributes['wall_seconds']:.4g} s of wall time, {attributes['peak_megabytes']:.0f} MB",
+        f"record: {duration:.6g} s, {sizes['time']} frames of {sizes['x']} points, "
+        f"{sizes.get('snapshot', 0)} snapshots of the block",
+        f"theory: {theory_text}",
         *text.event_lines(extract(dataset), theory),
     ]
 
 
 def _length_rows(dataset: xr.Dataset) -> list[str]:
-    """The table of lengths, one run in a line."""
+    """The table of lengths, one line for each run."""
     lines = [f"{'id':<44} {'H (m)':>8} {'onset (s)':>10} {'L_c (m)':>9} {'theory':>8}  /theory"]
-    for row in rows_of(dataset, range(min(dataset.sizes["run"], SHOWN_ROWS))):
-        length, theory = row["length"], row["theory_length"]
+    number = dataset.sizes["run"]
+    for row in rows_of(dataset, range(min(number, _SHOWN_ROWS))):
+        length = row["length"]
+        theory = row["theory_length"]
         lines.append(
             f"{row['id']:<44} {row['height']:>8.4g} {row['onset_time']:>10.4g} {length:>9.4g} "
             f"{theory:>8.4g}  {length / theory:.3f}"
         )
-    hidden = dataset.sizes["run"] - SHOWN_ROWS
-    return lines + ([f"and {hidden} more"] if hidden > 0 else [])
+    if number > _SHOWN_ROWS:
+        lines.append(f"and {number - _SHOWN_ROWS} more")
+    return lines
 
 
 def _variable_lines(dataset: xr.Dataset) -> list[str]:
     """Every variable with its meaning, unit, shape and range."""
     lines = []
     for name, variable in dataset.variables.items():
-        shape = " x ".join(f"{n} {d}" for d, n in variable.sizes.items()) or "one value"
-        unit = variable.attrs.get("units", "")
-        span = ""
-        if variable.dtype.kind in "fiu" and np.isfinite(variable.values).any():
-            low, high = np.nanmin(variable.values), np.nanmax(variable.values)
-            span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-            span += "" if unit in ("", "1") else f" {unit}"
-        lines.append(f"  {name!s:<28} {variable.attrs['long_name']}: {shape}; {span}".rstrip("; "))
+        sizes = " x ".join(f"{n} {dimension}" for dimension, n in variable.sizes.items())
+        parts = [sizes or "one value"]
+        span = _span(variable)
+        if span:
+            parts.append(span)
+        lines.append(f"  {name!s:<28} {variable.attrs['long_name']}: {'; '.join(parts)}")
     return lines
 
 
-class Kind(NamedTuple):
-    """A kind of dataset: what tells it from others, its picture and its summary."""
+def _span(variable: xr.Variable) -> str:
+    """The range of a variable with its unit; empty without finite numbers."""
+    if variable.dtype.kind not in "fiu" or not np.isfinite(variable.values).any():
+        return ""
+    low = np.nanmin(variable.values)
+    high = np.nanmax(variable.values)
+    span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
+    unit = variable.attrs.get("units", "")
+    return span if unit in ("", "1") else f"{span} {unit}"
+
+
+class _Kind(NamedTuple):
+    """A kind of dataset."""
 
     name: str
-    marks: tuple[str, ...]  # variables
-    figure: str = ""  # its function among the figures
+    marks: tuple[str, ...]
+    """Variables that other kinds lack."""
+    figure: str = ""
+    """Module and function of its figure; empty without one."""
     summary: Callable[[xr.Dataset], list[str]] = _variable_lines
+    """The lines of its summary."""
 
 
-SIMULATION = "simulation"
+_SIMULATION = "simulation"
 
-KINDS = (
-    Kind(
-        SIMULATION,
-        ("slip_rate", "driving_force", "step_time"),
-        "overview.plot_run",
-        _simulation_lines,
+_KINDS = (
+    _Kind(
+        _SIMULATION,
+        marks=("slip_rate", "driving_force", "step_time"),
+        figure="overview.plot_run",
+        summary=_simulation_lines,
     ),
-    Kind("sensitivity table", ("varied", "length"), "beyond.figure_sensitivity.draw", _length_rows),
-    Kind("table of refinement", ("length_difference", "length"), "", _length_rows),
-    Kind("table of lengths", ("id", "onset_time", "theory_length"), "", _length_rows),
-    Kind("patch's stability", ("instant_time", "oscillation_growth")),
-    Kind("dispersion relation", ("measured_growth",), "checks.figure_dispersion.draw"),
-    Kind("orders of convergence", ("displacement_error",), "checks.figure_verification.draw"),
-    Kind("theory", ("critical_length", "thin_limit_length"), "paper.figure_2.draw"),
-    Kind("dataset", ()),
+    _Kind(
+        "sensitivity table",
+        marks=("varied", "length"),
+        figure="beyond.figure_sensitivity.draw",
+        summary=_length_rows,
+    ),
+    _Kind(
+        "table of refinement",
+        marks=("length_difference", "length"),
+        summary=_length_rows,
+    ),
+    _Kind(
+        "table of lengths",
+        marks=("id", "onset_time", "theory_length"),
+        summary=_length_rows,
+    ),
+    _Kind(
+        "patch's stability",
+        marks=("instant_time", "oscillation_growth"),
+    ),
+    _Kind(
+        "dispersion relation",
+        marks=("measured_growth",),
+        figure="checks.figure_dispersion.draw",
+    ),
+    _Kind(
+        "orders of convergence",
+        marks=("displacement_error",),
+        figure="checks.figure_verification.draw",
+    ),
+    _Kind(
+        "theory",
+        marks=("critical_length", "thin_limit_length"),
+        figure="paper.figure_2.draw",
+    ),
+    _Kind("dataset", marks=()),
 )
-"""The first kind all of whose marks are in a dataset is its own."""
+
+
+def _kind_of(dataset: xr.Dataset) -> _Kind:
+    """The first kind with all its marks in the dataset."""
+    variables = set(map(str, dataset.variables))
+    return next(kind for kind in _KINDS if variables.issuperset(kind.marks))

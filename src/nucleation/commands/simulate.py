@@ -18,33 +18,29 @@ from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .fault_options import told
-from .options import (
-    STUDY,
-    flat,
-    given_of,
-    merged,
-    option,
-    parameter_options,
-    planned,
-    source_options,
-    sourced,
-)
+from .options import flat, option, parameter_options, source_options
 from .pages import with_addresses
+from .sources import STUDY, given_of, merged, planned, sourced
+from .system_text import system_of_run
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json
 
-RATIO = declarations(StudySettings)["length_over_critical"]
-MEMORY = declarations(Limits)["memory"]
+_RATIO = declarations(StudySettings)["length_over_critical"]
+_MEMORY = declarations(Limits)["memory"]
 
 
 @click.command("simulate", epilog=EXIT_CODES)
 @click.argument("output", type=click.Path(dir_okay=False, path_type=Path))
 @source_options
 @parameter_options(study_parameters())
-@option("--length-over-critical", key="length_over_critical", entry=RATIO)
-@option("--memory", key="memory", entry=MEMORY, note="more is refused; 2000 MB if left out")
+@option("--length-over-critical", key="length_over_critical", entry=_RATIO)
+@option(
+    "--memory",
+    key="memory",
+    entry=_MEMORY,
+    note="more is refused; 2000 MB if left out",
+)
 @click.option("--force", is_flag=True, help="replace OUTPUT if it exists")
-@click.option("--dry-run", is_flag=True, help="check everything, say what would be run, and stop")
+@click.option("--dry-run", is_flag=True, help="check everything, describe the run, and stop")
 @click.option("--json", "as_json", is_flag=True, help="print the outcome as JSON, in SI units")
 def command(
     output: Path,
@@ -61,13 +57,13 @@ def command(
 ) -> int:
     """Simulate a block pushed from its side and write the record to OUTPUT (netCDF).
 
-    What an option does not give is taken from --parameters or --run. Else it is the paper's; but a
-    fault of its own a and b has the regularised Dieterich-Ruina law, with scales that follow from V
-    and D/V, and two identical bodies. With --paper all that is not given is the paper's. Without an
-    end time the run goes on until its event, or until that is long overdue by the theory. A bar on
-    the terminal shows how far the simulation is, a log gets a line now and then. Ctrl-C and SIGTERM
-    leave a checkpoint from which the same command goes on. A simulation that fails numerically
-    keeps its record beside, in a file that ends in .failed.nc.
+    Parameters without an option are taken from --parameters or --run; else they are the paper's. A
+    fault with its own a and b has the regularised Dieterich-Ruina law, with scales that follow from
+    V and D/V, and two identical bodies. With --paper all other parameters are the paper's. Without
+    an end time the run continues until its event, or until the event is long overdue by the theory.
+    The terminal shows a progress bar, a log file a line from time to time. Ctrl-C and SIGTERM leave
+    a checkpoint from which the same command resumes. The record of a simulation that fails
+    numerically is kept in a file that ends in .failed.nc.
 
     \b
     Example:
@@ -83,55 +79,58 @@ def command(
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
             f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
         )
-    study = given_of({"length_over_critical": length_over_critical})
-    limits, place = given_of({"memory": memory}), str(output.absolute().parent)
-    run = planned(values, study, limits=limits, results=place)
-    said = told(run.parameters, base, given)
+    run = planned(
+        values,
+        study=given_of({"length_over_critical": length_over_critical}),
+        limits=given_of({"memory": memory}),
+        results=str(output.absolute().parent),
+    )
+    lines = system_of_run(run.parameters, base, given)
     for warning in advise([run]):
         text = warning.removeprefix(f"studies.{STUDY}: ").replace(f" ({run.id})", "")
         click.echo(f"Warning: {with_addresses(text)}", err=True)
-    said += _plan_lines(run)
+    lines += _plan_lines(run)
     if dry_run:
-        text = "\n".join([*parameter_lines(run.parameters), *said])
-        click.echo(to_json(_planned(run)) if as_json else text)
+        text = "\n".join([*parameter_lines(run.parameters), *lines])
+        click.echo(to_json(_described(run)) if as_json else text)
         return DONE
     require("solver")
-    click.echo("\n".join(said), err=as_json)
+    click.echo("\n".join(lines), err=as_json)
     return _simulate(run, output, as_json)
 
 
 def _plan_lines(run: Run) -> list[str]:
+    """Theory, duration and memory of a run."""
     mesh = run.parameters.mesh
+    critical = run.theory_length
     element = run.parameters.geometry.length / mesh.n_x
-    theory = f"critical length {run.theory_length:.4g} m, {run.theory_length / element:.4g}"
-    patch = stability_length_of(run.parameters, run.theory_length)
-    if math.isnan(run.theory_length):
+    theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
+    if math.isnan(critical):
         theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
+    lines = [f"theory: {theory} elements of {element:.4g} m"]
+    patch = stability_length_of(run.parameters, critical)
+    if not math.isnan(patch):
+        lines.append(f"theory: a creeping patch turns unstable at {patch:.4g} m")
     stepping = run.parameters.stepping
     until = f"time: until {stepping.end_time:g} s"
     if stepping.time_after_event < stepping.end_time:
         until += f", or {stepping.time_after_event:g} s after the event's onset"
-    creeping = (
-        [] if math.isnan(patch) else [f"theory: a creeping patch turns unstable at {patch:.4g} m"]
-    )
-    return [
-        f"theory: {theory} elements of {element:.4g} m",
-        *creeping,
-        until,
-        f"memory: about {estimated_megabytes(run.parameters):.0f} MB",
-    ]
+    memory = estimated_megabytes(run.parameters)
+    return [*lines, until, f"memory: about {memory:.0f} MB"]
 
 
 def _command(output: Path, run: Run) -> str:
-    """A command line that makes the dataset again: what differs from the defaults."""
-    values, usual = flat(run.parameters), flat(Parameters())
-    changed = {k: v for k, v in values.items() if k == "length" or v != usual.get(k)}
-    words = [f"--{k.replace('_', '-')}={v}" for k, v in changed.items()]
+    """A command line that makes the dataset again, with all parameters that are not defaults."""
+    usual = flat(Parameters())
+    words = []
+    for name, value in flat(run.parameters).items():
+        if name == "length" or value != usual.get(name):
+            words.append(f"--{name.replace('_', '-')}={value}")
     return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
 
 
-def _planned(run: Run) -> dict[str, Any]:
-    """What JSON says of a run before it runs."""
+def _described(run: Run) -> dict[str, Any]:
+    """Theory and parameters of a run for JSON, in SI units."""
     return {
         "theory": {
             "critical_length": run.theory_length,
@@ -142,7 +141,7 @@ def _planned(run: Run) -> dict[str, Any]:
 
 
 def _simulate(run: Run, output: Path, as_json: bool) -> int:
-    """Run it and write its record, beside the place of the result if it failed."""
+    """Run and write the record, into a file beside the output if the simulation fails."""
     from ..analysis.extraction import extract
     from ..datasets import netcdf, provenance
     from ..pipeline.running import checkpoint_of, run_to_file, simulation_code
@@ -150,19 +149,18 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     from ..simulation.progress import Progress
     from ..simulation.run import simulate
 
-    digest = simulation_code(run.parameters)
-    attributes = provenance.attributes(run.parameters.to_dict(), digest, _command(output, run))
-    checkpoint = checkpoint_of(run.parameters, output, digest)
-    progress = Progress(run.parameters, sys.stderr)
+    parameters = run.parameters
+    digest = simulation_code(parameters)
+    attributes = provenance.attributes(parameters.to_dict(), digest, _command(output, run))
+    checkpoint = checkpoint_of(parameters, output, digest)
+    progress = Progress(parameters, sys.stderr)
 
     def write(dataset: Any, path: Path) -> None:
         netcdf.write(dataset, path, **attributes)
 
     try:
         with checkpoint.listening():
-            dataset, path = run_to_file(
-                simulate, run.parameters, output, write, checkpoint, progress
-            )
+            dataset, path = run_to_file(simulate, parameters, output, write, checkpoint, progress)
     except Stopped as stopped:
         click.echo(f"Error: {stopped}", err=True)
         return INTERRUPTED
@@ -172,7 +170,7 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
         click.echo(f"Error: {dataset.attrs['status']}; its record is in {path}", err=True)
         return FAILED
     if as_json:
-        found = {"output": str(output), **outcome(dataset), **_planned(run)}
+        found = {"output": str(output), **outcome(dataset), **_described(run)}
         click.echo(to_json(found))
     else:
         attributes = dataset.attrs

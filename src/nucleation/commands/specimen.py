@@ -1,4 +1,4 @@
-"""``nucleation specimen``: at which stress, slip distance or modulus a nucleation length fits."""
+"""``nucleation specimen``: values of one parameter at which a nucleation length fits a specimen."""
 
 import math
 from pathlib import Path
@@ -6,31 +6,53 @@ from typing import Any
 
 import click
 
-from ..answers.draws import Range
-from ..answers.specimen import CRITERIA, NAMES, SPECIMEN, UNKNOWNS, Fit, specimen_fit
+from ..answers.specimen import (
+    CRITERIA,
+    NAMES,
+    SPECIMEN,
+    UNKNOWNS,
+    Fit,
+    Interval,
+    specimen_fit,
+)
 from ..answers.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
 from ..answers.status import Answers, answers_of_theory
 from ..theory.fault import QUANTITIES, Fault
 from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
-from .fault_options import doubts_told, fault_options, fault_values, plane_in_words, said_of
+from .fault_options import fault_options, fault_values
 from .options import option
 from .progress import Progress
+from .system_text import plane_in_words, printed_warnings, system_of_fault
 from .text import as_plain, to_json
-from .uncertainty import as_sure, draws_option, samples_option, take_uncertain, varying
+from .uncertainty import (
+    as_sure,
+    draws_option,
+    ranges_among,
+    samples_option,
+    take_uncertain,
+    varying,
+)
 
 
 @click.command("specimen", epilog=EXIT_CODES)
 @option("--length", key="length", entry=SPECIMEN, required=True)
 @click.option(
-    "--find", "unknown", type=click.Choice(list(UNKNOWNS.choices)), default="normal_stress",
-    show_default=True, help="the parameter to find; if its value is given too, it is judged",
-)  # fmt: skip
+    "--find",
+    "unknown",
+    type=click.Choice(list(UNKNOWNS.choices)),
+    default="normal_stress",
+    show_default=True,
+    help="the parameter to find; if its value is given too, it is judged",
+)
 @click.option(
-    "--criterion", type=click.Choice(list(CRITERIA)), default="critical", show_default=True,
+    "--criterion",
+    type=click.Choice(list(CRITERIA)),
+    default="critical",
+    show_default=True,
     help="the length that has to fit: L_c of homogeneous sliding, or L_s of a patch that is "
     "pushed at its edge",
-)  # fmt: skip
+)
 @fault_options
 @samples_option
 @draws_option(200)
@@ -46,9 +68,9 @@ def command(
 ) -> int:
     """Normal stress, slip distance or modulus at which a nucleation length fits into a specimen.
 
-    The question of `length` asked backwards. A specimen that is shorter than its nucleation length
-    does not nucleate, and that is an answer. A range "5um (3 to 10)", the median and the quantiles
-    of 5 and 95 %, or --samples give the values at which shares of all draws fit.
+    The inverse of `length`. A specimen that is shorter than its nucleation length does not
+    nucleate, and that is an answer. With a range "5um (3 to 10)", the median and the quantiles of 5
+    and 95 %, or with --samples it prints the values at which shares of all draws fit.
 
     \b
     Example:
@@ -57,26 +79,35 @@ def command(
     """
     options, uncertain = take_uncertain(options, samples)
     given, _, papers = fault_values(**options, optional=unknown, ranges=True)
-    uncertain = {k: v for k, v in given.items() if isinstance(v, Range)} | uncertain
+    uncertain = ranges_among(given) | uncertain
     if uncertain:
         known = varying(given, uncertain, options)
         return _print_quantiles(known, given, length, unknown, criterion, draws, as_json)
     own = given.pop(unknown, None)
-    with doubts_told():
+    with printed_warnings():
         fit = specimen_fit(unknown, length, criterion, **given)
-        fault = Fault(**given, **{unknown: fit.searched[0] if own is None else own})
-        now = None if own is None else answers_of_theory(fault)[criterion]
-    looked_for = own is None and unknown == "shear_modulus"
-    said = said_of(fault, given, known=not looked_for) + papers
+        value = fit.searched[0] if own is None else own
+        fault = Fault(**given, **{unknown: value})
+        judged = None if own is None else answers_of_theory(fault)[criterion]
+    is_sought = own is None and unknown == "shear_modulus"
+    system = system_of_fault(fault, given, known=not is_sought) + papers
     if as_json:
-        judged = None if now is None else {"value": own, **as_plain(now)}
+        verdict = None if judged is None else {"value": own, **as_plain(judged)}
         found = {
-            "system": said, "specimen": length, "criterion": criterion, **fit._asdict(),
-            "given": judged, "plane": fault.plane,
-        }  # fmt: skip
+            "system": system,
+            "specimen": length,
+            "criterion": criterion,
+            **fit._asdict(),
+            "given": verdict,
+            "plane": fault.plane,
+        }
         click.echo(to_json(found))
-    else:
-        click.echo("\n".join([*said, _as_text(length, criterion, fit, own, now, fault.plane)]))
+        return DONE if fit.exists else STABLE
+    lines = list(system)
+    if judged is not None:
+        lines += _judged_lines(length, criterion, fit, own, judged)
+    lines += _fit_lines(length, criterion, fit, fault.plane)
+    click.echo("\n".join(lines))
     return DONE if fit.exists else STABLE
 
 
@@ -89,61 +120,78 @@ def _print_quantiles(
     draws: int,
     as_json: bool,
 ) -> int:
-    """Print at which values shares of all draws fit, and return the exit code."""
-    with doubts_told():
+    """Print the values at which shares of all draws fit, and return the exit code."""
+    with printed_warnings():
         found = specimen_quantiles(
-            unknown, length, criterion, draws=draws, progress=Progress("draws"), **known
+            unknown,
+            length,
+            criterion,
+            draws=draws,
+            progress=Progress("draws"),
+            **known,
         )
-        middle = Fault(**given | {unknown: given.get(unknown, found.searched[0])})
-    looked_for = unknown == "shear_modulus" and unknown not in given
-    said = said_of(middle, given, known=not looked_for)
+        value = given.get(unknown, found.searched[0])
+        middle = Fault(**given | {unknown: value})
+    is_sought = unknown == "shear_modulus" and unknown not in given
+    system = system_of_fault(middle, given, known=not is_sought)
     if as_json:
-        everything = found._asdict()
+        everything = {
+            "system": system,
+            "specimen": length,
+            "criterion": criterion,
+            **found._asdict(),
+        }
         for name in ("intervals", "errors"):
-            everything[name] = {f"{q:g}": x for q, x in everything[name].items()}
-        click.echo(
-            to_json({"system": said, "specimen": length, "criterion": criterion, **everything})
-        )
+            by_share = getattr(found, name)
+            everything[name] = {f"{share:g}": value for share, value in by_share.items()}
+        click.echo(to_json(everything))
     else:
-        lines = _quantiles_as_text(found, length, criterion, middle.plane)
-        click.echo("\n".join([*said, *lines]))
+        lines = _quantile_lines(found, length, criterion, middle.plane)
+        click.echo("\n".join([*system, *lines]))
     return DONE if any(found.intervals.values()) else STABLE
 
 
-def _quantiles_as_text(
-    found: SpecimenQuantiles, length: float, criterion: str, plane: str
+def _quantile_lines(
+    found: SpecimenQuantiles,
+    length: float,
+    criterion: str,
+    plane: str,
 ) -> list[str]:
-    name, unit = NAMES[criterion], found.unit
+    """The values at which shares of all draws fit."""
+    unit = found.unit
     drawn = f"{found.draws} draws: {found.invalid} left out"
-    drawn += f" ({', '.join(found.outside)} not allowed)" if found.outside else ""
+    if found.outside:
+        drawn += f" ({', '.join(found.outside)} not allowed)"
     lines = [drawn]
     if not math.isnan(found.share):
         error = max(found.share_error, 1.0 / found.draws)
         lines.append(
-            f"At the {found.unknown} that is given {found.share:.0%} (+- {error:.0%}) of the draws "
+            f"At the given {found.unknown} {found.share:.0%} (+- {error:.0%}) of the draws "
             "can nucleate."
         )
-    lines.append(f"{name} fits into {length:.4g} m, in {plane_in_words(plane)},")
+    lines.append(f"{NAMES[criterion]} fits into {length:.4g} m, in {plane_in_words(plane)},")
     for share, intervals in found.intervals.items():
-        texts = [
-            _interval(found.unknown, unit, ends, found.searched, errors)
-            for ends, errors in zip(intervals, found.errors[share], strict=True)
-        ]
-        lines.append(f"  in {share:>4.0%} of the draws if {' or '.join(texts)}" if texts
-                     else f"  in {share:>4.0%} of the draws at no value")  # fmt: skip
-    low, high = found.searched
-    sought = QUANTITIES[found.unknown].description
-    return [*lines, f"looked for: {sought}, {low:g} to {high:g} {unit}"]
+        texts = []
+        for ends, errors in zip(intervals, found.errors[share], strict=True):
+            texts.append(_interval(found.unknown, unit, ends, found.searched, errors))
+        values = f"if {' or '.join(texts)}" if texts else "at no value"
+        lines.append(f"  in {share:>4.0%} of the draws {values}")
+    return [*lines, _searched_line(found.unknown, found.searched, unit)]
+
+
+def _searched_line(unknown: str, searched: Interval, unit: str) -> str:
+    low, high = searched
+    return f"searched: {QUANTITIES[unknown].description}, {low:g} to {high:g} {unit}"
 
 
 def _interval(
     unknown: str,
     unit: str,
-    ends: tuple[float, float],
-    searched: tuple[float, float],
-    errors: tuple[float, float],
+    ends: Interval,
+    searched: Interval,
+    errors: Interval,
 ) -> str:
-    """Values from one to another, or beyond one, with the digits that their errors leave."""
+    """An interval of values, with the digits that the errors of its ends leave."""
     first, last = (as_sure(value, error) for value, error in zip(ends, errors, strict=True))
     if ends[1] == searched[1] and ends[0] > searched[0]:
         return f"{unknown} > {first} {unit}"
@@ -152,27 +200,41 @@ def _interval(
     return f"{first} {unit} < {unknown} < {last} {unit}"
 
 
-def _as_text(
-    length: float, criterion: str, fit: Fit, own: float | None, judged: Answers | None, plane: str
-) -> str:
-    name, unit, lines = NAMES[criterion], fit.unit, []
-    if own is not None and judged is not None:
-        now = float(judged.length)
-        at, long = f"At {fit.unknown} = {own:.4g} {unit}", f"{name} is {now:.4g} m"
-        if now <= length:
-            lines += [f"{at} {long}, {now / length:.3g} of the specimen: it can nucleate."]
-        elif now > length:
-            lines += [f"{at} {long}, {now / length:.3g} times the specimen: it does not nucleate."]
-        else:
-            stable = judged.status == STABLE_SLIDING
-            verdict = "it does not nucleate" if stable else "whether it nucleates is not known"
-            lines += [f"{at} there is no {name}: {verdict}.", f"  {judged.reason}"]
-    lines.append(f"{name} fits into {length:.4g} m, in {plane_in_words(plane)}, if")
-    low, high = fit.searched
+def _judged_lines(
+    length: float,
+    criterion: str,
+    fit: Fit,
+    own: float,
+    judged: Answers,
+) -> list[str]:
+    """Whether the specimen nucleates at the given value."""
+    name = NAMES[criterion]
+    place = f"At {fit.unknown} = {own:.4g} {fit.unit}"
+    now = float(judged.length)
+    ratio = now / length
+    if now <= length:
+        return [f"{place} {name} is {now:.4g} m, {ratio:.3g} of the specimen: it can nucleate."]
+    if now > length:
+        return [
+            f"{place} {name} is {now:.4g} m, {ratio:.3g} times the specimen: it does not nucleate."
+        ]
+    stable = judged.status == STABLE_SLIDING
+    verdict = "it does not nucleate" if stable else "whether it nucleates is not known"
+    return [f"{place} there is no {name}: {verdict}.", f"  {judged.reason}"]
+
+
+def _fit_lines(
+    length: float,
+    criterion: str,
+    fit: Fit,
+    plane: str,
+) -> list[str]:
+    """The values at which the length fits."""
+    lines = [f"{NAMES[criterion]} fits into {length:.4g} m, in {plane_in_words(plane)}, if"]
     for ends in fit.intervals:
-        lines.append(f"  {_interval(fit.unknown, unit, ends, fit.searched, (0.0, 0.0))}")
+        interval = _interval(fit.unknown, fit.unit, ends, fit.searched, (0.0, 0.0))
+        lines.append(f"  {interval}")
     if not fit.intervals:
         why = "it is longer" if fit.exists else "there is none"
         lines.append(f"  never: {why} at all values; {fit.reason}")
-    sought = QUANTITIES[fit.unknown].description
-    return "\n".join([*lines, f"looked for: {sought}, {low:g} to {high:g} {unit}"])
+    return [*lines, _searched_line(fit.unknown, fit.searched, fit.unit)]

@@ -1,4 +1,4 @@
-"""What several commands print: parameters with units, and what was extracted from a run."""
+"""Output that several commands share: parameters with units, events, JSON."""
 
 import json
 import math
@@ -23,7 +23,7 @@ def parameter_lines(parameters: Parameters) -> list[str]:
         lines.append(f"{group}:")
         for name, entry in declarations(type(own)).items():
             if getattr(own, name) is None:
-                continue  # what a rigid base does not have, or a second block has like the first
+                continue  # a rigid base lacks it, or a second block has that of the first
             value = with_unit(getattr(own, name), entry)
             meaning = re.split("[;:,]", entry.description)[0]
             lines.append(f"  {name:<28} {value:<16} {meaning}")
@@ -31,34 +31,63 @@ def parameter_lines(parameters: Parameters) -> list[str]:
 
 
 def wrapped(*texts: str) -> list[str]:
-    """The lines of some texts; all but the first of each are indented."""
-    return [line for text in texts for line in textwrap.wrap(text, 95, subsequent_indent="  ")]
+    """Texts wrapped into lines; all but the first line of each text are indented."""
+    lines: list[str] = []
+    for text in texts:
+        lines += textwrap.wrap(text, 95, subsequent_indent="  ")
+    return lines
 
 
 def with_unit(value: Any, entry: Quantity) -> str:
-    """A value as text with its unit."""
+    """A value as text with its unit.
+
+    Parameters
+    ----------
+    value : float, int or str
+        In SI units.
+    entry : Quantity
+        Declaration of the parameter.
+
+    Returns
+    -------
+    str
+    """
     number = f"{value:.6g}" if isinstance(value, float) else str(value)
     return number if entry.unit == "1" else f"{number} {entry.unit}"
 
 
 def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
-    """Onset and critical length of a run, with their spread over the definitions.
+    """Onset, and length of the patch then, with their spread over the definitions.
 
-    The theory's length (m) is NaN where homogeneous sliding is stable.
+    Parameters
+    ----------
+    found : dict
+        The event of a run, from :func:`nucleation.analysis.extraction.extract`.
+    theory_length : float
+        L_c of the theory (m); NaN if homogeneous sliding is stable.
+
+    Returns
+    -------
+    list of str
     """
     if math.isnan(found["onset_time"]):
         return ["no event: the force has not dropped"]
-    onset, length = (
-        f"{found[name]:.4g} ({found[f'{name}_low']:.4g} to {found[f'{name}_high']:.4g})"
-        for name in ("onset_time", "length")
-    )
-    ratio = f", {found['length'] / theory_length:.3g} of the theory's"
-    return [f"onset: {onset} s", f"L_c: {length} m{'' if math.isnan(theory_length) else ratio}"]
+    onset, length = (_with_spread(found, name) for name in ("onset_time", "length"))
+    over_theory = ""
+    if not math.isnan(theory_length):
+        over_theory = f", {found['length'] / theory_length:.3g} L_c"
+    return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
+
+
+def _with_spread(found: dict[str, float], name: str) -> str:
+    """A value of an event with its range over the definitions."""
+    low, high = found[f"{name}_low"], found[f"{name}_high"]
+    return f"{found[name]:.4g} ({low:.4g} to {high:.4g})"
 
 
 def outcome(dataset: Any) -> dict[str, Any]:
-    """How a simulation ended and what was extracted from it, for JSON (SI units)."""
-    from ..analysis.extraction import extract  # with the libraries of arrays, which take a second
+    """The status and the event of a simulation, for JSON, in SI units."""
+    from ..analysis.extraction import extract  # imported here, since the libraries take a second
 
     return {
         "status": dataset.attrs["status"],
@@ -79,7 +108,7 @@ def as_plain(answer: Answers) -> dict[str, Any]:
 
 
 def to_json(found: Mapping[str, Any]) -> str:
-    """What a command found, as JSON in SI units: null for NaN, text for infinity."""
+    """The answer of a command as JSON: null for NaN, text for infinity."""
     return json.dumps(_plain(found), indent=2)
 
 
@@ -91,18 +120,29 @@ def _plain(value: Any) -> Any:
     if value is None or isinstance(value, (str, int)):
         return value
     number = float(value)
-    return None if math.isnan(number) else "inf" if math.isinf(number) else number
+    if math.isnan(number):
+        return None
+    return "inf" if math.isinf(number) else number
 
 
 def require_writable(path: Path, force: bool) -> None:
-    """Refuse a file that can't be written, or exists and may not be replaced by `force`."""
+    """Refuse a file that can't be written, or exists and may not be replaced.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    force : bool
+        Whether an existing file may be replaced.
+
+    Raises
+    ------
+    ParameterError
+        If the file can't be written.
+    """
     if path.exists() and not force:
         raise ParameterError(f"{path} exists already; --force replaces it")
-    require_directory(path, path.absolute().parent)
-
-
-def require_directory(path: Path, folder: Path) -> None:
-    """Refuse a path whose directory isn't there, or can't be written to."""
+    folder = path.absolute().parent
     if not folder.exists():
         make = shlex.join(["mkdir", "-p", str(folder)])
         raise ParameterError(f"{path} can't be written: there is no directory {folder}; {make}")

@@ -1,15 +1,16 @@
-"""``nucleation drop`` for parameters that are ranges or samples."""
+"""``nucleation drop`` for faults with uncertain parameters."""
+
+from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
 
-from ..answers.draws import Draws, Range, draw
-from ..answers.uncertainty import QUANTILES
+from ..answers.draws import Draws, draw
 from ..configuration.samples import read_samples
 from ..configuration.study_names import study_parameters
 from ..model.own_fault import follows_from
@@ -17,22 +18,38 @@ from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length
 from . import DONE, STABLE
-from .fault_options import IN_STUDIES, of_parameters, told
-from .options import merged, merged_parameters, planned
+from .fault_options import IN_STUDIES
 from .progress import Progress
+from .sources import merged, merged_parameters, planned
+from .system_text import fault_in, system_of_run
 from .text import to_json, wrapped
-from .uncertainty import as_sure
+from .uncertainty import by_quantile, head_of_quantiles, ranges_among, row_of_quantiles
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def uncertain_of(given: Mapping[str, Any], samples: Path | None) -> dict[str, Any]:
-    """The ranges and samples of a fault, by the names of its parameters in studies.
+    """The ranges and samples of a fault.
+
+    Parameters
+    ----------
+    given : mapping
+        The given values by their names in studies.
+    samples : Path or None
+        A file of samples.
+
+    Returns
+    -------
+    dict
+        In SI units, by their names in studies.
 
     Raises
     ------
     ParameterError
         If a parameter is given twice, or the samples have one that a simulation does not have.
     """
-    found: dict[str, Any] = {k: v for k, v in given.items() if isinstance(v, Range)}
+    found = ranges_among(given)
     if samples is None:
         return found
     for name, values in read_samples(samples).items():
@@ -54,28 +71,72 @@ def print_drop_quantiles(
     draws: int,
     as_json: bool,
 ) -> int:
-    """Print the quantiles of L_c, L_s and the length at the drop, and return the exit code."""
-    from ..patch.drop_quantiles import drop_quantiles  # with SciPy, which takes a while
+    """Print the quantiles of L_c, L_s and the length at the drop.
+
+    Parameters
+    ----------
+    base : Parameters or None
+        The run or dataset from which parameters are taken.
+    given : mapping
+        The given values by their names in studies, in SI units.
+    uncertain : mapping
+        The ranges and samples among them.
+    usual : mapping
+        Defaults of the command, by their names in studies.
+    paper : bool
+        Whether parameters that are not given are the paper's.
+    draws : int
+        Number of draws.
+    as_json : bool
+        Whether to print JSON.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
+    from ..patch.drop_quantiles import drop_quantiles  # imported here, since SciPy takes a while
 
     fixed = {name: value for name, value in given.items() if name not in uncertain}
     drawn = draw_in_studies(uncertain, draws)
     cases = cases_of(base, usual, fixed, drawn, paper)
-    middle = {name: float(np.median(value)) for name, value in uncertain.items()}
     invalid = drawn.total - len(cases)
     found = drop_quantiles(cases, progress=Progress("draws"))
+
+    middle = {name: float(np.median(value)) for name, value in uncertain.items()}
     own = completed(fixed | middle, base is not None or paper)
-    said = told(merged_parameters(base, (usual if base is None else {}) | own), base, own)
+    defaults = usual if base is None else {}
+    parameters = merged_parameters(base, {**defaults, **own})
+    system = system_of_run(parameters, base, own)
     if as_json:
-        click.echo(to_json(_described(said, found, uncertain, invalid)))
+        click.echo(to_json(_described(system, found, uncertain, invalid)))
     else:
-        click.echo("\n".join(_lines(said, found, uncertain, invalid)))
+        click.echo("\n".join(_lines(system, found, uncertain, invalid)))
     return DONE if found["share"][0] > 0.0 else STABLE
 
 
 def draw_in_studies(uncertain: Mapping[str, Any], draws: int) -> Draws:
-    """Draws of uncertain parameters by their names in studies."""
-    declared = study_parameters()
-    return draw(uncertain, draws, known={k: x for k, x in declared.items() if not x.worded})
+    """Draws of uncertain parameters.
+
+    Parameters
+    ----------
+    uncertain : mapping
+        Ranges and samples by their names in studies, in SI units.
+    draws : int
+        Number of draws.
+
+    Returns
+    -------
+    Draws
+        By names in studies.
+
+    Raises
+    ------
+    ParameterError
+        If no draw is valid.
+    """
+    known = {name: entry for name, entry in study_parameters().items() if not entry.worded}
+    return draw(uncertain, draws, known=known)
 
 
 def cases_of(
@@ -92,13 +153,17 @@ def cases_of(
     base : Parameters or None
         The run or dataset from which parameters are taken.
     usual : mapping
-        Values of a command that belong to no option, by their names in studies.
+        Defaults of the command, by their names in studies.
     fixed : mapping
-        Values that are given and certain, by their names in studies.
+        The given certain values, by their names in studies.
     drawn : Draws
-        The draws of the others.
+        The draws of the uncertain values.
     paper : bool
         Whether parameters that are not given are the paper's.
+
+    Returns
+    -------
+    list of Parameters
 
     Raises
     ------
@@ -106,10 +171,12 @@ def cases_of(
         If no draw is a valid fault.
     """
     complete = base is not None or paper
-    cases, refusals = [], []
+    cases = []
+    refusals = []
     for i in range(drawn.size):
+        given = {**fixed, **drawn.at(i)}
         try:
-            cases.append(case_of(base, usual, {**fixed, **drawn.at(i)}, complete))
+            cases.append(case_of(base, usual, given, complete))
         except ParameterError as refusal:
             refusals.append(refusal)
     if not cases:
@@ -118,25 +185,68 @@ def cases_of(
 
 
 def completed(values: dict[str, Any], complete: bool) -> dict[str, Any]:
-    """Values with those that follow from them, unless a base has all."""
+    """Values together with those that follow from them.
+
+    Parameters
+    ----------
+    values : dict
+        The given values by their names in studies, in SI units.
+    complete : bool
+        Whether all other values are known, from a base or the paper, so that none follows.
+
+    Returns
+    -------
+    dict
+    """
     return values if complete else values | follows_from(values)
 
 
 def case_of(
-    base: Parameters | None, usual: Mapping[str, Any], given: dict[str, Any], complete: bool
+    base: Parameters | None,
+    usual: Mapping[str, Any],
+    given: Mapping[str, Any],
+    complete: bool,
 ) -> Parameters:
-    """The run of one draw; its block is as long as the theory of its own fault makes it."""
-    plain = {k: float(v) if isinstance(v, np.floating) else v for k, v in given.items()}
+    """The run of one draw, with a block of the length that follows from the theory.
+
+    Parameters
+    ----------
+    base : Parameters or None
+        The run or dataset from which parameters are taken.
+    usual : mapping
+        Defaults of the command, by their names in studies.
+    given : mapping
+        The values of the draw, by their names in studies, in SI units.
+    complete : bool
+        Whether all other values are known, as for :func:`completed`.
+
+    Returns
+    -------
+    Parameters
+
+    Raises
+    ------
+    ParameterError
+        If the draw is no valid fault.
+    """
+    plain = {}
+    for name, value in given.items():
+        plain[name] = float(value) if isinstance(value, np.floating) else value
     own = completed(plain, complete)
-    values = merged(base, {**usual, **own} if base is None else own)
+    defaults = usual if base is None else {}
+    values = merged(base, {**defaults, **own})
     parameters = merged_parameters(None, values)
-    if math.isnan(float(critical_length(**of_parameters(parameters)))):
-        return parameters  # a block of a stable fault has no length that follows from the theory
+    critical = float(critical_length(**fault_in(parameters)))
+    if math.isnan(critical):
+        return parameters  # for a stable fault the theory has no length of the block
     return planned(values, {}, results="results").parameters
 
 
 def _described(
-    said: list[str], found: Any, uncertain: Mapping[str, Any], invalid: int
+    system: list[str],
+    found: xr.Dataset,
+    uncertain: Mapping[str, Any],
+    invalid: int,
 ) -> dict[str, Any]:
     """The quantiles for JSON, in SI units."""
     lengths = []
@@ -147,33 +257,43 @@ def _described(
                 "key": str(key),
                 "title": str(one["title"].values),
                 "units": "m",
-                "quantiles": _by_quantile(one["value"]),
-                "errors": _by_quantile(one["error"]),
+                "quantiles": by_quantile(one["value"].values.tolist()),
+                "errors": by_quantile(one["error"].values.tolist()),
                 "share": float(one["share"]),
                 "why_not": str(one["why_not"].values),
             }
         )
-    counts = found.attrs | {"draws": found.attrs["draws"] + invalid, "invalid": invalid}
-    return {"system": said, "uncertain": list(uncertain), **counts, "lengths": lengths}
+    draws = found.attrs["draws"] + invalid
+    return {
+        "system": system,
+        "uncertain": list(uncertain),
+        **found.attrs,
+        "draws": draws,
+        "invalid": invalid,
+        "lengths": lengths,
+    }
 
 
-def _by_quantile(row: Any) -> dict[str, float]:
-    return {f"{q:g}": x for q, x in zip(QUANTILES, row.values.tolist(), strict=True)}
-
-
-def _lines(said: list[str], found: Any, uncertain: Mapping[str, Any], invalid: int) -> list[str]:
+def _lines(
+    system: list[str],
+    found: xr.Dataset,
+    uncertain: Mapping[str, Any],
+    invalid: int,
+) -> list[str]:
+    """The quantiles as a table."""
     count = found.attrs
     stable = round(count["draws"] * (1.0 - float(found["share"][0])))
-    drawn = f"{count['draws'] + invalid} draws of {', '.join(uncertain)}: {invalid} left out, "
-    drawn += f"{stable} of the others stable, without L_c"
-    head = "".join(f"{share:>10.0%}" for share in QUANTILES)
-    lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
+    draws = (
+        f"{count['draws'] + invalid} draws of {', '.join(uncertain)}: {invalid} left out, "
+        f"{stable} of the others stable, without L_c"
+    )
+    lines = [*wrapped(*system), "", *wrapped(draws), "", head_of_quantiles()]
     for key in found["key"].values:
         one = found.sel(key=key)
-        pairs = zip(one["value"].values, one["error"].values, strict=True)
-        row = "".join(f"{as_sure(value, error):>10}" for value, error in pairs)
-        lines.append(f"  {one['title'].item():<30}{row}{float(one['share']):>8.1%}")
-        if one["share"] < 1.0:
+        share = float(one["share"])
+        title = one["title"].item()
+        lines.append(row_of_quantiles(title, one["value"].values, one["error"].values, share))
+        if share < 1.0:
             lines += wrapped(f"      in the other draws: {one['why_not'].item()}")
     if count["doubtful"]:
         doubtful = f"DO NOT RELY ON {count['doubtful']} of the draws: {count['doubts']}"
@@ -181,6 +301,6 @@ def _lines(said: list[str], found: Any, uncertain: Mapping[str, Any], invalid: i
     return [
         *lines,
         "",
-        "stable: no patch nucleates, or none that was searched; digits as far as the number of",
-        "draws tells. The length at the drop scatters by the realisation of the perturbation too.",
+        "stable: no patch nucleates in the range of the search; digits by the number of draws. The",
+        "length at the drop varies also with the realisation of the perturbation.",
     ]

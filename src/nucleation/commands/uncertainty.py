@@ -1,8 +1,8 @@
-"""Parameters that are ranges or samples, and the quantiles of lengths that follow from them."""
+"""Uncertain parameters of a fault, and the quantiles of its lengths, for ``nucleation length``."""
 
 import math
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +16,14 @@ from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
 from ..theory.fault import Fault
 from . import DONE, STABLE
-from .fault_options import doubts_told, parameters_of, said_of, systems_of_lengths
 from .options import Decorator, option
 from .progress import Progress
+from .system_text import (
+    parameters_of,
+    printed_warnings,
+    system_of_fault,
+    systems_of_lengths,
+)
 from .text import to_json, wrapped
 
 samples_option = click.option(
@@ -27,125 +32,274 @@ samples_option = click.option(
     help="CSV of joint samples: a column for each parameter, such as 'slip_distance (um)'",
 )
 
+_Row = tuple[str, str, list[float], list[float], float]
+"""Key, title, quantiles (m), their standard errors (m) and share of a length."""
+
 
 def draws_option(usual: int) -> Decorator:
-    """The option for the number of draws, with a command's usual number."""
-    note = f"of uncertain parameters, and most rows of --samples; default {usual}"
-    return option("--draws", key="draws", entry=DRAWS, note=note, default=str(usual))
+    """The option for the number of draws, with the default of a command."""
+    return option(
+        "--draws",
+        key="draws",
+        entry=DRAWS,
+        note=f"of uncertain parameters, and most rows of --samples; default {usual}",
+        default=str(usual),
+    )
+
+
+def ranges_among(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The values that are ranges, by name."""
+    return {name: value for name, value in values.items() if isinstance(value, Range)}
 
 
 def take_uncertain(
-    options: dict[str, Any], samples: Path | None
+    options: dict[str, Any],
+    samples: Path | None,
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Options with medians in the place of ranges and samples, and those themselves.
+    """Separate the uncertain parameters from the options.
 
-    Raises ParameterError if a parameter is given twice, or what stays while `a` varies is not said.
+    Parameters
+    ----------
+    options : dict
+        Values of the options for a fault, in SI units.
+    samples : Path or None
+        A file of samples.
+
+    Returns
+    -------
+    medians : dict
+        The options with medians in place of ranges and samples.
+    uncertain : dict
+        The ranges and samples, by name, with a, b and zeta for natural logarithms.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is given twice, or `a` is uncertain and neither zeta nor b is given.
     """
-    uncertain: dict[str, Any] = {k: v for k, v in options.items() if isinstance(v, Range)}
+    uncertain = ranges_among(options)
     if samples is not None:
-        uncertain |= (drawn := read_samples(samples))
-        if twice := [name for name in drawn if options.get(name) is not None]:
-            raise ParameterError(f"{twice[0]} is given twice: as an option and in {samples}")
-    medians = options | {name: float(np.median(values)) for name, values in uncertain.items()}
+        columns = read_samples(samples)
+        for name in columns:
+            if options.get(name) is not None:
+                raise ParameterError(f"{name} is given twice: as an option and in {samples}")
+        uncertain |= columns
+    medians = dict(options)
+    for name, values in uncertain.items():
+        medians[name] = float(np.median(values))
     given = any(medians.get(name) is not None for name in ("zeta", "b", "file"))
     if "a" in uncertain and not given:
-        raise ParameterError("zeta or b is needed beside an uncertain a: which one stays as it is?")
+        raise ParameterError("zeta or b is needed beside an uncertain a: the other one varies")
     if options["per_decade"]:
         for name in uncertain.keys() & {"a", "b", "zeta"}:
-            value = uncertain[name]
-            if isinstance(value, Range):
-                ends = value, value.low, value.high
-                uncertain[name] = Range(*(end / math.log(10.0) for end in ends))
-            else:
-                uncertain[name] = value / math.log(10.0)
+            uncertain[name] = _of_natural_logarithm(uncertain[name])
     return medians, uncertain
 
 
-def varying(
-    given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any]
-) -> dict[str, Any]:
-    """The parameters of a median fault with those that are uncertain in their place.
+def _of_natural_logarithm(value: Any) -> Any:
+    """A range or samples of a coefficient of log10, as a coefficient of the natural logarithm."""
+    if not isinstance(value, Range):
+        return value / math.log(10.0)
+    ends = (value, value.low, value.high)
+    return Range(*(end / math.log(10.0) for end in ends))
 
-    If b was given it stays when a varies, and a second body like the first varies with it.
+
+def varying(
+    given: Mapping[str, Any],
+    uncertain: Mapping[str, Any],
+    options: Mapping[str, Any],
+) -> dict[str, Any]:
+    """The parameters of a median fault with its uncertain parameters in their place.
+
+    Parameters
+    ----------
+    given : mapping
+        The parameters of the median fault, in SI units.
+    uncertain : mapping
+        Its ranges and samples.
+    options : mapping
+        The options of the command. If b is among them, it is constant while a varies; if the second
+        body is like the first, it varies with it.
+
+    Returns
+    -------
+    dict
     """
     known = dict(given)
     if options["b"] is not None and "zeta" in known:
         known["b"] = known["a"] + known.pop("zeta")
     if options["second_body"] in (None, "same"):
         for name in ("shear_modulus", "poisson_ratio", "height"):
-            if known.get(f"second_{name}") == known.get(name):
-                known.pop(f"second_{name}", None)
-    return known | uncertain
+            second = f"second_{name}"
+            if known.get(second) == known.get(name):
+                known.pop(second, None)
+    return {**known, **uncertain}
 
 
 def print_quantiles(
-    given: dict[str, Any], uncertain: dict[str, Any], options: dict[str, Any], as_json: bool
+    given: Mapping[str, Any],
+    uncertain: Mapping[str, Any],
+    options: Mapping[str, Any],
+    as_json: bool,
 ) -> int:
-    """Print the quantiles of all lengths, and return the exit code; `given` is the median fault."""
+    """Print the quantiles of all lengths of an uncertain fault.
+
+    Parameters
+    ----------
+    given : mapping
+        The parameters of the median fault, in SI units.
+    uncertain : mapping
+        Its ranges and samples.
+    options : mapping
+        The options of the command.
+    as_json : bool
+        Whether to print JSON.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
     known = varying(given, uncertain, options)
-    known |= {name: options[name] for name in ("weakening_rate", "loading", "draws")}
+    for name in ("weakening_rate", "loading", "draws"):
+        known[name] = options[name]
     if "weakening_rate" in uncertain:
         known["weakening_rate"] = uncertain["weakening_rate"]
-    with doubts_told():
+    with printed_warnings():
         middle = Fault(**given)
         found = length_quantiles(progress=Progress("draws"), **known)
-    said = said_of(middle, given, options["loading"])
-    click.echo((_as_json if as_json else _as_text)(said, found, middle, uncertain))
+    system = system_of_fault(middle, given, options["loading"])
+    show = _as_json if as_json else _as_text
+    click.echo(show(system, found, middle, list(uncertain)))
     return DONE if found["share"][0] > 0.0 else STABLE
 
 
-def _as_json(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
+def _as_json(
+    system: list[str],
+    found: Any,
+    middle: Fault,
+    uncertain: list[str],
+) -> str:
     words = {length.key: length.words() for length in LENGTHS}
-    lengths = [
-        {
+    lengths = []
+    for key, _, values, errors, share in _rows(found):
+        numbers = {
             "key": key,
-            "quantiles": {f"{q:g}": x for q, x in zip(QUANTILES, values, strict=True)},
-            "errors": {f"{q:g}": x for q, x in zip(QUANTILES, errors, strict=True)},
-            "share": share, **words.get(key, {"units": "m"}),
+            "quantiles": by_quantile(values),
+            "errors": by_quantile(errors),
+            "share": share,
         }
-        for key, _, values, errors, share in _rows(found)
-    ]  # fmt: skip
-    return to_json(
-        {
-            "system": said, "parameters": parameters_of(middle), "uncertain": list(uncertain),
-            **found.attrs, "lengths": lengths,
-        }
-    )  # fmt: skip
+        lengths.append(numbers | words.get(key, {"units": "m"}))
+    everything = {
+        "system": system,
+        "parameters": parameters_of(middle),
+        "uncertain": uncertain,
+        **found.attrs,
+        "lengths": lengths,
+    }
+    return to_json(everything)
 
 
-def _as_text(said: list[str], found: Any, middle: Fault, uncertain: dict[str, Any]) -> str:
-    count = found.attrs
-    drawn = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
-    drawn += f" ({count['outside']} not allowed)" if count["invalid"] else ""
-    drawn += f", {count['stable']} of the others stable, without L_c"
-    drawn += f", {count['beyond']} with an L_s beyond 3 L_c" if count["beyond"] else ""
-    head = "".join(f"{share:>10.0%}" for share in QUANTILES)
-    lines = [*wrapped(*said), "", *wrapped(drawn), "", f"{'quantiles (m)':<32}{head}   share"]
-    systems, nowhere = {length.key: length.system for length in LENGTHS}, []
-    for system in systems_of_lengths(middle, uncertain):
-        rows = [row for row in _rows(found) if systems.get(row[0], THIS_FAULT) == system]
-        two = " (two materials)" if system == TWO_MATERIALS else ""
-        nowhere += [f"{title}{two}" for _, title, _, _, share in rows if share == 0.0]
-        if there := [row[1:] for row in rows if row[-1] > 0.0]:
-            lines.append(f"for {system}:")
-        for title, values, errors, share in there:
-            pairs = zip(values, errors, strict=True)
-            row = "".join(f"{as_sure(value, error):>10}" for value, error in pairs)
-            lines.append(f"  {title:<30}{row}{share:>8.1%}")
+def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
+    """Values in the order of the quantiles, as a mapping for JSON."""
+    return {f"{q:g}": value for q, value in zip(QUANTILES, values, strict=True)}
+
+
+def _as_text(
+    system: list[str],
+    found: Any,
+    middle: Fault,
+    uncertain: list[str],
+) -> str:
+    lines = [
+        *wrapped(*system),
+        "",
+        *wrapped(_counts(found.attrs, uncertain)),
+        "",
+        head_of_quantiles(),
+    ]
+    system_by_key = {length.key: length.system for length in LENGTHS}
+    nowhere = []
+    for of_lengths in systems_of_lengths(middle, uncertain):
+        table = []
+        for key, title, values, errors, share in _rows(found):
+            if system_by_key.get(key, THIS_FAULT) != of_lengths:
+                continue
+            if share > 0.0:
+                table.append(row_of_quantiles(title, values, errors, share))
+            else:
+                note = " (two materials)" if of_lengths == TWO_MATERIALS else ""
+                nowhere.append(f"{title}{note}")
+        if table:
+            lines += [f"for {of_lengths}:", *table]
     if nowhere:
-        lines += ["", *textwrap.wrap(f"without a value in any draw: {'; '.join(nowhere)}", 95)]
+        text = f"without a value in any draw: {'; '.join(nowhere)}"
+        lines += ["", *textwrap.wrap(text, 95)]
     lines += [
         "",
-        "stable: no patch nucleates, or none that was searched, which counts as an infinite",
-        "length; digits as far as the number of draws tells. share: of the draws that have the",
-        "length; full lengths",
+        "stable: no patch nucleates in the range of the search, which counts as an infinite",
+        "length; digits by the number of draws. share: of the draws with this length; full lengths",
     ]
     return "\n".join(lines)
+
+
+def _counts(count: Mapping[str, Any], uncertain: list[str]) -> str:
+    """The numbers of draws, valid or not, in words."""
+    text = f"{count['draws']} draws of {', '.join(uncertain)}: {count['invalid']} left out"
+    if count["invalid"]:
+        text += f" ({count['outside']} not allowed)"
+    text += f", {count['stable']} of the others stable, without L_c"
+    if count["beyond"]:
+        text += f", {count['beyond']} with an L_s beyond 3 L_c"
+    return text
+
+
+def head_of_quantiles() -> str:
+    """The head of a table of quantiles."""
+    columns = "".join(f"{share:>10.0%}" for share in QUANTILES)
+    return f"{'quantiles (m)':<32}{columns}   share"
+
+
+def row_of_quantiles(
+    title: str,
+    values: Iterable[float],
+    errors: Iterable[float],
+    share: float,
+) -> str:
+    """One row of a table of quantiles.
+
+    Parameters
+    ----------
+    title : str
+        The length in words.
+    values, errors : iterable of float
+        Quantiles and their standard errors (m).
+    share : float
+        Share of the draws with this length.
+
+    Returns
+    -------
+    str
+    """
+    pairs = zip(values, errors, strict=True)
+    columns = "".join(f"{as_sure(value, error):>10}" for value, error in pairs)
+    return f"  {title:<30}{columns}{share:>8.1%}"
 
 
 def as_sure(value: float, error: float) -> str:
     """A quantile with the digits that its standard error leaves, at most four.
 
+    Parameters
+    ----------
+    value, error : float
+        The quantile and its standard error, in the same unit.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
     >>> as_sure(2.8083, 0.04), as_sure(8.09, 0.6), as_sure(4.89012, 1e-5), as_sure(12.3, 20.0)
     ('2.81', '8.1', '4.890', '10')
     """
@@ -156,14 +310,16 @@ def as_sure(value: float, error: float) -> str:
     size = math.floor(math.log10(value))
     digits = 4
     if error > 0.0:
-        digits = min(max(size - math.floor(math.log10(error)) + 1, 1), 4)
-    decimals = digits - 1 - size
+        certain = size - math.floor(math.log10(error)) + 1
+        digits = min(max(certain, 1), 4)
     if abs(size) > 4:
         return f"{value:.{digits - 1}e}"
+    decimals = digits - 1 - size
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
-def _rows(found: Any) -> Iterable[tuple[str, str, list[float], list[float], float]]:
-    """Key, title, quantiles (m), their errors (m) and share of each length."""
+def _rows(found: Any) -> Iterable[_Row]:
+    """The rows of a table of quantiles."""
     names = ("key", "title", "value", "error", "share")
-    return zip(*(found[name].values.tolist() for name in names), strict=True)
+    columns = [found[name].values.tolist() for name in names]
+    return zip(*columns, strict=True)

@@ -1,4 +1,4 @@
-"""What ``nucleation length`` prints of a weakening patch among strengthening surroundings."""
+"""A weakening patch among strengthening surroundings, for ``nucleation length``."""
 
 import dataclasses
 import math
@@ -12,7 +12,7 @@ from .options import option, together
 
 OPTIONS = ("width", "outside_zeta", "outside_a")
 
-WIDTH = dataclasses.replace(
+_WIDTH = dataclasses.replace(
     declarations(Heterogeneity)["width"],
     description="width W of a weakening patch among strengthening surroundings",
 )
@@ -30,13 +30,25 @@ patch_options = together(
         entry=QUANTITIES["a"],
         note="of the surroundings; that of the patch if left out",
     ),
-    option("--width", key="width", entry=WIDTH, note="needs --outside-zeta"),
+    option("--width", key="width", entry=_WIDTH, note="needs --outside-zeta"),
 )
-"""The options for a patch, which :func:`patch_of` takes."""
+"""The options for a patch, the arguments of :func:`patch_of`."""
 
 
 def patch_of(fault: Fault, options: dict[str, Any]) -> PatchAnswer | None:
-    """The answer to :data:`patch_options`; None if none of them is given.
+    """The behaviour of the patch that :data:`patch_options` define.
+
+    Parameters
+    ----------
+    fault : Fault
+        One fault, with the friction of the patch.
+    options : dict
+        Values of the options, in SI units; None if not given.
+
+    Returns
+    -------
+    PatchAnswer or None
+        None if no option is given.
 
     Raises
     ------
@@ -55,7 +67,21 @@ def patch_of(fault: Fault, options: dict[str, Any]) -> PatchAnswer | None:
 
 
 def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> list[str]:
-    """W_c, what a patch of a width (m) does, and the cells of a mesh; L_c (m) is `critical`."""
+    """The smallest width W_c, the behaviour of the patch, and the cells of a mesh.
+
+    Parameters
+    ----------
+    patch : PatchAnswer
+        The behaviour.
+    width : float or None
+        Width of the patch (m).
+    critical : float
+        L_c (m) of homogeneous sliding.
+
+    Returns
+    -------
+    list of str
+    """
     head = "A weakening patch among strengthening surroundings (docs/creeping_patch.md):"
     smallest = patch.smallest_width
     if math.isnan(smallest):
@@ -63,10 +89,12 @@ def patch_lines(patch: PatchAnswer, width: float | None, critical: float) -> lis
     else:
         ratio = f"{smallest / critical:.3g} L_c"
         meaning = "smallest width that nucleates; a narrower patch creeps"
-        lines = [head, f"  W_c    {f'{smallest:.4g} m':<11} {ratio:<10} {meaning}"]
+        value = f"{smallest:.4g} m"
+        lines = [head, f"  W_c    {value:<11} {ratio:<10} {meaning}"]
         if width is not None:
             own = f"{patch.width_ratio:.3g} W_c"
-            lines.append(f"  W      {f'{width:.4g} m':<11} {own:<10} {patch.outcome}")
+            value = f"{width:.4g} m"
+            lines.append(f"  W      {value:<11} {own:<10} {patch.outcome}")
     if not math.isnan(patch.cell_size):
         cell = f"{patch.cell_size:.3g} m"
         lines.append(f"  cells  {cell:<22} or less: three in a process zone (Day et al., 2005)")

@@ -1,6 +1,5 @@
 """Problems with the values of a configuration, one line for each."""
 
-import difflib
 import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -9,6 +8,7 @@ from typing import Any, cast
 
 from ..model.friction.registry import EVOLUTIONS
 from ..model.quantities import ParameterError, Quantity, declarations, refusal
+from ..model.synonyms import hint
 from ..model.units import parse
 from .schema import GROUPS, RESULTS, STUDY_NAME, group_entries, has_range
 from .settings import StudySettings
@@ -223,15 +223,13 @@ def _unknown_key(
     known: Collection[str],
 ) -> str:
     key = str(place[-1])
-    close = difflib.get_close_matches(key, known, n=1)
-    if close:
-        hint = f"did you mean {close[0]}?"
-    else:
+    suggestion = hint(key, known)
+    if not suggestion:
         listed = list(known)
         if place[0] == "studies":  # without full names, which repeat the short ones
             listed = [name for name in known if "." not in name]
-        hint = f"known keys: {', '.join(listed)}"
-    return f"{_key_text(place)} = {_quoted(value)} is not allowed: unknown key; {hint}"
+        suggestion = f"known keys: {', '.join(listed)}"
+    return f"{_key_text(place)} = {_quoted(value)} is not allowed: unknown key; {suggestion}"
 
 
 def _key_text(place: _Place) -> str:

@@ -1,7 +1,6 @@
 """Samples of a fault's parameters from a text file, such as a posterior."""
 
 import csv
-import difflib
 import io
 import math
 import re
@@ -12,6 +11,7 @@ import numpy as np
 
 from ..answers.draws import SAMPLED
 from ..model.quantities import ParameterError
+from ..model.synonyms import hint
 from ..model.units import rescaled
 from ..theory.arrays import aliases
 from ..types import Array
@@ -21,7 +21,7 @@ _NUMBER = re.compile(r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|inf)", re.ASCII
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas"}
 _INDEX = {"", "index", "unnamed: 0"}
-"""What programs call a column of row numbers, in small letters."""
+"""Names of a column of row numbers in small letters, as programs write them."""
 
 
 class _Line(NamedTuple):
@@ -32,13 +32,13 @@ class _Line(NamedTuple):
 
 
 def read_samples(path: Path | str) -> dict[str, Array]:
-    """Joint samples of parameters, a row each, for ``length_quantiles``.
+    """Joint samples of parameters, one in each row, for ``length_quantiles``.
 
     Parameters
     ----------
     path : Path or str
-        Text file with a header of parameters and units, ``slip_distance (um),a,b``; SI units where
-        there is none. Columns are separated by commas, semicolons or tabs; numbers have a decimal
+        Text file with a header of parameters and units, ``slip_distance (um),a,b``; the default are
+        SI units. Columns are separated by commas, semicolons or tabs; numbers have a decimal
         point, or a decimal comma where semicolons or tabs separate the columns. Empty lines, lines
         that begin with ``#`` and a first column of row numbers are skipped. The encoding is UTF-8,
         UTF-16 or Latin-1.
@@ -51,21 +51,33 @@ def read_samples(path: Path | str) -> dict[str, Array]:
     Raises
     ------
     ParameterError
-        If there is no row, a column is unknown or there twice, or a unit or a cell is wrong, with
-        file, line and column.
+        If there is no row, a column is unknown or there twice, or a unit or a cell is wrong; the
+        message has file, line and column.
+
+    Examples
+    --------
+    >>> from tempfile import NamedTemporaryFile
+    >>> with NamedTemporaryFile("w+", suffix=".csv") as file:
+    ...     _ = file.write("slip_distance (um),a\\n5,0.010\\n6,0.011\\n")
+    ...     _ = file.seek(0)
+    ...     samples = read_samples(file.name)
+    >>> samples["a"]
+    array([0.01 , 0.011])
     """
     text = _text_of(path)
     header, *rows = _table_of(path, text)
     found: dict[str, Array] = {}
-    units: dict[str, str] = {}
     comma = _has_decimal_commas(path, rows)
     for position, label in enumerate(header.cells):
-        name, units[label] = _column(path, header.number, label)
+        name, unit = _column(path, header.number, label)
         if name in found:
             raise ParameterError(f"{path}, line {header.number}: column {name} is there twice")
-        cells = [_cell(path, row.number, label, row.cells[position], comma) for row in rows]
+        numbers = []
+        for row in rows:
+            cell = row.cells[position]
+            numbers.append(_cell(path, row.number, label, cell, comma))
         try:
-            found[name] = rescaled(name, np.array(cells), units[label], SAMPLED[name])
+            found[name] = rescaled(name, np.array(numbers), unit, SAMPLED[name])
         except ParameterError as error:
             place = f"{path}, line {header.number}, column {label!r}"
             raise ParameterError(f"{place}: {error}") from None
@@ -73,7 +85,7 @@ def read_samples(path: Path | str) -> dict[str, Array]:
 
 
 def _text_of(path: Path | str) -> str:
-    """The text of a file in one of the encodings that programs for tables write."""
+    """The text of a file in one of the usual encodings of tables."""
     try:
         content = Path(path).read_bytes()
     except OSError as error:
@@ -118,12 +130,12 @@ def _is_comment(line: str) -> bool:
 
 
 def _separator(header: str) -> str:
-    """What separates the columns, as the header has it; a comma where there is one column."""
+    """The separator of the columns in the header; a comma for a single column."""
     return next((sign for sign in _SEPARATORS if sign in header), ",")
 
 
 def _require_names(path: Path | str, header: _Line) -> None:
-    """Refuse a table whose first line is of numbers, or whose columns blanks separate."""
+    """Refuse a table without a header, and one with columns separated by blanks."""
     place = f"{path}, line {header.number}"
     numbers = [cell for cell in header.cells if cell]
     if all(_NUMBER.fullmatch(cell) or _DECIMAL_COMMA.fullmatch(cell) for cell in numbers):
@@ -147,14 +159,14 @@ def _require_width(path: Path | str, row: _Line, header: _Line, separator: str) 
     """Refuse a row that has more or fewer cells than the header."""
     if len(row.cells) == len(header.cells):
         return
-    hint = ""
+    remark = ""
     if separator == "," and len(row.cells) > len(header.cells):
-        hint = "; with decimal commas separate the columns by semicolons or tabs"
+        remark = "; with decimal commas separate the columns by semicolons or tabs"
     elif len(row.cells) == 1 and any(sign in row.cells[0] for sign in _SEPARATORS):
-        hint = f"; the header's columns are separated by {_SEPARATORS[separator]}"
+        remark = f"; the header's columns are separated by {_SEPARATORS[separator]}"
     raise ParameterError(
         f"{path}, line {row.number}: {len(row.cells)} cells, but the header has "
-        f"{len(header.cells)}{hint}"
+        f"{len(header.cells)}{remark}"
     )
 
 
@@ -164,14 +176,15 @@ def _without_row_numbers(table: list[_Line]) -> list[_Line]:
     if header.cells[0].lower() not in _INDEX or len(header.cells) == 1:
         return table
     first = [row.cells[0] for row in rows]
-    counted = ([str(n + start) for n in range(len(rows))] for start in (0, 1))
-    if first not in list(counted):
+    from_zero = [str(number) for number in range(len(rows))]
+    from_one = [str(number + 1) for number in range(len(rows))]
+    if first not in (from_zero, from_one):
         return table
     return [line._replace(cells=line.cells[1:]) for line in table]
 
 
 def _without_empty_columns(path: Path | str, table: list[_Line]) -> list[_Line]:
-    """The table without columns that have neither name nor content, such as spreadsheets leave."""
+    """The table without columns that have neither name nor content, as from spreadsheets."""
     header, *rows = table
     kept = []
     for position, label in enumerate(header.cells):
@@ -183,22 +196,29 @@ def _without_empty_columns(path: Path | str, table: list[_Line]) -> list[_Line]:
                 f"{path}, line {header.number}: column {position + 1} has no name, but a value "
                 f"in line {filled.number}; row numbers must count the rows"
             )
-    return [line._replace(cells=[line.cells[i] for i in kept]) for line in table]
+    narrow = []
+    for line in table:
+        cells = [line.cells[position] for position in kept]
+        narrow.append(line._replace(cells=cells))
+    return narrow
 
 
 def _has_decimal_commas(path: Path | str, rows: list[_Line]) -> bool:
-    """Whether numbers are written with a decimal comma; some with each sign are refused."""
-    comma = point = 0
+    """Whether numbers have a decimal comma; a mixture with decimal points is refused."""
+    commas = []
+    points = []
     for row in rows:
         for cell in row.cells:
-            comma = comma or (row.number if _DECIMAL_COMMA.fullmatch(cell) else 0)
-            point = point or (row.number if "." in cell and _NUMBER.fullmatch(cell) else 0)
-    if comma and point:
+            if _DECIMAL_COMMA.fullmatch(cell):
+                commas.append(row.number)
+            elif "." in cell and _NUMBER.fullmatch(cell):
+                points.append(row.number)
+    if commas and points:
         raise ParameterError(
-            f"{path}: line {comma} has a decimal comma and line {point} a decimal point; write all "
-            "numbers with a decimal point"
+            f"{path}: line {commas[0]} has a decimal comma and line {points[0]} a decimal point; "
+            "write all numbers with a decimal point"
         )
-    return bool(comma)
+    return bool(commas)
 
 
 def _column(path: Path | str, line: int, label: str) -> tuple[str, str]:
@@ -206,14 +226,20 @@ def _column(path: Path | str, line: int, label: str) -> tuple[str, str]:
     parts = _HEADER.fullmatch(label)
     name = aliases().get(parts[1], parts[1]) if parts else ""
     if parts is None or name not in SAMPLED:
-        close = difflib.get_close_matches(name, SAMPLED, n=1)
-        hint = f"did you mean {close[0]}?" if close else f"known: {', '.join(SAMPLED)}"
-        raise ParameterError(f"{path}, line {line}: column {label!r} is unknown; {hint}")
+        own_name = re.split(r"[(\[]", label)[0].strip()
+        suggestion = hint(own_name, SAMPLED) or f"known: {', '.join(SAMPLED)}"
+        raise ParameterError(f"{path}, line {line}: column {label!r} is unknown; {suggestion}")
     unit = (parts[2] or parts[3] or SAMPLED[name].unit).strip()
     return name, "1" if unit == "-" else unit
 
 
-def _cell(path: Path | str, line: int, label: str, text: str, decimal_commas: bool) -> float:
+def _cell(
+    path: Path | str,
+    line: int,
+    label: str,
+    text: str,
+    decimal_commas: bool,
+) -> float:
     """The number of a cell."""
     number = text.replace(",", ".") if decimal_commas and text.count(",") == 1 else text
     if _NUMBER.fullmatch(number):
@@ -223,9 +249,9 @@ def _cell(path: Path | str, line: int, label: str, text: str, decimal_commas: bo
     place = f"{path}, line {line}, column {label!r}"
     if not text:
         raise ParameterError(f"{place}: the cell is empty")
-    hint = ""
+    remark = ""
     if re.match(r"[+-]?[\d.]*\d[.,\d]*\s*[A-Za-zµμ]", text):
-        hint = "; units belong in the header, such as 'slip_distance (um)'"
+        remark = "; units belong in the header, such as 'slip_distance (um)'"
     elif "," in text and "." in text:
-        hint = "; write it without separators of thousands"
-    raise ParameterError(f"{place}: {text!r} is no number{hint}")
+        remark = "; write it without separators of thousands"
+    raise ParameterError(f"{place}: {text!r} is no number{remark}")

@@ -53,6 +53,18 @@ def write(dataset: xr.Dataset, path: str | os.PathLike[str], **attributes: Any) 
         If a variable lacks its unit or long name.
     OSError
         If the file can't be written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> import xarray as xr
+    >>> length = xr.DataArray(1.0, attrs={"units": "m", "long_name": "critical length"})
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "length.nc"
+    ...     write(length.to_dataset(name="length"), path)
+    ...     float(read(path)["length"])
+    1.0
     """
     require_annotated(dataset)
     # an encoding from an earlier file may not fit: it would cut texts to the length they had there
@@ -123,6 +135,18 @@ def read(path: str | os.PathLike[str], requires: Iterable[str] = ()) -> xr.Datas
     ------
     DatasetError
         If the file is missing, truncated or damaged, or lacks a variable or a unit.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> import xarray as xr
+    >>> length = xr.DataArray(1.0, attrs={"units": "m", "long_name": "critical length"})
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "length.nc"
+    ...     write(length.to_dataset(name="length"), path)
+    ...     float(read(path)["length"])
+    1.0
     """
     with _refusing(path):
         sealed = seal.verified(path)  # before HDF5 reads any byte

@@ -34,6 +34,18 @@ def plot_run(record: xr.Dataset) -> Figure:
     """Picture of a run: shear stress in space and time, force, onset and patch length.
 
     `record` comes from :func:`nucleation.simulation.run.simulate`, with slip and stresses.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping, simulate
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     mesh=Mesh(n_x=16, n_y=2),
+    ...     stepping=Stepping(end_time=0.02),
+    ... )
+    >>> figure = plot_run(simulate(parameters))
+    >>> len(figure.axes)
+    5
     """
     Record(record).require("slip", "shear_stress")
     return figure_s2.draw(record, xr.Dataset(extract(record)))
@@ -61,6 +73,15 @@ def plot_length(over: str, **fault: Any) -> Figure:
     ------
     ParameterError
         If a parameter is wrong, or another parameter than `over` has several values.
+
+    Examples
+    --------
+    >>> figure = plot_length(
+    ...     "normal_stress", shear_modulus=30e9, poisson_ratio=0.25,
+    ...     normal_stress=[50e6, 100e6], a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    >>> len(figure.axes)
+    1
     """
     if over not in QUANTITIES or over not in fault:
         raise ParameterError(f"over = {over!r} is not allowed: it must be a parameter given")
@@ -113,6 +134,15 @@ def plot_spectrum(**fault: Any) -> Figure:
     ------
     ParameterError
         If a parameter is wrong, there are several faults, or sliding is stable.
+
+    Examples
+    --------
+    >>> figure = plot_spectrum(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
+    ... )
+    >>> len(figure.axes)
+    2
     """
     wavenumber = _magnitude(critical_mode(**fault).wavenumber)
     if wavenumber.size != 1 or not np.isfinite(wavenumber).all():
@@ -168,6 +198,22 @@ def film(record: xr.Dataset, path: str | os.PathLike[str]) -> None:
         From :func:`nucleation.simulation.run.simulate`.
     path : path
         The file; an older one is replaced.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping, simulate
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     mesh=Mesh(n_x=16, n_y=2),
+    ...     stepping=Stepping(end_time=0.02),
+    ... )
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.gif"
+    ...     film(simulate(parameters), path)
+    ...     path.exists()
+    True
     """
     row = xr.Dataset(extract(record))
     animation.save(animation.frames(film_dataset(record, row), row), path)

@@ -8,7 +8,13 @@ from .quantities import quantity
 
 @dataclasses.dataclass(frozen=True)
 class Geometry(Checked):
-    """The deformable block ``0 <= x <= length``, ``0 <= y <= height``."""
+    """The deformable block ``0 <= x <= length``, ``0 <= y <= height``.
+
+    Examples
+    --------
+    >>> Geometry(height=0.01, length=1.0).height
+    0.01
+    """
 
     height: float = quantity(
         "block height",
@@ -30,7 +36,14 @@ class Geometry(Checked):
 
 @dataclasses.dataclass(frozen=True)
 class Mesh(Checked):
-    """The structured finite-element mesh: numbers of bilinear elements and grading in y."""
+    """The structured finite-element mesh: numbers of bilinear elements and grading in y.
+
+    Examples
+    --------
+    >>> mesh = Mesh(n_x=200, n_y=10)
+    >>> mesh.n_x * mesh.n_y
+    2000
+    """
 
     n_x: int = quantity(
         "number of elements along x",

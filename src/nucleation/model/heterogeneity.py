@@ -30,6 +30,12 @@ class Heterogeneity(Checked):
     ParameterError
         Also if a varying property has the change zero, or a change is given without a property.
         Also if the change makes a positive property negative.
+
+    Examples
+    --------
+    >>> asperity = Heterogeneity(varies="normal_stress", width=0.05, change=0.5)
+    >>> asperity.shape, asperity.change
+    ('bump', 0.5)
     """
 
     varies: str = quantity(

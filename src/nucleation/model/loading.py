@@ -24,6 +24,11 @@ class Loading(Checked):
     ParameterError
         Also if the kind is remote and the stress rate is zero, or the kind is another one and the
         stress rate is not zero.
+
+    Examples
+    --------
+    >>> Loading(velocity=1e-6).velocity
+    1e-06
     """
 
     normal_stress: float = quantity(

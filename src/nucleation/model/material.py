@@ -39,7 +39,13 @@ def in_plane_ratio(poisson_ratio: Any, plane: str) -> Any:
 
 @dataclasses.dataclass(frozen=True)
 class Material(Checked):
-    """A linear elastic isotropic solid (SI units)."""
+    """A linear elastic isotropic solid (SI units).
+
+    Examples
+    --------
+    >>> round(Material(30e9, 0.25, 2700.0).shear_wave_speed)
+    3333
+    """
 
     shear_modulus: float = quantity(
         "shear modulus",

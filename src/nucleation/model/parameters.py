@@ -30,7 +30,13 @@ FIRST_STEP = 2.0e-6
 
 @dataclasses.dataclass(frozen=True)
 class Stepping(Checked):
-    """Control of the time integration."""
+    """Control of the time integration.
+
+    Examples
+    --------
+    >>> Stepping(end_time=10.0).end_time
+    10.0
+    """
 
     end_time: float = quantity(
         "simulated time",
@@ -91,7 +97,14 @@ class _SecondBlock(NamedTuple):
 
 @dataclasses.dataclass(frozen=True)
 class Parameters:
-    """Everything one simulation depends on; two equal objects give the same result."""
+    """Everything one simulation depends on; two equal objects give the same result.
+
+    Examples
+    --------
+    >>> parameters = Parameters(geometry=Geometry(height=0.01, length=1.0))
+    >>> parameters.geometry.height
+    0.01
+    """
 
     material: Material = Material()
     friction: Friction = dataclasses.field(default_factory=Friction)  # loads its law by name

@@ -42,6 +42,11 @@ class Perturbation(Checked):
     has another roughness. A front that moves at dL/dt crosses roughness of wavenumber ``k`` with
     the frequency ``k dL/dt``. The frequency of the patch's own mode perturbs it most; with the
     paper's parameters that is a wavelength of about 0.01 m.
+
+    Examples
+    --------
+    >>> Perturbation(kind="normal_load", strength=1e-4).strength
+    0.0001
     """
 
     kind: str = quantity("perturbed quantity", choices=KINDS, default="none")

@@ -14,7 +14,17 @@ from typing import Any, cast
 
 
 class ParameterError(ValueError):
-    """A parameter is outside its allowed range; the message names key, value, unit and range."""
+    """A parameter is outside its allowed range; the message names key, value, unit and range.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry
+    >>> try:
+    ...     Geometry(height=-1.0)
+    ... except ParameterError as error:
+    ...     print(error)
+    geometry.height = -1.0 m is not allowed: block height must lie in (0, 1e+06) m
+    """
 
 
 @dataclasses.dataclass(frozen=True)

@@ -18,7 +18,13 @@ edges of the patch at larger slip rates.
 
 @dataclasses.dataclass(frozen=True)
 class Recording(Checked):
-    """Which data a simulation records."""
+    """Which data a simulation records.
+
+    Examples
+    --------
+    >>> Recording(record="interface").record
+    'interface'
+    """
 
     record: str = quantity(
         "recorded data of a simulation: everything; the interface, without snapshots of the "

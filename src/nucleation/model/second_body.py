@@ -16,6 +16,11 @@ class SecondBody(Checked):
     ------
     ParameterError
         Also if a rigid body has properties that only a deformable one can have.
+
+    Examples
+    --------
+    >>> SecondBody(kind="deformable", shear_modulus=60e9, poisson_ratio=0.3).deformable
+    True
     """
 
     kind: str = quantity(

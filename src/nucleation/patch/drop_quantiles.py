@@ -66,6 +66,18 @@ def drop_quantiles(
     ------
     ParameterError
         If a run is no uniform fault that is pushed at its edge.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry, Parameters, Perturbation
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     perturbation=Perturbation(kind="normal_load", strength=1e-4),
+    ... )
+    >>> cases = [parameters, parameters.replaced({"slip_distance": 0.6e-6})]
+    >>> found = drop_quantiles(cases, lengths=["critical_length"])
+    >>> found["value"].shape
+    (1, 5)
     """
     random = np.random.default_rng([seed, REALISATION])
     shares = (random.permutation(len(cases)) + 0.5) / len(cases)

@@ -168,6 +168,18 @@ def simulate(
     Dataset
         Record of :func:`nucleation.simulation.run.simulate`. If the user interrupts the run (Ctrl-C
         or the notebook's stop button), the record ends there and its attribute ``completed`` is 0.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     mesh=Mesh(n_x=16, n_y=2),
+    ...     stepping=Stepping(end_time=0.02),
+    ... )
+    >>> record = simulate(parameters)
+    >>> record.sizes["x"], round(float(record["step_time"][-1]), 6)
+    (17, 0.021013)
     """
     bar = None
     watch = progress if callable(progress) else None

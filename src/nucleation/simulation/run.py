@@ -96,6 +96,19 @@ def run(
     SimulationFailure
         If the step size fell below ``stepping.shortest_step``, also if every longer step ends in
         tension.
+
+    Examples
+    --------
+    >>> from nucleation.api import Geometry, Mesh, Parameters, Stepping
+    >>> parameters = Parameters(
+    ...     geometry=Geometry(height=0.005, length=0.9),
+    ...     mesh=Mesh(n_x=16, n_y=2),
+    ...     stepping=Stepping(end_time=0.02),
+    ... )
+    >>> instants = run(parameters)
+    >>> first, second = next(instants), next(instants)
+    >>> float(first.state.past_times[0]), bool(second.state.past_times[0] > 0.0)
+    (0.0, True)
     """
     dynamics = composed(parameters) if dynamics is None else dynamics
     longest_step = parameters.longest_step

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..model.parameters import names
 from ..model.quantities import ParameterError, Quantity
+from ..model.synonyms import hint
 from ..model.units import magnitude
 from ..types import Array, ComplexArray
 from .critical import stability_reason
@@ -24,6 +25,15 @@ class CriticalMode(NamedTuple):
 
     Its ``exp(i omega t - i k_c x)`` propagates along +x if omega is positive. Where the bodies are
     mirror images both signs are marginal, and the positive one is given.
+
+    Examples
+    --------
+    >>> mode = critical_mode(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
+    ... )
+    >>> round(float(mode.length), 3), round(float(mode.wavenumber), 3)
+    (2.513, 2.5)
     """
 
     length: Any  # L_c = 2 pi/k_c (m)
@@ -56,6 +66,14 @@ def critical_length(**fault: Values) -> Any:
     -----
     k_c is the largest wavenumber at which a root of Eq. (5) is marginal. Two half-spaces of one
     material have Eq. (6), of different materials Eq. (9), a thin layer on a rigid body Eq. (11).
+
+    Examples
+    --------
+    >>> critical_length(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=[50e6, 100e6],
+    ...     a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    array([2.51327412, 1.25663706])
     """
     return _critical(fault_of(fault)).length
 
@@ -79,6 +97,15 @@ def critical_mode(**fault: Values) -> CriticalMode:
     ------
     ParameterError
         If a parameter is missing, unknown or outside its range.
+
+    Examples
+    --------
+    >>> mode = critical_mode(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
+    ... )
+    >>> round(float(mode.angular_frequency), 4)
+    0.1414
     """
     return _critical(_with_velocity(fault_of(fault)))
 
@@ -104,6 +131,16 @@ def spectrum(wavenumber: Values, **fault: Values) -> Any:
     ------
     ParameterError, ValueError
         If a parameter or the wavenumber is missing, unknown or outside its range.
+
+    Examples
+    --------
+    >>> rates = spectrum(
+    ...     2.0,
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6, velocity=1e-6,
+    ... )
+    >>> rates.shape, bool(rates[0].real > 0.0)
+    ((2,), True)
     """
 
     own = _with_velocity(fault_of(fault))
@@ -144,6 +181,12 @@ def transfer_functions(wavenumber: Values, **fault: Values) -> tuple[Any, Any]:
     ------
     ParameterError, ValueError
         If a parameter or the wavenumber is missing, unknown or outside its range.
+
+    Examples
+    --------
+    >>> shear, normal = transfer_functions(2.5, shear_modulus=30e9, poisson_ratio=0.25)
+    >>> round(float(shear), 4), round(float(normal), 4)
+    (0.6667, 0.0)
     """
     neutral = {"normal_stress": 1e6, "a": 0.01, "slip_distance": 1e-6, "friction": 0.0}
     if "zeta" not in fault and "b" not in fault:
@@ -229,9 +272,16 @@ def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
 
 def fault_of(parameters: dict[str, Any]) -> Fault:
     """The fault with the given keywords; some of them may be :func:`aliases`."""
+    known = without_aliases(parameters)
+    for name in known:
+        if name not in QUANTITIES:
+            suggestion = hint(name, QUANTITIES) or f"known: {', '.join(QUANTITIES)}"
+            raise ParameterError(
+                f"the fault got an unexpected keyword argument {name!r}; {suggestion}"
+            )
     try:
-        return Fault(**without_aliases(parameters))
-    except TypeError as error:  # a keyword that is missing or unknown
+        return Fault(**known)
+    except TypeError as error:  # a keyword that is missing
         raise ParameterError(str(error).replace("Fault.__init__()", "the fault")) from None
 
 

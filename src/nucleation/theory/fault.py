@@ -82,6 +82,15 @@ class Fault:
     ------
     ParameterError
         If a parameter is outside its range, missing, given twice or of another unit's dimension.
+
+    Examples
+    --------
+    >>> fault = Fault(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance="5um",
+    ... )
+    >>> round(float(fault.zeta), 4), float(fault.slip_distance)
+    (0.005, 5e-06)
     """
 
     shear_modulus: Values

@@ -174,6 +174,16 @@ def weakening_patch_length(
     -----
     For half-spaces W_c/L_c depends on ``zeta/a`` and ``-outside_zeta/zeta`` alone. Surroundings
     that strengthen very much don't slip: then it is ``1.158/pi``, that of a patch with pinned ends.
+
+    Examples
+    --------
+    >>> width = weakening_patch_length(
+    ...     outside_zeta=-0.004,
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
+    ...     a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    >>> round(float(width), 2)
+    1.14
     """
     own = fault_of(fault)
     width = weakening_patch_values(own, outside_zeta, outside_a)

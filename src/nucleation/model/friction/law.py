@@ -83,6 +83,12 @@ class Friction(Checked):
     ------
     ParameterError
         If there is no such law, the law has no such parameter, or a value is out of its range.
+
+    Examples
+    --------
+    >>> law = Friction(law="dieterich_ruina", characteristic_slip_distance=5e-6)
+    >>> law.characteristic_slip_distance, law.evolution
+    (5e-06, 'aging')
     """
 
     law: str = law_name(USUAL_LAW)

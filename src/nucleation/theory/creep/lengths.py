@@ -158,6 +158,15 @@ def stability_length(
         If a parameter is missing, unknown or outside its range, if no law has a fault's constants,
         or if there is a law but no edge: its a(v) and b(v) depend on a slip rate that is not V
         then.
+
+    Examples
+    --------
+    >>> length = stability_length(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, height=0.5,
+    ...     a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    >>> round(float(length), 2)
+    1.29
     """
     own = fault_of(fault)
     length = stability_values(own, friction_law, loading)[0]

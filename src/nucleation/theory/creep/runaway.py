@@ -176,6 +176,15 @@ def runaway_length(*, evolution: str = "aging", **fault: Values) -> Any:
     ------
     ParameterError
         If a parameter is missing, unknown or outside its range.
+
+    Examples
+    --------
+    >>> length = runaway_length(
+    ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6, height=0.5,
+    ...     a=0.010, b=0.015, slip_distance=5e-6,
+    ... )
+    >>> round(float(length), 2)
+    1.92
     """
     own = fault_of(fault)
     return named(runaway_values(own, evolution), "runaway_length", "m", "runaway length", own)

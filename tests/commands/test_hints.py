@@ -1,0 +1,60 @@
+"""Unknown names of options and of keys in files are answered with the names of this command."""
+
+import pytest
+
+FAULT = (
+    *("--shear-modulus", "30GPa", "--poisson", "0.25", "--normal-stress", "50MPa"),
+    *("--a", "0.010", "--b", "0.015", "--slip-distance", "5um"),
+)
+
+
+@pytest.mark.parametrize(
+    ("command", "unknown", "answer"),
+    [
+        (["length"], "--Dc", "did you mean --slip-distance?"),
+        (["specimen", "--length", "1m"], "--D-RS", "did you mean --slip-distance?"),
+        (["drop"], "--sigma-n", "did you mean --normal-stress?"),
+        (["simulate", "run.nc"], "--Vpl", "did you mean --velocity?"),
+        (["plot", "out.png"], "--G", "did you mean --shear-modulus?"),
+        (["length"], "--nu", "did you mean --poisson-ratio?"),
+        (["length"], "--youngs-modulus", "give --shear-modulus: mu = E/(2 (1 + nu))"),
+        (["drop"], "-E", "give --shear-modulus: mu = E/(2 (1 + nu))"),
+        (["length"], "--a-b", "give --zeta: zeta = b - a"),
+        (["show", "run.nc"], "--plott", "did you mean --plot?"),
+    ],
+)
+def test_unknown_options(nucleation, command, unknown, answer):
+    ended = nucleation(*command, unknown, "1")
+    assert ended.code == 2
+    assert f"Error: No such option '{unknown}'; {answer}" in " ".join(ended.err.split())
+
+
+@pytest.mark.parametrize(
+    ("key", "answer"),
+    [
+        ("Dc", "did you mean slip_distance?"),
+        ("youngs_modulus", "give shear_modulus: mu = E/(2 (1 + nu))"),
+        ("normal_stres", "did you mean normal_stress?"),
+    ],
+)
+def test_unknown_keys_of_files(nucleation, tmp_path, key, answer):
+    path = tmp_path / "fault.yaml"
+    path.write_text(f"{key}: 1.0\n")
+    ended = nucleation("length", *FAULT, "--parameters", path)
+    assert ended.code == 2
+    assert f"{key} = 1.0 is not allowed: unknown key; {answer}" in " ".join(ended.err.split())
+
+
+def test_a_message_lists_the_keys_of_its_command(nucleation, tmp_path):
+    path = tmp_path / "fault.yaml"
+    path.write_text("xyzzy: 1.0\n")
+    own = nucleation("length", *FAULT, "--parameters", path).err
+    assert "unknown key; known: shear_modulus" in " ".join(own.split())
+    assert "n_x" not in own
+    assert "n_x" in nucleation("simulate", "run.nc", "--parameters", path).err
+
+
+def test_an_unknown_parameter_to_vary(nucleation):
+    ended = nucleation("plot", "out.png", "--paper", "--over", "sigma_n=1MPa:2MPa")
+    assert ended.code == 2
+    assert "did you mean normal_stress?" in ended.err
