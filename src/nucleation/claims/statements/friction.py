@@ -47,8 +47,9 @@ def logarithmic_law(evidence: Evidence) -> Array:
     law = evidence.friction
     velocity = evidence.loading.velocity
     factors = np.geomspace(0.1, 10.0, 41)
+    rates = velocity * factors
     states = law.steady_state(velocity) * factors
-    v, phi = np.meshgrid(velocity * factors, states)
+    v, phi = np.meshgrid(rates, states)
     logarithmic = law.logarithmic(v, phi, velocity)
     return logarithmic / law.coefficient(v, phi)
 
@@ -91,19 +92,19 @@ def steady_agreement(evidence: Evidence) -> float:
     return math.log10(v[highest] / v[lowest])
 
 
-def strengthening_branch(evidence: Evidence) -> float:
-    _, minimum = _steady_extremes(evidence)
-    return minimum / evidence.loading.velocity
-
-
 def weakening_branch(evidence: Evidence) -> float:
     maximum, _ = _steady_extremes(evidence)
     return evidence.loading.velocity / maximum
 
 
 def _minimum(evidence: Evidence) -> float:
+    """The slip rate (m/s) of the minimum of steady-state friction."""
     _, minimum = _steady_extremes(evidence)
     return minimum
+
+
+def strengthening_branch(evidence: Evidence) -> float:
+    return _minimum(evidence) / evidence.loading.velocity
 
 
 def state_rate_at_v(evidence: Evidence) -> float:
@@ -120,9 +121,10 @@ def _with_slip_law(evidence: Evidence) -> tuple[list[Row], list[Row]]:
 
 def slip_law_approximation(evidence: Evidence) -> Result:
     converged, papers = _with_slip_law(evidence)
+    column = "state_rate_share_patch"
     return Result(
-        [run["state_rate_share_patch"] for run in converged],
-        on_papers_mesh=[run["state_rate_share_patch"] for run in papers],
+        [run[column] for run in converged],
+        on_papers_mesh=[run[column] for run in papers],
     )
 
 

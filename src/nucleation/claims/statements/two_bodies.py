@@ -162,26 +162,35 @@ def _each_sense(rows: xr.Dataset, values: Array) -> str:
 
 def pairs_decreasing(evidence: PairEvidence) -> Result:
     rows, left_out = settled(evidence)
-    ratio = over_effective_modulus(rows)
-    weakening = weakenings(rows)
-    slopes: list[float] = []
-    ends: list[int] = []
-    for value in np.unique(weakening):
-        for sign in (1.0, -1.0):
-            contrast = sign * rows["f_beta"].values
-            same = (weakening == value) & (contrast >= -1e-9)
-            contrast = np.abs(contrast)
-            own = np.flatnonzero(same)
-            own = own[np.argsort(contrast[own])]
-            rise = np.diff(ratio[own])
-            slope = rise / np.diff(contrast[own])
-            slopes += slope.tolist()
-            ends += own[1:].tolist()
+    slopes, ends = _slopes(rows)
     if not slopes:
         raise Missing("The study has no two contrasts of one sense")
     upper = rows.isel(run=ends)
     note = _note(rows) + _each_sense(upper, np.array(slopes)) + left_out
     return Result(slopes, note=note)
+
+
+def _slopes(rows: xr.Dataset) -> tuple[list[float], list[int]]:
+    """Slopes of the length over L_c^M against ``|f beta|``, for each zeta/a and sense.
+
+    Second are the rows at the upper ends of the slopes.
+    """
+    lengths = over_effective_modulus(rows)
+    weakening = weakenings(rows)
+    f_beta = rows["f_beta"].values
+    contrast = np.abs(f_beta)
+    slopes: list[float] = []
+    ends: list[int] = []
+    for value in np.unique(weakening):
+        for sign in (1.0, -1.0):
+            same_sense = sign * f_beta >= -1e-9
+            own = np.flatnonzero(same_sense & (weakening == value))
+            own = own[np.argsort(contrast[own])]
+            rise = np.diff(lengths[own])
+            slope = rise / np.diff(contrast[own])
+            slopes += slope.tolist()
+            ends += own[1:].tolist()
+    return slopes, ends
 
 
 SHORT: dict[str, Computation] = {
