@@ -45,7 +45,7 @@ _COMPARED = (
 
 _COMPARED_SLOW = (
     "Friction weakens little here: the patch slips slowly in a limit cycle until there is none, "
-    "for any\nperturbation. In thin blocks simulated drops came from 1 % below to 10 % above "
+    "for any\nweak perturbation. In thin blocks simulated drops came from 1 % below to 10 % above "
     "L_run; see docs/drop.md."
 )
 

@@ -2,7 +2,8 @@
 
 Where friction weakens little, the oscillation that begins at the stability length L_s saturates: a
 longer patch slips in a limit cycle of slow slip, alternately faster and slower than V. The cycle
-ceases to exist at a length L_run, and there the force drops at any noise.
+ceases to exist at a length L_run, and there the force drops at any weak noise. A disturbance that
+changes the logarithm of the state by 0.1 or more makes shorter patches run away.
 
 A patch of fixed length in steady creep ``v_c(x)`` with the whole logarithmic law obeys, per sigma0,
 
@@ -35,7 +36,7 @@ from .response import MODES
 LONGEST = 3.0  # patches up to this multiple of L_c are tried
 PRECISION = 4e-3  # relative, of L_run
 ERROR = 0.03  # relative, of L_run, by modes, duration and perturbation
-PERTURBATION = 0.05  # of log(phi) at the start, in the middle of the patch
+PERTURBATION = 0.05  # of log(phi) at the start, in the middle of the patch; as good as none
 DURATION = 1500.0  # over D/V, after which slow slip counts as a limit cycle
 FAST = 300.0  # slip rate over V beyond which a burst is an event
 RELATIVE_TOLERANCE = 1e-5  # of the integration, of the logarithms
