@@ -13,7 +13,8 @@ from ..theory.crossings import largest_crossings
 from ..theory.fault import Fault, Values, labelled, takes_fault
 from ..theory.spectrum import Systems
 from ..theory.status import STABLE, UNKNOWN, VALUE
-from .in_use import LENGTHS, THIS_FAULT, Length, values_of, with_dimensions
+from .in_use import LENGTHS, values_of, with_dimensions
+from .length import THIS_FAULT, Length
 
 if TYPE_CHECKING:
     import xarray as xr
