@@ -13,6 +13,7 @@ import docutils.nodes  # noqa: E402
 import numpydoc.numpydoc  # noqa: E402
 from docutils.utils.math import pick_math_environment  # noqa: E402
 from docutils.utils.math.latex2mathml import tex2mathml  # noqa: E402
+from sphinx.errors import ConfigError  # noqa: E402
 
 from nucleation import __version__  # noqa: E402
 
@@ -54,7 +55,21 @@ numpydoc_class_members_toctree = False
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "nucleation"
+html_static_path = ["_static"]
+html_css_files = ["mathematics.css"]
 html_show_sphinx = False
+
+MOVED = ROOT / "docs" / "moved.txt"
+"""One line for each page that is gone: its name, and the page and heading that replace it."""
+REDIRECT = """<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<title>Moved to {page}</title>
+<script>location.replace("{page}.html" + (location.hash || "#{heading}"))</script>
+<noscript><meta http-equiv="refresh" content="0; url={address}"></noscript>
+<p>This page has moved to <a href="{address}">{page}</a>.</p>
+</html>
+"""
 
 
 def formulas(app, what, name, obj, options, lines):
@@ -86,7 +101,27 @@ def calculator(app, error):
         Path(app.outdir, "calculator.html").write_text(build(), encoding="utf-8")
 
 
+def redirects(app, error):
+    """Pages at the addresses of :data:`MOVED`, which lead to the page that has their content now.
+
+    An address with a heading leads to the same heading there.
+    """
+    if error is not None or app.builder.name != "html":
+        return
+    for line in MOVED.read_text(encoding="utf-8").splitlines():
+        old, new = line.split()
+        page, _, heading = new.partition("#")
+        address = f"{page}.html#{heading}".removesuffix("#")
+        if not Path(app.outdir, f"{page}.html").is_file():
+            raise ConfigError(f"{MOVED.name}: {old} leads to {page}, which is no page")
+        if Path(app.srcdir, f"{old}.md").exists():
+            raise ConfigError(f"{MOVED.name}: {old} is a page again")
+        stub = REDIRECT.format(page=page, heading=heading, address=address)
+        Path(app.outdir, f"{old}.html").write_text(stub, encoding="utf-8")
+
+
 def setup(app):
     app.connect("build-finished", calculator)
+    app.connect("build-finished", redirects)
     app.connect("autodoc-process-docstring", formulas)
     app.add_html_math_renderer("mathml", (mathematics, None), (mathematics, None))

@@ -1,4 +1,4 @@
-"""The evidence of claims as the committed reference set has it: tables, but no simulations."""
+"""The evidence of claims from the committed reference set: tables without simulations."""
 
 import copy
 import dataclasses
@@ -30,7 +30,7 @@ def of_role(tables, role):
 
 
 def dispersion():
-    """results/dispersion.nc from its table, what the claims read of it."""
+    """The variables of results/dispersion.nc that the claims need, from its table."""
     frame = pd.read_csv(REFERENCE / "dispersion.csv")
     index = ["height", "wavenumber_over_critical", "branch"]
     modes = frame.set_index(index).to_xarray().rename(wavenumber_over_critical="mode")
@@ -75,6 +75,9 @@ def _evidence():
     curves = Curves(
         heights=config.curves.heights, f_beta=config.curves.f_beta, slip_rates=(1e-6, 1e-5)
     )
+    by_id = {}
+    for i, id in enumerate(patches["id"].values):
+        by_id[str(id)] = patches.isel(run=i)
     theory = theory_dataset(
         config.base.material, config.base.friction, config.main_text_interface, curves
     )
@@ -86,5 +89,5 @@ def _evidence():
         theory=theory,
         dispersion=dispersion(),
         lengths=tuple(of_role(lengths, role) for role in ROLES),
-        patches={str(id): patches.isel(run=i) for i, id in enumerate(patches["id"].values)},
+        patches=by_id,
     )

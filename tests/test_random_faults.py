@@ -73,9 +73,9 @@ def random_fault(number):
 
 def in_time(question):
     """What a question is answered, within the time that it may take."""
-    started = time.monotonic()
+    started = time.process_time()
     answer = question()
-    assert time.monotonic() - started < SECONDS
+    assert time.process_time() - started < SECONDS
     return answer
 
 

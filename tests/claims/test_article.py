@@ -1,4 +1,4 @@
-"""The article: its numbers are those of the claims and tables, and nothing is left unfilled."""
+"""The article has the numbers of the claims and tables, and no unfilled place."""
 
 import json
 import re
@@ -39,7 +39,7 @@ def test_every_run_is_in_its_table(given):
 
 
 def test_template_states_no_result_of_its_own():
-    """Decimal numbers stand in the template as parameters of the paper or of the figure alone."""
+    """The template's only decimal numbers are parameters of the paper or of a figure."""
     text = re.sub(r"\{[{%#].*?[}%#]\}", "", TEMPLATE, flags=re.S)
     text = re.sub(r"\(https?://\S+\)|\[doi:\S+\]", "", text)
     assert set(re.findall(r"\d+\.\d+", text)) == {"0.005", "0.01", "0.02", "0.05", "0.1"}
@@ -73,7 +73,7 @@ def test_our_numbers_are_rounded_to_their_range():
     assert digits(25342, 2) == r"$2.5\times 10^{4}$"
 
 
-def test_what_is_cited_is_listed_and_what_is_listed_cited():
+def test_citations_and_references_are_the_same():
     text, _, listed = TEMPLATE.partition("## References")
     entries = re.findall(r"^- ([^,]+),.*?\((\d{4})\)", listed, re.M | re.S)
     assert len(entries) == len(re.findall("^- ", listed, re.M)) > 4

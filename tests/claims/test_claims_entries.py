@@ -1,4 +1,4 @@
-"""The entries: complete, quoted, documented, and their numbers computed again in other ways."""
+"""The entries are complete, quoted and documented; their numbers are computed in other ways."""
 
 import csv
 import io
@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 from nucleation.analysis.measures import BY_DEFINITION, MEASURES
 from nucleation.claims import table
 from nucleation.claims.claim import Verdict
-from nucleation.claims.said import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
+from nucleation.claims.expected import FORMULA_TOLERANCE, WIDEST_ALLOWANCE, WORDS
 from nucleation.configuration.roles import LONGER
 from nucleation.model.identity import fault
 from nucleation.model.parameters import Geometry, Parameters
@@ -54,8 +54,8 @@ def test_claim_is_complete(claim):
     for text in (claim.where, claim.quotation, claim.method, claim.unit):
         assert text.strip() == text != ""
     assert "~" not in claim.where and r"\!" not in claim.quotation
-    if claim.said is not None and claim.said.kind == "number":
-        assert claim.said.text in claim.quotation, "a stated number stands in the quotation"
+    if claim.expected is not None and claim.expected.kind == "number":
+        assert claim.expected.text in claim.quotation, "the quotation has the printed number"
 
 
 def test_rows_are_valid_by_the_schema(rows):
@@ -90,7 +90,7 @@ def test_page_states_the_rules_constants():
 
 
 def test_reference_is_what_the_code_gives(rows, reference):
-    """But for rows on longer blocks, whose lengths are not in the reference set."""
+    """Except for the row on longer blocks: the reference set has no lengths of these."""
     assert list(reference) == list(rows)
     evaluated = [row for row in rows.values() if f"no such run: role {LONGER}" not in row["reason"]]
     assert len(evaluated) == len(rows) - 1
@@ -104,7 +104,7 @@ def test_reference_is_what_the_code_gives(rows, reference):
             assert row["ours"] == pytest.approx(float(stored["ours"]), rel=1e-5, abs=1e-6)
 
 
-def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
+def test_most_of_the_paper_is_replicated_and_the_exceptions_are_named(reference):
     verdicts = {id: row["verdict"] for id, row in reference.items()}
     assert Verdict.NOT_REPLICATED not in verdicts.values()
     failed = {id for id, verdict in verdicts.items() if verdict == Verdict.NOT_SUPPORTED}
@@ -119,7 +119,7 @@ def test_most_of_the_paper_is_replicated_and_what_is_not_is_named(reference):
 
 def test_onset_and_length_of_figure_s2(rows):
     converged, papers = (realisations(s, "aging", 0.005) for s in ("converged", "paper"))
-    assert len(converged) == 6  # the onset's bound lies within twice the range of three
+    assert len(converged) == 6  # the onset's bound is within twice the range of three
     for name, column in (("onset-time", "onset_time"), ("length-shown", "length")):
         row = rows[name]
         assert row["ours"] == pytest.approx(converged[column].mean())
@@ -128,15 +128,15 @@ def test_onset_and_length_of_figure_s2(rows):
         assert row["on_papers_mesh"] == papers[column].item()
         assert row["verdict"] == Verdict.REPLICATED
     onset = converged.onset_time.mean()
-    said = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
-    assert said in rows["onset-time"]["reason"]
+    stated = f"6 realisations, {abs(13.5 - onset):.2f} s from the bound"
+    assert stated in rows["onset-time"]["reason"]
     lengths = converged["length"]
-    said = f"all 6 realisations are {lengths.min():.4f} to {lengths.max():.4f} m"
-    assert said in rows["length-shown"]["reason"] and lengths.min() > 0.155
+    stated = f"all 6 realisations are {lengths.min():.4f} to {lengths.max():.4f} m"
+    assert stated in rows["length-shown"]["reason"] and lengths.min() > 0.155
 
 
 def test_the_onset_depends_on_the_kind_of_noise(rows):
-    """What the reason says of a fluctuating state is so for each of its realisations."""
+    """The reason's sentence on a fluctuating state holds for each of its realisations."""
     drops = pd.read_csv(REFERENCE / "drop.csv")
     own = drops[(drops.evolution == "aging") & np.isclose(drops.height, 0.005)]
     state = own[(own.kind == "state") & np.isclose(own.strength, 1e-5)]
@@ -166,22 +166,28 @@ def test_the_whole_wavelength_is_right_for_weaker_weakening(rows):
 
 
 def thin_length(weakening, points=60):
-    """L_s/L_c of a thin layer where a zeta/a makes its patch unstable, by the growth of all modes.
+    """L_s/L_c at which the patch of a thin layer becomes unstable, by the growth of all modes.
 
     Slip and log phi at the inner points, with v = V y; in units of the patch, D/V and sigma0.
     """
     a, b = 1.0 / weakening, 1.0 + 1.0 / weakening
     y = np.arange(1, points) / points
-    stiffness = points**2 * (
-        2.0 * np.eye(points - 1) - np.eye(points - 1, k=1) - np.eye(points - 1, k=-1)
-    )
+    inner = points - 1
+    neighbours = np.eye(inner, k=1) + np.eye(inner, k=-1)
+    stiffness = points**2 * (2.0 * np.eye(inner) - neighbours)
 
     def growth(ratio):
         load = stiffness / (ratio * 2.0 * np.pi) ** 2
         elastic = -(y / a)[:, None] * load
         healing = np.diag(-y * b / a)
         state = -np.diag(y) - healing
-        return np.linalg.eigvals(np.block([[elastic, healing], [-elastic, state]])).real.max()
+        matrix = np.block(
+            [
+                [elastic, healing],
+                [-elastic, state],
+            ]
+        )
+        return np.linalg.eigvals(matrix).real.max()
 
     return brentq(growth, 0.4, 1.6, xtol=1e-4)
 
@@ -193,9 +199,11 @@ def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
     found, healed = [], []
     for run in runs.itertuples():
         states = solve_ivp(
-            lambda _, state: law.state_rate(0.0, state), (0.0, run.onset_time), [run.phi0],
+            lambda _, state: law.state_rate(0.0, state),
+            (0.0, run.onset_time),
+            [run.phi0],
             rtol=1e-9,
-        ).y[0]  # fmt: skip
+        ).y[0]
         strength = law.coefficient(1e-5, states[[0, -1]])
         found.append(strength[1] / strength[0] - 1.0)
         healed.append(states[-1])
@@ -205,7 +213,7 @@ def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
 
 
 def test_verdicts_whose_bound_is_near_have_six_realisations():
-    """Else the bound is further from the mean than twice the range of the three."""
+    """The others have three: their bound is further from the mean than twice the range."""
 
     def spread(height, phi0=1.0, column="length"):
         found = realisations("converged", "aging", height, phi0)[column]
@@ -241,7 +249,7 @@ def test_agreement_with_the_theory(rows):
 
 
 def test_dependence_on_height_is_judged_at_all_heights():
-    """It was at the least and the largest, whatever lengths had done between them."""
+    """A bug: only the least and the largest height were compared."""
     claim = BY_ID["height-dependence"]
     on = evidence()
     assert claim.evaluate(on)["verdict"] == Verdict.REPLICATED
@@ -302,9 +310,12 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     base = on.lengths[0].isel(run=[0, 0, 1]).copy(deep=True)
     ids = ["short", "long", "other"]
     longer = base.assign(
-        id=("run", ids), role=("run", [LONGER] * 3), block_length=("run", [1.0, 2.0, 4.0]),
-        length=("run", [0.2, 0.203, 0.5]), ensemble=("run", ids),
-    )  # fmt: skip
+        id=("run", ids),
+        role=("run", [LONGER] * 3),
+        block_length=("run", [1.0, 2.0, 4.0]),
+        length=("run", [0.2, 0.203, 0.5]),
+        ensemble=("run", ids),
+    )
     longer = longer.assign(dict.fromkeys(BY_DEFINITION, longer["length"]))
     claim = BY_ID["length-plays-no-role"]
     row = claim.evaluate(evidence(lengths=(*on.lengths[:2], longer)))
@@ -312,7 +323,7 @@ def test_block_twice_as_long_is_compared_with_the_one_of_its_height():
     assert claim.evaluate(on)["verdict"] == Verdict.UNCHECKED
 
 
-def test_runs_of_another_material_are_not_taken_for_the_papers():
+def test_runs_of_another_material_are_ignored():
     on = evidence()
     table = on.lengths[1]
     stiff = on.material.__class__(shear_modulus=9.3e9)

@@ -54,7 +54,7 @@ def test_captions_symbols_and_links(small):
 
 
 @pytest.mark.slow
-def test_pdf_has_what_the_article_has():
+def test_pdf_has_all_pictures_numbers_and_headings():
     pictures = {name: REFERENCE / name for name in re.findall(r"\]\((\w+\.png)\)", TEXT)}
     pdf = printing.as_pdf(printing.parsed(TEXT, ["A. Author"]), pictures)
     pages = pypdf.PdfReader(io.BytesIO(pdf)).pages

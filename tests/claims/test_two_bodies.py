@@ -9,7 +9,7 @@ from reference_evidence import table as of_reference
 
 from nucleation.claims import table as table_of_claims
 from nucleation.claims.independent import printed
-from nucleation.claims.statements.two_bodies import PairEvidence
+from nucleation.claims.pair_evidence import PairEvidence
 
 CLAIMS = table_of_claims.claims_on(*next(iter(PAIRED.items())))
 FOUND = {claim.id: claim for claim in CLAIMS}
@@ -39,7 +39,7 @@ def table(ratio=0.8, slope=-1.0):
 
 
 def repeated(table, factors):
-    """The same faults in several realisations, whose lengths differ by these factors."""
+    """The same faults in several realisations, with lengths that differ by these factors."""
     runs = np.tile(np.arange(table.sizes["run"]), len(factors))
     many = np.repeat(factors, table.sizes["run"])
     found = table.isel(run=runs).assign(seed=("run", np.arange(runs.size)))
@@ -47,19 +47,33 @@ def repeated(table, factors):
 
 
 def modes(g1=1.0, g2=1.0, name="half-spaces"):
-    """Rates of one mode of each of two pairs, whose response is so many times that of Eq. (7)."""
-    f, a, zeta, ell, v, sigma0, mu, k = 0.41, 0.0068, 0.016, 5e-7, 1e-5, 1e6, 3.1e9, 10.0
-    psi, nu = np.array([3.0, 0.4]), (0.25, 0.1)
+    """Rates of one mode of each of two pairs, with these multiples of the response of Eq. (7)."""
+    f, a, zeta = 0.41, 0.0068, 0.016
+    ell = 5e-7  # m
+    v = 1e-5  # m/s
+    sigma0 = 1e6  # Pa
+    mu = 3.1e9  # Pa
+    k = 10.0  # 1/m
+    psi = np.array([3.0, 0.4])
+    nu = (0.25, 0.1)
     expected = np.array([printed.bimaterial_transfer(x, *nu) for x in psi])
     response = expected @ [g1, -1j * f * g2]
     load = mu * k * ell / sigma0 * response  # Eq. (5): a l^2 + (load - zeta) l + load = 0
     rates = np.array([np.roots([a, x - zeta, x]) for x in load]) * v / ell
     columns = {
-        "id": [name] * 2, "shear_modulus": [mu] * 2, "second_shear_modulus": psi * mu,
-        "poisson_ratio": [nu[0]] * 2, "second_poisson_ratio": [nu[1]] * 2, "friction": [f] * 2,
-        "direct_effect": [a] * 2, "velocity_weakening": [zeta] * 2, "slip_distance": [ell] * 2,
-        "velocity": [v] * 2, "applied_stress": [sigma0] * 2, "mode_wavenumber": [k] * 2,
-    }  # fmt: skip
+        "id": [name] * 2,
+        "shear_modulus": [mu] * 2,
+        "second_shear_modulus": psi * mu,
+        "poisson_ratio": [nu[0]] * 2,
+        "second_poisson_ratio": [nu[1]] * 2,
+        "friction": [f] * 2,
+        "direct_effect": [a] * 2,
+        "velocity_weakening": [zeta] * 2,
+        "slip_distance": [ell] * 2,
+        "velocity": [v] * 2,
+        "applied_stress": [sigma0] * 2,
+        "mode_wavenumber": [k] * 2,
+    }
     found = {name: ("run", np.array(values)) for name, values in columns.items()}
     found["measured_growth"] = ("run", "branch"), rates.real
     found["measured_frequency"] = ("run", "branch"), rates.imag
@@ -86,9 +100,7 @@ def test_half_spaces_are_judged_by_the_high_blocks(ratio, verdict):
         ((0.99, 1.0, 1.01), "replicated", None),
     ],
 )
-def test_the_mean_of_the_realisations_decides_and_their_range_stands_beside(
-    factors, verdict, reach
-):
+def test_the_mean_of_the_realisations_decides_for_any_range(factors, verdict, reach):
     row = judged("pairs-half-spaces", repeated(table(0.77), factors))
     assert row["verdict"] == verdict
     assert row["ours"] == pytest.approx(0.77 * np.mean(factors))
@@ -97,7 +109,7 @@ def test_the_mean_of_the_realisations_decides_and_their_range_stands_beside(
     assert ("reaches" in row["reason"]) == bool(reach) and (reach or "") in row["reason"]
 
 
-def test_the_two_senses_are_told_apart():
+def test_the_two_senses_are_separate():
     row = judged("pairs-smaller", senses((0.7, 1.2), (0.5, 0.6)))
     assert "stiffer body above it is at most 0.6, below 1.2" in row["reason"]
     row = judged("pairs-bimaterial", senses((0.7, 1.2), (0.5, 0.6)))
@@ -158,7 +170,7 @@ def test_lengths_of_half_spaces_are_given_as_eta():
 
 
 def senses(below, above):
-    """Lengths over L_c^M of pairs whose lower and whose upper body is stiffer, at 0.1 and 0.3."""
+    """Lengths over L_c^M with the stiffer body below and above, at contrasts of 0.1 and 0.3."""
     lengths = np.array([0.7, 0.7, 0.6, below[0], below[1], above[0], above[1]])
     found = table()
     return found.assign(length_ratio=("run", lengths), half_space_ratio=("run", np.ones(7)))
@@ -195,15 +207,18 @@ def test_without_runs_nothing_is_judged():
 
 
 def test_every_equation_on_two_bodies_has_a_simulated_verdict():
-    """On the committed tables; the reason says so where one can't be had."""
+    """On the committed tables; without a verdict, the reason explains why."""
     rows = pd.read_csv(REFERENCE / "claims_pairs.csv").set_index("id")
-    said = " ".join(rows["where"])
-    assert all(name in said for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
+    places = " ".join(rows["where"])
+    assert all(name in places for name in ("(6)", "(7)", "(8)", "(9)", "Fig. 2"))
     assert list(rows.index) == list(FOUND)
     modes = of_reference("pair_modes.csv")
     along, back = (modes.isel(run=modes["branch"].values == n) for n in (0, 1))
     measured = ("measured_growth", "measured_frequency")
-    both = {n: (("run", "branch"), np.stack([along[n], back[n]], axis=1)) for n in measured}
+    both = {}
+    for name in measured:
+        values = np.stack([along[name], back[name]], axis=1)
+        both[name] = ("run", "branch"), values
     evidence = PairEvidence(of_reference("pairs.csv"), along.drop_vars("branch").assign(both))
     for row in table_of_claims.evaluate(PAIRED, evidence):
         assert row["verdict"] == rows.loc[row["id"], "verdict"]

@@ -70,7 +70,7 @@ def test_summary(nucleation, files, name):
 def test_summary_of_a_simulation(nucleation, files):
     said = nucleation("show", files["run"]).out
     found = show.extract(netcdf.read(files["run"]))
-    assert f"L_c: {found['length']:.4g} (" in said and f"onset: {found['onset_time']:.4g} (" in said
+    assert f"L: {found['length']:.4g} (" in said and f"onset: {found['onset_time']:.4g} (" in said
     assert "status: completed: the event" in said
     assert "normal_stress                1e+06 Pa" in said
     assert ", that of this installation" in said and "NOT that" not in said

@@ -90,7 +90,7 @@ def computed(row):
     if found.slips_slowly:
         length = f"{found.length:.0f}" if found.length > 100.0 else f"{found.length:.2g}"
     sure = ["slow"] if found.slips_slowly else ["law"]
-    sure += ["unlike"] if "between unlike ones" in found.doubt else []
+    sure += ["unlike"] if "between different ones" in found.doubt else []
     sure += ["far end"] if "far end" in found.doubt else []
     assert not found.doubt or len(sure) > 1
     return [

@@ -101,7 +101,40 @@ def test_wings_are_those_of_the_contracts():
     assert entries == {"__init__"} | {wing for floor in floors for wing in floor}
 
 
+def test_every_target_is_in_the_table_of_targets():
+    targets = (ROOT / "workflow" / "rules" / "targets.smk").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+    table = page.split("| target |")[1].split("\n\n")[0]
+    rules = re.findall(r"^rule (\w+):", targets, re.M)
+    assert len(rules) > 30
+    assert set(rules) <= set(re.findall(r"`(\w+)`", table))
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_linked_pages_exist(page):
     for target in re.findall(r"\]\(([\w./-]+?)(?:#[\w-]*)?\)", page.read_text(encoding="utf-8")):
         assert (page.parent / target).exists(), target
+
+
+def headings(page):
+    """The addresses within a page: its headings as the forge names them, and its anchors."""
+    text = page.read_text(encoding="utf-8")
+    titles = re.findall(r"^#+ (.+)$", FENCE.sub("", text), re.M)
+    without_links = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", title) for title in titles]
+    plain = [re.sub(r"[^\w\s-]", "", title.lower()) for title in without_links]
+    slugs = {re.sub(r"\s", "-", title.strip()) for title in plain}
+    return slugs | set(re.findall(r'<a id="([\w-]+)">', text))
+
+
+LINK_TO_HEADING = re.compile(r"\]\(([\w./-]+\.md)#([\w-]+)\)")
+
+
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "CHANGELOG.md"], ids=lambda page: page.name)
+def test_linked_headings_exist(page):
+    links = LINK_TO_HEADING.findall(page.read_text(encoding="utf-8"))
+    missing = [
+        f"{name}#{heading}"
+        for name, heading in links
+        if heading not in headings(page.parent / name)
+    ]
+    assert missing == []

@@ -64,3 +64,15 @@ def test_mathematics_is_shown_without_the_network(site):
     assert "\\(" not in page and "\\[" not in page
     for path in site.rglob("*.html"):
         assert not re.findall(r'<script[^>]+src="https?:', path.read_text()), path
+
+
+def test_addresses_of_pages_that_are_gone_lead_to_their_content(site):
+    """With the heading that an address had; without one to the part that replaces the page."""
+    moved = [line.split() for line in (DOCS / "moved.txt").read_text().splitlines()]
+    assert len(moved) >= 10
+    for old, new in moved:
+        assert not (DOCS / f"{old}.md").exists(), old
+        stub = (site / f"{old}.html").read_text()
+        page, _, heading = new.partition("#")
+        assert f'location.replace("{page}.html" + (location.hash || "#{heading}"))' in stub
+        assert not heading or f'id="{heading}"' in (site / f"{page}.html").read_text(), new

@@ -1,8 +1,9 @@
 """Every quantitative statement of the paper, our number for it, and the verdict (docs/claims.md).
 
-- :mod:`.said` and :mod:`.claim`: what is said, a claim, and the rule of verdicts;
-- :mod:`.evidence`: the datasets they stand on, and what they ask of a simulation;
-- :mod:`.statements`: the claims, by subject;
+- :mod:`.expected` and :mod:`.claim`: the numbers that a statement allows, a claim, and its verdict;
+- :mod:`.evidence`: the datasets that the claims are judged by;
+- :mod:`.statements`: how our numbers are computed, by subject;
 - :mod:`.independent`: the paper's formulas as printed, and evaluations that use none of them;
-- :mod:`.table`: the table as JSON, CSV and Markdown.
+- :mod:`.table`: the table as JSON, CSV and Markdown;
+- :mod:`.article` and :mod:`.printing`: the article as Markdown, LaTeX and PDF.
 """

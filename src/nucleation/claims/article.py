@@ -2,36 +2,43 @@
 
 import math
 from collections.abc import Iterable
-from typing import Any
 
 import jinja2
 import xarray as xr
 
 from ..analysis.lengths import over_realisations
-from .claim import Verdict
+from .claim import Row, Verdict
 from .table import counts, escaped
 
 
 def render(
-    template: str, claims: list[dict[str, Any]], lengths: Iterable[xr.Dataset],
+    template: str,
+    claims: list[Row],
+    lengths: Iterable[xr.Dataset],
     beyond: bool = False,
-) -> str:  # fmt: skip
+) -> str:
     """The article's text.
 
     Parameters
     ----------
     template : str
-        Markdown with Jinja2's expressions. It knows ``claim(id)``, a claim's row; ``ours(id)``, our
-        number with range and unit; ``verdicts``, the counts; ``claims``, all rows; ``runs(role)``,
-        its rows of lengths, one for each fault; ``by_theory(role)``, the range of their L_s/L_c by
-        theory; and the filters ``digits(n)``, ``percent(n)`` and
-        ``typeset``, of texts with formulas.
+        Markdown with Jinja2's expressions. The template can use ``claim(id)``, a claim's row;
+        ``ours(id)``, our number with range and unit; ``verdicts``, their counts; ``verdict``,
+        :class:`~nucleation.claims.claim.Verdict`; ``claims``, all rows; ``runs(role)``, the role's
+        rows of lengths, one for each fault; ``pairs``, the faults of the paper's study, each with
+        its row of the converged study; ``by_theory(role)``, the range of L_s/L_c by theory; and the
+        filters ``digits(n)``, ``percent(n)`` and ``typeset``, the last for texts with formulas.
     claims : list of dict
         Rows of :func:`nucleation.claims.table.evaluate`.
     lengths : iterable of Dataset
         Tables of lengths, one for each study.
     beyond : bool
-        Whether the figures of L_s, the drop and the map are there, and belong into the text.
+        Whether the text includes the figures of L_s, the drop and the map.
+
+    Returns
+    -------
+    str
+        Markdown.
 
     Raises
     ------
@@ -41,19 +48,21 @@ def render(
         For an unknown claim.
     """
     environment = jinja2.Environment(
-        undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
         keep_trailing_newline=True,
-    )  # fmt: skip
-    environment.filters |= {"digits": digits, "percent": percent, "typeset": escaped}
+    )
+    environment.filters |= {
+        "digits": digits,
+        "percent": _percent,
+        "typeset": escaped,
+    }
     by_id = {row["id"]: row for row in claims}
-    records = [
-        row
-        for table in lengths
-        for row in over_realisations(table).to_dataframe().to_dict("records")
-    ]
+    faults = _faults(lengths)
 
-    def runs(role: str) -> list[dict[str, Any]]:
-        return [row for row in records if row["role"] == role]
+    def runs(role: str) -> list[Row]:
+        return [row for row in faults if row["role"] == role]
 
     def by_theory(role: str) -> str:
         ratios = [row["creep_length"] / row["theory_length"] for row in runs(role)]
@@ -63,40 +72,66 @@ def render(
         return rounded(by_id[id])
 
     return environment.from_string(template).render(
-        claim=by_id.__getitem__, ours=ours, verdicts=counts(claims), claims=claims, runs=runs,
-        by_theory=by_theory, beyond=beyond, pairs=paired(runs("paper"), runs("converged")),
+        claim=by_id.__getitem__,
+        ours=ours,
+        verdicts=counts(claims),
         verdict=Verdict,
-    )  # fmt: skip
+        claims=claims,
+        runs=runs,
+        pairs=_paired(runs("paper"), runs("converged")),
+        by_theory=by_theory,
+        beyond=beyond,
+    )
 
 
-def paired(
-    paper: list[dict[str, Any]], converged: list[dict[str, Any]]
-) -> list[tuple[dict[str, Any], dict[str, Any] | None]]:
-    """The rows of one study, each with that of the other study for the same fault, or None."""
+def _faults(lengths: Iterable[xr.Dataset]) -> list[Row]:
+    """The rows of all tables, one for each fault."""
+    rows: list[Row] = []
+    for table in lengths:
+        rows += over_realisations(table).to_dataframe().to_dict("records")
+    return rows
+
+
+def _paired(papers: list[Row], converged: list[Row]) -> list[tuple[Row, Row | None]]:
+    """The rows of one study, each with the other study's row for the same fault, or None."""
     others = {row["fault"]: row for row in converged}
-    return [(row, others.get(row["fault"])) for row in paper]
+    return [(row, others.get(row["fault"])) for row in papers]
 
 
-def digits(value: float | None, number: int) -> str:
-    """A number to some significant digits, a dash for none."""
+def digits(
+    value: float | None,
+    number: int,
+) -> str:
+    """A number with some significant digits, or a dash for None.
+
+    Parameters
+    ----------
+    value : float or None
+        The number.
+    number : int
+        How many digits.
+    """
     if value is None:
         return "–"
     mantissa, _, power = f"{value:.{number}g}".partition("e")
+    if not power:
+        return mantissa
     factor = "" if mantissa == "1" else rf"{mantissa}\times "
-    return f"${factor}10^{{{int(power)}}}$" if power else mantissa
+    return f"${factor}10^{{{int(power)}}}$"
 
 
-def rounded(row: dict[str, Any]) -> str:
+def rounded(row: Row) -> str:
     """Our number of a claim with range and unit, to three digits of the largest of them."""
     if row["ours"] is None:
         return "not computed"
     numbers = [row["ours"], *row["uncertainty"]]
-    places = max(0, 2 - math.floor(math.log10(max(map(abs, numbers)) or 1.0)))
+    largest = max(map(abs, numbers)) or 1.0
+    places = max(0, 2 - math.floor(math.log10(largest)))
     value, low, high = (f"{number:.{places}f}" for number in numbers)
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
     return f"{value}{unit}" if low == high else f"{value} ({low} to {high}){unit}"
 
 
-def percent(value: float | None, places: int = 0) -> str:
-    """A part as percent, a dash for none."""
+def _percent(value: float | None, places: int = 0) -> str:
+    """A part in percent, or a dash for None."""
     return "–" if value is None else f"{100.0 * value:.{places}f} %"

@@ -1,6 +1,7 @@
-"""A claim, one quantitative statement of the paper, and the verdict that follows from our number.
+"""A claim: one quantitative statement of the paper, and the verdict on it.
 
-The verdict follows from :func:`nucleation.claims.said.holds` alone; docs/claims.md states the rule.
+The verdict follows from :func:`nucleation.claims.expected.holds` alone. The rule is in
+docs/claims.md.
 """
 
 import dataclasses
@@ -9,11 +10,14 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from .said import Found, Missing, Ours, Said, holds
+from .expected import Estimate, Estimates, Expected, Missing, holds
+
+Row = dict[str, Any]
+"""A row of the table of claims: values by column."""
 
 
 class Verdict(enum.StrEnum):
-    """What becomes of a claim."""
+    """Verdicts on claims."""
 
     REPLICATED = "replicated"
     GIVEN = "taken as given"
@@ -25,35 +29,51 @@ class Verdict(enum.StrEnum):
 
 @dataclasses.dataclass(frozen=True)
 class Cause:
-    """Why ours may differ: a section of docs/results.md, and our number without that cause."""
+    """A possible cause of a difference.
+
+    Attributes
+    ----------
+    finding : str
+        Section of docs/results.md about it.
+    text : str
+        Start of the sentence that ends with our number without the cause.
+    estimates : Estimates
+        Our number, or several, without the cause.
+    """
 
     finding: str
     text: str
-    ours: Found
+    estimates: Estimates
 
 
 @dataclasses.dataclass(frozen=True)
 class Result:
-    """What the computation of a claim gives, if it is more than our number.
+    """The result of a claim's function, if it is more than our number.
 
     Attributes
     ----------
-    ours : the number that the verdict stands on.
-    said : replaces what the claim says, if that depends on the configuration.
-    on_papers_mesh : the same number from the study ``paper``, if the two studies differ.
-    cause : a cause of a difference.
-    note : words after the reason.
+    estimates : Estimates
+        The number, or several, that the verdict depends on.
+    expected : Expected, optional
+        Replaces that of the claim, if it depends on the configuration.
+    on_papers_mesh : Estimates, optional
+        The same from the study ``paper``, if it was also evaluated.
+    cause : Cause, optional
+        A possible cause of a difference.
+    note : str
+        Sentences after the reason.
     """
 
-    ours: Found
-    said: Said | None = None
-    on_papers_mesh: Found | None = None
+    estimates: Estimates
+    expected: Expected | None = None
+    on_papers_mesh: Estimates | None = None
     cause: Cause | None = None
     note: str = ""
 
 
-Computation = Callable[[Any], Found | Result]
-"""Gives our number from the evidence."""
+Computation = Callable[[Any], Estimates | Result]
+"""Computes our number from the evidence: the subject's datasets, such as
+:class:`~nucleation.claims.evidence.Evidence`."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,17 +82,28 @@ class Claim:
 
     Attributes
     ----------
-    id : unique name.
-    where : section, equation, figure or table of the paper.
-    statement : what it says, in our words.
-    quotation : the paper's own words, LaTeX without spacing commands.
-    method : how ours is computed.
-    compute : gives ours; None if it can't be had.
-    said : what is compared with; may be left to the function.
-    unit : SI unit of the numbers.
-    input : whether ours is what the configuration was given, and so no result.
-    carried : whether the paper says it of homogeneous sliding, and we try it on a pushed patch.
-    note : words after the reason, or the reason if ours can't be had.
+    id : str
+        Unique name.
+    where : str
+        Section, equation, figure or table of the paper.
+    statement : str
+        The statement in our words.
+    quotation : str
+        The paper's own words, LaTeX without spacing commands.
+    method : str
+        How our number is computed.
+    compute : callable or None
+        Computes our number; None if that is impossible.
+    expected : Expected, optional
+        The numbers that the statement allows; the function may give them instead.
+    unit : str
+        SI unit of the numbers.
+    input : bool
+        Whether our number is an input of the configuration, so that it is no result.
+    carried : bool
+        Whether the paper's statement is on homogeneous sliding and we apply it to a pushed patch.
+    note : str
+        Sentences after the reason; the reason itself if nothing can be computed.
     """
 
     id: str
@@ -81,42 +112,56 @@ class Claim:
     quotation: str
     method: str
     compute: Computation | None
-    said: Said | None = None
+    expected: Expected | None = None
     unit: str = "1"
     input: bool = False
     carried: bool = False
     note: str = ""
 
-    def evaluate(self, evidence: Any) -> dict[str, Any]:
-        """The claim's row: what the paper says, ours, the verdict and its reason.
+    def evaluate(self, evidence: Any) -> Row:
+        """The claim's row: the paper's number and ours, the verdict and its reason.
 
         Raises
         ------
         ValueError
-            If neither the claim nor its function says what to compare with.
+            If neither the claim nor its function gives an expected range.
         """
-        said, ours, other = self.said, None, None
         try:
-            if self.compute is None:
-                raise Missing(self.note)
-            found = self.compute(evidence)
+            result = self._result(evidence)
         except Missing as missing:
-            verdict, reason = Verdict.UNCHECKED, f"{missing}."
-        else:
-            result = found if isinstance(found, Result) else Result(found)
-            said = result.said or said
-            if said is None:
-                raise ValueError(f"the claim {self.id} says nothing to compare with")
-            if self.carried:
-                said = dataclasses.replace(said, chosen=True)
-            verdict, reason = judge(said, result)
-            if self.input and verdict is Verdict.REPLICATED:
-                verdict, reason = Verdict.GIVEN, f"An input of ours as of the paper's. {reason}"
-            if note := result.note or self.note:
-                reason += f" {note}"
-            ours = said.worst(result.ours)
-            if result.on_papers_mesh is not None:
-                other = _finite(said.worst(result.on_papers_mesh).value)
+            return self._row(self.expected, None, None, Verdict.UNCHECKED, f"{missing}.")
+        expected = result.expected or self.expected
+        if expected is None:
+            raise ValueError(f"the claim {self.id} has nothing to compare with")
+        if self.carried:
+            expected = dataclasses.replace(expected, chosen=True)
+        verdict, reason = judge(expected, result)
+        if self.input and verdict is Verdict.REPLICATED:
+            verdict = Verdict.GIVEN
+            reason = f"It is an input of the paper and of our runs. {reason}"
+        note = result.note or self.note
+        if note:
+            reason += f" {note}"
+        ours = expected.worst(result.estimates)
+        other = None
+        if result.on_papers_mesh is not None:
+            other = expected.worst(result.on_papers_mesh)
+        return self._row(expected, ours, other, verdict, reason)
+
+    def _result(self, evidence: Any) -> Result:
+        if self.compute is None:
+            raise Missing(self.note)
+        found = self.compute(evidence)
+        return found if isinstance(found, Result) else Result(found)
+
+    def _row(
+        self,
+        expected: Expected | None,
+        ours: Estimate | None,
+        other: Estimate | None,
+        verdict: Verdict,
+        reason: str,
+    ) -> Row:
         if ours is not None and math.isnan(ours.value):
             ours = None
         return {
@@ -124,12 +169,12 @@ class Claim:
             "where": self.where,
             "statement": self.statement,
             "quotation": self.quotation,
-            "paper": said and said.text,
-            "paper_range": said and [_finite(said.low), _finite(said.high)],
-            "kind": said and said.kind,
+            "paper": expected and expected.text,
+            "paper_range": expected and [_finite(expected.low), _finite(expected.high)],
+            "kind": expected and expected.kind,
             "ours": ours and ours.value,
             "uncertainty": ours and [ours.low, ours.high],
-            "on_papers_mesh": other,
+            "on_papers_mesh": other and _finite(other.value),
             "unit": self.unit,
             "method": self.method,
             "verdict": str(verdict),
@@ -137,56 +182,91 @@ class Claim:
         }
 
 
-def judge(said: Said, result: Result) -> tuple[Verdict, str]:
-    """The verdict and the reason for it."""
-    ours = said.worst(result.ours)
-    held = holds(said, ours)
+def judge(
+    expected: Expected,
+    result: Result,
+) -> tuple[Verdict, str]:
+    """The verdict and the reason for it.
+
+    Parameters
+    ----------
+    expected : Expected
+        The numbers that the statement allows.
+    result : Result
+        Our numbers, in the same unit.
+
+    Returns
+    -------
+    verdict : Verdict
+    reason : str
+        Sentences in Markdown.
+    """
+    ours = expected.worst(result.estimates)
+    held = holds(expected, ours)
     if held is None:
-        if math.isnan(ours.value):
-            return Verdict.UNCHECKED, "A run has no such event."
-        width = max(ours.high - ours.value, ours.value - ours.low)
-        return Verdict.UNCHECKED, f"Our number is known to {width:.1g} only."
-    text = f"{_compared(said, ours, held)}{_reach(said, ours)}"
-    if not held and result.cause is not None:
-        without = said.worst(result.cause.ours)
-        if holds(said, without):
-            why = f"{result.cause.text} {without.value:.4g} (results: {result.cause.finding})."
-            return Verdict.EXPLAINED, f"{text} {why}"
-    failed = Verdict.NOT_SUPPORTED if said.chosen else Verdict.NOT_REPLICATED
-    return Verdict.REPLICATED if held else failed, f"{text}{_other_mesh(said, result)}"
+        return Verdict.UNCHECKED, _why_undecided(ours)
+    comparison = _comparison(expected, ours, held) + _reach(expected, ours)
+    cause = result.cause
+    if not held and cause is not None:
+        without = expected.worst(cause.estimates)
+        if holds(expected, without):
+            why = f"{cause.text} {without.value:.4g} (results: {cause.finding})."
+            return Verdict.EXPLAINED, f"{comparison} {why}"
+    reason = comparison + _other_mesh(expected, result)
+    if held:
+        return Verdict.REPLICATED, reason
+    if expected.chosen:
+        return Verdict.NOT_SUPPORTED, reason
+    return Verdict.NOT_REPLICATED, reason
 
 
-def _compared(said: Said, ours: Ours, held: bool) -> str:
-    """One sentence on our number and what the paper says."""
-    if said.kind == "formula" and said.value is not None:
-        difference = abs(ours.value - said.value) / (abs(said.value) or 1.0)
+def _why_undecided(ours: Estimate) -> str:
+    if math.isnan(ours.value):
+        return "A run has no such event."
+    width = max(ours.high - ours.value, ours.value - ours.low)
+    return f"Our number is known to {width:.1g} only."
+
+
+def _comparison(
+    expected: Expected,
+    ours: Estimate,
+    held: bool,
+) -> str:
+    """One sentence that compares our number with the paper's."""
+    if expected.kind == "formula" and expected.value is not None:
+        difference = abs(ours.value - expected.value) / (abs(expected.value) or 1.0)
         return f"The difference is {difference:.1g}."
-    if said.kind == "number":
-        side = "within" if said.low <= ours.value <= said.high else "outside"
-        widened = ", but not outside it by more than its own range" if side == "outside" else ""
-        return f"{ours.value:.4g} is {side} {said.low:g} to {said.high:g}{widened * held}."
-    bound = said.text if said.kind == "bound" else said.text.partition(": ")[2]
+    if expected.kind == "number":
+        interval = f"{expected.low:g} to {expected.high:g}"
+        if expected.low <= ours.value <= expected.high:
+            return f"{ours.value:.4g} is within {interval}."
+        widened = ", but not outside it by more than its own range" if held else ""
+        return f"{ours.value:.4g} is outside {interval}{widened}."
+    bound = expected.text
+    if expected.kind == "words":
+        bound = bound.partition(": ")[2]
     return f"{ours.value:.4g} is {'' if held else 'not '}{bound}."
 
 
-def _reach(said: Said, ours: Ours) -> str:
-    """The bound that decides, where the range of ours reaches across it."""
-    if said.kind not in ("bound", "words"):
+def _reach(expected: Expected, ours: Estimate) -> str:
+    """A sentence with the bound that decides, if our range contains it."""
+    if expected.kind not in ("bound", "words"):
         return ""
-    bound = min(said.low, said.high, key=lambda end: abs(end - ours.value))
+    ends = (expected.low, expected.high)
+    bound = min(ends, key=lambda end: abs(end - ours.value))
     if not ours.low <= bound <= ours.high:
         return ""
     return f" Its range reaches across the bound, {bound:g}."
 
 
-def _other_mesh(said: Said, result: Result) -> str:
-    """Whether the statement holds on the paper's mesh too."""
+def _other_mesh(expected: Expected, result: Result) -> str:
+    """A sentence on whether the statement holds on the paper's mesh too."""
     if result.on_papers_mesh is None:
         return ""
-    other = said.worst(result.on_papers_mesh)
+    other = expected.worst(result.on_papers_mesh)
     if not math.isfinite(other.value):
         return ""
-    held = "holds as well" if holds(said, other) else "does not hold"
+    held = "holds as well" if holds(expected, other) else "does not hold"
     return f" On the paper's mesh it {held}, with {other.value:.4g}."
 
 

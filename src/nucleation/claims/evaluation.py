@@ -14,50 +14,119 @@ from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Loading
 from . import article, table
+from .claim import Row
 from .evidence import Evidence
-from .statements.two_bodies import PairEvidence
+from .pair_evidence import PairEvidence
+from .table import Entry
 
-Rows = list[dict[str, Any]]
+Statements = Mapping[str, Mapping[str, Entry]]
 
 
 def of_paper(
-    statements: Mapping[str, Any], material: Material, friction: Friction, loading: Loading,
-    interface: InterfaceState, settings: ExtractionSettings, theory: xr.Dataset,
-    dispersion: xr.Dataset, lengths: Iterable[xr.Dataset], longer: Sequence[xr.Dataset],
-    longer_runs: Rows, patches: Iterable[xr.Dataset], patch_ids: Sequence[str],
-) -> dict[str, str]:  # fmt: skip
+    statements: Statements,
+    material: Material,
+    friction: Friction,
+    loading: Loading,
+    interface: InterfaceState,
+    settings: ExtractionSettings,
+    theory: xr.Dataset,
+    dispersion: xr.Dataset,
+    lengths: Iterable[xr.Dataset],
+    longer: Sequence[xr.Dataset],
+    longer_runs: list[dict[str, Any]],
+    patches: Iterable[xr.Dataset],
+    patch_ids: Sequence[str],
+) -> dict[str, str]:
     """The step ``claims``: a verdict on every statement of the paper.
 
     Parameters
     ----------
-    statements : the claims, by subject.
-    material, friction, loading, interface, theory, dispersion : as of :class:`.Evidence`.
-    settings : how lengths are read.
-    lengths : tables of the studies judged.
-    longer, longer_runs : simulations in longer blocks, with those they are compared with.
-    patches, patch_ids : stability of patches, with the names of their runs.
+    statements : mapping
+        The claims by subject and id.
+    material, friction, loading, interface, theory, dispersion
+        As in :class:`.Evidence`.
+    settings : ExtractionSettings
+        How lengths are read from a run.
+    lengths : iterable of Dataset
+        Tables of lengths, one for each study.
+    longer : sequence of Dataset
+        Simulations with longer blocks, and the simulations that they are compared with.
+    longer_runs : list of dict
+        The runs of `longer`.
+    patches : iterable of Dataset
+        Stability of patches.
+    patch_ids : sequence of str
+        Names of the runs with these patches.
+
+    Returns
+    -------
+    dict
+        The table's text by file extension.
     """
     tables = list(lengths)
     if len(longer):
         tables.append(table_of_lengths.lengths_table(longer_runs, longer, settings))
     evidence = Evidence(
-        material, friction, loading, interface, theory, dispersion, tuple(tables),
+        material=material,
+        friction=friction,
+        loading=loading,
+        interface=interface,
+        theory=theory,
+        dispersion=dispersion,
+        lengths=tuple(tables),
         patches=dict(zip(patch_ids, patches, strict=True)),
-    )  # fmt: skip
+    )
     rows = table.evaluate(statements, evidence)
     return _files(rows) | {".json": table.to_json(rows)}
 
 
-def of_pairs(statements: Mapping[str, Any], pairs: xr.Dataset, modes: xr.Dataset) -> dict[str, str]:
-    """The step ``claims_pairs``: what the theory says of two bodies, by simulations of them."""
+def of_pairs(
+    statements: Statements,
+    pairs: xr.Dataset,
+    modes: xr.Dataset,
+) -> dict[str, str]:
+    """The step ``claims_pairs``: verdicts on the theory of two bodies, by simulations.
+
+    Parameters
+    ----------
+    statements : mapping
+        The claims by subject and id.
+    pairs, modes : Dataset
+        As in :class:`.PairEvidence`.
+
+    Returns
+    -------
+    dict
+        The table's text by file extension.
+    """
     return _files(table.evaluate(statements, PairEvidence(pairs, modes)))
 
 
-def _files(rows: Rows) -> dict[str, str]:
+def _files(rows: list[Row]) -> dict[str, str]:
     return {".csv": table.to_csv(rows), ".md": table.to_markdown(rows)}
 
 
-def write_article(template: Path, claims: Path, lengths: Iterable[xr.Dataset]) -> dict[str, str]:
-    """The step ``article``: its text, with numbers from the claims and lengths."""
+def write_article(
+    template: Path,
+    claims: Path,
+    lengths: Iterable[xr.Dataset],
+) -> dict[str, str]:
+    """The step ``article``: its text with numbers from the claims and lengths.
+
+    Parameters
+    ----------
+    template : path
+        The article's template, ``docs/article.md.in``.
+    claims : path
+        The table of claims as JSON.
+    lengths : iterable of Dataset
+        Tables of lengths, one for each study.
+
+    Returns
+    -------
+    dict
+        The text by file extension.
+    """
     rows = json.loads(claims.read_text("utf-8"))
-    return {".md": article.render(template.read_text("utf-8"), rows, list(lengths))}
+    text = article.render(template.read_text("utf-8"), rows, list(lengths))
+    return {".md": text}

@@ -1,4 +1,4 @@
-"""What the claims stand on: the workflow's datasets, each asked for by what it is about."""
+"""The evidence that claims are judged by: the workflow's datasets, and rows by role and label."""
 
 import dataclasses
 from collections.abc import Callable
@@ -15,11 +15,11 @@ from ..model.identity import fault
 from ..model.linearised import InterfaceState
 from ..model.material import Material
 from ..model.parameters import Geometry, Loading, Parameters
-from .claim import Cause, Result
-from .said import Found, Missing
+from .claim import Cause, Result, Row
+from .expected import Estimates, Missing
 
 MESH = "A coarse mesh lets the force drop early"
-"""Section of docs/results.md on the difference of the two."""
+"""Section of docs/results.md on the difference between the paper's mesh and the converged one."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -28,13 +28,19 @@ class Evidence:
 
     Attributes
     ----------
-    material, friction, loading : of the configuration.
-    interface : the main text's rounded friction.
-    theory : dataset of the theory's curves.
-    dispersion : dataset of single modes integrated in time.
-    lengths : tables of lengths, one for each study judged, and of the role
+    material, friction, loading : Material, Friction, Loading
+        Those of the configuration.
+    interface : InterfaceState
+        The main text's rounded friction.
+    theory : Dataset
+        The theory's curves.
+    dispersion : Dataset
+        Single modes integrated in time.
+    lengths : tuple of Dataset
+        Tables of lengths, one for each study with a role of the paper's, and of the role
         :data:`~nucleation.configuration.roles.LONGER`.
-    patches : stability of the patches with the role :data:`JUDGED`, by id of each fault's first
+    patches : dict
+        Stability of the patches with the role :data:`JUDGED`, by the id of each fault's first
         realisation.
     """
 
@@ -52,96 +58,212 @@ class Evidence:
         """Poisson's ratio in the plane."""
         return self.material.in_plane_ratio
 
-    def rows(self, role: str, **labels: Any) -> list[dict[str, Any]]:
-        """Rows of the table of lengths, sorted by height (m); raises Missing if there is none.
+    def rows(self, role: str, **labels: str | float) -> list[Row]:
+        """The faults of a study, sorted by height, with the configuration's material and loads.
 
-        One for each fault of the configuration's material, friction and loads: the mean of its
-        realisations, whose own rows are its ``members``.
+        Parameters
+        ----------
+        role : str
+            The study's role.
+        **labels
+            Values of columns that select rows, such as ``evolution="aging"``; SI units.
+
+        Returns
+        -------
+        list of dict
+            Rows of the table of lengths, one for each fault: the mean of its realisations. The
+            realisations' own rows are its ``members``.
+
+        Raises
+        ------
+        Missing
+            If there is no such row.
         """
         wanted = {"role": role, **labels}
-        found = [row for row in self._own if all(_same(row[k], v) for k, v in wanted.items())]
+        found = [row for row in self._own if _matches(row, wanted)]
         if not found:
-            which = "".join(f", {name} {value}" for name, value in labels.items())
-            raise Missing(f"The configuration has no such run: role {role}{which}")
+            items = wanted.items()
+            which = ", ".join(f"{name} {value}" for name, value in items)
+            raise Missing(f"The configuration has no such run: {which}")
         return sorted(found, key=lambda row: row["height"])
 
-    @cached_property
-    def _own(self) -> list[dict[str, Any]]:
-        """The rows of all roles, which every claim asks for."""
-        return [row for table in self.lengths for row in _faults(table) if self._is_own(row)]
+    def row(
+        self,
+        role: str,
+        law: str,
+        height: float,
+        phi0: float = 1.0,
+    ) -> Row:
+        """One fault of a study.
 
-    def row(self, role: str, law: str, height: float, phi0: float = 1.0) -> dict[str, Any]:
-        """The one row with these labels; raises Missing if there is none."""
-        return self.rows(role, evolution=law, height=height, phi0=phi0)[0]
+        Parameters
+        ----------
+        role : str
+            The study's role.
+        law : str
+            Name of the evolution law.
+        height : float
+            Height of the block (m).
+        phi0 : float
+            Initial age of the interface (s).
 
-    def series(self, role: str) -> list[dict[str, Any]]:
-        """The aging law's rows with a role over all heights, age 1 s."""
+        Returns
+        -------
+        dict
+            Its row, as in :meth:`rows`.
+
+        Raises
+        ------
+        Missing
+            If there is no such row.
+        """
+        rows = self.rows(
+            role,
+            evolution=law,
+            height=height,
+            phi0=phi0,
+        )
+        return rows[0]
+
+    def series(self, role: str) -> list[Row]:
+        """The rows with the aging law and an initial age of 1 s, at all heights."""
         return self.rows(role, evolution="aging", phi0=1.0)
 
-    def _is_own(self, row: dict[str, Any]) -> bool:
-        """Whether a row is of the configuration's material, friction and loads, on a rigid base."""
-        own = Parameters(
-            self.material,
-            self.friction.changed({"evolution": row["evolution"]}),
-            dataclasses.replace(self.loading, initial_state=float(row["phi0"])),
-            Geometry(height=float(row["height"])),
-        )
-        return bool(row["fault"] == fault(own))
+    def each(self, role: str, **labels: str | float) -> list[Row]:
+        """The rows of all realisations of the faults that :meth:`rows` returns.
 
-    def each(self, role: str, **labels: Any) -> list[dict[str, Any]]:
-        """The rows of all realisations of some faults; raises Missing without one."""
-        return [one for row in self.rows(role, **labels) for one in row["members"]]
+        Parameters
+        ----------
+        role, **labels
+            As in :meth:`rows`.
 
-    def patch(self, row: dict[str, Any]) -> xr.Dataset:
-        """The stability of the patch of a row's first realisation; raises Missing without it."""
+        Raises
+        ------
+        Missing
+            If there is no such row.
+        """
+        runs = []
+        for row in self.rows(role, **labels):
+            runs += row["members"]
+        return runs
+
+    def patch(self, row: Row) -> xr.Dataset:
+        """The stability of the patch of a fault's first realisation; raises Missing without it."""
         if row["id"] not in self.patches:
             raise Missing(f"The stability of the patch of {row['id']} was not computed")
         return self.patches[row["id"]]
 
+    @cached_property
+    def _own(self) -> list[Row]:
+        """The rows of all roles; cached because every claim on runs uses them."""
+        rows = []
+        for table in self.lengths:
+            rows += _faults(table)
+        return [row for row in rows if self._is_own(row)]
 
-def on_both(numbers: Callable[[Evidence, str], Found]) -> Callable[[Evidence], Result]:
-    """For numbers of the runs with a role: the verdict stands on the converged, perturbed ones.
+    def _is_own(self, row: Row) -> bool:
+        """Whether a row has the configuration's material, friction and loads, on a rigid base."""
+        age = float(row["phi0"])
+        height = float(row["height"])
+        law = {"evolution": row["evolution"]}
+        own = Parameters(
+            material=self.material,
+            friction=self.friction.changed(law),
+            loading=dataclasses.replace(self.loading, initial_state=age),
+            geometry=Geometry(height=height),
+        )
+        return bool(row["fault"] == fault(own))
+
+
+def on_both(numbers: Callable[[Evidence, str], Estimates]) -> Callable[[Evidence], Result]:
+    """Judge numbers of the runs with a role by the converged, perturbed runs.
 
     If the statement holds on the paper's own mesh only, the mesh is the cause.
+
+    Parameters
+    ----------
+    numbers : callable
+        Our number, or several, from the evidence and a role.
+
+    Returns
+    -------
+    callable
+        The claim's function.
     """
 
-    def of_either(evidence: Evidence) -> Result:
+    def of_both(evidence: Evidence) -> Result:
         judged = numbers(evidence, JUDGED)
         try:
             papers = numbers(evidence, PAPERS)
         except Missing:
             return Result(judged)
-        cause = Cause(MESH, "On the paper's own mesh ours is", papers)
-        return Result(judged, on_papers_mesh=papers, cause=cause)
+        cause = Cause(MESH, "On the paper's own mesh our number is", papers)
+        return Result(
+            judged,
+            on_papers_mesh=papers,
+            cause=cause,
+        )
 
-    return of_either
+    return of_both
 
 
 def of_runs(
-    column: str, over: Callable[[Evidence], float] = lambda evidence: 1.0
+    column: str,
+    unit: Callable[[Evidence], float] = lambda evidence: 1.0,
 ) -> Callable[[Evidence], Result]:
-    """The same for a column of every run, over a unit."""
-    return on_both(
-        lambda evidence, role: [run[column] / over(evidence) for run in evidence.each(role)]
-    )
+    """The claim's function for a column of every run, judged as :func:`on_both` does.
+
+    Parameters
+    ----------
+    column : str
+        Column of the table of lengths.
+    unit : callable
+        Unit of the number, from the evidence and in the column's unit; by default one.
+
+    Returns
+    -------
+    callable
+        The claim's function.
+    """
+
+    @on_both
+    def numbers(
+        evidence: Evidence,
+        role: str,
+    ) -> list[float]:
+        runs = evidence.each(role)
+        return [run[column] / unit(evidence) for run in runs]
+
+    return numbers
 
 
-class Row(dict[str, Any]):
-    """A row of a table of lengths, which may lack what was not recorded."""
+class _LengthsRow(dict[str, Any]):
+    """A row of a table of lengths; columns that were not recorded are missing results."""
 
     def __missing__(self, column: str) -> Any:
         raise Missing(f"The table of the runs' lengths has no {column}")
 
 
-def _faults(table: xr.Dataset) -> list[dict[str, Any]]:
-    """The rows of a table of lengths, one for each fault, with those of its realisations."""
-    own = table.to_dataframe().to_dict("records")
-    rows = over_realisations(table).to_dataframe().to_dict("records")
-    return [
-        Row(row | {"members": [Row(own[i]) for i in members]})
-        for row, members in zip(rows, realisations(table), strict=True)
-    ]
+def _faults(table: xr.Dataset) -> list[Row]:
+    """The rows of a table of lengths, one for each fault, with the rows of its realisations."""
+    runs = [_LengthsRow(row) for row in _records(table)]
+    means = _records(over_realisations(table))
+    faults: list[Row] = []
+    for row, members in zip(means, realisations(table), strict=True):
+        own = [runs[i] for i in members]
+        faults.append(_LengthsRow(row, members=own))
+    return faults
 
 
-def _same(one: Any, other: Any) -> bool:
-    return bool(one == other if isinstance(other, str) else np.isclose(one, other, rtol=1e-9))
+def _records(table: xr.Dataset) -> list[Row]:
+    return table.to_dataframe().to_dict("records")
+
+
+def _matches(row: Row, wanted: dict[str, str | float]) -> bool:
+    return all(_same(row[column], value) for column, value in wanted.items())
+
+
+def _same(one: str | float, other: str | float) -> bool:
+    if isinstance(other, str):
+        return bool(one == other)
+    return bool(np.isclose(one, other, rtol=1e-9))

@@ -1,15 +1,15 @@
 """The article on paper: its Markdown as LaTeX, and as PDF by pandoc and Typst, without a TeX.
 
-Pandoc reads the Markdown and writes LaTeX for journals and Typst for the PDF. In between, pictures
-and tables take the paragraph beside them, **Figure 1.** or **Table 1.**, as their caption, and
-links to pages of this project become text.
+Pandoc reads the Markdown and writes LaTeX for journals and Typst for the PDF. Between the two
+steps, the paragraph next to a picture or table (**Figure 1.** or **Table 1.**) becomes its caption,
+and links to pages of this project become text.
 """
 
 import json
 import re
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,11 +23,11 @@ try:
     import pypandoc
     import typst
 except ModuleNotFoundError:
-    require("article")  # says what to install
+    require("article")  # its error names the extra to install
     raise
 
-FORMAT = "markdown-implicit_figures"
-STYLE = """
+_FORMAT = "markdown-implicit_figures"
+_STYLE = """
 #set document(date: none)
 #set par(leading: 0.6em, spacing: 0.9em)
 #show heading: set block(above: 1.4em, below: 0.7em)
@@ -44,80 +44,150 @@ STYLE = """
 #set figure(gap: 0.8em)
 #set table(inset: (x: 3pt, y: 3pt), stroke: (_, y) => if y == 0 { (bottom: 0.5pt) })
 """
-PAGE = {"papersize": "a4", "fontsize": "10pt", "page-numbering": "1", "lang": "en", "region": "GB"}
-MARGINS = {"x": "25mm", "y": "22mm"}
-TEX = r"\usepackage[labelformat=empty,justification=raggedright]{caption}"
-TEX_PAGE = {"papersize": "a4", "geometry": "margin=25mm", "lang": "en-GB", "colorlinks": "true"}
+_PAGE = {
+    "papersize": "a4",
+    "fontsize": "10pt",
+    "page-numbering": "1",
+    "lang": "en",
+    "region": "GB",
+}
+_MARGINS = {"x": "25mm", "y": "22mm"}
+_TEX = r"\usepackage[labelformat=empty,justification=raggedright]{caption}"
+_TEX_PAGE = {
+    "papersize": "a4",
+    "geometry": "margin=25mm",
+    "lang": "en-GB",
+    "colorlinks": "true",
+}
 
-Blocks = list[dict[str, Any]]
+_Node = dict[str, Any]
+"""A node of a document: its type ``t`` and contents ``c``."""
 
 
 def write(
-    template: Path, citation: Path, claims: Path, lengths: Iterable[xr.Dataset],
-    figures: Iterable[Path], names: Iterable[str],
-) -> dict[str, Any]:  # fmt: skip
+    template: Path,
+    citation: Path,
+    claims: Path,
+    lengths: Iterable[xr.Dataset],
+    figures: Iterable[Path],
+    names: Iterable[str],
+) -> dict[str, str | Callable[[Path], int]]:
     """The step ``replication``: the article with all its figures, as Markdown, LaTeX and PDF.
 
     Parameters
     ----------
-    template, claims, lengths : as of :func:`nucleation.claims.article.render`, in files.
-    citation : CITATION.cff, for the authors.
-    figures, names : pictures, and what the article calls them.
+    template : path
+        The article's template, ``docs/article.md.in``.
+    citation : path
+        CITATION.cff, with the authors.
+    claims : path
+        The table of claims as JSON.
+    lengths : iterable of Dataset
+        Tables of lengths, one for each study.
+    figures : iterable of path
+        Pictures.
+    names : iterable of str
+        The pictures' names in the article.
+
+    Returns
+    -------
+    dict
+        By file extension the text, or a function that writes the file.
     """
     rows = json.loads(claims.read_text("utf-8"))
     text = article.render(template.read_text("utf-8"), rows, list(lengths), beyond=True)
-    authors = [
-        author.get("name") or f"{author['given-names']} {author['family-names']}"
-        for author in yaml.safe_load(citation.read_text("utf-8"))["authors"]
-    ]
-    pictures = {
-        f"figures/{name}.png": path.with_suffix(".png")
-        for name, path in zip(names, figures, strict=True)
-    }
-    source = parsed(text, authors)
+    pictures = {}
+    for name, path in zip(names, figures, strict=True):
+        pictures[f"figures/{name}.png"] = path.with_suffix(".png")
+    source = parsed(text, _authors(citation))
     pdf = as_pdf(source, pictures)
-    return {".pdf": lambda path: path.write_bytes(pdf), ".tex": as_tex(source), ".md": text}
+    return {
+        ".pdf": lambda path: path.write_bytes(pdf),
+        ".tex": as_tex(source),
+        ".md": text,
+    }
 
 
-def as_tex(source: dict[str, Any]) -> str:
-    """LaTeX of a document as pandoc has it."""
-    return _written(source, "latex", TEX, TEX_PAGE)
+def _authors(citation: Path) -> list[str]:
+    authors = yaml.safe_load(citation.read_text("utf-8"))["authors"]
+    names = []
+    for author in authors:
+        name = author.get("name")
+        names.append(name or f"{author['given-names']} {author['family-names']}")
+    return names
 
 
-def as_pdf(source: dict[str, Any], pictures: Mapping[str, Path]) -> bytes:
-    """PDF of a document as pandoc has it, with pictures by the paths that it has."""
+def as_tex(source: _Node) -> str:
+    """A document as LaTeX."""
+    return _written(source, "latex", _TEX, _TEX_PAGE)
+
+
+def as_pdf(
+    source: _Node,
+    pictures: Mapping[str, Path],
+) -> bytes:
+    """A document as PDF.
+
+    Parameters
+    ----------
+    source : dict
+        Result of :func:`parsed`.
+    pictures : mapping
+        Files of the pictures, by the paths that the document uses.
+    """
     with tempfile.TemporaryDirectory() as directory:
         for name, path in pictures.items():
-            (place := Path(directory, name)).parent.mkdir(exist_ok=True)
-            shutil.copyfile(path, place)
+            copy = Path(directory, name)
+            copy.parent.mkdir(exist_ok=True)
+            shutil.copyfile(path, copy)
         main = Path(directory, "article.typ")
-        main.write_text(_written(source, "typst", STYLE, PAGE), "utf-8")
-        return bytes(typst.compile(str(main), root=directory, ignore_system_fonts=True))
+        main.write_text(_written(source, "typst", _STYLE, _PAGE), "utf-8")
+        pdf = typst.compile(str(main), root=directory, ignore_system_fonts=True)
+        return bytes(pdf)
 
 
-def _written(source: dict[str, Any], to: str, header: str, variables: Mapping[str, str]) -> str:
-    variables = {**variables, "header-includes": header}
+def _written(
+    source: _Node,
+    to: str,
+    header: str,
+    variables: Mapping[str, str],
+) -> str:
     options = [f"--variable={name}={value}" for name, value in variables.items()]
-    options += ["--standalone", "--shift-heading-level-by=-1"]
-    return str(pypandoc.convert_text(json.dumps(source), to, "json", extra_args=options))
+    options += [
+        f"--variable=header-includes={header}",
+        "--standalone",
+        "--shift-heading-level-by=-1",
+    ]
+    text = pypandoc.convert_text(
+        json.dumps(source),
+        to,
+        "json",
+        extra_args=options,
+    )
+    return str(text)
 
 
-def parsed(text: str, authors: list[str]) -> dict[str, Any]:
-    """The article as pandoc has it: title and abstract apart, captions in place."""
+def parsed(
+    text: str,
+    authors: list[str],
+) -> _Node:
+    """The article as a document of pandoc's, with title, abstract and captions.
+
+    Parameters
+    ----------
+    text : str
+        Markdown.
+    authors : list of str
+        Names of the authors.
+    """
     title, _, body = text.partition("\n")
-    source = json.loads(pypandoc.convert_text(body, "json", FORMAT))
-    sections: dict[str, Blocks] = {"": []}
-    for block in source["blocks"]:
-        if block["t"] == "Header" and block["c"][0] == 2:
-            sections[block["c"][1][0]] = []
-        next(reversed(sections.values())).append(block)
-    for blocks in sections.values():
-        blocks[1:] = list(_captioned(_unlinked(blocks[1:])))
+    source = json.loads(pypandoc.convert_text(body, "json", _FORMAT))
+    sections = _sections(source["blocks"])
     abstract = sections.pop("abstract")[1:]
-    margins = {side: _text(width) for side, width in MARGINS.items()}
+    margins = {side: _text(width) for side, width in _MARGINS.items()}
     source["meta"] = {
         "title": _text(title.lstrip("# ")),
-        "author": {"t": "MetaList", "c": [*map(_text, authors)]},
+        "author": {"t": "MetaList", "c": [_text(author) for author in authors]},
         "abstract": {"t": "MetaBlocks", "c": abstract},
         "margin": {"t": "MetaMap", "c": margins},
     }
@@ -125,34 +195,68 @@ def parsed(text: str, authors: list[str]) -> dict[str, Any]:
     return dict(source)
 
 
+def _sections(blocks: list[_Node]) -> dict[str, list[_Node]]:
+    """The blocks of each section, its heading first; those above the first heading at ``""``."""
+    current: list[_Node] = []
+    sections = {"": current}
+    for block in blocks:
+        if block["t"] == "Header" and block["c"][0] == 2:
+            current = []
+            sections[block["c"][1][0]] = current
+        current.append(block)
+    for section in sections.values():
+        section[1:] = _captioned(_unlinked(section[1:]))
+    return sections
+
+
 def _text(text: str) -> dict[str, str]:
     return {"t": "MetaString", "c": text}
 
 
-def _captioned(blocks: Blocks) -> Iterator[dict[str, Any]]:
-    """Pictures with the paragraph below them, and tables with the one above, as their caption."""
+def _captioned(blocks: list[_Node]) -> Iterator[_Node]:
+    """The blocks, with the paragraph below a picture or above a table as its caption."""
     waiting = [*blocks]
     while waiting:
-        block, after = waiting.pop(0), waiting[0] if waiting else None
-        if [part["t"] for part in block["c"] or () if block["t"] == "Para"] == ["Image"]:
-            caption = [{"t": "Plain", "c": waiting.pop(0)["c"]}]
-            picture = {"t": "Plain", "c": block["c"]}
-            yield {"t": "Figure", "c": [["", [], []], [None, caption], [picture]]}
-        elif after and after["t"] == "Table" and block["t"] == "Para":
-            after["c"][1] = [None, [{"t": "Plain", "c": block["c"]}]]
+        block = waiting.pop(0)
+        if _is_picture(block):
+            caption = [_plain(waiting.pop(0))]
+            content = [["", [], []], [None, caption], [_plain(block)]]
+            yield {"t": "Figure", "c": content}
+        elif block["t"] == "Para" and waiting and waiting[0]["t"] == "Table":
+            table = waiting[0]
+            table["c"][1] = [None, [_plain(block)]]
         else:
             yield block
 
 
+def _is_picture(block: _Node) -> bool:
+    """Whether a block is a paragraph with nothing but a picture."""
+    if block["t"] != "Para":
+        return False
+    return [part["t"] for part in block["c"]] == ["Image"]
+
+
+def _plain(paragraph: _Node) -> _Node:
+    return {"t": "Plain", "c": paragraph["c"]}
+
+
 def _unlinked(part: Any) -> Any:
-    """A part of the document without its links to pages of this project."""
+    """A part of the document in which links to pages of this project are text."""
     if isinstance(part, dict):
         return {name: _unlinked(value) for name, value in part.items()}
     if not isinstance(part, list):
         return part
     found: list[Any] = []
     for item in part:
-        kind = item.get("t") if isinstance(item, dict) else None
-        inside = kind == "Link" and not re.match("https?:", item["c"][2][0])
-        found += _unlinked(item["c"][1]) if inside else [_unlinked(item)]
+        if _is_internal_link(item):
+            found += _unlinked(item["c"][1])
+        else:
+            found.append(_unlinked(item))
     return found
+
+
+def _is_internal_link(item: Any) -> bool:
+    if not isinstance(item, dict) or item.get("t") != "Link":
+        return False
+    address = item["c"][2][0]
+    return not re.match("https?:", address)

@@ -5,111 +5,167 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from importlib import resources
+from types import ModuleType
 from typing import Any
 
 import pandas as pd
 import yaml
 
-from .claim import Claim, Verdict
-from .said import read
-from .statements import finite_height, simulations, sliding, two_bodies
+from .claim import Claim, Computation, Row, Verdict
+from .evidence import Evidence
+from .expected import read
+from .pair_evidence import PairEvidence
+from .statements import bimaterial, course, finite_height, friction, lengths, sliding, two_bodies
+
+Entry = Mapping[str, Any]
+"""An entry of ``claims.yaml``: the attributes of one claim."""
 
 SUBJECTS = {
     "homogeneous sliding": sliding,
-    "bimaterial interfaces": finite_height,
+    "bimaterial interfaces": bimaterial,
     "finite height": finite_height,
-    "friction law": sliding,
-    "critical lengths": simulations,
-    "course of simulations": simulations,
+    "friction law": friction,
+    "critical lengths": lengths,
+    "course of simulations": course,
     "two bodies, simulated": two_bodies,
 }
-"""Where the functions of each subject are; the last one has evidence and a table of its own."""
+"""The module with the functions of each subject. The last one has its own evidence and table."""
 
 COLUMNS = (
-    "id", "subject", "where", "statement", "paper", "ours", "ours_low", "ours_high",
-    "on_papers_mesh", "unit", "verdict", "reason", "method",
-)  # fmt: skip
+    "id",
+    "subject",
+    "where",
+    "statement",
+    "paper",
+    "ours",
+    "ours_low",
+    "ours_high",
+    "on_papers_mesh",
+    "unit",
+    "verdict",
+    "reason",
+    "method",
+)
+
+_HEADER = (
+    "| where | statement | paper | ours (range) | method | verdict | reason |",
+    "|---|---|---|---|---|---|---|",
+)
 
 
-def stated() -> dict[str, Any]:
-    """The claims of ``claims.yaml``: subject, id, entry."""
+def stated() -> dict[str, dict[str, Entry]]:
+    """The entries of ``claims.yaml``, by subject and id."""
     text = resources.files(__package__).joinpath("claims.yaml").read_text(encoding="utf-8")
     return dict(yaml.safe_load(text))
 
 
-def claims_on(subject: str, entries: Mapping[str, Mapping[str, Any]]) -> list[Claim]:
-    """The claims of one subject, each with the function that has its name."""
-    module = SUBJECTS[subject]
-    functions = {**{name.replace("_", "-"): f for name, f in vars(module).items()}, **module.OURS}
-    return [
-        Claim(
-            id=id,
-            compute=functions[id] if entry["method"] != "none" else None,
-            **{**entry, "said": read(entry["said"]) if "said" in entry else None},
-        )
-        for id, entry in entries.items()
-    ]
+def claims_on(
+    subject: str,
+    entries: Mapping[str, Entry],
+) -> list[Claim]:
+    """The claims of one subject, each with the function that has its name.
+
+    Parameters
+    ----------
+    subject : str
+        A key of :data:`SUBJECTS`.
+    entries : mapping
+        The subject's entries by id.
+
+    Raises
+    ------
+    KeyError
+        For an unknown subject, or a claim without a function.
+    """
+    functions = _functions(SUBJECTS[subject])
+    claims = []
+    for id, entry in entries.items():
+        fields = dict(entry)
+        if "expected" in fields:
+            fields["expected"] = read(fields["expected"])
+        compute = None if entry["method"] == "none" else functions[id]
+        claims.append(Claim(id=id, compute=compute, **fields))
+    return claims
 
 
-def evaluate(statements: Mapping[str, Any], evidence: Any) -> list[dict[str, Any]]:
-    """A row for each claim of some subjects: what the paper says, our number and the verdict."""
-    return [
-        {"subject": subject, **claim.evaluate(evidence)}
-        for subject, entries in statements.items()
-        for claim in claims_on(subject, entries)
-    ]
+def _functions(module: ModuleType) -> dict[str, Computation]:
+    """The functions of a subject's module by the ids of their claims."""
+    functions = {}
+    for name, value in vars(module).items():
+        functions[name.replace("_", "-")] = value
+    return {**functions, **module.SHORT}
 
 
-def counts(rows: Iterable[dict[str, Any]]) -> dict[str, int]:
-    """How many claims have each verdict, in the order of :class:`Verdict`."""
+def evaluate(
+    statements: Mapping[str, Mapping[str, Entry]],
+    evidence: Evidence | PairEvidence,
+) -> list[Row]:
+    """The rows of all claims: the paper's number and ours, the verdict and its reason.
+
+    Parameters
+    ----------
+    statements : mapping
+        Entries by subject and id.
+    evidence : Evidence or PairEvidence
+        The datasets that these subjects need.
+    """
+    rows = []
+    for subject, entries in statements.items():
+        for claim in claims_on(subject, entries):
+            rows.append({"subject": subject, **claim.evaluate(evidence)})
+    return rows
+
+
+def counts(rows: Iterable[Row]) -> dict[str, int]:
+    """The number of claims with each verdict, in the order of :class:`Verdict`."""
     found = Counter(row["verdict"] for row in rows)
     return {str(verdict): found[verdict] for verdict in Verdict}
 
 
-def to_json(rows: list[dict[str, Any]]) -> str:
+def to_json(rows: list[Row]) -> str:
     """The rows as a JSON list, valid by docs/claims.schema.json."""
     return json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def to_csv(rows: list[dict[str, Any]]) -> str:
+def to_csv(rows: list[Row]) -> str:
     """The rows as comma-separated text; numbers to six digits, missing ones empty."""
     flat = pd.DataFrame(rows)
     flat[["ours_low", "ours_high"]] = [row["uncertainty"] or (None, None) for row in rows]
     return flat.to_csv(columns=COLUMNS, index=False, float_format="%.6g")
 
 
-def to_markdown(rows: list[dict[str, Any]]) -> str:
+def to_markdown(rows: list[Row]) -> str:
     """The rows as a Markdown table, below a line that counts the verdicts."""
     summary = ", ".join(f"{number} {verdict}" for verdict, number in counts(rows).items())
-    lines = [
-        f"{len(rows)} claims: {summary}.",
-        "",
-        "| where | what the paper says | paper | ours (range) | how ours was computed | verdict | "
-        "reason |",
-        "|---|---|---|---|---|---|---|",
-    ]
+    lines = [f"{len(rows)} claims: {summary}.", "", *_HEADER]
     for row in rows:
         cells = (
-            row["where"], row["statement"], row["paper"] or "", number_text(row), row["method"],
-            row["verdict"], row["reason"],
-        )  # fmt: skip
+            row["where"],
+            row["statement"],
+            row["paper"] or "",
+            _number_text(row),
+            row["method"],
+            row["verdict"],
+            row["reason"],
+        )
         lines.append("| " + " | ".join(map(escaped, cells)) + " |")
     return "\n".join(lines) + "\n"
 
 
-def number_text(row: dict[str, Any]) -> str:
+def _number_text(row: Row) -> str:
     """Our number of a row with its range and unit, to four digits."""
     if row["ours"] is None:
         return ""
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    value, ends = f"{row['ours']:.4g}", [f"{end:.4g}" for end in row["uncertainty"]]
-    if ends == [value, value]:
+    value = f"{row['ours']:.4g}"
+    low, high = (f"{end:.4g}" for end in row["uncertainty"])
+    if low == high == value:
         return f"{value}{unit}"
-    return f"{value} ({ends[0]} to {ends[1]}){unit}"
+    return f"{value} ({low} to {high}){unit}"
 
 
 def escaped(text: str) -> str:
-    """A text in a cell of a Markdown table: between dollars stands mathematics."""
+    """A text for a cell of a Markdown table; formulas between dollars stay as they are."""
     parts = text.replace("\n", " ").split("$")
     parts[::2] = [re.sub(r"([|*_])", r"\\\1", part) for part in parts[::2]]
     return "$".join(parts)

@@ -63,7 +63,7 @@ def event_lines(
     found: dict[str, float],
     theory_length: float,
 ) -> list[str]:
-    """Onset and critical length of a run, with their spread over the definitions.
+    """Onset of the event and length of the patch then, with their ranges over the definitions.
 
     Parameters
     ----------
@@ -79,10 +79,10 @@ def event_lines(
     if math.isnan(found["onset_time"]):
         return ["no event: the force has not dropped"]
     onset, length = (_with_spread(found, name) for name in ("onset_time", "length"))
-    ratio = ""
+    over_theory = ""
     if not math.isnan(theory_length):
-        ratio = f", {found['length'] / theory_length:.3g} of the theory's"
-    return [f"onset: {onset} s", f"L_c: {length} m{ratio}"]
+        over_theory = f", {found['length'] / theory_length:.3g} L_c"
+    return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
 
 
 def _with_spread(

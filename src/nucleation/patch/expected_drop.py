@@ -24,7 +24,8 @@ SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so t
 WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
 EARLIER, LATER = 0.03, 0.10
 """Relative range about L_run, below and above, in which the force drops after slow slip: the error
-of L_run, and its delay where the front is fast. Simulated drops are 0 to 8 % above L_run."""
+of L_run, and its delay where the front is fast. Simulated drops in thin blocks
+are from 1 % below to 10 % above L_run."""
 
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which L_run is used
 NEAR_END = 0.6  # patch length over the block's up to which a thin block's far end has no effect

@@ -1,10 +1,9 @@
-"""Static response of elastic layers to one Fourier mode, straight from Navier's equation.
+"""Static response of elastic layers to one Fourier mode, from Navier's equation.
 
-An evaluation of the transfer functions that uses none of the paper's formulas nor the library's:
-equilibrium at Chebyshev points, with the boundary conditions as they are. Fields vary as
-``exp(-i k x)``; with ``u = (U, i W)``, ``sigma_xy = T`` and ``sigma_yy = i N`` all is real, and
-with lengths in units of 1/k and stresses in units of k times the upper body's shear modulus no
-dimension is left.
+This evaluation of the transfer functions uses neither the paper's formulas nor the library's. It
+solves equilibrium at Chebyshev points with the bodies' boundary conditions. Fields vary as
+``exp(-i k x)``. With ``u = (U, i W)``, ``sigma_xy = T`` and ``sigma_yy = i N`` all numbers are
+real. Lengths are in units of 1/k, stresses in units of k times the upper body's shear modulus.
 """
 
 import dataclasses
@@ -14,7 +13,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from ...types import Array, ComplexArray
-from ..said import Ours
+from ..expected import Estimate
 
 HALF_SPACE = 40.0
 """Layer number k H of a body that counts as a half-space, ``exp(-40) = 4e-18``."""
@@ -22,9 +21,19 @@ HALF_SPACE = 40.0
 
 @dataclasses.dataclass(frozen=True)
 class Layer:
-    """A layer from the interface to its far side, above (``q > 0``) or below it (``q < 0``).
+    """A layer from the interface to its far side.
 
-    ``q = k H``; `modulus` is over the upper body's; `far_side` is velocity or traction.
+    Attributes
+    ----------
+    q : float
+        ``k H``, dimensionless; negative for a layer below the interface.
+    poisson_ratio : float
+        Poisson's ratio in the plane.
+    modulus : float
+        Shear modulus over the upper body's.
+    far_side : str
+        Condition at the far side besides zero normal stress: zero displacement along it
+        ("velocity") or zero shear stress ("traction").
     """
 
     q: float
@@ -33,90 +42,204 @@ class Layer:
     far_side: str = "velocity"
 
 
-def chebyshev(points: int, end: float) -> tuple[Array, Array]:
+def _chebyshev(points: int, end: float) -> tuple[Array, Array]:
     """Points from 0 to `end` and the matrix that differentiates values at them."""
-    theta = np.pi * np.arange(points) / (points - 1)
-    x = np.cos(theta)
-    weight = np.where((np.arange(points) == 0) | (np.arange(points) == points - 1), 2.0, 1.0)
-    weight *= (-1.0) ** np.arange(points)
-    difference = x[:, None] - x[None, :] + np.eye(points)
-    matrix = weight[:, None] / weight[None, :] / difference
+    index = np.arange(points)
+    x = np.cos(np.pi * index / (points - 1))
+    weight = (-1.0) ** index
+    weight[[0, -1]] *= 2.0
+    difference = np.subtract.outer(x, x) + np.eye(points)
+    matrix = np.divide.outer(weight, weight) / difference
     matrix -= np.diag(matrix.sum(axis=1))
-    return 0.5 * end * (1.0 - x), matrix * (-2.0 / end)
+    y = 0.5 * end * (1.0 - x)
+    return y, matrix * (-2.0 / end)
 
 
 class _Equations:
-    """Rows of the discrete equations of one layer, acting on (U, W) at its points."""
+    """The discrete equations of one layer: rows of coefficients of (U, W) at its points.
+
+    Attributes
+    ----------
+    y : array, shape (points,)
+        Distance from the interface.
+    u, w : array, shape (points, 2 points)
+        Rows that give U and W at the points.
+    at_interface : array, shape (4, 2 points)
+        Rows that give U, W, T and N at the interface.
+    own : array, shape (2 points - 2, 2 points)
+        Rows that vanish: equilibrium at the inner points, and the conditions at the far side.
+    """
 
     def __init__(self, layer: Layer, points: int) -> None:
-        nu, mu = layer.poisson_ratio, layer.modulus
+        nu = layer.poisson_ratio
+        mu = layer.modulus
         lame = 2.0 * mu * nu / (1.0 - 2.0 * nu)
-        self.y, d = chebyshev(points, layer.q)
-        one, none = np.eye(points), np.zeros((points, points))
-        self.u, self.w = np.hstack([one, none]), np.hstack([none, one])
-        du, dw = np.hstack([d, none]), np.hstack([none, d])
-        self.t = mu * (du + self.w)
-        self.n = (lame + 2.0 * mu) * dw - lame * self.u
-        normal_x = lame * dw - (lame + 2.0 * mu) * self.u  # sigma_xx / i
-        self.inside = np.vstack([(normal_x + d @ self.t)[1:-1], (d @ self.n - self.t)[1:-1]])
-        first, second = {"velocity": (self.u, self.n), "traction": (self.t, self.n)}[layer.far_side]
-        self.far = np.vstack([first[-1], second[-1]])
+        stiffness = lame + 2.0 * mu
+        self.y, d = _chebyshev(points, layer.q)
+        self.u, self.w = np.split(np.eye(2 * points), 2)
+        du = d @ self.u
+        dw = d @ self.w
+        t = mu * (du + self.w)
+        n = stiffness * dw - lame * self.u
+        normal_x = lame * dw - stiffness * self.u  # sigma_xx / i
+        along_x = normal_x + d @ t
+        along_y = d @ n - t
+        far_sides = {"velocity": self.u, "traction": t}
+        far = far_sides[layer.far_side]
+        inside = slice(1, -1)
+        fields = (self.u, self.w, t, n)
+        self.at_interface = np.stack([rows[0] for rows in fields])
+        self.own = np.vstack(
+            [
+                along_x[inside],
+                along_y[inside],
+                far[-1],
+                n[-1],
+            ]
+        )
 
-    def field(self, at_interface: list[Array], load: tuple[float, float]) -> Array:
-        """(U, W) for two fields given at the interface."""
-        return _solve(np.vstack([self.inside, self.far, *at_interface]), load)
+    def field(
+        self,
+        rows: Array,
+        values: tuple[float, float],
+    ) -> Array:
+        """(U, W) for the values of two rows at the interface."""
+        equations = np.vstack([self.own, rows])
+        return _solve(equations, values)
+
+    def field_of_slip(self) -> Array:
+        """(U, W) for a rigid other body, if the layer slips by one."""
+        displacement = self.at_interface[:2]
+        return self.field(displacement, (1.0, 0.0))
 
 
 def pair_transfer(
-    upper: Layer, lower: Layer | None = None, points: int = 64
+    upper: Layer,
+    lower: Layer | None = None,
+    points: int = 64,
 ) -> tuple[float, float]:
-    """G1 and G2 of two layers in contact; None stands for a rigid lower body."""
+    """G1 and G2 of two layers in contact.
+
+    Parameters
+    ----------
+    upper, lower : Layer
+        The layers; None is a rigid lower body.
+    points : int
+        Number of collocation points in each layer.
+    """
     above = _Equations(upper, points)
     if lower is None:
-        field = above.field([above.u[0], above.w[0]], (1.0, 0.0))
+        field = above.field_of_slip()
     else:
         below = _Equations(lower, points)
-        own = block_diag(*(np.vstack([body.inside, body.far]) for body in (above, below)))
-        joint = [np.append(getattr(above, n)[0], -getattr(below, n)[0]) for n in "uwtn"]
-        field = _solve(np.vstack([own, *joint]), (1.0, 0.0, 0.0, 0.0))[: 2 * points]
-    return -float(above.t[0] @ field), float(above.n[0] @ field)
+        field = _joint_field(above, below)
+    _, _, t, n = above.at_interface
+    return -float(t @ field), float(n @ field)
+
+
+def _joint_field(above: _Equations, below: _Equations) -> Array:
+    """(U, W) of the upper one of two layers that slip by one."""
+    own = block_diag(above.own, below.own)
+    jumps = np.hstack([above.at_interface, -below.at_interface])
+    rows = np.vstack([own, jumps])
+    field = _solve(rows, (1.0, 0.0, 0.0, 0.0))
+    return field[: 2 * above.y.size]
 
 
 def half_spaces(
-    nu: float, psi: float = 1.0, nu2: float | None = None, points: int = 64
+    nu: float,
+    psi: float = 1.0,
+    nu2: float | None = None,
+    points: int = 64,
 ) -> tuple[float, float]:
-    """G1 and G2 of two half-spaces; Poisson's ratios are alike if the lower one's is not given."""
-    below = Layer(-HALF_SPACE, nu if nu2 is None else nu2, psi)
-    return pair_transfer(Layer(HALF_SPACE, nu), below, points)
+    """G1 and G2 of two half-spaces.
+
+    Parameters
+    ----------
+    nu : float
+        Poisson's ratio of the upper body.
+    psi : float
+        Shear modulus of the lower body over the upper body's.
+    nu2 : float, optional
+        Poisson's ratio of the lower body, by default that of the upper one.
+    points : int
+        Number of collocation points in each body.
+    """
+    upper = Layer(HALF_SPACE, nu)
+    if nu2 is None:
+        nu2 = nu
+    lower = Layer(-HALF_SPACE, nu2, psi)
+    return pair_transfer(upper, lower, points)
 
 
-def refined(number: Callable[[int], float]) -> Ours:
-    """A number by 64 points, known to its difference from that by 48."""
-    return Ours.within(number(64), number(64) - number(48))
+def refined(number: Callable[[int], float]) -> Estimate:
+    """A number with 64 points; its error is the difference from that with 48."""
+    value = number(64)
+    error = value - number(48)
+    return Estimate.within(value, error)
 
 
-def compliance(layer: Layer, points: int = 64) -> ComplexArray:
-    """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus."""
+def compliance(
+    layer: Layer,
+    points: int = 64,
+) -> ComplexArray:
+    """The matrix ``M`` of ``u_i = M_ij sigma_yj``, times k and the shear modulus.
+
+    Parameters
+    ----------
+    layer : Layer
+        The layer.
+    points : int
+        Number of collocation points.
+
+    Returns
+    -------
+    array, shape (2, 2)
+    """
     body = _Equations(layer, points)
-    given = [body.t[0], body.n[0]]
-    fields = np.stack([body.field(given, load) for load in ((1.0, 0.0), (0.0, 1.0))], axis=1)
-    return np.stack([body.u[0] @ fields, 1j * body.w[0] @ fields]) * [1.0, -1j]  # sigma_yy = i N
+    u, w = body.at_interface[:2]
+    tractions = body.at_interface[2:]
+    shear = body.field(tractions, (1.0, 0.0))
+    normal = body.field(tractions, (0.0, 1.0))
+    fields = np.stack([shear, normal], axis=1)
+    matrix = np.stack([u @ fields, 1j * w @ fields])
+    return matrix * [1.0, -1j]  # sigma_yy = i N
 
 
-def block_field(layer: Layer, points: int = 64) -> tuple[Array, Array, Array]:
-    """``y``, ``U`` and ``W`` of a layer on a rigid base that slips by one."""
+def block_field(
+    layer: Layer,
+    points: int = 64,
+) -> tuple[Array, Array, Array]:
+    """The displacement of a layer on a rigid base that slips by one.
+
+    Parameters
+    ----------
+    layer : Layer
+        The layer.
+    points : int
+        Number of collocation points.
+
+    Returns
+    -------
+    y, u, w : array, shape (points,)
+        Distance from the interface, U and W.
+    """
     body = _Equations(layer, points)
-    field = body.field([body.u[0], body.w[0]], (1.0, 0.0))
+    field = body.field_of_slip()
     return body.y, body.u @ field, body.w @ field
 
 
-def _solve(rows: Array, load: tuple[float, ...]) -> Array:
-    """The solution for what the last rows are equal to, all others to zero.
+def _solve(rows: Array, values: tuple[float, ...]) -> Array:
+    """The solution of equations with the given right-hand sides in the last rows, else zero.
 
-    Rows are scaled to one and it is refined once: derivatives have large entries.
+    Derivatives have large entries. Rows are therefore scaled to one, and the solution is improved
+    by one step of iterative refinement.
     """
     scale = np.abs(rows).max(axis=1)
-    right = np.append(np.zeros(len(rows) - len(load)), load) / scale
+    right = np.zeros(len(rows))
+    right[-len(values) :] = values
+    right /= scale
     matrix = rows / scale[:, None]
     field = np.linalg.solve(matrix, right)
-    return field + np.linalg.solve(matrix, right - matrix @ field)
+    residual = right - matrix @ field
+    return field + np.linalg.solve(matrix, residual)

@@ -1,237 +1,262 @@
-"""Claims on friction, the conventional approach and homogeneous sliding: Text S2.1, Sects. 2, 3."""
+"""Claims on the conventional approach and on homogeneous sliding (Sects. 2 and 3)."""
 
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
+import xarray as xr
 from scipy.optimize import brentq
 
-from ...configuration.roles import JUDGED, PAPERS
 from ...model.friction.evolutions import aging, slip
-from ...model.friction.law import Expansion
 from ...types import Array
 from ..claim import Cause, Computation, Result
-from ..evidence import Evidence, of_runs
+from ..evidence import Evidence
+from ..expected import Estimate, formula
 from ..independent import marginal, printed
-from ..independent.elastic_layers import HALF_SPACE, Layer, half_spaces, pair_transfer, refined
-from ..said import Missing, Ours, formula
+from ..independent.elastic_layers import (
+    HALF_SPACE,
+    Layer,
+    half_spaces,
+    pair_transfer,
+    refined,
+)
 
-FINE = np.geomspace(1e-11, 10.0, 4801)  # m/s
-
-
-def at_v(evidence: Evidence) -> Expansion:
-    """Friction, a and zeta at V."""
-    return evidence.friction.expansion(evidence.loading.velocity)
-
-
-def logarithmic_law(evidence: Evidence) -> Array:
-    law, velocity = evidence.friction, evidence.loading.velocity
-    factors = np.geomspace(0.1, 10.0, 41)
-    v, phi = np.meshgrid(velocity * factors, law.steady_state(velocity) * factors)
-    return law.logarithmic(v, phi, velocity) / law.coefficient(v, phi)
+_SHORT_WAVES = np.geomspace(1.001, 100.0, 60)
+"""Wavenumbers over the critical one."""
 
 
-def steady_extremes(evidence: Evidence) -> tuple[float, float]:
-    """Slip rates (m/s) of the maximum and of the minimum of steady-state friction around V."""
-    f = evidence.friction.steady_coefficient(FINE)
-    turns = 1 + np.flatnonzero(np.diff(np.sign(np.diff(f))) != 0)
-    lower = [i for i in turns if FINE[i] < evidence.loading.velocity and f[i] > f[i - 1]]
-    upper = [i for i in turns if FINE[i] > evidence.loading.velocity and f[i] < f[i - 1]]
-    if not lower or not upper:
-        raise Missing("Steady-state friction has no velocity-weakening branch around V")
-    return float(FINE[lower[-1]]), float(FINE[upper[0]])
+def evolution_slope(evidence: Evidence) -> list[float]:
+    step = 1e-5
+    slopes = []
+    for law in (aging, slip):
+        ahead = law.growth(1.0 + step)
+        behind = law.growth(1.0 - step)
+        slopes.append((ahead - behind) / (2.0 * step))
+    return slopes
 
 
-def steady_agreement(evidence: Evidence) -> float:
-    law, velocity = evidence.friction, evidence.loading.velocity
-    low, high = steady_extremes(evidence)
-    v = FINE[slice(*np.searchsorted(FINE, [low, high]))]
-    state = law.characteristic_slip_distance / v
-    difference = np.abs(law.logarithmic(v, state, velocity) / law.steady_coefficient(v) - 1.0)
-    middle = int(np.abs(np.log(v / velocity)).argmin())
-    off = np.flatnonzero(difference >= 0.02)
-    first = off[off < middle].max(initial=-1) + 1
-    last = off[off > middle].min(initial=v.size) - 1
-    return math.log10(v[last] / v[first])
-
-
-def well_approximated(evidence: Evidence, part: str) -> Result:
-    """Where the slip law with v is good: the least of all its runs, of either study."""
-    judged, papers = (
-        [run[part] for run in evidence.each(role, evolution="slip")] for role in (JUDGED, PAPERS)
-    )
-    return Result(judged, on_papers_mesh=papers)
-
-
-def slip_law_approximation_ahead(evidence: Evidence) -> Result:
-    """What the healing by v0 alone changes of the strength, where nothing slips."""
-    judged, papers = (evidence.each(role, evolution="slip") for role in (JUDGED, PAPERS))
-    latest = max(judged, key=lambda run: run["onset_time"])
-    share = min(run["state_rate_share"] for run in judged)
-    note = (
-        f"At the latest onset the state is {healed_state(evidence, latest):.2f} s in the place of "
-        f"{latest['phi0']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
-        f"below 10 % in {share:.2g} of the interface (results: The slip law ahead of the front)."
-    )
-    ours, other = ([_strengthened(evidence, run) for run in runs] for runs in (judged, papers))
-    return Result(ours, on_papers_mesh=other, note=note)
-
-
-def healed_state(evidence: Evidence, run: dict[str, Any]) -> float:
-    """State (s) of the slip law at a run's onset where nothing slips: log(phi v0/D) decays."""
-    law = evidence.friction
-    rate = law.regularisation_slip_rate / law.characteristic_slip_distance
-    decay = math.exp(-rate * run["onset_time"])
-    return float((run["phi0"] * rate) ** decay / rate)
-
-
-def _strengthened(evidence: Evidence, run: dict[str, Any]) -> float:
-    """Relative change of friction at V by that healing."""
-    velocity, law = evidence.loading.velocity, evidence.friction
-    healed = law.coefficient(velocity, healed_state(evidence, run))
-    return float(healed / law.coefficient(velocity, run["phi0"]) - 1.0)
-
-
-SHORT = np.geomspace(1.001, 100.0, 60)  # wavenumbers over the critical one
-
-
-def linearised(evidence: Evidence, velocity: float) -> Array:
+def _linearised(evidence: Evidence, velocity: float) -> Array:
     """``[[f_v, f_phi], [g_v, g_phi]]`` at steady sliding, by central differences (SI units)."""
     law = evidence.friction
     state = float(law.steady_state(velocity))
-    matrix = np.empty((2, 2))
-    for column, (dv, dphi) in enumerate(((1e-5 * velocity, 0.0), (0.0, 1e-5 * state))):
-        ahead, behind = (velocity + dv, state + dphi), (velocity - dv, state - dphi)
+    steps = (
+        (1e-5 * velocity, 0.0),
+        (0.0, 1e-5 * state),
+    )
+    columns = []
+    for dv, dphi in steps:
+        ahead = (velocity + dv, state + dphi)
+        behind = (velocity - dv, state - dphi)
         step = 2.0 * (dv + dphi)
-        matrix[0, column] = (law.coefficient(*ahead) - law.coefficient(*behind)) / step
-        matrix[1, column] = (law.state_rate(*ahead) - law.state_rate(*behind)) / step
-    return matrix
+        column = []
+        for function in (law.coefficient, law.state_rate):
+            change = function(*ahead) - function(*behind)
+            column.append(change / step)
+        columns.append(column)
+    return np.transpose(columns)
 
 
 def spring_stiffness(evidence: Evidence) -> float:
-    velocity, distance = evidence.loading.velocity, evidence.friction.characteristic_slip_distance
-    (f_v, f_phi), (g_v, g_phi) = linearised(evidence, velocity)
+    velocity = evidence.loading.velocity
+    (f_v, f_phi), (g_v, g_phi) = _linearised(evidence, velocity)
 
-    def rate(stiffness: float) -> float:
+    def growth(stiffness: float) -> float:
         # K dx + f_v dv + f_phi dphi = 0 per normal force, dx' = dv, dphi' = g_v dv + g_phi dphi
         dv = np.array([-stiffness / f_v, -f_phi / f_v])
-        matrix = np.array([dv, g_v * dv + [0.0, g_phi]])
-        return float(np.linalg.eigvals(matrix).real.max())
+        dphi = g_v * dv + [0.0, g_phi]
+        matrix = np.array([dv, dphi])
+        rates = np.linalg.eigvals(matrix)
+        return float(rates.real.max())
 
-    printed_stiffness = evidence.friction.expansion(velocity).zeta / distance
-    critical = brentq(rate, 0.2 * printed_stiffness, 5.0 * printed_stiffness, rtol=1e-12)
-    return float(critical / printed_stiffness)
-
-
-def printed_wavenumber(evidence: Evidence) -> float:
-    material = evidence.material
-    return printed.half_space_wavenumber(evidence.nu, material.shear_modulus, evidence.interface)
-
-
-def critical(evidence: Evidence) -> tuple[float, float]:
-    """k_c (1/m) of two identical half-spaces, and the frequency over V/ell."""
-    transfer, modulus = half_spaces(evidence.nu), evidence.material.shear_modulus
-    guess = printed_wavenumber(evidence)
-    return marginal.critical_wavenumber(lambda k: transfer, modulus, evidence.interface, guess)
+    zeta = evidence.friction.expansion(velocity).zeta
+    expected = zeta / evidence.friction.characteristic_slip_distance
+    found = brentq(
+        growth,
+        0.2 * expected,
+        5.0 * expected,
+        rtol=1e-12,
+    )
+    return float(found / expected)
 
 
-def eta_of(evidence: Evidence) -> float:
+def half_spaces_g1(evidence: Evidence) -> Result:
+    nu = evidence.nu
+
+    def g1(points: int) -> float:
+        return half_spaces(nu, points=points)[0]
+
+    expected = 1.0 / (2.0 * (1.0 - nu))
+    return Result(refined(g1), formula(expected))
+
+
+def half_spaces_g2(evidence: Evidence) -> list[float]:
+    couplings = []
+    for points in (48, 64):
+        _, g2 = half_spaces(evidence.nu, points=points)
+        couplings.append(g2)
+    return couplings
+
+
+def symmetric_g2(evidence: Evidence) -> list[float]:
+    nu = evidence.nu
+    couplings = []
+    for q in (0.1, 0.5, 1.0, 3.0):
+        upper = Layer(q, nu)
+        lower = Layer(-q, nu)
+        _, g2 = pair_transfer(upper, lower, points=32)
+        couplings.append(g2)
+    return couplings
+
+
+def _printed_wavenumber(evidence: Evidence) -> float:
+    modulus = evidence.material.shear_modulus
+    return printed.half_space_wavenumber(
+        evidence.nu,
+        modulus,
+        evidence.interface,
+    )
+
+
+def _critical(evidence: Evidence) -> tuple[float, float]:
+    """k_c (1/m) of two identical half-spaces by search, and the frequency over V/ell."""
+    g1_and_g2 = half_spaces(evidence.nu)
+    return marginal.critical_wavenumber(
+        lambda wavenumber: g1_and_g2,
+        evidence.material.shear_modulus,
+        evidence.interface,
+        guess=_printed_wavenumber(evidence),
+    )
+
+
+def half_spaces_wavenumber(evidence: Evidence) -> Result:
+    k, _ = _critical(evidence)
+    ours = Estimate.within(k, 1e-9 * k)
+    expected = _printed_wavenumber(evidence)
+    return Result(ours, formula(expected))
+
+
+def _eta(evidence: Evidence) -> float:
     """``L_c zeta sigma0/(mu ell)`` of two identical half-spaces."""
     interface = evidence.interface
     scale = interface.zeta * interface.normal_stress / interface.slip_length
-    k, _ = critical(evidence)
-    return 2.0 * math.pi / k * scale / evidence.material.shear_modulus
+    k, _ = _critical(evidence)
+    length = 2.0 * math.pi / k
+    return length * scale / evidence.material.shear_modulus
+
+
+def eta(evidence: Evidence) -> Result:
+    ours = _eta(evidence)
+    expected = math.pi / (1.0 - evidence.nu)
+    return Result(ours, formula(expected, r"$\pi/(1 - \nu)$"))
+
+
+def _eta_over_literature(evidence: Evidence) -> float:
+    """eta over 4/3, the largest one of the literature."""
+    return 0.75 * _eta(evidence)
 
 
 def eta_over_literature(evidence: Evidence) -> Result:
-    quarter = dataclasses.replace(
-        evidence, material=dataclasses.replace(evidence.material, poisson_ratio=0.25)
+    material = dataclasses.replace(evidence.material, poisson_ratio=0.25)
+    with_quarter = dataclasses.replace(evidence, material=material)
+    cause = Cause(
+        "The factor pi",
+        r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ our number is",
+        _eta_over_literature(with_quarter),
     )
-    text = r"4/3 is $1/(1 - \nu)$ for $\nu = 1/4$, and for that $\nu$ ours is"
-    cause = Cause("The factor pi", text, 0.75 * eta_of(quarter))
-    return Result(0.75 * eta_of(evidence), formula(math.pi, r"$\pi$"), cause=cause)
+    return Result(
+        _eta_over_literature(evidence),
+        formula(math.pi, r"$\pi$"),
+        cause=cause,
+    )
+
+
+def eta_larger(evidence: Evidence) -> float:
+    return _eta_over_literature(evidence) - 1.0
 
 
 def uncoupled_frequency(evidence: Evidence) -> Result:
     interface = evidence.interface
-    rate = interface.velocity / interface.slip_length
-    frequency = rate * critical(evidence)[1]
-    said = formula(math.sqrt(interface.zeta / interface.a) * rate)
-    return Result(Ours.within(frequency, 1e-8 * frequency), said)
+    unit = interface.velocity / interface.slip_length
+    _, in_units = _critical(evidence)
+    frequency = unit * in_units
+    ours = Estimate.within(frequency, 1e-8 * frequency)
+    expected = math.sqrt(interface.zeta / interface.a) * unit
+    return Result(ours, formula(expected))
 
 
 def friction_perturbation(evidence: Evidence) -> list[float]:
-    velocity, ell = evidence.loading.velocity, evidence.friction.characteristic_slip_distance
-    _, a, zeta = evidence.friction.expansion(velocity)
-    (f_v, f_phi), (g_v, g_phi) = linearised(evidence, velocity)
+    law = evidence.friction
+    velocity = evidence.loading.velocity
+    ell = law.characteristic_slip_distance
+    _, a, zeta = law.expansion(velocity)
+    (f_v, f_phi), (g_v, g_phi) = _linearised(evidence, velocity)
     differences = []
     for relative in (0.3 + 1j, 0.1 + 2j, 1j):
         rate = relative * velocity / ell
         ours = rate * (f_v + f_phi * g_v / (rate - g_phi))
-        stated = rate * (a * rate * ell - zeta * velocity) / (velocity * (velocity + rate * ell))
-        differences.append(abs(ours / stated - 1.0))
+        dividend = rate * (a * rate * ell - zeta * velocity)
+        divisor = velocity * (velocity + rate * ell)
+        expected = dividend / divisor
+        differences.append(abs(ours / expected - 1.0))
     return differences
 
 
 def growth_changes_sign(evidence: Evidence) -> list[float]:
-    dataset, zeros = evidence.dispersion, []
-    for height in dataset["height"].values:
-        one = dataset.sel(height=height)
-        ratio = (one["mode_wavenumber"] / one["critical_wavenumber"]).values
-        growth = one["measured_growth"].max("branch").values
-        last = int(np.flatnonzero(growth > 0.0)[-1])
-        part = growth[last] / (growth[last] - growth[last + 1])
-        zeros.append(ratio[last] + part * (ratio[last + 1] - ratio[last]))
+    modes = evidence.dispersion
+    heights = modes["height"].values
+    zeros = []
+    for height in heights:
+        own = modes.sel(height=height)
+        zeros.append(_zero_of_growth(own))
     return zeros
 
 
+def _zero_of_growth(modes: xr.Dataset) -> float:
+    """The wavenumber over the critical one at which the growth changes sign, interpolated."""
+    ratios = modes["mode_wavenumber"] / modes["critical_wavenumber"]
+    growth = modes["measured_growth"].max("branch").values
+    growing = np.flatnonzero(growth > 0.0)
+    last = int(growing[-1])
+    before, after = growth[last : last + 2]
+    part = before / (before - after)
+    first, second = ratios.values[last : last + 2]
+    return first + part * (second - first)
+
+
 def short_waves_stable(evidence: Evidence) -> float:
-    modulus, interface = evidence.material.shear_modulus, evidence.interface
     curve = evidence.theory.isel(height=slice(None, None, 10))
-
-    def fastest(height: float, k_c: float) -> float:
-        def transfer(wavenumber: float) -> tuple[float, float]:
-            return printed.block_transfer(min(wavenumber * height, HALF_SPACE), evidence.nu)
-
-        return max(marginal.growth_at(k, transfer, modulus, interface).real for k in k_c * SHORT)
-
-    return max(map(fastest, curve["height"].values, curve["critical_wavenumber"].values))
+    heights = curve["height"].values
+    critical = curve["critical_wavenumber"].values
+    rates = []
+    for height, k_c in zip(heights, critical, strict=True):
+        rates.append(_largest_rate(evidence, height, k_c))
+    return max(rates)
 
 
-OURS: dict[str, Computation] = {
-    **{f"f0-{where}": lambda e: at_v(e).f0 for where in ("table", "main")},
-    **{f"a-{where}": lambda e: at_v(e).a for where in ("table", "main")},
-    **{f"zeta-{where}": lambda e: at_v(e).zeta for where in ("table", "main")},
-    "weakening-at-v": lambda e: at_v(e).zeta,
-    "slip-rate-over-v0": lambda e: math.log10(
-        e.loading.velocity / e.friction.regularisation_slip_rate
-    ),
-    "friction-vanishes": lambda e: (
-        e.friction.coefficient(1e-5 * e.friction.regularisation_slip_rate, 1.0) / at_v(e).f0
-    ),
-    "strengthening-branch": lambda e: steady_extremes(e)[1] / e.loading.velocity,
-    "weakening-branch": lambda e: e.loading.velocity / steady_extremes(e)[0],
-    "minimum-plays-no-role": of_runs("onset_rate", lambda e: steady_extremes(e)[1]),
-    "regularisation-irrelevant": of_runs("regular_share"),
-    "state-rate-at-v": lambda e: e.friction.slip_speed(e.loading.velocity) / e.loading.velocity,
-    "slip-law-approximation": lambda e: well_approximated(e, "state_rate_share_patch"),
-    "evolution-slope": lambda e: [
-        (law.growth(1.0 + 1e-5) - law.growth(1.0 - 1e-5)) / 2e-5 for law in (aging, slip)
-    ],
-    "half-spaces-g1": lambda e: Result(
-        refined(lambda points: half_spaces(e.nu, points=points)[0]),
-        formula(1.0 / (2.0 * (1.0 - e.nu))),
-    ),
-    "half-spaces-g2": lambda e: [half_spaces(e.nu, points=points)[1] for points in (48, 64)],
-    "symmetric-g2": lambda e: [
-        pair_transfer(Layer(q, e.nu), Layer(-q, e.nu), 32)[1] for q in (0.1, 0.5, 1.0, 3.0)
-    ],
-    "half-spaces-wavenumber": lambda e: Result(
-        Ours.within(critical(e)[0], 1e-9 * critical(e)[0]), formula(printed_wavenumber(e))
-    ),
-    "eta": lambda e: Result(eta_of(e), formula(math.pi / (1.0 - e.nu), r"$\pi/(1 - \nu)$")),
-    "eta-larger": lambda e: 0.75 * eta_of(e) - 1.0,
-    "spectrum-in-time": lambda e: e.dispersion["disagreement"],
+def _largest_rate(
+    evidence: Evidence,
+    height: float,
+    k_c: float,
+) -> float:
+    """The largest growth of short waves in a block, over V/ell."""
+    modulus = evidence.material.shear_modulus
+
+    def transfer(wavenumber: float) -> tuple[float, float]:
+        q = min(wavenumber * height, HALF_SPACE)
+        return printed.block_transfer(q, evidence.nu)
+
+    def growth(wavenumber: float) -> float:
+        rate = marginal.growth_at(
+            wavenumber,
+            transfer,
+            modulus,
+            evidence.interface,
+        )
+        return rate.real
+
+    return max(map(growth, k_c * _SHORT_WAVES))
+
+
+SHORT: dict[str, Computation] = {
+    "spectrum-in-time": lambda evidence: evidence.dispersion["disagreement"],
 }
-"""The claims whose numbers take a line; each of the others has a function with its name."""

@@ -82,8 +82,8 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
                 color=style.BLACK,
                 markersize=4.0,
             )
-    style.level(axes, 0.5)
-    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", ylim=(0.4, 1.6))
+    style.level(axes, 0.5, label="half of $L_c$")
+    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.25, 7.0), ylim=(0.4, 1.6))
     axes.set_xticks(_TICKS)
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())

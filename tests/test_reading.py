@@ -1,0 +1,124 @@
+"""How hard the code is to read: words of docstrings, tokens a line, sections of parameters.
+
+The limits keep what has been reached; lower them when the code gets better.
+"""
+
+import ast
+import io
+import re
+import tokenize
+from pathlib import Path
+
+SOURCE = Path(__file__).parents[1] / "src" / "nucleation"
+MODULES = sorted(SOURCE.rglob("*.py"))
+WITHOUT_MEANING = {
+    tokenize.COMMENT,
+    tokenize.NL,
+    tokenize.NEWLINE,
+    tokenize.INDENT,
+    tokenize.DEDENT,
+    tokenize.ENCODING,
+    tokenize.ENDMARKER,
+}
+
+WORDS = {
+    ("what", "whatever"): 1.5,
+    ("said", "says", "say", "told", "tells", "tell", "asked", "asks", "ask"): 0.5,
+    ("stands", "stand", "lies", "lie", "goes", "go"): 0.5,
+    ("whose", "which"): 12.0,
+}
+"""Most occurrences of words in a thousand words of docstrings."""
+
+TOKENS_A_LINE = 8.0
+PUBLIC_CLASSES = 170
+SECTIONS = 0.9
+"""Least part of public functions with two or more arguments that have a section of parameters."""
+
+
+def trees():
+    for path in MODULES:
+        yield path, ast.parse(path.read_text(encoding="utf-8"))
+
+
+def docstrings():
+    kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    for _, tree in trees():
+        for node in ast.walk(tree):
+            if isinstance(node, kinds) and ast.get_docstring(node):
+                yield node, ast.get_docstring(node)
+
+
+def test_docstrings_have_few_words_that_make_readers_stop():
+    words = [word for _, text in docstrings() for word in re.findall(r"[a-z']+", text.lower())]
+    found = {chosen: 1000.0 * sum(map(words.count, chosen)) / len(words) for chosen in WORDS}
+    assert {k: v for k, v in found.items() if v > WORDS[k]} == {}
+
+
+def test_no_line_is_kept_from_the_formatter():
+    marked = [path.name for path in MODULES if "fmt: skip" in path.read_text(encoding="utf-8")]
+    assert marked == []
+
+
+def _with_whole_texts(tokens):
+    """Tokens, of which a formatted text is one, as in Python 3.11."""
+    depth = 0
+    for token in tokens:
+        kind = tokenize.tok_name[token.type]
+        if kind == "FSTRING_END":
+            depth -= 1
+            continue
+        if depth == 0:
+            yield token
+        if kind == "FSTRING_START":
+            depth += 1
+
+
+def tokens_and_lines():
+    """The number of tokens, and of lines with one, without docstrings and comments."""
+    tokens = lines = 0
+    for path, tree in trees():
+        texts = set()
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+                texts |= set(range(node.lineno, node.end_lineno + 1))
+        text = path.read_text(encoding="utf-8")
+        own = [
+            token.start[0]
+            for token in _with_whole_texts(tokenize.generate_tokens(io.StringIO(text).readline))
+            if token.type not in WITHOUT_MEANING and token.start[0] not in texts
+        ]
+        tokens += len(own)
+        lines += len(set(own))
+    return tokens, lines
+
+
+def test_a_line_has_few_tokens():
+    tokens, lines = tokens_and_lines()
+    assert tokens / lines < TOKENS_A_LINE
+
+
+def public_functions():
+    """Public functions and methods with two or more arguments."""
+    for _, tree in trees():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+                own = node.args.posonlyargs + node.args.args + node.args.kwonlyargs
+                if len([each for each in own if each.arg not in ("self", "cls")]) >= 2:
+                    yield node
+
+
+def test_functions_describe_their_parameters():
+    functions = list(public_functions())
+    section = re.compile(r"^\s*Parameters\s*\n\s*-{3,}", re.MULTILINE)
+    having = [each for each in functions if section.search(ast.get_docstring(each) or "")]
+    assert len(having) / len(functions) > SECTIONS
+
+
+def test_few_classes_are_public():
+    classes = [
+        node.name
+        for _, tree in trees()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    ]
+    assert len(classes) <= PUBLIC_CLASSES
