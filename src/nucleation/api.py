@@ -9,12 +9,13 @@ array([2.51327412, 1.25663706])
 
 Plain numbers are in SI units. Functions of the linear theory take the parameters of
 :class:`~nucleation.theory.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
-broadcast as NumPy's do, DataArrays by the names of their dimensions, and what comes in as
-DataArray goes out as one. Where there is no length it is NaN, and ``length_statuses`` has the
-reason: sliding is stable, the length is longer than searched, or a formula does not apply.
+broadcast as NumPy's do, DataArrays by the names of their dimensions; with a DataArray among the
+parameters the result is a DataArray. A length that does not exist is NaN, and ``length_statuses``
+has the reason: sliding is stable, the length exceeds the range of the search, or a formula is not
+applicable.
 
-What carries a unit is converted to SI units: a DataArray by its attribute ``units``, and pint
-quantities, of which the results are quantities too. A text is read as the command line reads it,
+Values with a unit are converted to SI units: a DataArray by its attribute ``units``, and pint
+quantities, with quantities as results. A text is read as on the command line,
 ``slip_distance="0.5um"``, in simulations as in the theory.
 
 Simulations, extraction and datasets are imported when first used, since that takes a while. They
@@ -135,7 +136,7 @@ _EXTRAS = {
     **dict.fromkeys(("extract", "read", "run", "simulate", "write"), ("solver",)),
     **dict.fromkeys(("film", "plot_length", "plot_run", "plot_spectrum"), ("solver", "figures")),
 }
-"""The extras that some of them need."""
+"""The extras of functions that need one."""
 
 
 def __getattr__(name: str) -> Any:
@@ -150,7 +151,7 @@ def __getattr__(name: str) -> Any:
 
 
 def _without_extra(name: str, message: str) -> Callable[..., Any]:
-    """A function in place of one whose extra is not installed: a call names the extra."""
+    """A substitute for a function without its extra; a call raises an error with the extra."""
 
     def unavailable(*_: Any, **__: Any) -> Any:
         raise MissingExtra(message)

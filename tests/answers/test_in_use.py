@@ -10,12 +10,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from nucleation.answers import formulas
-from nucleation.answers.in_use import (
-    LENGTHS,
-    TWO_MATERIALS,
-    expanding_length,
-    lengths_in_use,
-)
+from nucleation.answers.in_use import LENGTHS, expanding_length, lengths_in_use
+from nucleation.answers.length import TWO_MATERIALS
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from nucleation import api
-from nucleation.answers.in_use import LENGTHS, TWO_MATERIALS
+from nucleation.answers.in_use import LENGTHS
+from nucleation.answers.length import TWO_MATERIALS
 from nucleation.theory import arrays
 
 WORDS = [

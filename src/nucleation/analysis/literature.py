@@ -17,7 +17,8 @@ from ..answers.formulas import (
     LOCALISED_LIMIT,
     between_localised_and_crack,
 )
-from ..answers.in_use import LENGTHS, TWO_MATERIALS, expanding_length, values_of
+from ..answers.in_use import LENGTHS, expanding_length, values_of
+from ..answers.length import TWO_MATERIALS
 from ..datasets.shared import SHARED
 from ..datasets.variables import Variable, some, table
 from ..model.parameters import Parameters

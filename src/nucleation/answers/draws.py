@@ -39,7 +39,12 @@ class Range(float):
     low: float
     high: float
 
-    def __new__(cls, value: float, low: float, high: float) -> Range:
+    def __new__(
+        cls,
+        value: float,
+        low: float,
+        high: float,
+    ) -> Range:
         """Make a range; the caller has checked that the three values are in order.
 
         Parameters
@@ -54,7 +59,11 @@ class Range(float):
         own.high = high
         return own
 
-    def quantiles(self, share: Array, entry: Quantity) -> Array:
+    def quantiles(
+        self,
+        share: Array,
+        entry: Quantity,
+    ) -> Array:
         """Quantiles of the distribution.
 
         Parameters
@@ -78,7 +87,11 @@ class Range(float):
         return np.exp(found) if positive else found
 
 
-def parse_range(key: str, text: str, entry: Quantity) -> Any:
+def parse_range(
+    key: str,
+    text: str,
+    entry: Quantity,
+) -> Any:
     """Read a range such as ``0.5um (0.3 to 1)``, or a single value.
 
     Parameters
@@ -118,7 +131,10 @@ def parse_range(key: str, text: str, entry: Quantity) -> Any:
     return Range(value, low, high)
 
 
-def with_default_unit(text: str, unit: str) -> str:
+def with_default_unit(
+    text: str,
+    unit: str,
+) -> str:
     """A number with a unit.
 
     Parameters
@@ -153,7 +169,10 @@ class Draws(NamedTuple):
         arrays = [value for value in self.values.values() if np.ndim(value)]
         return np.size(arrays[0])
 
-    def at(self, rows: Any) -> dict[str, Any]:
+    def at(
+        self,
+        rows: Any,
+    ) -> dict[str, Any]:
         """The parameters of one draw, by its index, or of a slice of draws."""
         chosen = {}
         for name, value in self.values.items():

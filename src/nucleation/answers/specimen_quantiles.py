@@ -122,7 +122,10 @@ def specimen_quantiles(
     )
 
 
-def at_share(fits: Sequence[Fit], share: float) -> tuple[Interval, ...]:
+def at_share(
+    fits: Sequence[Fit],
+    share: float,
+) -> tuple[Interval, ...]:
     """Values at which the length fits in a share of several cases, or in more.
 
     Parameters
@@ -151,7 +154,10 @@ def at_share(fits: Sequence[Fit], share: float) -> tuple[Interval, ...]:
     return tuple(zip(first.tolist(), last.tolist(), strict=True))
 
 
-def _errors(fits: Sequence[Fit], share: float) -> tuple[Interval, ...]:
+def _errors(
+    fits: Sequence[Fit],
+    share: float,
+) -> tuple[Interval, ...]:
     """Standard errors of the ends of the intervals.
 
     Half the distance between the ends at shares a standard error lower and higher; NaN where the
@@ -168,6 +174,9 @@ def _errors(fits: Sequence[Fit], share: float) -> tuple[Interval, ...]:
     return tuple((float(first), float(last)) for first, last in half)
 
 
-def _scatter(share: float, number: int) -> float:
+def _scatter(
+    share: float,
+    number: int,
+) -> float:
     """Standard error of a share of a number of draws."""
     return math.sqrt(share * (1.0 - share) / number)

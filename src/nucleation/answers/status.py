@@ -13,7 +13,8 @@ from ..theory.crossings import largest_crossings
 from ..theory.fault import Fault, Values, labelled, takes_fault
 from ..theory.spectrum import Systems
 from ..theory.status import STABLE, UNKNOWN, VALUE
-from .in_use import LENGTHS, THIS_FAULT, Length, values_of, with_dimensions
+from .in_use import LENGTHS, values_of, with_dimensions
+from .length import THIS_FAULT, Length
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -121,7 +122,10 @@ def answers_of(
     return found
 
 
-def answers_of_theory(fault: Fault, loading: str = "edge") -> dict[str, Answers]:
+def answers_of_theory(
+    fault: Fault,
+    loading: str = "edge",
+) -> dict[str, Answers]:
     """The lengths of the theory, each with its status.
 
     Parameters
@@ -161,7 +165,11 @@ def _critical_answers(fault: Fault) -> Answers:
     return Answers(lengths, rows[1], rows[2])
 
 
-def _literature_answers(one: Length, length: Any, fault: Fault) -> Answers:
+def _literature_answers(
+    one: Length,
+    length: Any,
+    fault: Fault,
+) -> Answers:
     """A length of the literature with its status.
 
     A NaN means that the fault is stable if friction does not weaken with slip rate, and else that
@@ -179,7 +187,10 @@ def _literature_answers(one: Length, length: Any, fault: Fault) -> Answers:
             known.append(f"{name} = {number:.4g}{unit}")
         return f"needs {one.needs}: {', '.join(known)}"
 
-    def status_of(value: float, zeta: float) -> str:
+    def status_of(
+        value: float,
+        zeta: float,
+    ) -> str:
         if np.isfinite(value):
             return VALUE
         return STABLE if zeta <= 0.0 else UNKNOWN

@@ -23,7 +23,10 @@ _AT_ONCE = 10
 """Number of draws that are computed between two reports of progress."""
 
 
-def quantiles(values: Array, shares: Array = np.array(QUANTILES)) -> Array:
+def quantiles(
+    values: Array,
+    shares: Array = np.array(QUANTILES),
+) -> Array:
     """Quantiles by Hazen's rule, which is exact for the draws of one range.
 
     Parameters
@@ -169,7 +172,10 @@ def _answers_of_draws(
     return answers
 
 
-def with_never(lengths: Array, statuses: Any) -> Array:
+def with_never(
+    lengths: Array,
+    statuses: Any,
+) -> Array:
     """The lengths for quantiles: infinite where no patch nucleates.
 
     Parameters

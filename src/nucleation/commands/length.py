@@ -9,15 +9,8 @@ import click
 
 from ..answers import formulas
 from ..answers.draws import parse_range
-from ..answers.in_use import (
-    HALF_SPACES,
-    LENGTHS,
-    THIS_FAULT,
-    TWO_MATERIALS,
-    WEAKENING_RATE,
-    Length,
-    of_two_materials,
-)
+from ..answers.in_use import LENGTHS, WEAKENING_RATE
+from ..answers.length import HALF_SPACES, THIS_FAULT, TWO_MATERIALS, Length, of_two_materials
 from ..answers.status import Answers, answers_of
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS

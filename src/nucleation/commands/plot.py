@@ -165,7 +165,10 @@ class _Varied(NamedTuple):
     """The axis of the picture, in the unit of the option."""
 
 
-def _axis(text: str, points: int) -> _Varied:
+def _axis(
+    text: str,
+    points: int,
+) -> _Varied:
     """The parameter of ``--over``."""
     parts = _OVER.fullmatch(text)
     if parts is None:
@@ -194,7 +197,10 @@ def _axis(text: str, points: int) -> _Varied:
     return _Varied(name, values, shown)
 
 
-def _require_axes(over: list[str], given: Mapping[str, Any]) -> None:
+def _require_axes(
+    over: list[str],
+    given: Mapping[str, Any],
+) -> None:
     """Refuse more than two parameters, repeated ones, and those with a value."""
     if len(over) > 2:
         raise ParameterError("--over is not allowed more than twice")
@@ -205,7 +211,10 @@ def _require_axes(over: list[str], given: Mapping[str, Any]) -> None:
             raise ParameterError(f"{name} is given twice: as an option and by --over")
 
 
-def _lengths(criterion: Sequence[str], axes: int) -> list[str]:
+def _lengths(
+    criterion: Sequence[str],
+    axes: int,
+) -> list[str]:
     """Keys of the lengths to draw; a map has one."""
     if axes == 1:
         return [_CRITERIA[one] for one in criterion or _CRITERIA]
@@ -245,7 +254,10 @@ def _system_lines(
     return lines
 
 
-def _missing(found: xr.Dataset, refusals: Sequence[ParameterError]) -> list[str]:
+def _missing(
+    found: xr.Dataset,
+    refusals: Sequence[ParameterError],
+) -> list[str]:
     """The number of points without a length, and the reason."""
     lines = []
     number = found["doubtful"].size
@@ -265,14 +277,20 @@ def _missing(found: xr.Dataset, refusals: Sequence[ParameterError]) -> list[str]
     return lines
 
 
-def _band(drawn: Draws | None, lengths: Sequence[str]) -> str:
+def _band(
+    drawn: Draws | None,
+    lengths: Sequence[str],
+) -> str:
     """The meaning of the bands in the picture."""
     if drawn is not None:
         return "5 to 95 % of the draws"
     return "expected range of $L$" if "drop_length" in lengths else ""
 
 
-def _described(system: list[str], found: xr.Dataset) -> dict[str, Any]:
+def _described(
+    system: list[str],
+    found: xr.Dataset,
+) -> dict[str, Any]:
     """The lengths for JSON."""
     axes = []
     for name in map(str, found["doubtful"].dims):

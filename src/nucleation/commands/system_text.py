@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from ..answers.in_use import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
+from ..answers.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
 from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters

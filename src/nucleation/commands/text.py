@@ -38,7 +38,10 @@ def wrapped(*texts: str) -> list[str]:
     return lines
 
 
-def with_unit(value: Any, entry: Quantity) -> str:
+def with_unit(
+    value: Any,
+    entry: Quantity,
+) -> str:
     """A value as text with its unit.
 
     Parameters
@@ -56,8 +59,11 @@ def with_unit(value: Any, entry: Quantity) -> str:
     return number if entry.unit == "1" else f"{number} {entry.unit}"
 
 
-def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
-    """Onset, and length of the patch then, with their spread over the definitions.
+def event_lines(
+    found: dict[str, float],
+    theory_length: float,
+) -> list[str]:
+    """Onset of the event and length of the patch then, with their ranges over the definitions.
 
     Parameters
     ----------
@@ -79,7 +85,10 @@ def event_lines(found: dict[str, float], theory_length: float) -> list[str]:
     return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
 
 
-def _with_spread(found: dict[str, float], name: str) -> str:
+def _with_spread(
+    found: dict[str, float],
+    name: str,
+) -> str:
     """A value of an event with its range over the definitions."""
     low, high = found[f"{name}_low"], found[f"{name}_high"]
     return f"{found[name]:.4g} ({low:.4g} to {high:.4g})"
@@ -125,7 +134,10 @@ def _plain(value: Any) -> Any:
     return "inf" if math.isinf(number) else number
 
 
-def require_writable(path: Path, force: bool) -> None:
+def require_writable(
+    path: Path,
+    force: bool,
+) -> None:
     """Refuse a file that can't be written, or exists and may not be replaced.
 
     Parameters

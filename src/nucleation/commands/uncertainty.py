@@ -10,7 +10,8 @@ import click
 import numpy as np
 
 from ..answers.draws import DRAWS, Range
-from ..answers.in_use import LENGTHS, THIS_FAULT, TWO_MATERIALS
+from ..answers.in_use import LENGTHS
+from ..answers.length import THIS_FAULT, TWO_MATERIALS
 from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError

@@ -100,7 +100,10 @@ def _text_of(path: Path | str) -> str:
     return text
 
 
-def _table_of(path: Path | str, text: str) -> list[_Line]:
+def _table_of(
+    path: Path | str,
+    text: str,
+) -> list[_Line]:
     """The header and the rows, without comments and a column of row numbers."""
     plain = [line for line in text.splitlines() if line.strip() and not _is_comment(line)]
     if len(plain) < 2:
@@ -134,7 +137,10 @@ def _separator(header: str) -> str:
     return next((sign for sign in _SEPARATORS if sign in header), ",")
 
 
-def _require_names(path: Path | str, header: _Line) -> None:
+def _require_names(
+    path: Path | str,
+    header: _Line,
+) -> None:
     """Refuse a table without a header, and one with columns separated by blanks."""
     place = f"{path}, line {header.number}"
     numbers = [cell for cell in header.cells if cell]
@@ -155,7 +161,12 @@ def _is_known(word: str) -> bool:
     return aliases().get(word, word) in SAMPLED
 
 
-def _require_width(path: Path | str, row: _Line, header: _Line, separator: str) -> None:
+def _require_width(
+    path: Path | str,
+    row: _Line,
+    header: _Line,
+    separator: str,
+) -> None:
     """Refuse a row that has more or fewer cells than the header."""
     if len(row.cells) == len(header.cells):
         return
@@ -183,7 +194,10 @@ def _without_row_numbers(table: list[_Line]) -> list[_Line]:
     return [line._replace(cells=line.cells[1:]) for line in table]
 
 
-def _without_empty_columns(path: Path | str, table: list[_Line]) -> list[_Line]:
+def _without_empty_columns(
+    path: Path | str,
+    table: list[_Line],
+) -> list[_Line]:
     """The table without columns that have neither name nor content, as from spreadsheets."""
     header, *rows = table
     kept = []
@@ -203,7 +217,10 @@ def _without_empty_columns(path: Path | str, table: list[_Line]) -> list[_Line]:
     return narrow
 
 
-def _has_decimal_commas(path: Path | str, rows: list[_Line]) -> bool:
+def _has_decimal_commas(
+    path: Path | str,
+    rows: list[_Line],
+) -> bool:
     """Whether numbers have a decimal comma; a mixture with decimal points is refused."""
     commas = []
     points = []
@@ -221,7 +238,11 @@ def _has_decimal_commas(path: Path | str, rows: list[_Line]) -> bool:
     return bool(commas)
 
 
-def _column(path: Path | str, line: int, label: str) -> tuple[str, str]:
+def _column(
+    path: Path | str,
+    line: int,
+    label: str,
+) -> tuple[str, str]:
     """A column's parameter and unit."""
     parts = _HEADER.fullmatch(label)
     name = aliases().get(parts[1], parts[1]) if parts else ""

@@ -13,12 +13,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ..answers import finite_patch, formulas
-from ..answers.in_use import (
-    HALF_SPACES,
-    LENGTHS,
-    THIS_FAULT,
-    TWO_MATERIALS,
-)
+from ..answers.in_use import LENGTHS
+from ..answers.length import HALF_SPACES, THIS_FAULT, TWO_MATERIALS
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES
 from . import encode, stability
