@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from ...analysis.lengths import over_realisations, row
 from ...figures import laws, style
 
-_BESIDE = 1.8
-"""Points (1/72 inch) by which filled and open markers of one height are moved apart."""
+_ASIDE = {("slip", False): -2.2, ("aging", True): 2.2, ("slip", True): 4.4}
+"""Points (1/72 inch) by which a law, and an older interface, are moved aside of the usual ones."""
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
 _INSET_LEFT = 0.515
@@ -18,11 +18,7 @@ _INSET_BOTTOM = 0.1
 _INSET_WIDTH = 0.315
 _INSET_HEIGHTS = (0.2, 0.4)
 
-# Roles of the drawn studies, whether their markers are filled, and an addition to the legend.
-_STUDIES = (
-    ("paper", True, ""),
-    ("converged", False, r", load $\pm 10^{-5}$"),
-)
+_DRAWN = "paper"  # role of the study; other studies are in figure_3_extended
 
 CREEP_FRACTIONS = (0.25, 0.5, 0.75, 1.0)  # of the onset time
 # of the way, in log slip rate, from the onset to the peak
@@ -62,8 +58,7 @@ def draw(
     figure, axes = style.panels(1, 1, 12.4)
     _draw_theory(axes, theory)
     means = over_realisations(lengths)
-    roles = [role for role, _, _ in _STUDIES]
-    usable = np.isfinite(means["length"].values) & np.isin(means["role"].values, roles)
+    usable = np.isfinite(means["length"].values) & (means["role"].values == _DRAWN)
     drawn = laws.where(means, usable)
     _draw_points(axes, drawn)
     # from zero to slightly more than the highest simulated block
@@ -120,30 +115,26 @@ def _inset_height(axes: Axes, drawn: xr.Dataset) -> float:
 
 
 def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
-    """Points of one role, law and initial state, with bars from the lowest to the highest."""
-    for role, filled, suffix in _STUDIES:
-        for (_, old), kind, runs in laws.kinds(lengths):
-            look: style.Options = {
-                "marker": kind.marker,
-                "markersize": kind.size,
-                "color": kind.colour,
-                "markerfacecolor": kind.colour if filled else "white",
-                "transform": style.aside(axes, -_BESIDE if filled else _BESIDE),
-                "zorder": 4.0 - 0.1 * kind.size,
-            }
-            own = laws.where(runs, role=role).sortby("phi0")
-            for same in laws.groups(own, "phi0"):
-                age = _number(float(same["phi0"][0]))
-                state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
-                label = f"FEM, {kind.label}{state}{suffix}"
-                laws.draw(
-                    axes,
-                    same["height"].values,
-                    same,
-                    "length",
-                    label=label,
-                    **look,
-                )
+    """Points of one law and initial state, with bars from the lowest to the highest."""
+    for (law, old), kind, runs in laws.kinds(lengths):
+        look: style.Options = {
+            "marker": kind.marker,
+            "markersize": kind.size,
+            "color": kind.colour,
+            "transform": style.aside(axes, _ASIDE.get((law, old), 0.0)),
+            "zorder": 4.0 - 0.1 * kind.size,
+        }
+        for same in laws.groups(runs.sortby("phi0"), "phi0"):
+            age = _number(float(same["phi0"][0]))
+            state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
+            laws.draw(
+                axes,
+                same["height"].values,
+                same,
+                "length",
+                label=f"FEM, {kind.label}{state}",
+                **look,
+            )
 
 
 def choose_times(simulation: xr.Dataset, onset: float) -> tuple[NDArray, NDArray]:
@@ -187,7 +178,7 @@ def _draw_snapshots(axes: Axes, simulation: xr.Dataset, row: xr.Dataset) -> None
     decimals = max(0, 3 - int(np.ceil(np.log10(onset))))
     labels = [f"{time[i]:.{decimals}f} s" for i in creep[:-1]]
     labels += [f"$t_c={start:.{decimals}f}$ s"]
-    labels += [f"$t_c+{1e3 * (time[i] - start):#.3g}$ ms" for i in event]
+    labels += [f"$t_c+{1e3 * (time[i] - start):.3g}$ ms" for i in event]
     looks = [
         *((shade, "-") for shade in style.shades(creep.size)),
         *_EVENT_LOOKS,
