@@ -196,3 +196,25 @@ def test_bad_values_have_no_result(web, field):
         (said,) = web.locator("#values dt").all_inner_texts()
         assert said.startswith(f"No values: {field.label} must lie in ")
         assert web.locator("#others tbody").count() == 0
+
+
+def test_a_decimal_comma_is_refused_by_name(web):
+    """It was dropped by the browser: 2,5 was 25."""
+    start = web.url.split("#")[0]
+    web.goto(f"{start}#shear-modulus=3e10&poisson-ratio=0.25&second-body=same&friction=0.6")
+    web.fill("#shear_modulus", "2,5")
+    assert web.get_attribute("#shear_modulus", "aria-invalid") == "true"
+    (said,) = web.locator("#values dt").all_inner_texts()
+    assert said.endswith("write a decimal point in place of the comma in 2,5")
+    web.fill("#shear_modulus", "2.5")
+    assert web.get_attribute("#shear_modulus", "aria-invalid") == "false"
+
+
+def test_an_unknown_key_of_the_address_is_named_and_the_rest_stays(web):
+    """It emptied all fields."""
+    start = web.url.split("#")[0]
+    web.goto(f"{start}#shear-modulos=30GPa&poisson-ratio=0.3")
+    assert web.input_value("#poisson_ratio") == "0.3"
+    assert web.input_value("#shear_modulus") != ""
+    said = web.locator("#values dt").all_inner_texts()
+    assert len(said) > 1 and said[-1] == "Not known in the address: shear-modulos"

@@ -5,17 +5,24 @@ const lengthOfPatch = Stability.reader(data.stability);
 const NONE = { height: Infinity, second_height: Infinity, friction: 0 }; // of fields that are empty
 const fields = Object.fromEntries(data.fields.map((field) => [field.key, field]));
 const choice = (key) => element(key)?.value ?? "";
+const plain = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+let unknown = []; // keys of the address that are no field's
 const metres = (length) => `${Number(length.toPrecision(4))} m`;
 
 // A field's value in SI units; what is wrong with it goes to a list.
 function read({ key, label, optional, units, low, high, closed, range }, wrong) {
   const input = element(key);
-  const empty = optional && input.value === "" && !input.validity.badInput;
-  const value = input.valueAsNumber * (units[choice(`unit-${key}`)] ?? 1);
+  const text = input.value.trim();
+  const empty = optional && text === "";
+  const value = (text === "" ? NaN : Number(text)) * (units[choice(`unit-${key}`)] ?? 1);
   const above = value > low || (closed !== "" && closed !== "high" && value === low);
   const good = empty || (above && value < high);
   input.setAttribute("aria-invalid", String(!good));
-  if (!good) wrong.push(`${label} must lie in ${range}`);
+  if (!good && text.includes(",")) {
+    wrong.push(`${label}: write a decimal point in place of the comma in ${plain(text)}`);
+  } else if (!good) {
+    wrong.push(`${label} must lie in ${range}`);
+  }
   return empty ? NONE[key] : value;
 }
 
@@ -113,7 +120,8 @@ function show() {
   for (const prefix of ["", "second_"]) element(`of-${prefix}far_side`).hidden = !bounded(prefix);
   const [p, wrong] = parameters();
   const [at, values] = wrong.length ? [{}, [[`No values: ${wrong.join("; ")}`, ""]]] : answer(p);
-  showValues("values", values);
+  const left = unknown.length ? [[`Not known in the address: ${plain(unknown.join(", "))}`, ""]] : [];
+  showValues("values", [...values, ...left]);
   element("others").innerHTML = wrong.length ? "" : table(p, at.length);
   const given = words();
   element("command").textContent = `nucleation length ${given.map(([name, text]) => `--${name} ${text}`).join(" ")}`;
@@ -132,7 +140,13 @@ function put(key, text) {
 function readAddress() {
   const given = new URLSearchParams((data.given ?? location.hash.slice(1)).replaceAll("+", "%2B"));
   if (!given.size) return;
-  for (const key of Object.keys(fields)) put(key, given.get(key.replaceAll("_", "-")) ?? "");
+  const known = [...Object.keys(fields), "plane", "second_body", "far_side", "second_far_side"]
+    .map((key) => key.replaceAll("_", "-"));
+  unknown = [...given.keys()].filter((key) => !known.includes(key));
+  for (const [key, { optional }] of Object.entries(fields)) {
+    const text = given.get(key.replaceAll("_", "-"));
+    if (text !== null || optional) put(key, text ?? ""); // what is needed keeps its value
+  }
   const second = given.get("second-body") ?? "same";
   const other = second.split(",");
   element("second_body").value = other.length > 1 ? "other" : second;
