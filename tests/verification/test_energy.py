@@ -13,10 +13,11 @@ scheme's dissipation is that of BDF2 in the inertial term and must vanish with t
 """
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
-from verification.test_page import rows
+from verification.test_page import PAGE
 
 from benchmarks.assembled import assemble, unknown
 from nucleation.model.heterogeneity import Heterogeneity
@@ -195,15 +196,12 @@ TOLERANCES = (1e-1, 1e-2, 1e-3)
 def test_energy_balance_through_an_event(law):
     runs = [EDGE.replaced({"evolution": law, "tolerance": tolerance}) for tolerance in TOLERANCES]
     ledgers = [Accountant(run).books(creeps_again) for run in runs]
-    stated = [row[1:] for row in rows("Energy") if row[0] == law]
-    for tolerance, books, row in zip(TOLERANCES, ledgers, stated, strict=True):
+    page = " ".join(PAGE.split())
+    stated = re.search(rf"{law} law ([\d.e-]+), ([\d.e-]+) and ([\d.e-]+)", page).groups()
+    for books, share in zip(ledgers, stated, strict=True):
         balanced(books)
         # which steps are rejected hangs on the last bits, and the scheme's dissipation on the steps
-        assert [float(cell) for cell in row] == [
-            tolerance,
-            pytest.approx(books.friction, rel=2e-3),
-            pytest.approx(books.scheme / books.friction, rel=0.2),
-        ]
+        assert float(share) == pytest.approx(books.scheme / books.friction, rel=0.2)
     shares = [books.scheme / books.friction for books in ledgers]
     assert shares[1] < 0.5 * shares[0]
     assert shares[2] < 0.5 * shares[1] < 5e-5

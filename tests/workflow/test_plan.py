@@ -133,7 +133,7 @@ def test_warnings_of_a_study_come_once(workflow):
     done = workflow("lengths", "--dry-run")
     assert done.returncode == 0, done.stdout
     (warning,) = re.findall("Warning: studies.paper: mesh too coarse along x .*", done.stdout)
-    assert "2.6 to a process zone of 0.104 m; recommended is n_x = 92 or more" in warning
+    assert "2.3 to a process zone of 0.0526 m; recommended is n_x = 103 or more" in warning
     assert done.stdout.index(warning) < done.stdout.index("Job stats")
 
 
