@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ...analysis.lengths import over_realisations, row
 from ...figures import laws, style
 
-_ASIDE = {("slip", False): -2.2, ("aging", True): 2.2, ("slip", True): 4.4}
+_ASIDE = {("slip", False): -4.0, ("aging", True): 4.0, ("slip", True): 8.0}
 """Points (1/72 inch) by which a law, and an older interface, are moved aside of the usual ones."""
 
 # The inset, in parts of the axes: the points rise to the right and leave this corner free.
