@@ -146,7 +146,7 @@ rule paper:
         [f"{RESULTS}/figures/{name}.{kind}" for name in PAPERS_FIGURES for kind in ("png", "pdf")],
         rules.write_article.output,
         rules.evaluate_claims.output,
-        rules.write_table_s1.output,
+        rules.table_s1.output,
         rules.gather_lengths.output,
 
 

@@ -28,7 +28,7 @@ def test_default_target_is_the_whole_paper(paper):
     studies = ("paper", "converged", "long_blocks")
     batches = {run.batch for study in studies for run in config.runs_of(study)}
     assert len(batches) == 7
-    once = ("theory", "gather_lengths", "write_table_s1", *DRAWN, *CLAIMING)
+    once = ("theory", "gather_lengths", "table_s1", *DRAWN, *CLAIMING)
     assert paper.planned() == {
         "extract": 2,
         "follow_patches": 1,
@@ -40,7 +40,7 @@ def test_default_target_is_the_whole_paper(paper):
 @pytest.mark.parametrize(
     ("target", "expected"),
     [
-        ("figure_1 table_s1", {"draw_figure_1": 1, "write_table_s1": 1}),
+        ("figure_1 table_s1", {"draw_figure_1": 1, "table_s1": 1}),
         ("figure_2 figure_s1", {"theory": 1, "draw_figure_2": 1, "draw_figure_s1": 1}),
         ("simulations", {"simulate": 6}),
         ("lengths", {"simulate": 6, "extract": 2, "gather_lengths": 1}),

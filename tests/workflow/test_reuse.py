@@ -76,7 +76,7 @@ def test_code_edited_after_planning_is_refused(plain, tmp_path):
     values = {"results": "new", "studies": {"mine": {"defaults": {"n_x": 40, "n_y": 4},
               "runs": [{"height": 0.1, "tolerance": 0.1}]}}}  # fmt: skip
     mine = plain.configured(values, "edited.yaml")
-    done = mine("table_s1", "lengths", "--cores", "1", "--prioritize", "write_table_s1")
+    done = mine("table_s1", "lengths", "--cores", "1", "--prioritize", "table_s1")
     assert done.returncode != 0
     assert "have changed since this job was planned" in done.stdout
     assert not list((plain.directory / "new" / "simulations").glob("*.nc"))

@@ -87,7 +87,7 @@ def test_job_goes_on_without_a_store_that_its_node_lacks(workflow, monkeypatch):
         "-m",
         "nucleation.pipeline.job",
         recipe,
-        "write_table_s1",
+        "table_s1",
         "1",
         "log",
     ]

@@ -177,4 +177,4 @@ def test_a_clone_needs_no_flag(tmp_path, built):
     """Snakemake finds the default profile where it looks for it, beside the Snakefile."""
     command = [sys.executable, "-m", "snakemake", "table_s1", "--dry-run", "--directory", tmp_path]
     done = subprocess.run(command, cwd=built.checkout, capture_output=True, text=True)
-    assert done.returncode == 0 and "write_table_s1" in done.stdout + done.stderr
+    assert done.returncode == 0 and "table_s1" in done.stdout + done.stderr

@@ -39,14 +39,14 @@ rule gather_weakening:
         JOB
 
 
-rule gather_floors:
+rule floors:
     """Noise of meshes and steps"""
     input:
         quiet=needed(
             lambda: lengths_of(*FLOORS) if in_role("convergence_quiet") else [],
             "study with role: convergence_quiet",
         ),
-        recipe=recipe("gather_floors"),
+        recipe=recipe("floors"),
     output:
         multiext(f"{RESULTS}/floors", ".csv", ".nc"),
     log:

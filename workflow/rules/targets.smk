@@ -47,12 +47,6 @@ rule replication:
         rules.print_article.output,
 
 
-rule table_s1:
-    """Table S1: parameters of the friction law"""
-    input:
-        rules.write_table_s1.output,
-
-
 rule figure_1:
     """Figure 1: the two set-ups"""
     input:
@@ -186,12 +180,6 @@ rule pairs:
         rules.gather_pairs.output,
         rules.evaluate_pairs.output,
         rules.pair_modes.output,
-
-
-rule floors:
-    """The noise of each mesh and its steps, as the strength of a perturbation"""
-    input:
-        rules.gather_floors.output,
 
 
 rule patch_convergence:

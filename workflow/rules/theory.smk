@@ -82,10 +82,10 @@ rule verification:
         JOB
 
 
-rule write_table_s1:
+rule table_s1:
     """Table S1: parameters of the friction law"""
     input:
-        recipe=recipe("write_table_s1"),
+        recipe=recipe("table_s1"),
     output:
         multiext(f"{RESULTS}/tables/table_s1", ".md", ".csv"),
     log:

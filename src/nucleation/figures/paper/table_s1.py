@@ -79,7 +79,7 @@ def to_markdown(table: list[Parameter]) -> str:
 
 
 def files(friction: Friction) -> dict[str, str]:
-    """The table as CSV and Markdown, by suffix (rule ``write_table_s1``)."""
+    """The table as CSV and Markdown, by suffix (rule ``table_s1``)."""
     found = rows(friction)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
