@@ -5,7 +5,6 @@ in a limit cycle up to L_run, and where it is large the law of the drop holds.
 """
 
 from collections.abc import Iterable
-from functools import cache
 from typing import Any
 
 import xarray as xr
@@ -92,17 +91,12 @@ def gather_weakening(
     by_fault = {}
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
-        by_fault[fault(parameters)] = parameters
-
-    @cache
-    def of_fault(key: str) -> Row:
-        return expected(by_fault[key])
-
+        by_fault[fault(parameters)] = expected(parameters)
     names = (*MEASURED, "zeta_over_a", "fault")
     rows = []
     for lengths in drops:
         ratio = lengths["velocity_weakening"] / lengths["direct_effect"]
         complete = lengths.assign(zeta_over_a=ratio)
         for row in rows_of(complete, names=names):
-            rows.append(row | of_fault(row["fault"]))
+            rows.append(row | by_fault[row["fault"]])
     return table(rows, COLUMNS)
