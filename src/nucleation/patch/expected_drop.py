@@ -11,7 +11,7 @@ from ..model.linearised import interface_state
 from ..model.parameters import Geometry, Parameters
 from ..theory.creep.lengths import stability_length_of
 from ..theory.creep.patches import NoPatch, Patches
-from ..theory.creep.runaway import runaway_point
+from ..theory.creep.runaway import ERROR, runaway_point
 from ..theory.critical import NoInstability, run_length
 from ..theory.status import UNKNOWN, VALUE
 from .continued import trend
@@ -22,10 +22,9 @@ LATEST_GROWTH = 0.85  # over the longest patch followed, up to which L_s leaves 
 STRONGEST = 0.02  # eps_eff beyond which bursts that come to rest make the drop late
 SLOWEST_GROWTH = 4.0  # growth in a period at the drop, below which they do so too
 WEAK = 2.0  # zeta/a below which a patch may slip slowly up to L_run
-EARLIER, LATER = 0.03, 0.10
-"""Relative range about L_run, below and above, in which the force drops after slow slip: the error
-of L_run, and its delay where the front is fast. Simulated drops in thin blocks
-are from 1 % below to 10 % above L_run."""
+LATER = 0.10
+"""Relative delay of the drop behind L_run where the front is fast. Simulated drops in thin blocks
+are from 1 % below to 10 % above L_run; below, the error of L_run itself counts."""
 
 CONSTANT = 0.05  # relative change of L_s by friction's scales up to which L_run is used
 NEAR_END = 0.6  # patch length over the block's up to which a thin block's far end has no effect
@@ -74,7 +73,7 @@ class ExpectedDrop(NamedTuple):
     @property
     def low(self) -> float:
         """The least expected length (m) at the drop."""
-        return float(np.fmax(self.drop.low, self.runaway_length * (1.0 - EARLIER)))
+        return float(np.fmax(self.drop.low, self.runaway_length * (1.0 - ERROR)))
 
     @property
     def high(self) -> float:
