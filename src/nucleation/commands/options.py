@@ -15,7 +15,7 @@ from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
-from .text import with_unit
+from .unit_text import note_typed, with_unit
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -59,10 +59,13 @@ def option(
 
     def value_of(text: str) -> Any:
         try:
-            return read(key, text, entry)
+            value = read(key, text, entry)
         except ParameterError as error:
             remark = remark_on_half_space(key, text, entry)
             raise click.BadParameter(f"{error}{remark}") from None
+        if isinstance(value, float):
+            note_typed(value, text, entry.unit)
+        return value
 
     def completed(
         context: click.Context,

@@ -150,7 +150,7 @@ def command(
         return STABLE
     _save(found, specimen, _band(drawn, lengths), output)
     if not as_json:
-        click.echo("\n".join([*system, *_missing(found, refusals), f"plot: {output}"]))
+        click.echo("\n".join([*wrapped(*system), *_missing(found, refusals), f"plot: {output}"]))
     return DONE
 
 
@@ -246,7 +246,7 @@ def _system_lines(
     own = completed(given, base is not None or paper)
     defaults = USUAL if base is None else {}
     parameters = merged_parameters(base, {**defaults, **own})
-    lines = wrapped(*system_of_run(parameters, base, own))
+    lines = system_of_run(parameters, base, own)
     for axis in axes:
         units = "" if axis.units == "1" else f" {axis.units}"
         low, high = axis.values[0], axis.values[-1]

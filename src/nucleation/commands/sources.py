@@ -21,6 +21,7 @@ from ..model.synonyms import hint
 from ..model.units import bounds, parse
 from ..theory.fault import QUANTITIES
 from .options import flat, remark_on_half_space
+from .unit_text import note_typed
 
 STUDY = "command"
 """Name of the study with one run that corresponds to a command line."""
@@ -211,7 +212,10 @@ def _value_in_file(key: str, value: Any) -> Any:
     entry = study_parameters()[key]
     try:
         if isinstance(value, str):
-            return parse_range(key, value, entry)
+            found = parse_range(key, value, entry)
+            if isinstance(found, float):
+                note_typed(found, value, entry.unit)
+            return found
         check(key, value, entry)
     except ParameterError as error:
         remark = remark_on_half_space(key, str(value), entry)
@@ -239,6 +243,7 @@ def _with_second_body(given: dict[str, Any]) -> dict[str, Any]:
     try:
         for key, part in zip(_SECOND_BODY, parts, strict=False):
             own[key] = parse(key, part, QUANTITIES[key])  # of the theory: a height may be infinite
+            note_typed(own[key], part, QUANTITIES[key].unit)
     except ParameterError as error:
         raise ParameterError(
             f"second_body = {text!r} is not allowed: commas separate its values, which have a "
