@@ -98,7 +98,8 @@ def table(
             lines += wrapped(row)
             continue
         parts = [
-            textwrap.wrap(cell, width) or [""] for cell, width in zip(row, widths, strict=True)
+            textwrap.wrap(cell, width, break_on_hyphens=False) or [""]
+            for cell, width in zip(row, widths, strict=True)
         ]
         for line in zip_longest(*parts, fillvalue=""):
             lines.append(_table_line(line, widths, right))
@@ -106,14 +107,21 @@ def table(
 
 
 def _column_widths(rows: Sequence[Sequence[str]]) -> list[int]:
-    widths = [max(1, *map(len, column)) for column in zip(*rows, strict=True)]
-    width = _terminal_width()
-    while width is not None:
-        excess = sum(widths) + _GAP * len(widths) - width
-        widest = max(widths, default=0)
-        if excess <= 0 or widest <= _LEAST_COLUMN:
-            break
-        widths[widths.index(widest)] = max(widest - excess, _LEAST_COLUMN)
+    """Widths of columns; while they exceed the terminal, the widest one that can be narrowed is.
+
+    Words are broken only where no column can be narrowed otherwise.
+    """
+    columns = list(zip(*rows, strict=True))
+    widths = [max(1, *map(len, column)) for column in columns]
+    longest_words = [max(map(len, " ".join(column).split()), default=1) for column in columns]
+    terminal = _terminal_width()
+    if terminal is None:
+        return widths
+    for least in (longest_words, [_LEAST_COLUMN] * len(widths)):
+        for column in sorted(range(len(widths)), key=lambda column: -widths[column]):
+            excess = sum(widths) + _GAP * len(widths) - terminal
+            room = widths[column] - least[column]
+            widths[column] -= max(0, min(excess, room))
     return widths
 
 
