@@ -48,14 +48,36 @@ def or_refused(function, *arguments):
         raise WorkflowError(str(error)) from None
 
 
+OF_MESHES = []
+"""Warnings about meshes and steps of the planned runs, until they are reported."""
+
+
 @functools.cache
 def runs_of(study):
     """The runs of a study; warnings about them appear once."""
     runs = or_refused(settings.runs_of, study)
-    if PLANS:
-        for warning in advise(runs):
-            logger.warning(f"Warning: {warning}")
+    for warning in warned(runs) if PLANS else []:
+        if warning.is_of_meshes:
+            OF_MESHES.append(warning)
+        else:
+            logger.warning(f"Warning: {warning.text}")
     return runs
+
+
+def report_meshes():
+    """Print one line about coarse meshes and long steps, and list them in a file."""
+    if not OF_MESHES:
+        return
+    place = Path(recipe.results, "logs", "meshes.txt")
+    texts = "".join(f"{warning.text}\n" for warning in OF_MESHES)
+    if not place.exists() or place.read_text("utf-8") != texts:
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(texts, "utf-8")
+    LOGGER.warning(f"Warning: {summary_of_meshes(OF_MESHES, place)}")
+    OF_MESHES.clear()
+
+
+atexit.register(report_meshes)  # of a dry run, or where there is nothing to be done
 
 
 REFUSED = []
