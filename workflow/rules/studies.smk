@@ -49,7 +49,7 @@ def or_refused(function, *arguments):
 
 
 OF_MESHES = []
-"""Warnings about meshes and steps of the planned runs, until they are reported."""
+"""Warnings about meshes and steps of the planned runs."""
 
 
 @functools.cache
@@ -61,20 +61,23 @@ def runs_of(study):
             OF_MESHES.append(warning)
         else:
             logger.warning(f"Warning: {warning.text}")
+    if OF_MESHES:
+        place = Path(list_of_meshes())
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text("".join(f"{warning.text}\n" for warning in OF_MESHES), "utf-8")
     return runs
 
 
+def list_of_meshes():
+    """The file with the warnings about meshes and steps."""
+    return f"{recipe.results}/logs/meshes.txt"
+
+
+@functools.cache
 def report_meshes():
-    """Print one line about coarse meshes and long steps, and list them in a file."""
-    if not OF_MESHES:
-        return
-    place = Path(recipe.results, "logs", "meshes.txt")
-    texts = "".join(f"{warning.text}\n" for warning in OF_MESHES)
-    if not place.exists() or place.read_text("utf-8") != texts:
-        place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text(texts, "utf-8")
-    LOGGER.warning(f"Warning: {summary_of_meshes(OF_MESHES, place)}")
-    OF_MESHES.clear()
+    """Print one line about coarse meshes and long steps, once."""
+    if OF_MESHES:
+        LOGGER.warning(f"Warning: {summary_of_meshes(OF_MESHES, list_of_meshes())}")
 
 
 atexit.register(report_meshes)  # of a dry run, or where there is nothing to be done
