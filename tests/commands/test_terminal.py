@@ -17,7 +17,7 @@ from nucleation.model.quantities import Quantity
 from nucleation.model.units import parse
 
 GRANITE = (
-    "--shear-modulus", "30GPa", "--poisson", "0.25", "--a", "0.010", "--b", "0.015",
+    "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--a", "0.010", "--b", "0.015",
     "--slip-distance", "5um", "--velocity", "1mm/yr", "--friction", "0.6", "--height", "20cm",
 )  # fmt: skip
 STRESS = ("--normal-stress", "50MPa")

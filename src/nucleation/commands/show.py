@@ -169,7 +169,7 @@ def _length_rows(dataset: xr.Dataset) -> list[str]:
     number = dataset.sizes["run"]
     for row in rows_of(dataset, range(min(number, _SHOWN_ROWS))):
         length = row["length"]
-        theory = row["theory_length"]
+        theory = row["critical_length"]
         numbers = [f"{value:.4g}" for value in (row["height"], row["onset_time"], length, theory)]
         rows.append((row["id"], *numbers, f"{length / theory:.3f}"))
     lines = text.table(rows, right=range(1, 6))
@@ -236,7 +236,7 @@ _KINDS = (
     ),
     _Kind(
         "table of lengths",
-        marks=("id", "onset_time", "theory_length"),
+        marks=("id", "onset_time", "critical_length"),
         summary=_length_rows,
     ),
     _Kind(

@@ -36,10 +36,10 @@ _GIVEN_BY = {
     "height": {"height"},
     "normal_stress": {"normal_stress"},
     "velocity": {"velocity"},
-    "slip_distance": {"characteristic_slip_distance"},
-    "friction": {"friction_coefficient"},
-    "a": {"direct_effect"},
-    "b": {"zeta_over_a", "velocity_weakening", "evolution_effect"},
+    "slip_distance": {"slip_distance"},
+    "friction": {"friction"},
+    "a": {"a"},
+    "b": {"zeta_over_a", "zeta", "b"},
 }
 """The parameters of a fault with a value in the paper, and names by which each may be given."""
 
@@ -151,7 +151,7 @@ def fault_in(parameters: Parameters) -> dict[str, Any]:
         "far_side": upper.far_side,
         "normal_stress": loading.normal_stress,
         "velocity": loading.velocity,
-        "slip_distance": parameters.friction.characteristic_slip_distance,
+        "slip_distance": parameters.friction.slip_distance,
         "friction": friction,
         "a": a,
         "zeta": zeta,

@@ -32,7 +32,7 @@ MEASURED = some(
     "block_length",
     "onset_time",
     "length",
-    "theory_length",
+    "critical_length",
 )
 
 EXPECTED = {
@@ -95,7 +95,7 @@ def gather_weakening(
     names = (*MEASURED, "zeta_over_a", "fault")
     rows = []
     for lengths in drops:
-        ratio = lengths["velocity_weakening"] / lengths["direct_effect"]
+        ratio = lengths["zeta"] / lengths["a"]
         complete = lengths.assign(zeta_over_a=ratio)
         for row in rows_of(complete, names=names):
             rows.append(row | by_fault[row["fault"]])
