@@ -13,8 +13,8 @@ from nucleation.datasets.variables import annotate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
-    "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
-    "--b": "0.015", "--slip-distance": "5um",
+    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
+    "--a": "0.010", "--b": "0.015", "--slip-distance": "5um",
 }  # fmt: skip
 
 
@@ -72,8 +72,11 @@ SIMULATE = [
     (["new.nc", "--n-x", "60.5"], ["n_x = '60.5' is not", "an integer in [8, 100000]"]),
     (["new.nc", "--n-x", "4"], ["n_x = 4", "an integer in [8, 100000]"]),
     (["new.nc", "--evolution", "ageing"], ["evolution = 'ageing'", "one of aging, slip"]),
-    (["new.nc", "--length", "1cm"], ["length = 0.01 m", "nucleation specimen --length 0.01m"]),
-    (["new.nc", "--zeta-over-a", "-0.5"], ["needs its length"]),
+    (
+        ["new.nc", "--length", "1cm"],
+        ["block_length = 0.01 m", "nucleation specimen --length 0.01m"],
+    ),
+    (["new.nc", "--zeta-over-a", "-0.5"], ["needs its block_length"]),
     (["new.nc", "--seed", "3"], ["seed = 3", "none"]),
     (["new.nc", "--strength", "1e-5"], ["strength = ", "none"]),
     (["new.nc", "--second-body", "25GPa,0.25,inf"], ["second_body.height = inf m is not allowed"]),
@@ -90,7 +93,7 @@ SIMULATE = [
         ["did you mean paper-aging-H0"],
     ),
     (["new.nc", "--direct-effect", "0.01", "--aging-coefficient", "0.1"], ["not allowed together"]),
-    (["new.nc", "--direct-effect", "2"], ["direct_effect = 2.0", "(0, 1)"]),
+    (["new.nc", "--direct-effect", "2"], ["a = 2.0", "(0, 1)"]),
     (["new.nc", "--initial-shear-stress", "1kPa"], ["1000 Pa", "initial_stress"]),
     (["new.nc", "--shortest-step", "0.5 s"], ["0.5 s is not allowed", "0.005 s"]),
     (["new.nc", "--run", "x", "--config", "none.yaml"], ["none.yaml"]),

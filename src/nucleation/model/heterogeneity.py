@@ -40,7 +40,7 @@ class Heterogeneity(Checked):
 
     varies: str = quantity(
         "property of the interface that varies along x; a changes at fixed b, and b at fixed a",
-        choices=("none", "normal_stress", "f", "a", "b", "zeta", "slip_distance"),
+        choices=("none", "normal_stress", "friction", "a", "b", "zeta", "slip_distance"),
         default="none",
     )
     shape: str = quantity(
@@ -136,7 +136,7 @@ class Heterogeneity(Checked):
         if self.varies in ("none", "normal_stress"):
             return law
         if self.varies == "slip_distance":
-            values = {"characteristic_slip_distance": law.characteristic_slip_distance * factor}
+            values = {"slip_distance": law.slip_distance * factor}
         else:
             distinct, nodes = np.unique(factor, return_inverse=True)
             laws = [self._local_law(law, velocity, float(one)) for one in distinct]
@@ -153,12 +153,12 @@ class Heterogeneity(Checked):
         if factor == 1.0:
             return law
         f, a, zeta = law.expansion(velocity)
-        own = {"f": f, "a": a, "b": a + zeta, "zeta": zeta}
+        own = {"friction": f, "a": a, "b": a + zeta, "zeta": zeta}
         own[self.varies] *= factor
         if self.varies in ("a", "b"):
             own["zeta"] = own["b"] - own["a"]
         try:
-            return law.with_expansion(velocity, own["f"], own["a"], own["zeta"])
+            return law.with_expansion(velocity, own["friction"], own["a"], own["zeta"])
         except ParameterError as error:
             raise ParameterError(
                 f"heterogeneity.change = {self.change:g} is not allowed: {self.varies} = "

@@ -102,7 +102,7 @@ def _stacked(bodies: Iterable[Layers | None]) -> Layers | None:
     return Layers(modulus, ratio, height, first.far_side, first.antiplane)
 
 
-def theory_lengths(cases: Iterable[_Case]) -> Array:
+def critical_lengths(cases: Iterable[_Case]) -> Array:
     """The linear theory's critical lengths (m) of many systems, in few vectorised calls.
 
     The systems may differ in far sides and rigid bodies; equal ones are computed once. NaN where
@@ -183,7 +183,7 @@ def critical_length(
     height = np.asarray(height, dtype=float)
     bodies = [Body(material, h, "traction") for h in height.ravel().tolist()]
     cases: list[_Case] = [(body, RIGID, interface) for body in bodies]
-    lengths = theory_lengths(cases)
+    lengths = critical_lengths(cases)
     stable = np.isnan(lengths)
     if stable.any():
         first = cases[int(np.argmax(stable))]
@@ -216,33 +216,3 @@ def run_length(
         If sliding is stable at every wavenumber.
     """
     return critical_wavenumber(*bodies_of(parameters), interface).length
-
-
-@cache
-def theory_length(
-    height: float,
-    material: Material,
-    interface: InterfaceState,
-) -> float:
-    """L_c of a block on a rigid base.
-
-    Parameters
-    ----------
-    height : float
-        Height H (m) of the block.
-    material : Material
-        Of the block.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    float
-        L_c (m).
-
-    Raises
-    ------
-    NoInstability
-        If sliding is stable at every wavenumber.
-    """
-    return float(critical_length(height, material, interface))

@@ -25,7 +25,7 @@ from nucleation.theory.creep.lengths import (
     stability_point,
     stability_values,
 )
-from nucleation.theory.critical import theory_lengths
+from nucleation.theory.critical import critical_lengths
 from nucleation.theory.transfer import bodies_of
 
 REFERENCE = CONFIG.parent / "results" / "reference"
@@ -36,7 +36,7 @@ FAULT = {
 
 
 def length_of(run):
-    return float(theory_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
 
 
 def test_the_map():
@@ -148,7 +148,7 @@ def test_a_patch_in_the_interior_of_a_full_space(ratio):
 
 def test_where_a_patch_begins():
     """From the loading and the place of the heterogeneity; its slip rate from the load's rise."""
-    weak = {"heterogeneity.varies": "f", "heterogeneity.change": -0.5}
+    weak = {"heterogeneity.varies": "friction", "heterogeneity.change": -0.5}
     for loading, centre, expected in (
         ({}, 0.5, "edge"),
         ({"loading.kind": "top"}, 0.05, "top"),

@@ -22,7 +22,7 @@ _KINDS = {
 _STRENGTHS = (3e-13, 3e-1)
 _RATIOS = (0.45, 0.87)
 _MEAN = "simulated: mean and range of realisations"
-PREDICTED = ("predicted_low", "predicted_length", "predicted_high")
+PREDICTED = ("expected_low", "expected_length", "expected_high")
 ENSEMBLE = (
     "fault",
     "kind",
@@ -89,7 +89,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     fault = _shown_fault(table)
     own = laws.where(fault, kind=kind).sortby("strength")
     marker, colour, label = _KINDS[kind]
-    theory = float(fault["theory_length"].values[0])
+    theory = float(fault["critical_length"].values[0])
     if own.sizes["run"]:
         _draw_law(axes, own, theory)
         ratio = own["length"].values / theory
@@ -209,7 +209,7 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
         kind = str(first["kind"].values)
         usual = bool(first["evolution"] == USUAL_EVOLUTION)
         marker, colour, label = _KINDS[kind]
-        ratio = float(runs["length"].mean() / first["predicted_length"])
+        ratio = float(runs["length"].mean() / first["expected_length"])
         strength = _ASIDE.get(kind, 1.0) * float(first["strength"])
         axes.plot(
             strength,
@@ -243,7 +243,7 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         first = runs.isel(run=0)
         _, colour, label = _KINDS[str(first["kind"].values)]
         strength = float(first["strength"])
-        theory = float(first["theory_length"])
+        theory = float(first["critical_length"])
         lengths = np.sort(runs["length"].values) / theory
         parts = (np.arange(lengths.size) + 0.5) / lengths.size
         axes.step(

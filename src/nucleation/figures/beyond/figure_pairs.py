@@ -49,7 +49,7 @@ def draw(table: xr.Dataset) -> Figure:
 
 def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
     height = rows["height"].values
-    theory = rows["theory_length"].values
+    theory = rows["critical_length"].values
     axes.plot(
         height,
         theory,
@@ -91,7 +91,7 @@ def _draw_heights(axes: Axes, rows: xr.Dataset) -> None:
 def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
     for side, marker, colour in _SIDES:
         own = laws.where(rows, far_side=side)
-        thickness = own["second_height"].values / own["theory_length"].values
+        thickness = own["second_height"].values / own["critical_length"].values
         drop = own["length_ratio"].values
         stability = own["stability_ratio"].values
         look: style.Options = {"color": colour, "ms": 4.2}

@@ -40,8 +40,8 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     Parameters
     ----------
     table : Dataset
-        On ``run``: ``role``, ``evolution``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
-        ``stability_length`` (m).
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s),
+        ``critical_length`` and ``stability_length`` (m).
     patches : sequence of Dataset
         In the same order, with ``patch_length`` (m), ``oscillation_growth`` and
         ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.
@@ -115,7 +115,7 @@ def _draw_properties(
     colour: _Colour,
 ) -> None:
     """Growth and frequency of the mode at every frozen instant."""
-    ratio = patch["patch_length"].values / float(row["theory_length"])
+    ratio = patch["patch_length"].values / float(row["critical_length"])
     for axes, (name, _, _) in zip(panels, _PANELS, strict=True):
         values = patch[f"oscillation_{name}"].values
         axes.plot(ratio, values, ".", ms=1.8, rasterized=True, color=colour)

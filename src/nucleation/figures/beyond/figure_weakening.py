@@ -66,10 +66,10 @@ def _draw_system(axes: Axes, system: xr.Dataset) -> None:
     faults = list(laws.groups(system.sortby("zeta_over_a"), "zeta_over_a"))
     weakening = np.array([float(fault["zeta_over_a"][0]) for fault in faults])
     for name, (label, colour, dashes) in _LINES.items():
-        ratios = [float(fault[name][0] / fault["theory_length"][0]) for fault in faults]
+        ratios = [float(fault[name][0] / fault["critical_length"][0]) for fault in faults]
         axes.plot(weakening, ratios, dashes, color=colour, label=label)
     for at, fault in zip(weakening, faults, strict=True):
-        simulated = (fault["length"] / fault["theory_length"]).values
+        simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]
         if dropped.size:
             mean = dropped.mean()

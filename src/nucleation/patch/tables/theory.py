@@ -33,9 +33,9 @@ COLUMNS = {
         "height",
     ),
     **some(SHARED, "zeta_over_a", "f_beta"),
-    "theory_length": LENGTHS["theory_length"],
+    "critical_length": LENGTHS["critical_length"],
     "stability_length": FITTED["stability_length"],
-    "creep_length": LENGTHS["creep_length"],
+    "creep_length": Variable("m", "L_s by theory with constant a and b", "L_s"),
     "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
     "front_frequency": Variable("1/s", "angular frequency there, by theory", "omega"),
     "front_time": Variable("s", "time at which the patch has that length, by theory", "t"),
@@ -150,7 +150,7 @@ def _row(
         "stability_length": measured,
     }
     patches = Patches.of(parameters)
-    critical = run["theory_length"]
+    critical = run["critical_length"]
     loading = parameters.loading
     start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
     try:
