@@ -7,8 +7,9 @@ import pytest
 from nucleation import api
 
 WORDS = [
-    "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa", "--poisson-ratio",
-    "0.35", "--a", "0.0068", "--zeta", "0.016", "--slip-distance", "0.5um", "--plane", "stress",
+    "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa",
+    "--poisson-ratio", "0.35", "--a", "0.0068", "--zeta", "0.016", "--slip-distance",
+    "0.5um", "--plane", "stress",
 ]  # fmt: skip
 FAULT = {"height": 0.1, "shear_modulus": 3.1e9, "poisson_ratio": 0.35, "a": 0.0068, "zeta": 0.016,
          "slip_distance": 5e-7, "plane": "stress"}  # fmt: skip

@@ -7,8 +7,9 @@ import pytest
 from nucleation.api import Parameters, critical_length
 
 FAULT = {
-    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
-    "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
+    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
+    "--a": "0.010", "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6",
+    "--velocity": "10um/s",
     "--height": "2m", "--second-body": "20GPa,0.3,3m",
 }  # fmt: skip
 OTHER_WORDS = {
@@ -65,8 +66,9 @@ def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
 def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
     """With the law's own a and b along the patch; v0 = 1e-2 V made the patch of `drop` longer."""
     sandstone = words({
-        "--shear-modulus": "6GPa", "--poisson-ratio": "0.25", "--normal-stress": "5MPa", "--a": "0.010",
-        "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
+        "--shear-modulus": "6GPa", "--poisson-ratio": "0.25", "--normal-stress": "5MPa",
+        "--a": "0.010", "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6",
+        "--velocity": "10um/s",
         "--height": "20cm",
     })  # fmt: skip
     fault = (*sandstone, *more, "--json")

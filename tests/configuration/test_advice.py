@@ -221,7 +221,7 @@ def test_the_summary_counts_runs_and_has_the_worst_mesh():
 def test_a_control_run_needs_its_length_and_is_said_to_stay_quiet():
     """It was refused, length or not; and where it ran, a critical length stood beside."""
     strengthening = GOOD | {"zeta_over_a": -0.5}
-    assert "needs its length (m)" in messages(study(strengthening))
+    assert "needs its block_length (m)" in messages(study(strengthening))
     settings = configure(study(strengthening | {"length": 1.4}))
     assert math.isnan(settings.runs[0].critical_length)
     (warning,) = advise(settings.runs)

@@ -152,7 +152,7 @@ def test_table_compares_with_the_reference_study():
 
 
 LAW = Friction(law="dieterich_ruina", slip_distance=1.25e-7)
-WEAK = Heterogeneity(varies="f", change=-0.8, width=0.25)
+WEAK = Heterogeneity(varies="friction", change=-0.8, width=0.25)
 TWO = SecondBody(kind="deformable")
 LOADED = {
     "remote": Parameters(
@@ -164,7 +164,7 @@ LOADED = {
     ),
     "top": Parameters(
         loading=Loading(kind="top", initial_state=0.05), geometry=Geometry(0.1, 2.0),
-        mesh=Mesh(280, 6, 4.0), second_body=dataclasses.replace(TWO, bottom="clamped"),
+        mesh=Mesh(280, 6, 4.0), second_body=dataclasses.replace(TWO, far_side="clamped"),
     ),
 }  # fmt: skip
 

@@ -11,8 +11,8 @@ from nucleation.model.quantities import ParameterError
 from nucleation.theory.critical import (
     NoInstability,
     critical_length,
-    critical_wavenumber,
     critical_lengths,
+    critical_wavenumber,
 )
 from nucleation.theory.crossings import certainly_stable, marginal_stiffness
 from nucleation.theory.spectrum import growth_rates, system

@@ -38,7 +38,7 @@ OTHER_SHARES = {"width_at_half": 0.5, "width_at_hundredth": 0.01}
 
 SPRING_BLOCK = "an estimate by a spring block, which has no setting of its own"
 ELSEWHERE = {
-    "creeping_patch": "simulated with role patch_theory: patch_theory.csv",
+    "stability_length": "simulated with role patch_theory: patch_theory.csv",
     "homogeneous_sliding": "growth of single modes is simulated in dispersion.csv",
     "rice_ruina": SPRING_BLOCK,
     "dieterich_shortest": SPRING_BLOCK,

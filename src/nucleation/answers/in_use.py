@@ -75,7 +75,7 @@ _GAP = (
 _STEADY = "velocity weakening, near steady sliding, either law"
 
 _OF_FAULT = Length(
-    key="creeping_patch",
+    key="stability_length",
     title="creeping patch, pushed",
     formula="its own eigenproblem, docs/creeping_patch.md",
     source="this project",

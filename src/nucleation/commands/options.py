@@ -1,5 +1,6 @@
 """Options of the command line for parameters, with units, ranges and help from declarations."""
 
+import copy
 import math
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
@@ -24,6 +25,15 @@ Decorator = Callable[[_Function], _Function]
 
 _Read = Callable[[str, str, Quantity], Any]
 """A function that reads a text, from the name of a parameter, the text and the declaration."""
+
+
+class _Option(click.Option):
+    """An option with its standard name alone in the help; its other names are understood too."""
+
+    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
+        shown = copy.copy(self)
+        shown.opts = self.opts[-1:]
+        return click.Option.get_help_record(shown, ctx)
 
 
 def option(
@@ -77,6 +87,7 @@ def option(
     return click.option(
         *names,
         key,
+        cls=_Option,
         type=value_of,
         metavar=_metavar(entry),
         help=_help(entry, note),
@@ -238,5 +249,5 @@ def _notes_on_defaults(changed: Mapping[str, Any]) -> dict[str, str]:
     notes = {}
     for name, value in usual.items():
         notes[name] = f"default {with_unit(value, known[known.full(name)])}"
-    notes["length"] = "6 critical lengths if left out"
+    notes["block_length"] = "6 critical lengths if left out"
     return notes

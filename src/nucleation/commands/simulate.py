@@ -124,7 +124,7 @@ def _command(output: Path, run: Run) -> str:
     usual = flat(Parameters())
     words = []
     for name, value in flat(run.parameters).items():
-        if name == "length" or value != usual.get(name):
+        if name == "block_length" or value != usual.get(name):
             words.append(f"--{name.replace('_', '-')}={value}")
     return shlex.join(["nucleation", "simulate", str(output), "--paper", *words])
 

@@ -270,7 +270,7 @@ def merged(base: Parameters | None, given: dict[str, Any]) -> dict[str, Any]:
     """
     values = flat(merged_parameters(base, given))
     if base is None:
-        for name in {"length", "end_time", "time_after_event"} - given.keys():
+        for name in {"block_length", "end_time", "time_after_event"} - given.keys():
             del values[name]
     return values
 

@@ -216,33 +216,3 @@ def run_length(
         If sliding is stable at every wavenumber.
     """
     return critical_wavenumber(*bodies_of(parameters), interface).length
-
-
-@cache
-def critical_length(
-    height: float,
-    material: Material,
-    interface: InterfaceState,
-) -> float:
-    """L_c of a block on a rigid base.
-
-    Parameters
-    ----------
-    height : float
-        Height H (m) of the block.
-    material : Material
-        Of the block.
-    interface : InterfaceState
-        Friction linearised about steady sliding.
-
-    Returns
-    -------
-    float
-        L_c (m).
-
-    Raises
-    ------
-    NoInstability
-        If sliding is stable at every wavenumber.
-    """
-    return float(critical_length(height, material, interface))

@@ -87,7 +87,7 @@ def bodies_of(parameters: Parameters) -> tuple[Body, Body | RigidBody]:
     below = parameters.below
     if below is None:
         return upper, RIGID
-    return upper, Body(below.material, below.geometry.height, below.bottom)
+    return upper, Body(below.material, below.geometry.height, below.far_side)
 
 
 def as_wavenumber(wavenumber: ArrayLike) -> Array:

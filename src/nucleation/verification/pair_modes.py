@@ -46,7 +46,7 @@ class _LayerPair(NamedTuple):
         Shear moduli of the upper and the lower layer (Pa).
     poisson_ratio, second_poisson_ratio : float
         Their Poisson ratios.
-    bottom : str
+    far_side : str
         Far side of the lower layer.
     height : float or None
         Height of the upper layer (m); None for half-spaces.
@@ -57,7 +57,7 @@ class _LayerPair(NamedTuple):
     second_modulus: float
     poisson_ratio: float = 1.0 / 3.0
     second_poisson_ratio: float = 0.2
-    bottom: str = "free"
+    far_side: str = "free"
     height: float | None = None
 
     def bodies(
@@ -108,7 +108,7 @@ class _LayerPair(NamedTuple):
             "plane": "strain",
             "second_body": "deformable",
             "second_density": SECOND_DENSITY,
-            "second_far_side": self.bottom,
+            "second_far_side": self.far_side,
         }
         return base.replaced(self.bodies(height, second_height) | further)
 
@@ -116,19 +116,19 @@ class _LayerPair(NamedTuple):
 def _thin_layers() -> tuple[_LayerPair, ...]:
     """Thin layers with each far side; the upper or the lower one is the stiffer one."""
     found = []
-    for bottom, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
+    for far_side, height in (("free", 0.2), ("clamped", 0.05), ("roller", 0.05)):
         above = _LayerPair(
-            f"stiff above, {bottom}",
+            f"stiff above, {far_side}",
             STIFF,
             SOFT,
-            bottom=bottom,
+            far_side=far_side,
             height=height,
         )
         below = _LayerPair(
-            f"stiff below, {bottom}",
+            f"stiff below, {far_side}",
             SOFT,
             STIFF,
-            bottom=bottom,
+            far_side=far_side,
             height=height,
         )
         found += [above, below]
@@ -236,7 +236,7 @@ def mode_row(
     contrast = bimaterial_contrast(parameters.material, below.material)
     return {
         "id": layers.name,
-        "far_side": layers.bottom,
+        "far_side": layers.far_side,
         **layers.bodies(height, below.geometry.height),
         "friction": interface.friction,
         "a": interface.a,

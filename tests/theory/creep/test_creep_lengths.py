@@ -148,7 +148,7 @@ def test_a_patch_in_the_interior_of_a_full_space(ratio):
 
 def test_where_a_patch_begins():
     """From the loading and the place of the heterogeneity; its slip rate from the load's rise."""
-    weak = {"heterogeneity.varies": "f", "heterogeneity.change": -0.5}
+    weak = {"heterogeneity.varies": "friction", "heterogeneity.change": -0.5}
     for loading, centre, expected in (
         ({}, 0.5, "edge"),
         ({"loading.kind": "top"}, 0.05, "top"),

@@ -40,8 +40,8 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     Parameters
     ----------
     table : Dataset
-        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s), ``critical_length`` and
-        ``stability_length`` (m).
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s),
+        ``critical_length`` and ``stability_length`` (m).
     patches : sequence of Dataset
         In the same order, with ``patch_length`` (m), ``oscillation_growth`` and
         ``oscillation_frequency`` (1/s) on ``instant``, ``mode_real`` and ``mode_imaginary`` on x.

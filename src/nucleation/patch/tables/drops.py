@@ -20,9 +20,9 @@ from ...datasets.variables import Variable, some, table
 from ...model.identity import fault
 from ...model.parameters import Parameters
 from ...model.perturbation import Perturbation
+from ...theory.creep.lengths import stability_length_of
 from ...theory.creep.patches import NoPatch
 from ..delay import Growth, growth
-from ..growth import FITTED
 from ..mode_history import ModeHistory, mode_history
 
 MEASURED = some(
@@ -46,10 +46,11 @@ MEASURED = some(
 )
 
 PREDICTED = {
-    "stability_length": FITTED["stability_length"],
-    "law_length": Variable("m", "length at the drop by the law, median", "L"),
-    "law_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
-    "law_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
+    "stability_length": LENGTHS["stability_length"],
+    "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
+    "expected_length": Variable("m", "length at the drop by the law, median", "L"),
+    "expected_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
+    "expected_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
     "closed_form_length": Variable("m", "length at the drop by the law in one line", "L"),
     "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
     "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
@@ -72,6 +73,7 @@ NOISE_FLOORS = some(
     "length",
     "critical_length",
     "stability_length",
+    "front_length",
     "floor_normal_load",
     "floor_state",
     "fault",
@@ -87,8 +89,13 @@ WEAK = 1e-5  # strength at which the one line gives L_s of a quiet run, which ha
 class _Law:
     """The law of the drop for one fault, from the mode along its creep."""
 
-    def __init__(self, history: ModeHistory) -> None:
+    def __init__(
+        self,
+        history: ModeHistory,
+        stability_length: float,
+    ) -> None:
         self.history = history
+        self.stability_length = stability_length
         self._known: dict[tuple[str, float], Growth] = {}
 
     def growth(
@@ -114,10 +121,11 @@ class _Law:
         drop = law.drop(run["strength"])
         closed = law.closed_form(self.history, run["strength"])
         return none | {
-            "stability_length": closed.front_length,
-            "law_length": drop.length,
-            "law_low": drop.low,
-            "law_high": drop.high,
+            "stability_length": self.stability_length,
+            "front_length": closed.front_length,
+            "expected_length": drop.length,
+            "expected_low": drop.low,
+            "expected_high": drop.high,
             "closed_form_length": closed.length,
             "effective_strength": closed.effective,
         }
@@ -125,7 +133,11 @@ class _Law:
     def _row_of_quiet_run(self, length: float) -> Row:
         closed = self.growth("normal_load").closed_form(self.history, WEAK)
         floors = {f"floor_{kind}": self.growth(kind).strength_at(length) for kind in QUIET_KINDS}
-        return {"stability_length": closed.front_length, **floors}
+        return {
+            "stability_length": self.stability_length,
+            "front_length": closed.front_length,
+            **floors,
+        }
 
 
 def gather_drops(
@@ -152,7 +164,9 @@ def gather_drops(
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
         with contextlib.suppress(NoPatch):
-            laws[fault(parameters)] = _Law(mode_history(parameters, run["critical_length"]))
+            critical = run["critical_length"]
+            history = mode_history(parameters, critical)
+            laws[fault(parameters)] = _Law(history, stability_length_of(parameters, critical))
     rows = []
     for measured in (*drops, *quiet):
         for row in rows_of(measured, names=(*MEASURED, "fault")):
