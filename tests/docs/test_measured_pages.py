@@ -167,8 +167,8 @@ def error_rows():
 
 
 def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
-    table = reference("drop").dropna(subset=["expected_length"])
-    table["ratio"] = table["expected_length"] / table["length"]
+    table = reference("drop").dropna(subset=["law_length"])
+    table["ratio"] = table["law_length"] / table["length"]
     names = ["evolution", "height", "kind", "correlation_length", "strength"]
     means = table.groupby(names)["ratio"].mean().reset_index()
     weak = means[means["strength"] < 2e-4]

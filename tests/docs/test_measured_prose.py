@@ -261,7 +261,7 @@ def test_the_laws_spread_is_that_of_sixteen_seeds():
         for strength in (1e-5, 1e-3):
             own = drops(kind, strength, 0.02)
             low, high = np.quantile(own["length"], [0.16, 0.84])
-            law = (own["expected_high"] - own["expected_low"]).iloc[0]
+            law = (own["law_high"] - own["law_low"]).iloc[0]
             found[kind, strength] = (high - low) / law
             assert len(own) == 16
     wide = found.pop(("normal_load", 1e-3))

@@ -75,17 +75,17 @@ def test_each_material_has_its_own_law():
 def test_predictions_are_those_of_the_law(table):
     row = table.isel(run=0)
     expected = growth(history(), LOAD).drop(1e-5)
-    assert float(row["expected_length"]) == expected.length
-    assert float(row["expected_low"]) == expected.low
-    assert float(row["expected_high"]) == expected.high
+    assert float(row["law_length"]) == expected.length
+    assert float(row["law_low"]) == expected.low
+    assert float(row["law_high"]) == expected.high
     declared = Perturbation(kind="state", strength=1e-6, correlation_length=0.05)
     other = growth(history(), declared).drop(1e-6)
-    assert float(table["expected_length"].values[2]) == other.length
+    assert float(table["law_length"].values[2]) == other.length
 
 
 def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
     row = table.isel(run=1)
-    assert np.isnan(row["expected_length"])
+    assert np.isnan(row["law_length"])
     strength = float(row["floor_normal_load"])
     assert growth(history(), LOAD).drop(strength).length == pytest.approx(0.33, rel=1e-3)
     assert np.isnan(table["floor_state"].values[[0, 2]]).all()

@@ -24,7 +24,7 @@ def drops(table):
             histories[fault] = mode_history(run.parameters, run.critical_length)
         declared = run.parameters.perturbation
         drop = growth(histories[fault], declared).drop(declared.strength)
-        rows.append((same.length.mean(), same.expected_length.mean(), drop.length))
+        rows.append((same.length.mean(), same.law_length.mean(), drop.length))
     return np.array(rows).T
 
 

@@ -22,7 +22,7 @@ _KINDS = {
 _STRENGTHS = (3e-13, 3e-1)
 _RATIOS = (0.45, 0.87)
 _MEAN = "simulated: mean and range of realisations"
-PREDICTED = ("expected_low", "expected_length", "expected_high")
+PREDICTED = ("law_low", "law_length", "law_high")
 ENSEMBLE = (
     "fault",
     "kind",
@@ -209,7 +209,7 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
         kind = str(first["kind"].values)
         usual = bool(first["evolution"] == USUAL_EVOLUTION)
         marker, colour, label = _KINDS[kind]
-        ratio = float(runs["length"].mean() / first["expected_length"])
+        ratio = float(runs["length"].mean() / first["law_length"])
         strength = _ASIDE.get(kind, 1.0) * float(first["strength"])
         axes.plot(
             strength,

@@ -48,9 +48,9 @@ MEASURED = some(
 PREDICTED = {
     "stability_length": LENGTHS["stability_length"],
     "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
-    "expected_length": Variable("m", "length at the drop by the law, median", "L"),
-    "expected_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
-    "expected_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
+    "law_length": Variable("m", "length at the drop by the law, median", "L"),
+    "law_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
+    "law_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
     "closed_form_length": Variable("m", "length at the drop by the law in one line", "L"),
     "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
     "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
@@ -123,9 +123,9 @@ class _Law:
         return none | {
             "stability_length": self.stability_length,
             "front_length": closed.front_length,
-            "expected_length": drop.length,
-            "expected_low": drop.low,
-            "expected_high": drop.high,
+            "law_length": drop.length,
+            "law_low": drop.low,
+            "law_high": drop.high,
             "closed_form_length": closed.length,
             "effective_strength": closed.effective,
         }
