@@ -129,7 +129,9 @@ def fault_values(
     if per_decade:
         for name in own.keys() & {"a", "b", "zeta"}:
             own[name] = own[name] / math.log(10.0)
-    far_sides = {name: own[name] for name in ("far_side", "second_far_side") if name in own}
+    far_sides: dict[str, Any] = {
+        name: own[name] for name in ("far_side", "second_far_side") if name in own
+    }
     by_study = {}
     for name, value in own.items():
         if name != "far_side":

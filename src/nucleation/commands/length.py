@@ -10,7 +10,14 @@ import click
 from ..answers import formulas
 from ..answers.draws import parse_range
 from ..answers.in_use import LENGTHS, WEAKENING_RATE
-from ..answers.length import HALF_SPACES, THIS_FAULT, TWO_MATERIALS, Length, of_two_materials
+from ..answers.length import (
+    HALF_SPACES,
+    THIS_FAULT,
+    TWO_MATERIALS,
+    Length,
+    number,
+    of_two_materials,
+)
 from ..answers.status import Answers, answers_of
 from ..model.friction.law import Friction
 from ..model.loading import LOADINGS
@@ -157,12 +164,15 @@ def _theory(
     critical: Answers,
 ) -> dict[str, Any]:
     """The theory's numbers for JSON, in SI units; NaN where there is none, with status."""
-    velocity = fault.velocity or fault.slip_distance  # without V a rate V/D of one per second
+    slip_distance = number(fault, "slip_distance")
+    # without V a rate V/D of one per second
+    velocity = slip_distance if fault.velocity is None else number(fault, "velocity")
     mode = critical_mode(**{**given, "velocity": velocity})
     length, wavenumber, frequency = map(float, mode)
     ratio = None
     if density is not None:
-        shear_wave = Material(float(fault.shear_modulus), density=density).shear_wave_speed
+        modulus = float(number(fault, "shear_modulus"))
+        shear_wave = Material(modulus, density=density).shear_wave_speed
         ratio = abs(frequency) / wavenumber / shear_wave
     if loading != "edge":
         law = None
@@ -174,8 +184,8 @@ def _theory(
         "critical_length_status": str(critical.status),
         "critical_length_reason": str(critical.reason),
         "critical_wavenumber": wavenumber,
-        "critical_frequency": fault.velocity and frequency,
-        "critical_frequency_over_rate": frequency / float(velocity / fault.slip_distance),
+        "critical_frequency": None if fault.velocity is None else frequency,
+        "critical_frequency_over_rate": frequency / float(velocity / slip_distance),
         "speed_over_shear_wave": ratio,
         "loading": loading,
         "stability_length": stability_length,
@@ -229,7 +239,7 @@ def _moduli(fault: Fault) -> str:
     if is_of_one_material(fault):
         return text
     modulus, _ = of_two_materials(fault)
-    return f"{text}, M = {in_unit(modulus, 'Pa', digits=4)}"
+    return f"{text}, M = {in_unit(float(modulus), 'Pa', digits=4)}"
 
 
 def _mode_lines(theory: dict[str, Any]) -> list[str]:
@@ -272,7 +282,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
         other = "none up to 3 L_c" if math.isnan(constant) else f"{constant:.4g} m"
         lines += wrapped(
             f"    a and b vary along the patch by the {law.law} law, {scales_text(law)}, "
-            f"V = {in_unit(fault.velocity, 'm/s')}; with constant a and b {other}"
+            f"V = {in_unit(float(number(fault, 'velocity')), 'm/s')}; with constant a and b {other}"
         )
     return lines
 
@@ -287,7 +297,8 @@ def _length_rows(
     value = float(answer.length)
     text = f"{value:.4g} m"
     ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
-    lowest = min(float(fault.height), float(fault.second_height))
+    heights = (number(fault, "height"), number(fault, "second_height"))
+    lowest = min(map(float, heights))
     is_of_half_spaces = length.system in (HALF_SPACES, TWO_MATERIALS)
     validity = f"valid: {length.validity}"
     if is_of_half_spaces and math.isfinite(lowest):
@@ -300,6 +311,8 @@ def _length_rows(
         f"      {length.source}",
         f"      {validity}",
     ]
-    if length.beyond and formulas.between_localised_and_crack(fault.a, fault.b):
+    if length.beyond and formulas.between_localised_and_crack(
+        number(fault, "a"), number(fault, "b")
+    ):
         rows.append(f"      {length.beyond}")
     return rows

@@ -1,10 +1,12 @@
 """``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
 
+from __future__ import annotations
+
 import math
 import shlex
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -23,6 +25,9 @@ from .sources import STUDY, given_of, merged, planned, sourced
 from .system_text import system_of_run
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json, wrapped
 from .unit_text import in_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _RATIO = declarations(StudySettings)["length_over_critical"]
 _MEMORY = declarations(Limits)["memory"]
@@ -155,7 +160,7 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     checkpoint = checkpoint_of(parameters, output, digest)
     progress = Progress(parameters, sys.stderr)
 
-    def write(dataset: Any, path: Path) -> None:
+    def write(dataset: xr.Dataset, path: Path) -> None:
         netcdf.write(dataset, path, **attributes)
 
     try:

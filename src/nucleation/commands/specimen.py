@@ -88,7 +88,7 @@ def command(
     with printed_warnings():
         fit = specimen_fit(unknown, length, criterion, **given)
         value = fit.searched[0] if own is None else own
-        fault = Fault(**given, **{unknown: value})
+        fault = Fault(**given | {unknown: value})
         judged = None if own is None else answers_of_theory(fault)[criterion]
     sought = unknown if own is None else ""
     system = system_of_fault(fault, given, papers=papers, sought=sought)
