@@ -109,8 +109,8 @@ def command(
 
     \b
     Example:
-      nucleation length --shear-modulus 30GPa --poisson-ratio 0.25 --normal-stress 50MPa \\
-          --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
+      nucleation length --shear-modulus 30GPa --poisson-ratio 0.25 \\
+          --normal-stress 50MPa --a 0.010 --b 0.015 --slip-distance 5um
     """
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
@@ -239,7 +239,7 @@ def _moduli(fault: Fault) -> str:
     if is_of_one_material(fault):
         return text
     modulus, _ = of_two_materials(fault)
-    return f"{text}, M = {in_unit(float(modulus), 'Pa', digits=4)}"
+    return f"{text}, M = {in_unit(float(modulus), 'Pa')}"
 
 
 def _mode_lines(theory: dict[str, Any]) -> list[str]:

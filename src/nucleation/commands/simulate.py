@@ -112,7 +112,7 @@ def _plan_lines(run: Run) -> list[str]:
     theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
     if math.isnan(critical):
         theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
-    lines = [f"theory: {theory} elements of {in_unit(element, 'm', digits=4)}"]
+    lines = [f"theory: {theory} elements of {in_unit(element, 'm')}"]
     patch = stability_length_of(run.parameters, critical)
     if not math.isnan(patch):
         lines.append(f"theory: a creeping patch turns unstable at {patch:.4g} m")
