@@ -15,7 +15,7 @@ from .crossings import largest_crossings, marginal_frequencies
 from .fault import Fault, takes_fault
 from .spectrum import Systems
 from .transfer import as_wavenumber
-from .values import QUANTITIES, Values, labelled
+from .values import OF_THEORY, QUANTITIES, Values, labelled
 
 WAVENUMBER = Quantity("wavenumber", unit="1/m", symbol="k")
 
@@ -251,7 +251,7 @@ def aliases() -> dict[str, str]:
     """The parameters of :class:`Fault` by the other names that simulations and studies use."""
     known = names()
     found: dict[str, str] = {}
-    for name in QUANTITIES.keys() - {"far_side"}:
+    for name in QUANTITIES.keys() - set(OF_THEORY):
         full = known.full(name)
         others = {full, known.short(full), *known.others(full)}
         for alias in others - {name}:

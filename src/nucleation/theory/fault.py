@@ -22,7 +22,8 @@ from ..model.units import is_quantity
 from ..types import Array
 from .spectrum import Systems
 from .stiffness import FAR_SIDES, LayerPair, Layers, require_far_side
-from .values import QUANTITIES, Values, checked, labelled
+from .values import QUANTITIES, ZONE, Values, checked, labelled
+from .zone import Zone
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -36,7 +37,7 @@ class Fault:
     shear_modulus : array_like
         mu (Pa) of the first body.
     poisson_ratio : array_like
-        nu of the first body.
+        nu of the first body; not needed in antiplane shear.
     normal_stress : array_like
         sigma0 (Pa), compressive positive.
     a : array_like
@@ -64,6 +65,11 @@ class Fault:
         two aliases), u_x and sigma_yy, u_x and u_y, or u_y and sigma_xy are imposed.
     second_far_side : str, optional
         The same of the second body; that of the first one by default.
+    zone_thickness : array_like, optional
+        Thickness h (m) of a zone of other stiffness, gouge or damaged rock, between the fault and
+        each body that is not rigid; heights do not include it. By default there is no zone.
+    zone_shear_modulus, zone_poisson_ratio : array_like, optional
+        mu (Pa) and nu of the zone; the first body's nu by default.
     plane : {"strain", "stress", "antiplane"}
         Plane strain, or plane stress of thin plates, with ``nu/(1 + nu)`` in place of nu, or
         antiplane shear (mode III), in which nu and f do not matter.
@@ -94,7 +100,7 @@ class Fault:
     """
 
     shear_modulus: Values
-    poisson_ratio: Values
+    poisson_ratio: Values | None = None
     normal_stress: Values
     a: Values
     zeta: Values | None = None
@@ -108,15 +114,19 @@ class Fault:
     second_height: Values | None = None
     far_side: str = "traction"
     second_far_side: str | None = None
+    zone_thickness: Values | None = None
+    zone_shear_modulus: Values | None = None
+    zone_poisson_ratio: Values | None = None
     plane: str = "strain"
     registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        missing = [name for name in REQUIRED if getattr(self, name) is None]
+        missing = [name for name in required(self.plane) if getattr(self, name) is None]
         if missing:
             raise ParameterError(f"{', '.join(missing)} is missing: None is not allowed")
         if (self.zeta is None) == (self.b is None):
             raise ParameterError("zeta or b = a + zeta is needed, one of them and not both")
+        self._require_whole_zone()
         self._read_numbers()
         self._read_words()
         self._complete()
@@ -127,6 +137,16 @@ class Fault:
                 "friction is missing: where the bodies differ, slip changes the normal stress, "
                 "and the friction coefficient matters"
             )
+
+    def _require_whole_zone(self) -> None:
+        """Refuse a zone without its thickness or its shear modulus."""
+        given = [name for name in ZONE if getattr(self, name) is not None]
+        for name in ("zone_thickness", "zone_shear_modulus"):
+            if given and name not in given:
+                raise ParameterError(
+                    f"{name} is missing: a zone has a thickness (m) and a shear modulus (Pa), and "
+                    f"{given[0]} is given"
+                )
 
     def _read_numbers(self) -> None:
         """Convert all numbers to arrays in SI units."""
@@ -155,6 +175,10 @@ class Fault:
             self._set("zeta", own["b"] - own["a"])
         else:
             self._set("b", own["a"] + own["zeta"])
+        if self.poisson_ratio is None:
+            self._set("poisson_ratio", np.array(0.0))  # of antiplane shear, without effect
+        if self.has_zone and self.zone_poisson_ratio is None:
+            self._set("zone_poisson_ratio", self.poisson_ratio)
         for name in ("shear_modulus", "poisson_ratio", "height"):
             if getattr(self, f"second_{name}") is None:
                 self._set(f"second_{name}", getattr(self, name))
@@ -179,6 +203,11 @@ class Fault:
         names = [field.name for field in dataclasses.fields(self)]
         numbers = [name for name in names if name not in (*_WORDS, "registry")]
         return [name for name in numbers if getattr(self, name) is not None]
+
+    @property
+    def has_zone(self) -> bool:
+        """Whether there is a zone of other stiffness beside the fault."""
+        return self.zone_thickness is not None
 
     @property
     def in_plane_ratios(self) -> tuple[Any, Any]:
@@ -240,21 +269,24 @@ class Fault:
             Shape ``(rows,) + broadcast shape``; the first dimension of a DataArray is ``row``.
         """
 
+        parameters = self._parameters_of_systems()
+
         def core(*inputs: Values) -> NDArray:
             shape = np.broadcast_shapes(*(np.shape(x) for x in inputs))
             flat = [np.broadcast_to(x, shape).ravel() for x in inputs]
             found: NDArray = np.empty((flat[0].size, rows), dtype=dtype)
-            rigid = np.isinf(flat[_OF_SYSTEMS.index("second_shear_modulus")])
+            rigid = np.isinf(flat[list(parameters).index("second_shear_modulus")])
             for kind in (rigid, ~rigid):
                 chosen = np.flatnonzero(kind)
                 if chosen.size == 0:
                     continue
                 part = [x[chosen] for x in flat]
-                parameters, further = part[: len(_OF_SYSTEMS)], part[len(_OF_SYSTEMS) :]
-                found[chosen] = np.transpose(function(self._systems(*parameters), *further))
+                own = dict(zip(parameters, part, strict=False))
+                further = part[len(parameters) :]
+                found[chosen] = np.transpose(function(self._systems(own), *further))
             return found.reshape(*shape, rows)
 
-        values = self._values_of_systems()
+        values = parameters.values()
         if not any(labelled(value) for value in (*values, *arrays)):
             return np.moveaxis(core(*values, *arrays), -1, 0)
         import xarray as xr
@@ -262,46 +294,54 @@ class Fault:
         result = xr.apply_ufunc(core, *values, *arrays, output_core_dims=[["row"]])
         return result.transpose("row", ...)
 
-    def _values_of_systems(self) -> list[Values]:
+    def _parameters_of_systems(self) -> dict[str, Values]:
         """The parameters :data:`_OF_SYSTEMS`, with neutral values where they do not matter."""
-        found = {name: getattr(self, name) for name in _OF_SYSTEMS}
-        first, second = self.in_plane_ratios
-        found |= {"poisson_ratio": first, "second_poisson_ratio": second}
+        names = (*_OF_SYSTEMS, *ZONE) if self.has_zone else _OF_SYSTEMS
+        found = {name: getattr(self, name) for name in names}
+        for name in names:
+            if name.endswith("poisson_ratio"):
+                found[name] = in_plane_ratio(found[name], self.plane)
         for name, neutral in (("friction", 0.0), ("velocity", 1.0)):
             if found[name] is None:
                 found[name] = neutral
-        return list(found.values())
+        return found
 
-    def _systems(
-        self,
-        modulus: Array,
-        ratio: Array,
-        height: Array,
-        second_modulus: Array,
-        second_ratio: Array,
-        second_height: Array,
-        friction: Array,
-        a: Array,
-        zeta: Array,
-        slip_distance: Array,
-        velocity: Array,
-        normal_stress: Array,
-    ) -> Systems:
+    def _systems(self, own: dict[str, Array]) -> Systems:
         """Faults as systems, all or none of them with a rigid second body."""
-        antiplane = self.plane == ANTIPLANE
-        upper = Layers(modulus, ratio, height, self.far_side, antiplane)
+        modulus = own["shear_modulus"]
+        upper = self._body(own, "", self.far_side)
         lower = None
-        if np.all(np.isfinite(second_modulus)):
-            far_side = str(self.second_far_side)
-            lower = Layers(second_modulus, second_ratio, second_height, far_side, antiplane)
+        if np.all(np.isfinite(own["second_shear_modulus"])):
+            lower = self._body(own, "second_", str(self.second_far_side))
         return Systems(
             pair=LayerPair(upper, lower),
-            friction=friction,
-            a=a,
-            zeta=zeta,
-            softness=modulus * slip_distance / normal_stress,
-            rate=velocity / slip_distance,
+            friction=own["friction"],
+            a=own["a"],
+            zeta=own["zeta"],
+            softness=modulus * own["slip_distance"] / own["normal_stress"],
+            rate=own["velocity"] / own["slip_distance"],
         )
+
+    def _body(
+        self,
+        own: dict[str, Array],
+        prefix: str,
+        far_side: str,
+    ) -> Layers | Zone:
+        """The first or the second body, with its zone."""
+        antiplane = self.plane == ANTIPLANE
+        body = Layers(
+            own[f"{prefix}shear_modulus"],
+            own[f"{prefix}poisson_ratio"],
+            own[f"{prefix}height"],
+            far_side,
+            antiplane,
+        )
+        if not self.has_zone:
+            return body
+        modulus, ratio = own["zone_shear_modulus"], own["zone_poisson_ratio"]
+        layer = Layers(modulus, ratio, own["zone_thickness"], "free", antiplane)
+        return Zone(layer, body)
 
 
 def takes_fault(function: F) -> F:
@@ -315,7 +355,14 @@ def takes_fault(function: F) -> F:
     return function
 
 
-REQUIRED = ("shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance")
+def required(plane: str) -> list[str]:
+    """Names of the parameters without a default; Poisson's ratio has none but in antiplane."""
+    names = ["shear_modulus", "poisson_ratio", "normal_stress", "a", "slip_distance"]
+    if plane == ANTIPLANE:
+        names.remove("poisson_ratio")
+    return names
+
+
 _WORDS = ("far_side", "second_far_side", "plane")
 _OF_SYSTEMS = (
     "shear_modulus",

@@ -32,6 +32,8 @@ FLOORS = {
     "slip_distance": 1e-15,
     "height": 1e-12,
     "second_height": 1e-12,
+    "zone_thickness": 1e-12,
+    "zone_shear_modulus": 1e-9,
     "velocity": 1e-30,
 }
 """Lower bounds (SI units) of the positive parameters: far below any known value, and computable."""
@@ -47,6 +49,21 @@ def _declared() -> dict[str, Quantity]:
         closed="high",
         high=math.inf,
         description="shear modulus of the second body (inf: rigid)",
+    )
+    zone_thickness = dataclasses.replace(
+        body["height"],
+        symbol="h",
+        description="thickness of a zone of other stiffness on each side of the fault",
+    )
+    zone_modulus = dataclasses.replace(
+        material["shear_modulus"],
+        symbol="mu_z",
+        description="shear modulus of the zone beside the fault",
+    )
+    zone_ratio = dataclasses.replace(
+        material["poisson_ratio"],
+        symbol="nu_z",
+        description="Poisson's ratio of the zone beside the fault",
     )
     b = dataclasses.replace(
         interface["a"],
@@ -69,6 +86,9 @@ def _declared() -> dict[str, Quantity]:
         "second_height": body["height"],
         "far_side": body["far_side"],
         "second_far_side": body["far_side"],
+        "zone_thickness": zone_thickness,
+        "zone_shear_modulus": zone_modulus,
+        "zone_poisson_ratio": zone_ratio,
         "plane": material["plane"],
     }
     return {name: _bounded(name, entry) for name, entry in found.items()}
@@ -87,6 +107,12 @@ def _bounded(
 
 QUANTITIES = _declared()
 """Declaration (unit, range, meaning) of every parameter of a fault, by name."""
+
+ZONE = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
+"""Parameters of a zone beside the fault."""
+
+OF_THEORY = ("far_side", *ZONE)
+"""Parameters that no simulation has: its first body has the far side of its loading, and no zone."""
 
 
 def labelled(value: Any) -> bool:
