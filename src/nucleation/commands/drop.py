@@ -17,7 +17,7 @@ from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
 from ..theory import status as status_words
 from ..theory.arrays import critical_length, reason_of_stability
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .options import parameter_options, source_options
 from .pages import with_addresses
@@ -106,7 +106,7 @@ def command(
     code, status, reason = DONE, status_words.VALUE, ""
     if math.isnan(critical):
         code, status = STABLE, status_words.STABLE
-        reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
+        reason = reason_of_stability(FaultParameters(**fault)) + _cure(parameters)
     else:
         run = planned(values, {}, results="results")  # not used
         critical = run.critical_length

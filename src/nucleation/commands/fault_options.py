@@ -59,7 +59,7 @@ class GivenFault(NamedTuple):
     """A fault as options and files define it."""
 
     values: dict[str, Any]
-    """The parameters of :class:`~nucleation.theory.fault.Fault`."""
+    """The parameters of :class:`~nucleation.fault.Fault`."""
     law: Friction | None
     """The friction law of `simulate` and `drop`; None without f or V, or where no law fits."""
     papers: list[str]

@@ -18,7 +18,7 @@ from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
 from ..theory.arrays import critical_mode
 from ..theory.creep.lengths import stability_answers, stability_values
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from ..theory.status import BEYOND, STABLE, UNKNOWN
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
@@ -119,7 +119,7 @@ def command(
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
     with printed_warnings():
-        fault = Fault(**given)
+        fault = FaultParameters(**given)
         found = answers_of(fault, weakening_rate)
         theory = _theory(given, fault, density, loading, law, found["critical_length"])
         patch = patch_of(fault, of_patch)
@@ -151,7 +151,7 @@ def command(
 
 def _theory(
     given: dict[str, Any],
-    fault: Fault,
+    fault: FaultParameters,
     density: float | None,
     loading: str,
     law: Friction | None,
@@ -190,7 +190,7 @@ def _theory(
 
 def _as_text(
     system: list[str],
-    fault: Fault,
+    fault: FaultParameters,
     theory: dict[str, Any],
     answers: dict[str, Answers],
     law: Friction | None,
@@ -223,7 +223,7 @@ def _as_text(
     return "\n".join(lines)
 
 
-def _moduli(fault: Fault) -> str:
+def _moduli(fault: FaultParameters) -> str:
     """The moduli in the formulas: mu*, and M of two materials."""
     star = {
         "strain": "mu/(1 - nu)",
@@ -259,7 +259,7 @@ def _mode_lines(theory: dict[str, Any]) -> list[str]:
     return lines
 
 
-def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> list[str]:
+def _patch_lines(theory: dict[str, Any], fault: FaultParameters, law: Friction | None) -> list[str]:
     """L_s with its meaning, and the effect of the friction law's scales on it."""
     loading = theory["loading"]
     length = theory["stability_length"]
@@ -281,7 +281,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
     return lines
 
 
-def _length_lines(length: Length, answer: Answers, fault: Fault, critical: float) -> list[str]:
+def _length_lines(length: Length, answer: Answers, fault: FaultParameters, critical: float) -> list[str]:
     """One length: value and formula, source, validity."""
     value = float(answer.length)
     text = f"{value:.4g} m"

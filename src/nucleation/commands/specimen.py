@@ -17,7 +17,7 @@ from ..answers.specimen import (
 )
 from ..answers.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
 from ..answers.status import Answers, answers_of_theory
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import fault_options, fault_values
@@ -87,7 +87,7 @@ def command(
     with printed_warnings():
         fit = specimen_fit(unknown, length, criterion, **given)
         value = fit.searched[0] if own is None else own
-        fault = Fault(**given, **{unknown: value})
+        fault = FaultParameters(**given, **{unknown: value})
         judged = None if own is None else answers_of_theory(fault)[criterion]
     is_sought = own is None and unknown == "shear_modulus"
     system = system_of_fault(fault, given, known=not is_sought) + papers
@@ -131,7 +131,7 @@ def _print_quantiles(
             **known,
         )
         value = given.get(unknown, found.searched[0])
-        middle = Fault(**given | {unknown: value})
+        middle = FaultParameters(**given | {unknown: value})
     is_sought = unknown == "shear_modulus" and unknown not in given
     system = system_of_fault(middle, given, known=not is_sought)
     if as_json:

@@ -13,7 +13,7 @@ from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
 from ..model.plausible import ImplausibleWarning
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.transfer import RigidBody, bodies_of
 
 BEGINS = {
@@ -45,7 +45,7 @@ def plane_in_words(plane: str) -> str:
     return "antiplane shear" if plane == ANTIPLANE else f"plane {plane}"
 
 
-def _system_line(fault: Fault, loading: str, known: bool) -> str:
+def _system_line(fault: FaultParameters, loading: str, known: bool) -> str:
     """Bodies, far sides, loading and plane; `known` is whether the shear modulus is given."""
     names = ("shear_modulus", "poisson_ratio", "height", "far_side")
     first = [getattr(fault, name) for name in names]
@@ -77,18 +77,18 @@ def _body(
     return f"a layer {float(height):.4g} m high with its far side {side} {material}"
 
 
-def is_of_one_material(fault: Fault) -> bool:
+def is_of_one_material(fault: FaultParameters) -> bool:
     """Whether both bodies have the same material."""
     second = (fault.second_shear_modulus, fault.second_poisson_ratio)
     return (fault.shear_modulus, fault.poisson_ratio) == second
 
 
-def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[str]:
+def systems_of_lengths(fault: FaultParameters, uncertain: Collection[str] = ()) -> list[str]:
     """The systems of the lengths in use, in the order of their listing.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault.
     uncertain : collection of str
         Names of its uncertain parameters.
@@ -106,14 +106,14 @@ def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[st
     return [*systems, HALF_SPACES, RIGID_BASE]
 
 
-def parameters_of(fault: Fault) -> dict[str, Any]:
+def parameters_of(fault: FaultParameters) -> dict[str, Any]:
     """All parameters of a fault that are not None, by name."""
     values = {name: getattr(fault, name) for name in QUANTITIES}
     return {name: value for name, value in values.items() if value is not None}
 
 
 def fault_in(parameters: Parameters) -> dict[str, Any]:
-    """The fault of a simulation, with its friction law expanded at V, as keywords of Fault."""
+    """The fault of a simulation, with its friction law expanded at V, as keywords of FaultParameters."""
     material = parameters.material
     loading = parameters.loading
     friction, a, zeta = parameters.friction.expansion(loading.velocity)
@@ -188,7 +188,7 @@ def system_of_run(
     law = parameters.friction
     velocity = parameters.loading.velocity
     friction, a, zeta = law.expansion(velocity)
-    fault = Fault(**fault_in(parameters))
+    fault = FaultParameters(**fault_in(parameters))
     lines = [
         _system_line(fault, parameters.loading.kind, known=True),
         f"Friction: {law.law} law, {law.evolution}; at V: f = {friction:.4g}, a = {a:.4g}, "
@@ -240,7 +240,7 @@ def _assumed_of_bodies(given: Collection[str], deformable: bool) -> list[str]:
 
 
 def system_of_fault(
-    fault: Fault,
+    fault: FaultParameters,
     given: Mapping[str, Any],
     loading: str = "edge",
     known: bool = True,
@@ -249,7 +249,7 @@ def system_of_fault(
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault.
     given : mapping
         Its given parameters, by name.

@@ -15,7 +15,7 @@ from ..answers.length import THIS_FAULT, TWO_MATERIALS
 from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from . import DONE, STABLE
 from .options import Decorator, option
 from .progress import Progress
@@ -167,7 +167,7 @@ def print_quantiles(
     if "weakening_rate" in uncertain:
         known["weakening_rate"] = uncertain["weakening_rate"]
     with printed_warnings():
-        middle = Fault(**given)
+        middle = FaultParameters(**given)
         found = length_quantiles(progress=Progress("draws"), **known)
     system = system_of_fault(middle, given, options["loading"])
     show = _as_json if as_json else _as_text
@@ -178,7 +178,7 @@ def print_quantiles(
 def _as_json(
     system: list[str],
     found: Any,
-    middle: Fault,
+    middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
     words = {length.key: length.words() for length in LENGTHS}
@@ -209,7 +209,7 @@ def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
 def _as_text(
     system: list[str],
     found: Any,
-    middle: Fault,
+    middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
     lines = [

@@ -11,13 +11,15 @@ import dataclasses
 import inspect
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE, in_plane_ratio
 from ..model.quantities import ParameterError, refusal
+from ..model.synonyms import hint
 from ..model.units import is_quantity
 from ..types import Array
 from .spectrum import Systems
@@ -29,7 +31,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Fault:
+class FaultParameters:
     """Two bodies in frictional contact that slide steadily; scalars, arrays or DataArrays.
 
     Parameters
@@ -73,6 +75,16 @@ class Fault:
     plane : {"strain", "stress", "antiplane"}
         Plane strain, or plane stress of thin plates, with ``nu/(1 + nu)`` in place of nu, or
         antiplane shear (mode III), in which nu and f do not matter.
+    loading : {"edge", "top", "remote"}
+        Where the creeping patch begins: at an edge that is pushed, at a free side under a top that
+        moves, or in the interior under a load from afar, which may be a top that moves. The bodies'
+        `far_side` sets the boundary condition there: a top that moves has ``velocity``.
+    evolution : str
+        Evolution of the state, that of `friction_law` by default, else ``aging``.
+    friction_law : Friction, optional
+        The full law, which gives the local a(v), b(v) along a creeping patch; needs `velocity`.
+        Those of f, a, zeta and D that are not given are the law's, expanded about V; a law has the
+        values that are given. By default a and b are constant.
 
     Attributes
     ----------
@@ -91,7 +103,7 @@ class Fault:
 
     Examples
     --------
-    >>> fault = Fault(
+    >>> fault = FaultParameters(
     ...     shear_modulus=30e9, poisson_ratio=0.25, normal_stress=50e6,
     ...     a=0.010, b=0.015, slip_distance="5um",
     ... )
@@ -99,13 +111,13 @@ class Fault:
     (0.005, 5e-06)
     """
 
-    shear_modulus: Values
+    shear_modulus: Values | None = None
     poisson_ratio: Values | None = None
-    normal_stress: Values
-    a: Values
+    normal_stress: Values | None = None
+    a: Values | None = None
     zeta: Values | None = None
     b: Values | None = None
-    slip_distance: Values
+    slip_distance: Values | None = None
     friction: Values | None = None
     velocity: Values | None = None
     height: Values = math.inf
@@ -118,12 +130,26 @@ class Fault:
     zone_shear_modulus: Values | None = None
     zone_poisson_ratio: Values | None = None
     plane: str = "strain"
+    loading: str = "edge"
+    evolution: str | None = None
+    friction_law: Friction | None = None
     registry: Any = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
+    def __new__(cls, **given: Any) -> Self:
+        for name in given:
+            if name not in QUANTITIES and name != "friction_law":
+                suggestion = hint(name, QUANTITIES) or f"known: {', '.join(QUANTITIES)}"
+                raise ParameterError(
+                    f"the fault got an unexpected keyword argument {name!r}; {suggestion}"
+                )
+        return super().__new__(cls)
+
     def __post_init__(self) -> None:
+        if self.friction_law is not None:
+            self._expand(self.friction_law)
         missing = [name for name in required(self.plane) if getattr(self, name) is None]
         if missing:
-            raise ParameterError(f"{', '.join(missing)} is missing: None is not allowed")
+            raise ParameterError(f"the fault has no {', '.join(missing)}: it is needed")
         if (self.zeta is None) == (self.b is None):
             raise ParameterError("zeta or b = a + zeta is needed, one of them and not both")
         self._require_whole_zone()
@@ -137,6 +163,27 @@ class Fault:
                 "friction is missing: where the bodies differ, slip changes the normal stress, "
                 "and the friction coefficient matters"
             )
+
+    def _expand(self, law: Friction) -> None:
+        """Take constants that are not given from the law, expanded about V."""
+        if self.velocity is None:
+            raise ParameterError("velocity is missing: a friction law is expanded about it")
+        if self.evolution is None:
+            self._set("evolution", law.evolution)
+        if self.a is not None and self.friction is not None and self.slip_distance is not None:
+            return
+        speed = checked("velocity", self.velocity, QUANTITIES["velocity"])
+        if speed.ndim:
+            raise ParameterError(
+                "a, zeta, friction and slip_distance are missing: a friction law is expanded about "
+                "one velocity, not an array of them"
+            )
+        f, a, zeta = law.expansion(float(speed))
+        if self.zeta is None and self.b is None:
+            self._set("zeta", zeta)
+        for name, value in (("friction", f), ("a", a), ("slip_distance", law.slip_distance)):
+            if getattr(self, name) is None:
+                self._set(name, value)
 
     def _require_whole_zone(self) -> None:
         """Refuse a zone without its thickness or its shear modulus."""
@@ -161,6 +208,8 @@ class Fault:
         """Check the far sides and the plane."""
         if self.second_far_side is None:
             self._set("second_far_side", self.far_side)
+        if self.evolution is None:
+            self._set("evolution", "aging")
         for name in _WORDS:
             value = getattr(self, name)
             if value not in QUANTITIES[name].choices:
@@ -201,7 +250,7 @@ class Fault:
     def _given(self) -> list[str]:
         """Names of the numbers that are not None."""
         names = [field.name for field in dataclasses.fields(self)]
-        numbers = [name for name in names if name not in (*_WORDS, "registry")]
+        numbers = [name for name in names if name not in (*_WORDS, *_OBJECTS)]
         return [name for name in numbers if getattr(self, name) is not None]
 
     @property
@@ -226,6 +275,18 @@ class Fault:
             | (self.second_height != self.height)
             | other_far_side
         )
+
+    def keys(self) -> list[str]:
+        """Names of the parameters with a value; with ``[name]`` they make ``**fault`` possible."""
+        names = [field.name for field in dataclasses.fields(self)]
+        left_out = ("b", "registry")  # zeta has b's value
+        return [name for name in names if name not in left_out and getattr(self, name) is not None]
+
+    def __getitem__(self, name: str) -> Any:
+        value = getattr(self, name)
+        if self.registry is None or name in (*_WORDS, *_OBJECTS):
+            return value
+        return self.registry.Quantity(value, QUANTITIES[name].unit)
 
     def broadcast(self, **others: Values) -> None:
         """Raise a ParameterError, with all shapes, where unnamed arrays don't broadcast."""
@@ -345,11 +406,11 @@ class Fault:
 
 
 def takes_fault(function: F) -> F:
-    """Decorator: completion shows the parameters of :class:`Fault` in place of ``**fault``."""
+    """Decorator: completion shows the parameters of :class:`FaultParameters` in place of ``**fault``."""
     shown = inspect.signature(function)
     own = [p for p in shown.parameters.values() if p.kind is not p.VAR_KEYWORD]
     taken = {p.name for p in own}
-    of_fault = inspect.signature(Fault).parameters.values()
+    of_fault = inspect.signature(FaultParameters).parameters.values()
     added = [p for p in of_fault if p.name not in taken]
     function.__signature__ = shown.replace(parameters=own + added)  # type: ignore[attr-defined]
     return function
@@ -363,7 +424,8 @@ def required(plane: str) -> list[str]:
     return names
 
 
-_WORDS = ("far_side", "second_far_side", "plane")
+_WORDS = ("far_side", "second_far_side", "plane", "loading", "evolution")
+_OBJECTS = ("friction_law", "registry")
 _OF_SYSTEMS = (
     "shear_modulus",
     "poisson_ratio",
