@@ -171,9 +171,9 @@ def test_two_bodies_are_the_usual_system_everywhere(nucleation, tmp_path):
     fault = ("--height", "2cm")
     for command in (("drop",), ("simulate", tmp_path / "run.nc", "--dry-run")):
         alike = nucleation(*command, *fault).out
-        assert "System: two identical bodies, each a layer 0.02 m" in alike
+        assert "System: two identical bodies, each a layer 2 cm" in alike
         rigid = nucleation(*command, *fault, "--second-body", "rigid").out
-        assert "a layer 0.02 m high with its far side free" in rigid and "on a rigid one" in rigid
+        assert "a layer 2 cm high with its far side free" in rigid and "on a rigid one" in rigid
         papers = "shear_modulus, poisson_ratio, normal_stress, velocity, slip_distance, friction."
         assert papers in nucleation(*command, *fault, "--a", "0.01", "--b", "0.02").out
     given = {k: v for k, v in FAULT.items() if k not in ("--height", "--second-body")}

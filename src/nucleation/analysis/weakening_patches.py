@@ -15,9 +15,9 @@ from ..datasets.variables import Variable, some, table
 from ..model.linearised import linearised
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.of_runs import systems_of
 from ..theory.crossings import largest_crossings
 from ..theory.curves import CURVES
+from ..theory.of_runs import systems_of
 from ..theory.weakening_patch import WeakeningPatch, smallest_width
 from .rows import Row
 

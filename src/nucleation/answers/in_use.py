@@ -29,9 +29,9 @@ WEAKENING_RATE = Quantity(_FALL, unit="Pa/m", low=0.0, high=1e25, symbol="W")
 
 
 def _stability_length(fault: FaultParameters) -> Any:
-    from ..theory.creep.lengths import stability_values  # with SciPy, which takes a while
+    from ..theory.creep.lengths import stability_answers  # with SciPy, which takes a while
 
-    return stability_values(fault)[0]
+    return stability_answers(fault)[0]
 
 
 def _crack(s: Setting) -> Any:
@@ -76,10 +76,10 @@ _STEADY = "velocity weakening, near steady sliding, either law"
 
 _OF_FAULT = Length(
     key="stability_length",
-    title="creeping patch, pushed",
+    title="creeping patch L_s",
     formula="its own eigenproblem, docs/creeping_patch.md",
     source="this project",
-    validity="a patch that creeps as it is pushed at its edge, constant a and b, either law",
+    validity="a patch that creeps under the fault's loading, either law",
     system=THIS_FAULT,
     needs="zeta > 0 and L_s < 3 L_c",
     compute=_stability_length,

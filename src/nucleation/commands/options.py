@@ -10,13 +10,14 @@ import click
 from click.shell_completion import CompletionItem
 
 from ..answers.draws import parse_range
+from ..configuration.single_run import flat
 from ..configuration.study_names import study_parameters
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
 from ..model.parameters import Parameters, names
 from ..model.quantities import ParameterError, Quantity
 from ..model.units import bounds, parse
-from .text import with_unit
+from .unit_text import note_typed, with_unit
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
@@ -69,10 +70,13 @@ def option(
 
     def value_of(text: str) -> Any:
         try:
-            return read(key, text, entry)
+            value = read(key, text, entry)
         except ParameterError as error:
             remark = remark_on_half_space(key, text, entry)
             raise click.BadParameter(f"{error}{remark}") from None
+        if isinstance(value, float):
+            note_typed(value, text, entry.unit)
+        return value
 
     def completed(
         context: click.Context,
@@ -189,16 +193,6 @@ source_options = together(
     ),
 )
 """Options for the source of parameters that are not given as options."""
-
-
-def flat(parameters: Parameters) -> dict[str, Any]:
-    """Parameters by their names in studies, without those that are None."""
-    known = names()
-    found = {}
-    for full, value in parameters.named().items():
-        if value is not None:
-            found[known.short(full)] = value
-    return found
 
 
 def parameter_options(

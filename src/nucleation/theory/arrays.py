@@ -246,7 +246,7 @@ def reason_of_stability(fault: FaultParameters) -> str:
 
 @cache
 def aliases() -> dict[str, str]:
-    """The parameters of :class:`FaultParameters` by the other names that simulations and studies use."""
+    """The parameters of a fault by the other names that simulations and studies use."""
     known = names()
     found: dict[str, str] = {}
     for name in QUANTITIES.keys() - set(OF_THEORY):
@@ -258,7 +258,7 @@ def aliases() -> dict[str, str]:
 
 
 def without_aliases(parameters: dict[str, Any]) -> dict[str, Any]:
-    """Keywords with the names of :class:`FaultParameters` in place of :func:`aliases`."""
+    """Keywords with the names of a fault in place of :func:`aliases`."""
     found: dict[str, Any] = {}
     for key, value in parameters.items():
         name = aliases().get(key, key)

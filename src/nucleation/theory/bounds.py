@@ -4,7 +4,7 @@ Every entry of a layer's stiffness is ``N(q)/D(q)`` with N and D sums of positiv
 ``q = |k| H`` (:mod:`.stiffness`). Each function is monotonic, with or without a factor
 ``exp(-2q)``. So its extremes are at the ends of the interval, and ``min N/max D <= N/D <= max N/min
 D``. Only ``A_xy`` may be a difference of two such N. The stiffness of a pair, and of a body with a
-zone (:mod:`.zone`), combines the entries by sums, products and one quotient, in interval arithmetic.
+zone (:mod:`.zone`), combines the entries by sums, products and one quotient of intervals.
 The bounds converge linearly with the length of the interval; where layers are thick they are close
 for any length. With a zone they are NaN over intervals that are too long for any bound.
 """

@@ -22,6 +22,76 @@ from .spectrum import Systems
 from .status import STABLE
 from .stiffness import Array
 
+_Distinct = tuple[Any, ...]
+"""All parameters on which the system of a run depends."""
+
+
+class NoInstability(ValueError):
+    """Homogeneous sliding is stable at every wavenumber: there is no critical length."""
+
+    status = STABLE
+
+
+@dataclasses.dataclass(frozen=True)
+class CriticalPoint:
+    """The largest wavenumber with ``Re Lambda = 0``.
+
+    Its mode ``exp(i omega t - i k_c x)`` travels along +x if omega is positive. If ``G2 = 0`` both
+    signs are marginal; the positive one is given.
+    """
+
+    wavenumber: float  # k_c > 0 (1/m)
+    angular_frequency: float  # omega (rad/s)
+
+    @property
+    def length(self) -> float:
+        """The critical nucleation length ``L_c = 2 pi / k_c`` (m)."""
+        return 2.0 * math.pi / self.wavenumber
+
+
+def critical_point(one: Systems) -> CriticalPoint:
+    """The largest ``k > 0`` with ``Re Lambda = 0`` on either branch of Eq. (5).
+
+    Parameters
+    ----------
+    one : Systems
+        One system, with fields of shape (1,).
+
+    Returns
+    -------
+    CriticalPoint
+        k_c and the frequency of its mode.
+
+    Raises
+    ------
+    NoInstability
+        If sliding is stable at every wavenumber.
+    """
+    k = largest_crossings(one)
+    if np.isnan(k[0]):
+        raise NoInstability(stability_reason(one))
+    omega = marginal_frequencies(one, k)
+    return CriticalPoint(float(k[0]), float(omega[0]))
+
+
+def critical_lengths(cases: Iterable[Case]) -> Array:
+    """The linear theory's critical lengths (m) of many runs, in few vectorised calls.
+
+    The runs may differ in far sides and planes; equal ones are computed once. NaN where sliding is
+    stable (:func:`run_length` gives the reason).
+    """
+    cases = list(cases)
+    groups: dict[tuple[str, ...], dict[_Distinct, Case]] = {}
+    for run, interface in cases:
+        kind = (*far_sides(run), run.material.plane)
+        groups.setdefault(kind, {}).setdefault(_distinct(run, interface), (run, interface))
+    lengths: dict[_Distinct, float] = {}
+    for group in groups.values():
+        k = largest_crossings(systems_of(list(group.values())))
+        found = 2.0 * math.pi / k
+        lengths |= zip(group, found.tolist(), strict=True)
+    return np.array([lengths[_distinct(*case)] for case in cases], dtype=float)
+
 
 def _distinct(
     run: Parameters,

@@ -11,8 +11,8 @@ from ..model.material import Material
 from ..types import Array
 from .closed_forms import bimaterial_length_ratio, thin_limit_length
 from .critical import critical_point
-from .settings import Curves
 from .of_runs import block_on_rigid_base
+from .settings import Curves
 
 CURVES = {
     "height": SHARED["height"],

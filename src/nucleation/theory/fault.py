@@ -29,6 +29,9 @@ from .zone import Zone
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+_MISSING: Any = None
+"""The default of parameters without one, so that an error can name all that are missing."""
+
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class FaultParameters:
@@ -111,13 +114,13 @@ class FaultParameters:
     (0.005, 5e-06)
     """
 
-    shear_modulus: Values | None = None
-    poisson_ratio: Values | None = None
-    normal_stress: Values | None = None
-    a: Values | None = None
+    shear_modulus: Values = _MISSING
+    poisson_ratio: Values = _MISSING
+    normal_stress: Values = _MISSING
+    a: Values = _MISSING
     zeta: Values | None = None
     b: Values | None = None
-    slip_distance: Values | None = None
+    slip_distance: Values = _MISSING
     friction: Values | None = None
     velocity: Values | None = None
     height: Values = math.inf
@@ -406,7 +409,7 @@ class FaultParameters:
 
 
 def takes_fault(function: F) -> F:
-    """Decorator: completion shows the parameters of :class:`FaultParameters` in place of ``**fault``."""
+    """Decorator: completion shows the parameters of a fault in place of ``**fault``."""
     shown = inspect.signature(function)
     own = [p for p in shown.parameters.values() if p.kind is not p.VAR_KEYWORD]
     taken = {p.name for p in own}

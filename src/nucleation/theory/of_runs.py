@@ -1,6 +1,8 @@
 """The linear theory's systems of simulated faults, from the parameters of runs."""
 
+import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +24,43 @@ def far_sides(parameters: Parameters) -> tuple[str, str]:
     first = "velocity" if parameters.loading.kind == "top" else "free"
     below = parameters.below
     return first, "rigid" if below is None else below.far_side
+
+
+def fault_of_run(parameters: Parameters) -> dict[str, Any]:
+    """The fault of a run, as keywords of :class:`~nucleation.fault.Fault`, in SI units.
+
+    f, a and zeta are those of the friction law about V. With another loading than ``edge`` a and b
+    are constant along the creeping patch, so that the law is left out.
+    """
+    material, loading, law = parameters.material, parameters.loading, parameters.friction
+    far_side, second_far_side = far_sides(parameters)
+    friction, a, zeta = law.expansion(loading.velocity)
+    found: dict[str, Any] = {
+        "shear_modulus": material.shear_modulus,
+        "poisson_ratio": material.poisson_ratio,
+        "plane": material.plane,
+        "height": parameters.geometry.height,
+        "far_side": far_side,
+        "normal_stress": loading.normal_stress,
+        "velocity": loading.velocity,
+        "slip_distance": law.slip_distance,
+        "friction": friction,
+        "a": a,
+        "zeta": zeta,
+        "loading": loading.kind,
+        "evolution": law.evolution,
+    }
+    if loading.kind == "edge":
+        found["friction_law"] = law
+    below = parameters.below
+    if below is None:
+        return found | {"second_shear_modulus": math.inf}
+    return found | {
+        "second_shear_modulus": below.material.shear_modulus,
+        "second_poisson_ratio": below.material.poisson_ratio,
+        "second_height": below.geometry.height,
+        "second_far_side": second_far_side,
+    }
 
 
 def pair_of(runs: Sequence[Parameters]) -> LayerPair:
@@ -62,7 +101,7 @@ def _layers(
 
 
 def systems_of(cases: Sequence[Case]) -> Systems:
-    """Systems of runs, which have the same far sides and the same plane; fields of shape (runs,)."""
+    """Systems of runs with the same far sides and the same plane; fields of shape (runs,)."""
     interfaces = [interface for _, interface in cases]
     return _systems(pair_of([run for run, _ in cases]), interfaces)
 

@@ -132,7 +132,7 @@ ZONE = ("zone_thickness", "zone_shear_modulus", "zone_poisson_ratio")
 """Parameters of a zone beside the fault."""
 
 OF_THEORY = ("far_side", *ZONE)
-"""Parameters that no simulation has: its first body has the far side of its loading, and no zone."""
+"""Parameters that no simulation has: its loading sets the first far side, and it has no zone."""
 
 
 def labelled(value: Any) -> bool:

@@ -143,9 +143,7 @@ class Zone(NamedTuple):
             known = FAR_SIDES[far_side]
             terms = known(waves, nu)
             less = known(subtracted, nu).xy_less
-            found.append(
-                Factor(terms.denominator, terms.xx, terms.xy - less, terms.yy, terms.det)
-            )
+            found.append(Factor(terms.denominator, terms.xx, terms.xy - less, terms.yy, terms.det))
         return [*found, _mixed_factor(waves, subtracted, nu)]
 
     def normalised(self, over_zone: Stiffness) -> Stiffness:

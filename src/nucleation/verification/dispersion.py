@@ -17,8 +17,8 @@ from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Loading, Parameters
 from ..theory.critical import critical_point, length_on_rigid_base
-from ..theory.of_runs import block_on_rigid_base
 from ..theory.curves import CURVES
+from ..theory.of_runs import block_on_rigid_base
 from ..types import Array, ComplexArray
 from .single_mode import measured_rates
 

@@ -230,7 +230,7 @@ def mode_row(
     height = parameters.geometry.height
     k = ratio * critical
     measured = measured_rates(parameters, height, k)
-    theory = systems_of([(parameters, interface)]).growth_rates(k)[:, 0]
+    theory = systems_of([(parameters, interface)]).growth_rates(np.array([k]))[:, 0]
     contrast = bimaterial_contrast(parameters.material, below.material)
     return {
         "id": layers.name,

@@ -25,8 +25,7 @@ from nucleation.theory.creep.lengths import (
     stability_point,
     stability_values,
 )
-from nucleation.theory.critical import critical_lengths
-from nucleation.theory.transfer import bodies_of
+from nucleation.theory.critical import run_length
 
 REFERENCE = CONFIG.parent / "results" / "reference"
 FAULT = {
@@ -36,7 +35,7 @@ FAULT = {
 
 
 def length_of(run):
-    return float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return run_length(run, interface_state(run))
 
 
 def test_the_map():

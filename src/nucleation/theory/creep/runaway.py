@@ -19,6 +19,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from ...model.friction.law import Friction
@@ -27,7 +28,7 @@ from ..arrays import fault_of, named
 from ..crossings import largest_crossings
 from ..fault import FaultParameters, takes_fault
 from ..spectrum import Systems
-from ..status import BEYOND
+from ..status import BEYOND, STABLE, VALUE
 from ..values import Values
 from .lengths import stability_point
 from .patches import NoPatch, Patches
