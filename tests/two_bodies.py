@@ -6,7 +6,8 @@ import numpy as np
 
 from nucleation.model.material import ANTIPLANE, Material
 from nucleation.theory import critical, crossings, spectrum
-from nucleation.theory.stiffness import LayerPair, Layers
+from nucleation.theory.pair import LayerPair
+from nucleation.theory.stiffness import Layers
 
 
 class Body(NamedTuple):
@@ -20,24 +21,34 @@ class Body(NamedTuple):
     def layers(self):
         material = self.material
         return Layers(
-            np.array([material.shear_modulus]),
-            np.array([material.in_plane_ratio]),
-            np.array([float(self.height)]),
+            np.array(material.shear_modulus),
+            np.array(material.in_plane_ratio),
+            np.array(float(self.height)),
             self.far_side,
             material.plane == ANTIPLANE,
         )
 
 
-RIGID = None
+class Rigid(NamedTuple):
+    """A body that does not deform."""
+
+    @property
+    def layers(self):
+        return None
+
+
+RIGID = Rigid()
 
 
 def pair(upper, lower):
-    return LayerPair(upper and upper.layers, lower and lower.layers)
+    return LayerPair(upper.layers, lower.layers)
 
 
 def system(upper, lower, interface):
     """One system, with fields of shape (1,)."""
     bodies = pair(upper, lower)
+    assert bodies.deformable
+    bodies = bodies.at(np.newaxis)
     return spectrum.Systems(
         bodies,
         np.array([interface.friction]),

@@ -8,7 +8,7 @@
 array([2.51327412, 1.25663706])
 
 Plain numbers are in SI units. Functions of the linear theory take the parameters of
-:class:`~nucleation.theory.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
+:class:`~nucleation.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
 broadcast as NumPy's do, DataArrays by the names of their dimensions; with a DataArray among the
 parameters the result is a DataArray. A length that does not exist is NaN, and ``length_statuses``
 has the reason: sliding is stable, the length exceeds the range of the search, or a formula is not

@@ -91,7 +91,7 @@ def test_dry_run_writes_nothing(nucleation, tmp_path):
 def test_the_block_is_a_multiple_of_the_critical_length(nucleation, tmp_path):
     six = nucleation("simulate", tmp_path / "run.nc", "--dry-run")
     four = nucleation("simulate", tmp_path / "run.nc", "--dry-run", "--length-over-critical", "4")
-    entry = study_parameters()["length"]
+    entry = study_parameters()["block_length"]
     lengths = [parse("length", planned(ended)["length"], entry) for ended in (four, six)]
     ratio = lengths[0] / lengths[1]
     assert ratio == pytest.approx(4 / 6, rel=1e-3)

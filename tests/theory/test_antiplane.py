@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from two_bodies import Body
 
 from benchmarks.assembled import assemble
 from nucleation.api import (
@@ -123,8 +122,6 @@ def test_rollers_are_refused():
         ParameterError, match="far_side = 'roller' is not allowed with plane = anti"
     ):
         Fault(**PMMA, far_side="roller")
-    with pytest.raises(ParameterError, match="it must be one of velocity, traction, free, clamped"):
-        Body(Material(plane="antiplane"), 1.0, "roller")
 
 
 def test_uniform_shear_has_the_energy_of_a_scalar_field():

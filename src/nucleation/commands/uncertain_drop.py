@@ -60,12 +60,11 @@ def uncertain_of(given: Mapping[str, Any], samples: Path | None) -> dict[str, An
     if samples is None:
         return found
     for name, values in read_samples(samples).items():
-        known = IN_STUDIES.get(name)
-        if known is None:
+        if name not in IN_STUDIES:
             raise ParameterError(f"{samples}: {name} does not matter to the drop")
-        if known in given:
-            raise ParameterError(f"{known} is given twice: as an option and in {samples}")
-        found[known] = values
+        if name in given:
+            raise ParameterError(f"{name} is given twice: as an option and in {samples}")
+        found[name] = values
     return found
 
 

@@ -13,7 +13,8 @@ from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from .stiffness import Array, LayerPair, Layers, Stiffness
+from .pair import LayerPair
+from .stiffness import Array, Layers, Stiffness
 from .waves import Waves
 from .zone import Factor, Zone
 

@@ -22,8 +22,9 @@ from ..model.quantities import ParameterError, refusal
 from ..model.synonyms import hint
 from ..model.units import is_quantity
 from ..types import Array
+from .pair import LayerPair
 from .spectrum import Systems
-from .stiffness import FAR_SIDES, LayerPair, Layers, require_far_side
+from .stiffness import FAR_SIDES, Layers, require_far_side
 from .values import QUANTITIES, ZONE, Values, checked, labelled
 from .zone import Zone
 
@@ -152,7 +153,7 @@ class FaultParameters:
             self._expand(self.friction_law)
         missing = [name for name in required(self.plane) if getattr(self, name) is None]
         if missing:
-            raise ParameterError(f"the fault has no {', '.join(missing)}: it is needed")
+            raise ParameterError(f"{', '.join(missing)} is missing: every fault needs it")
         if (self.zeta is None) == (self.b is None):
             raise ParameterError("zeta or b = a + zeta is needed, one of them and not both")
         self._require_whole_zone()
@@ -282,8 +283,18 @@ class FaultParameters:
     def keys(self) -> list[str]:
         """Names of the parameters with a value; with ``[name]`` they make ``**fault`` possible."""
         names = [field.name for field in dataclasses.fields(self)]
-        left_out = ("b", "registry")  # zeta has b's value
-        return [name for name in names if name not in left_out and getattr(self, name) is not None]
+        found = []
+        for name in names:
+            value = getattr(self, name)
+            left_out = ("b", "registry")  # zeta has b's value
+            if value is not None and name not in left_out and not self._is_the_firsts(name):
+                found.append(name)
+        return found
+
+    def _is_the_firsts(self, name: str) -> bool:
+        """Whether a parameter of the second body was left out, so that it is the first body's."""
+        _, second, first = name.partition("second_")
+        return bool(second) and getattr(self, name) is getattr(self, first)
 
     def __getitem__(self, name: str) -> Any:
         value = getattr(self, name)
@@ -413,8 +424,8 @@ def takes_fault(function: F) -> F:
     shown = inspect.signature(function)
     own = [p for p in shown.parameters.values() if p.kind is not p.VAR_KEYWORD]
     taken = {p.name for p in own}
-    of_fault = inspect.signature(FaultParameters).parameters.values()
-    added = [p for p in of_fault if p.name not in taken]
+    of_fault = inspect.signature(FaultParameters.__init__).parameters.values()
+    added = [p for p in of_fault if p.name not in taken and p.name != "self"]
     function.__signature__ = shown.replace(parameters=own + added)  # type: ignore[attr-defined]
     return function
 

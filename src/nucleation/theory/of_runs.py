@@ -9,8 +9,9 @@ import numpy as np
 from ..model.linearised import InterfaceState
 from ..model.material import ANTIPLANE, Material
 from ..model.parameters import Parameters
+from .pair import LayerPair
 from .spectrum import Systems
-from .stiffness import LayerPair, Layers
+from .stiffness import Layers
 
 Case = tuple[Parameters, InterfaceState]
 """A run, and its friction linearised about steady sliding."""

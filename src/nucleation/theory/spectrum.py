@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..types import ComplexArray
-from .stiffness import Array, LayerPair
+from .pair import LayerPair
+from .stiffness import Array
 
 
 class Systems(NamedTuple):

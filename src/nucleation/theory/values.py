@@ -106,8 +106,8 @@ def _declared() -> dict[str, Quantity]:
         "plane": material["plane"],
         "loading": dataclasses.replace(
             declarations(Loading)["kind"],
-            description="where the creeping patch begins: at a pushed edge, at a free side under a "
-            "top that moves, or in the interior under a remote load",
+            description="start of the creeping patch: an edge that is pushed, a free side under a "
+            "top that moves, or the interior under a remote load",
         ),
         "evolution": declarations(Friction)["evolution"],
     }

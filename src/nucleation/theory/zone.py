@@ -100,8 +100,8 @@ class Zone(NamedTuple):
         waves = Waves(self.layer.layer_number(wavenumber))
         shares = self.shares(self.body.stiffness(wavenumber))
         factors = self.factors(waves, waves)
-        terms = zip(shares, factors, strict=True)
-        below, *above = sum(share * np.stack(factor) for share, factor in terms)
+        terms = [share * np.stack(f) for share, f in zip(shares, factors, strict=True)]
+        below, *above = np.add.reduce(terms)
         return self.normalised(Stiffness(*(numerator / below for numerator in above)))
 
     def shares(self, behind: Stiffness) -> list[Array]:

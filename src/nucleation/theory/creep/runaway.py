@@ -222,4 +222,4 @@ def runaway_answers(fault: FaultParameters) -> tuple[Any, Any, Any]:
         return found
 
     rows = fault.evaluate(lengths, rows=3, dtype=object)
-    return rows[0].astype(float), rows[1], rows[2]
+    return rows[:1].astype(float)[0], rows[1], rows[2]
