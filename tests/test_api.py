@@ -11,13 +11,13 @@ import pint
 import pytest
 import xarray as xr
 from numpy.testing import assert_allclose
+from two_bodies import Body, critical_wavenumber
 
 from nucleation import api
 from nucleation.model.linearised import InterfaceState
 from nucleation.model.material import Material
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import arrays, critical
-from nucleation.theory.transfer import Body
 
 ROCK = {"shear_modulus": 30e9, "poisson_ratio": 0.25, "normal_stress": 50e6}
 FRICTION = {"a": 0.010, "b": 0.015, "slip_distance": 5e-6}
@@ -31,7 +31,7 @@ PAPER = {
 def test_a_block_on_a_rigid_base():
     """The solid line of Figure 3, by the scalar function."""
     height = np.array([0.005, 0.02, 0.1, np.inf])
-    expected = critical.critical_length(height, Material(3.1e9, 1 / 3), InterfaceState())
+    expected = critical.length_on_rigid_base(height, Material(3.1e9, 1 / 3), InterfaceState())
     assert_allclose(arrays.critical_length(**PAPER, height=height), expected, rtol=1e-12)
 
 
@@ -41,9 +41,7 @@ def test_a_block_on_a_rigid_base():
 def test_layers_of_different_heights_and_far_sides(heights, sides):
     material = Material(30e9, 0.25)
     bodies = (Body(material, h, side) for h, side in zip(heights, sides, strict=True))
-    expected = critical.critical_wavenumber(
-        *bodies, InterfaceState(0.6, 0.010, 0.005, 5e-6, 2e-6, 50e6)
-    )
+    expected = critical_wavenumber(*bodies, InterfaceState(0.6, 0.010, 0.005, 5e-6, 2e-6, 50e6))
     layers = {"height": heights[0], "second_height": heights[1]}
     layers |= {"far_side": sides[0], "second_far_side": sides[1]}
     found = arrays.critical_mode(**FAULT, **layers, friction=0.6, velocity=2e-6)
@@ -185,7 +183,7 @@ def test_bad_parameters(changes, words):
 
 
 def test_missing_parameters():
-    with pytest.raises(ParameterError, match=r"the fault missing .*'normal_stress'"):
+    with pytest.raises(ParameterError, match=r"normal_stress is missing"):
         arrays.critical_length(
             shear_modulus=1e9, poisson_ratio=0.2, a=0.1, b=0.2, slip_distance=1.0
         )

@@ -25,11 +25,11 @@ from nucleation.api import (
     specimen_fit,
     stability_length,
 )
+from nucleation.fault import Fault
 from nucleation.model.friction.constants import full_law
 from nucleation.model.own_fault import OVER_VELOCITY, STATE_SCALE
 from nucleation.theory.arrays import reason_of_stability
 from nucleation.theory.creep.lengths import LONGEST, stability_length_of
-from nucleation.theory.fault import Fault
 
 SEED, NUMBER, QUICK = 34, 200, 12
 LONGEST_SPECIMEN = 1e7  # m

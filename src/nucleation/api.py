@@ -8,7 +8,7 @@
 array([2.51327412, 1.25663706])
 
 Plain numbers are in SI units. Functions of the linear theory take the parameters of
-:class:`~nucleation.theory.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
+:class:`~nucleation.fault.Fault` as keywords, each a number, an array or a DataArray; arrays
 broadcast as NumPy's do, DataArrays by the names of their dimensions; with a DataArray among the
 parameters the result is a DataArray. A length that does not exist is NaN, and ``length_statuses``
 has the reason: sliding is stable, the length exceeds the range of the search, or a formula is not
@@ -31,6 +31,7 @@ from typing import TYPE_CHECKING, Any
 
 from .answers.in_use import lengths_in_use
 from .configuration.installed import MissingExtra, require, require_own
+from .fault import Fault
 from .model.friction.law import Friction
 from .model.heterogeneity import Heterogeneity
 from .model.material import Material
@@ -46,7 +47,6 @@ from .theory.arrays import (
     spectrum,
     transfer_functions,
 )
-from .theory.fault import Fault
 
 if TYPE_CHECKING:
     from .analysis.definitions import ExtractionSettings

@@ -25,8 +25,7 @@ from nucleation.patch.tables.stability import STABILITY, gather_stability
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, run, simulate
 from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.critical import critical_lengths
-from nucleation.theory.transfer import bodies_of
+from nucleation.theory.critical import run_length
 
 pytestmark = pytest.mark.slow
 
@@ -185,7 +184,7 @@ def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
         if instant.report.interface.slip_rate.max() > 30.0 * velocity:
             break
     found = follow_patch(recorder.dataset(), ExtractionSettings())
-    critical = float(critical_lengths([(*bodies_of(parameters), interface_state(parameters))])[0])
+    critical = run_length(parameters, interface_state(parameters))
     theory = stability_point(dataclasses.replace(Patches.of(parameters), law=None), critical)
     assert theory.length == pytest.approx(float(found["stability_length"]), rel=0.04)
     assert found["stability_length_error"] < 0.03 * theory.length

@@ -32,7 +32,6 @@ from nucleation.model.linearised import interface_state
 from nucleation.theory.creep.lengths import stability_length_of
 from nucleation.theory.creep.thin import thin_limit
 from nucleation.theory.critical import run_length
-from nucleation.theory.transfer import Body
 
 BP1 = {
     "shear_modulus": 32.04e9, "poisson_ratio": 0.25, "normal_stress": 50e6, "a": 0.010, "b": 0.015,
@@ -123,8 +122,6 @@ def test_rollers_are_refused():
         ParameterError, match="far_side = 'roller' is not allowed with plane = anti"
     ):
         Fault(**PMMA, far_side="roller")
-    with pytest.raises(ParameterError, match="it must be one of velocity, traction, free, clamped"):
-        Body(Material(plane="antiplane"), 1.0, "roller")
 
 
 def test_uniform_shear_has_the_energy_of_a_scalar_field():

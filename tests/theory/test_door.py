@@ -58,11 +58,19 @@ def test_a_mask_without_masked_values_does_not_matter():
     np.testing.assert_array_equal(found, critical_length(**FAULT | {"normal_stress": plain}))
 
 
+MORE = {
+    "second_height": {"height": 1.0, "friction": 0.6},
+    "zone_thickness": {"zone_shear_modulus": 1e9},
+    "zone_shear_modulus": {"zone_thickness": 0.1},
+}
+"""Parameters that others need."""
+
+
 @pytest.mark.filterwarnings("ignore::nucleation.model.plausible.ImplausibleWarning")
 @pytest.mark.parametrize("name", FLOORS)
 def test_the_least_value_of_each_parameter_has_an_answer(name):
     entry = QUANTITIES[name]
-    more = {} if name != "second_height" else {"height": 1.0, "friction": 0.6}
+    more = MORE.get(name, {})
     for value in (entry.low, entry.low * (1.0 + 1e-9)):
         given = FAULT | more | {name: value, "friction": 0.6}
         assert math.isfinite(critical_length(**given)) and critical_length(**given) > 0.0

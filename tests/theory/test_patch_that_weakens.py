@@ -14,8 +14,9 @@ from nucleation.answers.formulas import FINITE_PATCH
 from nucleation.api import critical_length, spectrum, weakening_patch_length
 from nucleation.model.quantities import ParameterError
 from nucleation.theory import patch_basis, weakening_patch
+from nucleation.theory.pair import LayerPair
 from nucleation.theory.spectrum import Systems
-from nucleation.theory.stiffness import LayerPair, Layers
+from nucleation.theory.stiffness import Layers
 
 A = 0.01
 FAULT = {

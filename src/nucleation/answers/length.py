@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..model.material import ANTIPLANE
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from ..theory.values import Numbers
 from . import formulas
 from .formulas import Setting, valid
@@ -30,19 +30,19 @@ class Length:
     source: str
     validity: str
     compute: Callable[[Any], Numbers]
-    """The length (m) from a Setting; from the Fault if the system is THIS_FAULT."""
+    """The length (m) from a Setting; from the FaultParameters if the system is THIS_FAULT."""
     needs: str = "zeta > 0"
     """The condition on the parameters without which the length is NaN."""
     beyond: str = ""
     """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
 
-    def evaluate(self, fault: Fault, weakening_rate: Numbers) -> Numbers:
+    def evaluate(self, fault: FaultParameters, weakening_rate: Numbers) -> Numbers:
         """The length of a fault.
 
         Parameters
         ----------
-        fault : Fault
+        fault : FaultParameters
             One fault, or arrays of faults.
         weakening_rate : array_like
             Slip weakening W (Pa/m).
@@ -70,7 +70,7 @@ class Length:
         length = self.compute(_setting(fault, own))
         return valid(coupling < formulas.NEGLIGIBLE, length)
 
-    def facts(self, fault: Fault) -> dict[str, Numbers]:
+    def facts(self, fault: FaultParameters) -> dict[str, Numbers]:
         """The quantities of a fault that decide whether the length is valid, by name; H in m."""
         with np.errstate(divide="ignore", invalid="ignore"):
             known = {
@@ -107,7 +107,7 @@ _FACTS = {"a/b": "a/b", "zeta": "zeta", "b > 0": "b", "beta": "f |beta|", "H/L":
 """The quantity in a condition, by a part of :attr:`Length.needs`."""
 
 
-def _setting(fault: Fault, own: dict[str, Any]) -> Setting:
+def _setting(fault: FaultParameters, own: dict[str, Any]) -> Setting:
     """The parameters of a fault, some of them replaced by `own` values."""
     values = {}
     for field in dataclasses.fields(Setting):
@@ -116,12 +116,12 @@ def _setting(fault: Fault, own: dict[str, Any]) -> Setting:
     return Setting(**values)
 
 
-def number(fault: Fault, name: str) -> Numbers:
+def number(fault: FaultParameters, name: str) -> Numbers:
     """A parameter of a fault, which has checked it, in SI units.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, or arrays of faults.
     name : str
         Name of the parameter, which is not None.
@@ -133,7 +133,7 @@ def number(fault: Fault, name: str) -> Numbers:
     return cast(Numbers, getattr(fault, name))
 
 
-def of_two_materials(fault: Fault) -> tuple[Numbers, Numbers]:
+def of_two_materials(fault: FaultParameters) -> tuple[Numbers, Numbers]:
     """Modulus M (Pa) of the two materials as half-spaces, and ``f |beta|``."""
     nu, second_nu = fault.in_plane_ratios
     first = number(fault, "shear_modulus")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..configuration.advice import changing_friction
+from ..configuration.single_run import merged, merged_parameters, single_run
 from ..configuration.study_names import study_parameters
 from ..model.friction.constants import CONSTANTS
 from ..model.parameters import Parameters, names
@@ -18,11 +19,12 @@ from ..model.perturbation import KINDS, Perturbation
 from ..model.quantities import ParameterError
 from ..theory import status as status_words
 from ..theory.arrays import critical_length, reason_of_stability
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
+from ..theory.of_runs import fault_of_run
 from . import DONE, EXIT_CODES, STABLE, UNKNOWN
 from .options import parameter_options, source_options
-from .sources import merged, merged_parameters, planned, sourced
-from .system_text import fault_in, plane_in_words, system_of_run
+from .sources import sourced
+from .system_text import plane_in_words, system_of_run
 from .text import table, to_json, wrapped
 from .uncertain_drop import print_drop_quantiles, uncertain_of
 from .uncertainty import draws_option, samples_option
@@ -101,15 +103,15 @@ def command(
     if uncertain:
         return print_drop_quantiles(base, given, uncertain, USUAL, paper, draws, as_json)
     parameters = merged_parameters(None, values)
-    fault = fault_in(parameters)
+    fault = fault_of_run(parameters)
     critical = float(critical_length(**fault))
     found = None
     code, status, reason = DONE, status_words.VALUE, ""
     if math.isnan(critical):
         code, status = STABLE, status_words.STABLE
-        reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
+        reason = reason_of_stability(FaultParameters(**fault)) + _cure(parameters)
     else:
-        run = planned(values, {}, results="results")  # not used
+        run = single_run(values, results="results")  # not used
         critical = run.critical_length
         # imported here, since the solver takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop

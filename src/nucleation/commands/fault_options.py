@@ -4,17 +4,20 @@ import contextlib
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import click
 
 from ..answers.draws import Range, parse_range
+from ..configuration.single_run import merged_parameters
 from ..model.friction.constants import CONSTANTS
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS, law_declarations
 from ..model.parameters import names
 from ..model.quantities import ParameterError
-from ..theory.fault import QUANTITIES, REQUIRED
+from ..theory.fault import QUANTITIES, required
+from ..theory.of_runs import fault_of_run
+from ..theory.values import OF_THEORY
 from .options import (
     Decorator,
     option,
@@ -24,8 +27,8 @@ from .options import (
     together,
     words,
 )
-from .sources import given_of, merged_parameters, sourced
-from .system_text import fault_in, papers_lines
+from .sources import given_of, sourced
+from .system_text import papers_lines
 
 _NOTES = {
     "b": "this, --zeta or --zeta-over-a",
@@ -43,8 +46,8 @@ _LAW_IN_STUDIES = {names().short(f"friction.{name}") for name in law_declaration
 _FRICTION = {"velocity", "evolution", *CONSTANTS, *_LAW_IN_STUDIES}
 """Names in studies of the parameters of friction laws, and of their constants at V."""
 
-IN_STUDIES = {name: names().short(names().full(name)) for name in QUANTITIES if name != "far_side"}
-"""Names in studies of the parameters of a fault; a simulation has only one kind of far side."""
+IN_STUDIES = tuple(name for name in QUANTITIES if name not in OF_THEORY)
+"""The parameters of a fault that simulations have too, under the same names."""
 
 _SCALES = (
     "regularisation_slip_rate",
@@ -55,22 +58,11 @@ _SCALES = (
 """Names in studies of the scales of friction laws, by which a and b depend on the slip rate."""
 
 
-class GivenFault(NamedTuple):
-    """A fault as options and files define it."""
-
-    values: dict[str, Any]
-    """The parameters of :class:`~nucleation.theory.fault.Fault`."""
-    law: Friction | None
-    """The friction law of `simulate` and `drop`; None without f or V, or where no law fits."""
-    papers: list[str]
-    """The parameters that are not given and therefore the paper's, in a line."""
-
-
 def _options_of_quantities() -> list[Decorator]:
     """One option for each parameter of a fault."""
     options: list[Decorator] = []
     for key, entry in QUANTITIES.items():
-        called = ["--far-side"] if key == "far_side" else words(key)
+        called = words(key) if key in IN_STUDIES else [f"--{key.replace('_', '-')}"]
         note = _NOTES.get(key, "")
         options.append(option(*called, key=key, entry=entry, note=note, read=parse_range))
     return options
@@ -79,7 +71,7 @@ def _options_of_quantities() -> list[Decorator]:
 fault_options = together(
     *_options_of_quantities(),
     option("--zeta-over-a", key="zeta_over_a", entry=names()["zeta_over_a"]),
-    parameter_options(("evolution", "friction_law", *_SCALES)),
+    parameter_options(("friction_law", *_SCALES)),
     second_body_option,
     click.option(
         "--per-decade",
@@ -100,7 +92,7 @@ def fault_values(
     optional: str = "",
     ranges: bool = False,
     **options: Any,
-) -> GivenFault:
+) -> tuple[dict[str, Any], list[str]]:
     """The fault that options and files define.
 
     Parameters
@@ -118,7 +110,11 @@ def fault_values(
 
     Returns
     -------
-    GivenFault
+    values : dict
+        The parameters of :class:`~nucleation.fault.Fault`, with the friction law of `simulate` and
+        `drop`.
+    papers : list of str
+        The parameters that are not given and therefore the paper's, in a line.
 
     Raises
     ------
@@ -129,34 +125,30 @@ def fault_values(
     if per_decade:
         for name in own.keys() & {"a", "b", "zeta"}:
             own[name] = own[name] / math.log(10.0)
-    far_sides: dict[str, Any] = {
-        name: own[name] for name in ("far_side", "second_far_side") if name in own
-    }
-    by_study = {}
-    for name, value in own.items():
-        if name != "far_side":
-            by_study[IN_STUDIES.get(name, name)] = value
-    base, given = sourced(file, run_id, config, paper, by_study, ranges)
+    of_theory = {name: own.pop(name) for name in OF_THEORY if name in own}
+    if "second_far_side" in own:  # which allows more in the theory
+        of_theory["second_far_side"] = own.pop("second_far_side")
+    base, given = sourced(file, run_id, config, paper, own, ranges)
 
-    law: Friction | None
     if base or paper or _sets_law(given):
         parameters = merged_parameters(base, given)
-        values = fault_in(parameters)
-        law = parameters.friction
-        papers = [] if base else papers_lines(law, given)
+        values = fault_of_run(parameters)
+        papers = [] if base else papers_lines(parameters.friction, given)
     else:
         values = _of_study(given)
         law = _law_of(values, given)
+        if law is not None and values.get("loading", "edge") == "edge":
+            values["friction_law"] = law
         papers = []
-    values |= far_sides
+    values |= of_theory
 
-    for name in REQUIRED:
+    for name in required(values.get("plane", "strain")):
         if name not in values and name != optional:
             raise ParameterError(
                 f"{name} is missing: give {words(name)[-1]} or --parameters FILE, or take all "
                 "other parameters from the paper by --paper"
             )
-    return GivenFault(values, law, papers)
+    return values, papers
 
 
 def _sets_law(given: Mapping[str, Any]) -> bool:
@@ -178,7 +170,7 @@ def _law_of(values: Mapping[str, Any], given: Mapping[str, Any]) -> Friction | N
 
 def _of_study(given: Mapping[str, Any]) -> dict[str, Any]:
     """The parameters of a fault, from values by their names in studies."""
-    found = {name: given[key] for name, key in IN_STUDIES.items() if key in given}
+    found = {name: given[name] for name in IN_STUDIES if name in given}
     if "zeta_over_a" in given and "a" in found:
         if {"zeta", "b"} & found.keys():
             raise ParameterError("zeta_over_a is not allowed together with zeta or b")

@@ -1,7 +1,7 @@
 """``nucleation length``: the critical length of a fault, and other lengths in use."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,22 +10,13 @@ import click
 from ..answers import formulas
 from ..answers.draws import parse_range
 from ..answers.in_use import LENGTHS, WEAKENING_RATE
-from ..answers.length import (
-    HALF_SPACES,
-    THIS_FAULT,
-    TWO_MATERIALS,
-    Length,
-    number,
-    of_two_materials,
-)
+from ..answers.length import HALF_SPACES, TWO_MATERIALS, Length, number, of_two_materials
 from ..answers.status import Answers, answers_of
-from ..model.friction.law import Friction
-from ..model.loading import LOADINGS
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
 from ..theory.arrays import critical_mode
-from ..theory.creep.lengths import stability_answers, stability_values
-from ..theory.fault import Fault
+from ..theory.creep.lengths import stability_answers
+from ..theory.fault import FaultParameters
 from ..theory.status import BEYOND, STABLE, UNKNOWN
 from . import DONE, EXIT_CODES
 from . import STABLE as CODE_OF_STABLE
@@ -80,21 +71,12 @@ _DENSITY = declarations(Material)["density"]
     note="of Uenishi and Rice's length; b sigma0/D if left out",
     read=parse_range,
 )
-@click.option(
-    "--loading",
-    type=click.Choice(LOADINGS),
-    default="edge",
-    show_default=True,
-    help="where the creeping patch begins: edge that is pushed, free side under a top that moves, "
-    "or interior; a top that moves has --far-side velocity",
-)
 @patch_options
 @samples_option
 @draws_option(1000)
 @click.option("--json", "as_json", is_flag=True, help="print JSON, in SI units")
 def command(
     density: float | None,
-    loading: str,
     as_json: bool,
     samples: Path | None,
     draws: int,
@@ -115,26 +97,22 @@ def command(
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
     of_patch = {name: options.pop(name) for name in OPTIONS}
-    given, law, papers = fault_values(**options, ranges=True)
+    given, papers = fault_values(**options, ranges=True)
     uncertain = ranges_among(given) | uncertain
     if uncertain:
         for name, value in {"density": density, **of_patch}.items():
             if value is not None:
                 raise ParameterError(f"{name} is not allowed beside ranges and samples")
-        usual = {"weakening_rate": weakening_rate, "loading": loading, "draws": draws}
+        usual = {"weakening_rate": weakening_rate, "draws": draws}
         return print_quantiles(given, uncertain, options | usual, papers, as_json)
     if density is not None and "velocity" not in given:
         raise ParameterError("velocity is missing: --density needs it, for the mode's speed")
     with printed_warnings():
-        fault = Fault(**given)
+        fault = FaultParameters(**given)
         found = answers_of(fault, weakening_rate)
-        theory = _theory(given, fault, density, loading, law, found["critical_length"])
+        theory = _theory(fault, density, found)
         patch = patch_of(fault, of_patch)
-    answers = {}
-    for length in LENGTHS:
-        key = "stability_length" if length.system == THIS_FAULT else length.key
-        answers[length.key] = found[key]
-    system = system_of_fault(fault, given, loading, law, papers)
+    system = system_of_fault(fault, given, papers)
     if as_json:
         everything = {
             "system": system,
@@ -142,7 +120,7 @@ def command(
             "theory": theory,
             "weakening_patch": patch and patch._asdict(),
             "lengths": [
-                {"key": length.key, **as_plain(answers[length.key]), **length.words()}
+                {"key": length.key, **as_plain(found[length.key]), **length.words()}
                 for length in LENGTHS
             ],
         }
@@ -151,34 +129,32 @@ def command(
         of_patch_lines = []
         if patch:
             of_patch_lines = patch_lines(patch, of_patch["width"], theory["critical_length"])
-        click.echo(_as_text(system, fault, theory, answers, law, of_patch_lines))
+        click.echo(_as_text(system, fault, theory, found, of_patch_lines))
     return DONE if math.isfinite(theory["critical_length"]) else CODE_OF_STABLE
 
 
 def _theory(
-    given: dict[str, Any],
-    fault: Fault,
+    fault: FaultParameters,
     density: float | None,
-    loading: str,
-    law: Friction | None,
-    critical: Answers,
+    answers: Mapping[str, Answers],
 ) -> dict[str, Any]:
     """The theory's numbers for JSON, in SI units; NaN where there is none, with status."""
     slip_distance = number(fault, "slip_distance")
     # without V a rate V/D of one per second
     velocity = slip_distance if fault.velocity is None else number(fault, "velocity")
-    mode = critical_mode(**{**given, "velocity": velocity})
+    mode = critical_mode(**{**fault, "velocity": velocity})
     length, wavenumber, frequency = map(float, mode)
     ratio = None
     if density is not None:
         modulus = float(number(fault, "shear_modulus"))
         shear_wave = Material(modulus, density=density).shear_wave_speed
         ratio = abs(frequency) / wavenumber / shear_wave
-    if loading != "edge":
-        law = None
-    *numbers, status, reason = stability_answers(fault, law, loading)
-    stability_length, own_frequency, error = map(float, numbers)
-    constant = float(stability_values(fault, None, loading)[0]) if law else stability_length
+    stability_length, own_frequency, error = map(float, stability_answers(fault)[:3])
+    constant = stability_length
+    if fault.friction_law is not None:
+        without_law = FaultParameters(**{**fault, "friction_law": None})
+        constant = float(stability_answers(without_law)[0])
+    critical, stability = answers["critical_length"], answers["stability_length"]
     return {
         "critical_length": length,
         "critical_length_status": str(critical.status),
@@ -187,10 +163,10 @@ def _theory(
         "critical_frequency": None if fault.velocity is None else frequency,
         "critical_frequency_over_rate": frequency / float(velocity / slip_distance),
         "speed_over_shear_wave": ratio,
-        "loading": loading,
+        "loading": fault.loading,
         "stability_length": stability_length,
-        "stability_length_status": str(status),
-        "stability_length_reason": str(reason),
+        "stability_length_status": str(stability.status),
+        "stability_length_reason": str(stability.reason),
         "stability_frequency_over_rate": own_frequency,
         "stability_length_error": error,
         "stability_length_of_constant_a_and_b": constant,
@@ -199,16 +175,15 @@ def _theory(
 
 def _as_text(
     system: list[str],
-    fault: Fault,
+    fault: FaultParameters,
     theory: dict[str, Any],
     answers: dict[str, Answers],
-    law: Friction | None,
     patch: list[str],
 ) -> str:
     head = "Theory of homogeneous sliding, for this fault (Aldam et al., 2017, Eq. 5):"
     lines = wrapped(*system, "", head)
     if math.isfinite(theory["critical_length"]):
-        lines += [*_mode_lines(theory), "", *_patch_lines(theory, fault, law)]
+        lines += [*_mode_lines(theory), "", *_patch_lines(theory, fault)]
     else:
         lines += wrapped(f"  no critical length: {theory['critical_length_reason']}")
     if patch:
@@ -228,7 +203,7 @@ def _as_text(
     return "\n".join([*lines, "", *wrapped(remark)])
 
 
-def _moduli(fault: Fault) -> str:
+def _moduli(fault: FaultParameters) -> str:
     """The moduli in the formulas: mu*, and M of two materials."""
     star = {
         "strain": "mu/(1 - nu)",
@@ -265,9 +240,9 @@ def _mode_lines(theory: dict[str, Any]) -> list[str]:
     return table(lines)
 
 
-def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> list[str]:
+def _patch_lines(theory: dict[str, Any], fault: FaultParameters) -> list[str]:
     """L_s with its meaning, and the effect of the friction law's scales on it."""
-    loading = theory["loading"]
+    loading, law = fault.loading, fault.friction_law
     length = theory["stability_length"]
     head = f"The creeping patch itself, {BEGINS[loading]} (docs/creeping_patch.md):"
     if not math.isfinite(length):
@@ -290,7 +265,7 @@ def _patch_lines(theory: dict[str, Any], fault: Fault, law: Friction | None) -> 
 def _length_rows(
     length: Length,
     answer: Answers,
-    fault: Fault,
+    fault: FaultParameters,
     critical: float,
 ) -> list[Sequence[str] | str]:
     """One length: value and formula, source, validity."""

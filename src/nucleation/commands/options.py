@@ -10,6 +10,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from ..answers.draws import parse_range
+from ..configuration.single_run import flat
 from ..configuration.study_names import study_parameters
 from ..model.friction.law import Friction
 from ..model.friction.registry import LAWS
@@ -192,16 +193,6 @@ source_options = together(
     ),
 )
 """Options for the source of parameters that are not given as options."""
-
-
-def flat(parameters: Parameters) -> dict[str, Any]:
-    """Parameters by their names in studies, without those that are None."""
-    known = names()
-    found = {}
-    for full, value in parameters.named().items():
-        if value is not None:
-            found[known.short(full)] = value
-    return found
 
 
 def parameter_options(

@@ -13,6 +13,7 @@ import numpy as np
 from ..answers.draws import Draws, with_default_unit
 from ..answers.specimen import SPECIMEN
 from ..configuration.installed import require
+from ..configuration.single_run import merged_parameters
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError, Quantity
@@ -24,7 +25,7 @@ from . import DONE, EXIT_CODES, STABLE
 from .drop import COUNTING, USUAL
 from .options import option, parameter_options, source_options
 from .progress import Progress
-from .sources import merged_parameters, name_in_studies, sourced
+from .sources import name_in_studies, sourced
 from .system_text import system_of_run
 from .text import require_writable, to_json, wrapped
 from .uncertain_drop import case_of, cases_of, completed, draw_in_studies, uncertain_of

@@ -14,14 +14,15 @@ from ..configuration.advice import advise
 from ..configuration.installed import require
 from ..configuration.runs import Run
 from ..configuration.settings import Limits, StudySettings, estimated_megabytes
+from ..configuration.single_run import STUDY, flat, merged, single_run
 from ..configuration.study_names import study_parameters
 from ..model.parameters import Parameters
 from ..model.perturbation import KINDS
 from ..model.quantities import ParameterError, declarations
 from ..theory.creep.lengths import stability_length_of
 from . import DONE, EXIT_CODES, FAILED, INTERRUPTED
-from .options import flat, option, parameter_options, source_options
-from .sources import STUDY, given_of, merged, planned, sourced
+from .options import option, parameter_options, source_options
+from .sources import given_of, sourced
 from .system_text import system_of_run
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json, wrapped
 from .unit_text import in_unit
@@ -84,7 +85,7 @@ def command(
             f"seed = {given['seed']} is not allowed with perturbation = none, which has no "
             f"realisations: perturbation must be one of {', '.join(KINDS[1:])}"
         )
-    run = planned(
+    run = single_run(
         values,
         study=given_of({"length_over_critical": length_over_critical}),
         limits=given_of({"memory": memory}),

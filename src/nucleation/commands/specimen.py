@@ -17,7 +17,7 @@ from ..answers.specimen import (
 )
 from ..answers.specimen_quantiles import SpecimenQuantiles, specimen_quantiles
 from ..answers.status import Answers, answers_of_theory
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import QUANTITIES, FaultParameters
 from ..theory.status import STABLE as STABLE_SLIDING
 from . import DONE, EXIT_CODES, STABLE
 from .fault_options import fault_options, fault_values
@@ -79,7 +79,7 @@ def command(
           --poisson-ratio 0.35 --a 0.0068 --zeta 0.016 --slip-distance 0.5um
     """
     options, uncertain = take_uncertain(options, samples)
-    given, _, papers = fault_values(**options, optional=unknown, ranges=True)
+    given, papers = fault_values(**options, optional=unknown, ranges=True)
     uncertain = ranges_among(given) | uncertain
     if uncertain:
         known = varying(given, uncertain, options)
@@ -88,10 +88,10 @@ def command(
     with printed_warnings():
         fit = specimen_fit(unknown, length, criterion, **given)
         value = fit.searched[0] if own is None else own
-        fault = Fault(**given | {unknown: value})
+        fault = FaultParameters(**given | {unknown: value})
         judged = None if own is None else answers_of_theory(fault)[criterion]
     sought = unknown if own is None else ""
-    system = system_of_fault(fault, given, papers=papers, sought=sought)
+    system = system_of_fault(fault, given, papers, sought)
     if as_json:
         verdict = None if judged is None else {"value": own, **as_plain(judged)}
         found = {
@@ -133,9 +133,9 @@ def _print_quantiles(
             **known,
         )
         value = given.get(unknown, found.searched[0])
-        middle = Fault(**given | {unknown: value})
+        middle = FaultParameters(**given | {unknown: value})
     sought = "" if unknown in given else unknown
-    system = system_of_fault(middle, given, papers=papers, sought=sought)
+    system = system_of_fault(middle, given, papers, sought)
     if as_json:
         everything = {
             "system": system,

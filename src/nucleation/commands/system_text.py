@@ -13,8 +13,8 @@ from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
 from ..model.plausible import ImplausibleWarning
-from ..theory.fault import QUANTITIES, Fault
-from ..theory.transfer import RigidBody, bodies_of
+from ..theory.fault import QUANTITIES, FaultParameters
+from ..theory.of_runs import fault_of_run
 from .text import wrapped
 from .unit_text import in_unit
 
@@ -49,7 +49,7 @@ def plane_in_words(plane: str) -> str:
     return "antiplane shear" if plane == ANTIPLANE else f"plane {plane}"
 
 
-def _system_line(fault: Fault, loading: str, sought: str) -> str:
+def _system_line(fault: FaultParameters, sought: str) -> str:
     """Bodies, far sides, loading and plane."""
     names = ("shear_modulus", "poisson_ratio", "height", "far_side")
     first = [getattr(fault, name) for name in names]
@@ -63,7 +63,7 @@ def _system_line(fault: Fault, loading: str, sought: str) -> str:
         bodies = f"two identical bodies, each {_body(*first)}"
     else:
         bodies = f"{_body(*first)} on {_body(*second)}"
-    return f"System: {bodies}; {BEGINS[loading]}; {plane_in_words(fault.plane)}."
+    return f"System: {bodies}; {BEGINS[fault.loading]}; {plane_in_words(fault.plane)}."
 
 
 def _body(
@@ -81,7 +81,7 @@ def _body(
     return f"a layer {in_unit(height, 'm')} high with its far side {side} {material}"
 
 
-def _friction_line(fault: Fault, law: Friction | None, sought: str) -> str:
+def _friction_line(fault: FaultParameters, sought: str) -> str:
     """Coefficients at V, normal stress, slip distance and the friction law."""
     constants = {"f": "friction", "a": "a", "b": "b"}
     known = parameters_of(fault) | {"b": fault.b}
@@ -100,23 +100,24 @@ def _friction_line(fault: Fault, law: Friction | None, sought: str) -> str:
     for symbol, (name, unit) in scales.items():
         value = _SOUGHT if name == sought else in_unit(getattr(fault, name), unit)
         parts.append(f"{symbol} = {value}")
+    law = fault.friction_law
     if law is not None:
         parts.append(f"{law.law} law, {law.evolution}, {scales_text(law)}")
     return f"Friction: {'; '.join(parts)}."
 
 
-def is_of_one_material(fault: Fault) -> bool:
+def is_of_one_material(fault: FaultParameters) -> bool:
     """Whether both bodies have the same material."""
     second = (fault.second_shear_modulus, fault.second_poisson_ratio)
     return (fault.shear_modulus, fault.poisson_ratio) == second
 
 
-def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[str]:
+def systems_of_lengths(fault: FaultParameters, uncertain: Collection[str] = ()) -> list[str]:
     """The systems of the lengths in use, in the order of their listing.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault.
     uncertain : collection of str
         Names of its uncertain parameters.
@@ -134,39 +135,10 @@ def systems_of_lengths(fault: Fault, uncertain: Collection[str] = ()) -> list[st
     return [*systems, HALF_SPACES, RIGID_BASE]
 
 
-def parameters_of(fault: Fault) -> dict[str, Any]:
+def parameters_of(fault: FaultParameters) -> dict[str, Any]:
     """All parameters of a fault that are not None, by name."""
     values = {name: getattr(fault, name) for name in QUANTITIES}
     return {name: value for name, value in values.items() if value is not None}
-
-
-def fault_in(parameters: Parameters) -> dict[str, Any]:
-    """The fault of a simulation, with its friction law expanded at V, as keywords of Fault."""
-    material = parameters.material
-    loading = parameters.loading
-    friction, a, zeta = parameters.friction.expansion(loading.velocity)
-    upper, lower = bodies_of(parameters)
-    found: dict[str, Any] = {
-        "shear_modulus": material.shear_modulus,
-        "poisson_ratio": material.poisson_ratio,
-        "plane": material.plane,
-        "height": upper.height,
-        "far_side": upper.far_side,
-        "normal_stress": loading.normal_stress,
-        "velocity": loading.velocity,
-        "slip_distance": parameters.friction.slip_distance,
-        "friction": friction,
-        "a": a,
-        "zeta": zeta,
-    }
-    if isinstance(lower, RigidBody):
-        return found | {"second_shear_modulus": math.inf}
-    return found | {
-        "second_shear_modulus": lower.material.shear_modulus,
-        "second_poisson_ratio": lower.material.poisson_ratio,
-        "second_height": lower.height,
-        "second_far_side": lower.far_side,
-    }
 
 
 def scales_text(law: Friction) -> str:
@@ -201,13 +173,10 @@ def system_of_run(
     -------
     list of str
     """
-    law = parameters.friction
-    fault = Fault(**fault_in(parameters))
-    loading = parameters.loading.kind
+    fault = FaultParameters(**fault_of_run(parameters))
     if base is not None:
-        return system_of_fault(fault, parameters_of(fault), loading, law)
-    papers = papers_lines(law, given)
-    return system_of_fault(fault, given, loading, law, papers)
+        return system_of_fault(fault, parameters_of(fault))
+    return system_of_fault(fault, given, papers_lines(parameters.friction, given))
 
 
 def papers_lines(law: Friction, given: Mapping[str, Any]) -> list[str]:
@@ -234,7 +203,7 @@ def papers_lines(law: Friction, given: Mapping[str, Any]) -> list[str]:
     return [f"Not given, so the paper's: {', '.join(papers)}."] if papers else []
 
 
-def _assumed(fault: Fault, given: Collection[str], loading: str) -> list[str]:
+def _assumed(fault: FaultParameters, given: Collection[str]) -> list[str]:
     """The assumptions about bodies, far sides and plane, in words."""
     assumed = []
     if math.isfinite(number(fault, "second_shear_modulus")):
@@ -243,7 +212,7 @@ def _assumed(fault: Fault, given: Collection[str], loading: str) -> list[str]:
         elif "second_height" not in given:
             assumed.append("the second body is as high as the first")
     if math.isfinite(number(fault, "height")):
-        if "far_side" not in given and loading != "top":
+        if "far_side" not in given and fault.loading != "top":
             assumed.append("far sides free of changes of stress")
     elif "height" not in given:
         assumed.append("half-spaces")
@@ -253,10 +222,8 @@ def _assumed(fault: Fault, given: Collection[str], loading: str) -> list[str]:
 
 
 def system_of_fault(
-    fault: Fault,
+    fault: FaultParameters,
     given: Mapping[str, Any],
-    loading: str = "edge",
-    law: Friction | None = None,
     papers: Sequence[str] = (),
     sought: str = "",
 ) -> list[str]:
@@ -264,14 +231,10 @@ def system_of_fault(
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault.
     given : mapping
         Its given parameters, by name.
-    loading : {"edge", "top", "remote"}
-        Where the creeping patch begins.
-    law : Friction or None
-        Its friction law; None where a and b are constant.
     papers : sequence of str
         The line about parameters that are the paper's, if there is one.
     sought : str
@@ -282,11 +245,11 @@ def system_of_fault(
     list of str
     """
     lines = [
-        _system_line(fault, loading, sought),
-        _friction_line(fault, law, sought),
+        _system_line(fault, sought),
+        _friction_line(fault, sought),
         *papers,
     ]
-    assumed = _assumed(fault, given.keys(), loading)
+    assumed = _assumed(fault, given.keys())
     if assumed:
         lines.append(f"Assumed: {', '.join(assumed)}.")
     return lines

@@ -12,16 +12,17 @@ import numpy as np
 
 from ..answers.draws import Draws, draw
 from ..configuration.samples import read_samples
+from ..configuration.single_run import merged, merged_parameters, single_run
 from ..configuration.study_names import study_parameters
 from ..model.own_fault import follows_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.arrays import critical_length
+from ..theory.of_runs import fault_of_run
 from . import DONE, STABLE
 from .fault_options import IN_STUDIES
 from .progress import Progress
-from .sources import merged, merged_parameters, planned
-from .system_text import fault_in, system_of_run
+from .system_text import system_of_run
 from .text import table, to_json, wrapped
 from .uncertainty import (
     QUANTILE_COLUMNS,
@@ -59,12 +60,11 @@ def uncertain_of(given: Mapping[str, Any], samples: Path | None) -> dict[str, An
     if samples is None:
         return found
     for name, values in read_samples(samples).items():
-        known = IN_STUDIES.get(name)
-        if known is None:
+        if name not in IN_STUDIES:
             raise ParameterError(f"{samples}: {name} does not matter to the drop")
-        if known in given:
-            raise ParameterError(f"{known} is given twice: as an option and in {samples}")
-        found[known] = values
+        if name in given:
+            raise ParameterError(f"{name} is given twice: as an option and in {samples}")
+        found[name] = values
     return found
 
 
@@ -242,10 +242,10 @@ def case_of(
     defaults = usual if base is None else {}
     values = merged(base, {**defaults, **own})
     parameters = merged_parameters(None, values)
-    critical = float(critical_length(**fault_in(parameters)))
+    critical = float(critical_length(**fault_of_run(parameters)))
     if math.isnan(critical):
         return parameters  # for a stable fault the theory has no length of the block
-    return planned(values, {}, results="results").parameters
+    return single_run(values, results="results").parameters
 
 
 def _described(

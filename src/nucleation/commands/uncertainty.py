@@ -16,7 +16,7 @@ from ..answers.length import THIS_FAULT, TWO_MATERIALS
 from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
-from ..theory.fault import Fault
+from ..theory.fault import FaultParameters
 from ..types import Array
 from . import DONE, STABLE
 from .options import Decorator, option
@@ -174,14 +174,14 @@ def print_quantiles(
         The exit code.
     """
     known = varying(given, uncertain, options)
-    for name in ("weakening_rate", "loading", "draws"):
+    for name in ("weakening_rate", "draws"):
         known[name] = options[name]
     if "weakening_rate" in uncertain:
         known["weakening_rate"] = uncertain["weakening_rate"]
     with printed_warnings():
-        middle = Fault(**given)
+        middle = FaultParameters(**given)
         found = length_quantiles(progress=Progress("draws"), **known)
-    system = system_of_fault(middle, given, options["loading"], papers=papers)
+    system = system_of_fault(middle, given, papers)
     show = _as_json if as_json else _as_text
     click.echo(show(system, found, middle, list(uncertain)))
     return DONE if found["share"][0] > 0.0 else STABLE
@@ -190,7 +190,7 @@ def print_quantiles(
 def _as_json(
     system: list[str],
     found: xr.Dataset,
-    middle: Fault,
+    middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
     words = {length.key: length.words() for length in LENGTHS}
@@ -221,7 +221,7 @@ def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
 def _as_text(
     system: list[str],
     found: xr.Dataset,
-    middle: Fault,
+    middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
     rows: list[Sequence[str] | str] = [QUANTILE_HEAD]

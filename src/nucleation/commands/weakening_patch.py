@@ -8,7 +8,7 @@ from typing import Any
 from ..answers.weakening_patch import PatchAnswer, patch_answer
 from ..model.heterogeneity import Heterogeneity
 from ..model.quantities import ParameterError, declarations
-from ..theory.fault import QUANTITIES, Fault
+from ..theory.fault import QUANTITIES, FaultParameters
 from .options import option, together
 from .text import table, wrapped
 from .unit_text import in_unit
@@ -38,12 +38,12 @@ patch_options = together(
 """The options for a patch, the arguments of :func:`patch_of`."""
 
 
-def patch_of(fault: Fault, options: dict[str, Any]) -> PatchAnswer | None:
+def patch_of(fault: FaultParameters, options: dict[str, Any]) -> PatchAnswer | None:
     """The behaviour of the patch that :data:`patch_options` define.
 
     Parameters
     ----------
-    fault : Fault
+    fault : FaultParameters
         One fault, with the friction of the patch.
     options : dict
         Values of the options, in SI units; None if not given.

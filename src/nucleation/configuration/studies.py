@@ -13,7 +13,6 @@ from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
 from ..theory.critical import NoInstability, critical_lengths, run_length
 from ..theory.estimates import growth_time
-from ..theory.transfer import bodies_of
 from .runs import Run
 from .settings import StudySettings
 from .study_names import by_study_name, expand, identifier
@@ -204,11 +203,7 @@ def lengths_of(
     faults: Iterable[tuple[Parameters, InterfaceState]],
 ) -> list[float]:
     """The theory's lengths (m) of all faults in one call, NaN where sliding is stable."""
-    cases = []
-    for parameters, interface in faults:
-        upper, lower = bodies_of(parameters)
-        cases.append((upper, lower, interface))
-    return critical_lengths(cases).tolist() if cases else []
+    return critical_lengths(faults).tolist()
 
 
 def _run(

@@ -1,6 +1,6 @@
 """Linear stability of homogeneous frictional sliding and the critical nucleation length.
 
-For a pair of elastic bodies (:mod:`.transfer`) and a linearised rate-and-state interface
+For a pair of elastic bodies (:mod:`.stiffness`) and a linearised rate-and-state interface
 (:mod:`.spectrum`) the critical nucleation length is ``L_c = 2 pi / k_c`` with k_c the largest
 marginally stable wavenumber (:mod:`.critical`). Special systems: :mod:`.closed_forms`; the
 conventional approach and other lengths: :mod:`nucleation.answers.in_use`.

@@ -18,7 +18,8 @@ far side is free of traction, ``coth q`` if it is held. The normal stress does n
 Every entry is a quotient of sums of terms that increase with ``q = |k| H``. So it is accurate for
 ``q -> 0``, for incompressible layers and where ``cosh(2q)`` overflows (a factor ``exp(-2q)`` is
 taken out). Only ``A_xy`` of clamped and roller layers is a difference, and changes sign: in a thin
-layer that cannot expand sideways, compression by slip exceeds the half-space's uplift.
+layer that cannot expand sideways, compression by slip exceeds the half-space's uplift. A body with
+a layer of another material beside the interface is in :mod:`.zone`.
 """
 
 from __future__ import annotations
@@ -32,8 +33,6 @@ from numpy.typing import ArrayLike, NDArray
 from ..model.material import ANTIPLANE
 from ..model.quantities import ParameterError
 from .waves import Array, Waves
-
-BOTH_RIGID = "at least one of the two bodies must be deformable"
 
 SATURATION = 25.0
 """A layer with ``q = |k| H`` above this is a half-space: ``q^2 exp(-2q) < 2e-19``."""
@@ -235,6 +234,20 @@ class Layers(NamedTuple):
             height=self.height[index],
         )
 
+    @property
+    def thicknesses(self) -> list[Array]:
+        """The height (m) alone, as there is no zone beside the interface."""
+        return [self.height]
+
+    @property
+    def contrast(self) -> float:
+        """1, as there is no other material."""
+        return 1.0
+
+    def with_heights(self, heights: Callable[[Array], Array]) -> Layers:
+        """The layers with other heights (m), a function of the present ones."""
+        return self._replace(height=heights(self.height))
+
     def layer_number(self, wavenumber: ArrayLike) -> Array:
         """``q = |k| H``, cut at :data:`SATURATION`, above which no function of q changes."""
         k = np.abs(np.asarray(wavenumber, dtype=float))
@@ -255,83 +268,3 @@ class Layers(NamedTuple):
             yy=terms.yy / below,
             det=terms.det / below,
         )
-
-
-class LayerPair(NamedTuple):
-    """The bodies above and below the interface, one pair or many; None is a rigid body."""
-
-    upper: Layers | None
-    lower: Layers | None
-
-    @property
-    def deformable(self) -> list[Layers]:
-        """The bodies that are not rigid.
-
-        Raises
-        ------
-        ValueError
-            If both are rigid.
-        """
-        bodies = [body for body in self if body is not None]
-        if not bodies:
-            raise ValueError(BOTH_RIGID)
-        return bodies
-
-    @property
-    def modulus(self) -> Array:
-        """Shear modulus (Pa) by which G1 and G2 are normalised, of the first deformable body."""
-        return self.deformable[0].shear_modulus
-
-    @property
-    def ratio(self) -> Array | float:
-        """``mu2/mu1``; 1 if a body is rigid."""
-        if self.upper is None or self.lower is None:
-            return 1.0
-        return self.lower.shear_modulus / self.upper.shear_modulus
-
-    def at(self, index: NDArray) -> LayerPair:
-        """The pairs of an index or a mask."""
-        return LayerPair(*(body and body.at(index) for body in self))
-
-    def with_heights(self, heights: Callable[[Array], Array]) -> LayerPair:
-        """The pair with other heights (m), a function of the present ones."""
-        return LayerPair(*(body and body._replace(height=heights(body.height)) for body in self))
-
-    def stiffness(self, wavenumber: ArrayLike) -> Stiffness:
-        """Stiffness of the pair in series, over :attr:`modulus`, at a wavenumber (1/m)."""
-        upper, lower = (body and body.stiffness(wavenumber) for body in self)
-        return _series_stiffness(upper, lower, self.ratio)
-
-    def transfer_functions(self, wavenumber: Array) -> tuple[Array, Array]:
-        """G1 and G2 at wavenumbers (1/m) of either sign."""
-        found = self.stiffness(wavenumber)
-        return np.sign(wavenumber) * found.xx, found.xy
-
-
-def _series_stiffness(
-    upper: Stiffness | None,
-    lower: Stiffness | None,
-    ratio: Array | float,
-) -> Stiffness:
-    """``(A^-1 + B^-1)^-1`` of the upper stiffness A and ``ratio`` times the lower one, mirrored.
-
-    None is a rigid body. The result's ``xy`` has the sign of the upper body's; its subtraction
-    vanishes exactly for mirror-symmetric pairs.
-    """
-    if lower is None:
-        if upper is None:
-            raise ValueError(BOTH_RIGID)
-        return upper
-    if upper is None:
-        return lower._replace(xy=-lower.xy)
-    a, b, r = upper, lower, ratio
-    mixed = a.xx * b.yy + a.yy * b.xx + 2.0 * a.xy * b.xy
-    joint = a.det + r * mixed + r**2 * b.det
-    share_a = r**2 * b.det / joint
-    share_b = r * a.det / joint
-    return Stiffness(
-        xx=share_a * a.xx + share_b * b.xx,
-        xy=share_a * a.xy - share_b * b.xy,
-        yy=share_a * a.yy + share_b * b.yy,
-        det=a.det * r**2 * b.det / joint,
-    )

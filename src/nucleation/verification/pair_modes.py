@@ -20,9 +20,8 @@ from ..model.linearised import interface_state
 from ..model.material import Material
 from ..model.parameters import Loading, Parameters
 from ..theory.closed_forms import bimaterial_contrast
-from ..theory.critical import critical_wavenumber
-from ..theory.spectrum import growth_rates
-from ..theory.transfer import bodies_of
+from ..theory.critical import critical_point
+from ..theory.of_runs import systems_of
 from ..types import Array
 from .dispersion import MODES_OF_SLIDING, by_direction, disagreement
 from .single_mode import measured_rates
@@ -167,8 +166,7 @@ def _sized(
 
 def _critical(parameters: Parameters) -> float:
     """k_c (1/m)."""
-    state = interface_state(parameters)
-    return critical_wavenumber(*bodies_of(parameters), state).wavenumber
+    return critical_point(systems_of([(parameters, interface_state(parameters))])).wavenumber
 
 
 def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
@@ -232,7 +230,7 @@ def mode_row(
     height = parameters.geometry.height
     k = ratio * critical
     measured = measured_rates(parameters, height, k)
-    theory = growth_rates(k, *bodies_of(parameters), interface)
+    theory = systems_of([(parameters, interface)]).growth_rates(np.array([k]))[:, 0]
     contrast = bimaterial_contrast(parameters.material, below.material)
     return {
         "id": layers.name,

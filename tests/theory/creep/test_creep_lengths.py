@@ -21,12 +21,11 @@ from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep.lengths import (
     NoPatch,
     Patches,
+    stability_answers,
     stability_length_of,
     stability_point,
-    stability_values,
 )
-from nucleation.theory.critical import critical_lengths
-from nucleation.theory.transfer import bodies_of
+from nucleation.theory.critical import run_length
 
 REFERENCE = CONFIG.parent / "results" / "reference"
 FAULT = {
@@ -36,7 +35,7 @@ FAULT = {
 
 
 def length_of(run):
-    return float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return run_length(run, interface_state(run))
 
 
 def test_the_map():
@@ -56,7 +55,7 @@ def test_numbers_of_modes():
         fault = fault_of(
             FAULT | dict(height=height, zeta=ratio * 0.0068, second_shear_modulus=below)
         )
-        length, _, error = stability_values(fault)
+        length, _, error = stability_answers(fault)[:3]
         assert error < 1e-3
 
         def finer(systems, length=length):
@@ -130,9 +129,9 @@ def test_no_patch():
     assert np.isnan(stability_length(**FAULT, height=0.1, zeta=-0.001))
     with pytest.raises(NoPatch, match="stable"):
         stability_point(Patches.of(Parameters()), np.nan)
-    with pytest.raises(ParameterError, match="loading = 'side' is not allowed: one of edge, top"):
+    with pytest.raises(ParameterError, match=r"loading = 'side' .* one of edge, top"):
         stability_length(**FAULT, height=0.1, zeta=0.01, loading="side")
-    with pytest.raises(ParameterError, match="friction law is not allowed with loading = remote"):
+    with pytest.raises(ParameterError, match="friction_law is not allowed with loading = remote"):
         stability_length(**FAULT, zeta=0.01, friction_law=Friction(), loading="remote")
 
 

@@ -8,7 +8,7 @@ from scipy.special import sici
 
 from nucleation.api import stability_length
 from nucleation.theory.arrays import critical_length, fault_of
-from nucleation.theory.creep.lengths import stability_values
+from nucleation.theory.creep.lengths import stability_answers
 from nucleation.theory.creep.response import SLIMMEST, response
 from nucleation.theory.creep.thin import thin_limit
 
@@ -103,7 +103,7 @@ LAYER = {
 def test_the_patch_of_a_very_thin_layer_meets_the_limit_within_its_error(zeta_over_a, second):
     """It was 0.3 % short with a stated error of 0.009 %."""
     given = LAYER | second | {"zeta": zeta_over_a * LAYER["a"], "height": 1e-8}
-    length, _, error = stability_values(fault_of(given))
+    length, _, error = stability_answers(fault_of(given))[:3]
     ratio = length / critical_length(**given)
     assert ratio == pytest.approx(thin_limit(zeta_over_a).length_ratio, rel=error)
     assert error < 3e-3

@@ -10,7 +10,7 @@ vanishes at the front (theta = 0) as a square root. At x = 0 is the edge that is
 shear stress, or a side that is free; beyond it fields continue as their mirror image, and beyond
 the front ``u = 0``. The Fourier transform of ``sin(m theta)'`` is then a sum of
 ``-pi m (-i)^m J_m(k L)`` (DLMF 10.9), that of ``phi_0'`` has ``2/pi`` for m and J_0. With the
-transfer functions of :mod:`nucleation.theory.transfer` and ``kappa = k L > 0``
+transfer functions of :mod:`nucleation.theory.stiffness` and ``kappa = k L > 0``
 
     shear stress lost:     mu int G1 s_m m J_m(kappa) sin(kappa x/L) dkappa/L ,    m even,
     compression gained:    mu int G2 s_m m J_m(kappa) cos(kappa x/L) dkappa/L ,
