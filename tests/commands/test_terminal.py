@@ -30,6 +30,7 @@ COMMANDS = {
     "simulate": ("simulate", "x.nc", *GRANITE, *STRESS, "--dry-run"),
     "mistake": ("length", "--shear-modulus", "30um"),
 }
+COMMANDS_WITH_HELP = ("length", "drop", "specimen", "plot", "simulate", "show")
 SYSTEM = ("length", "specimen", "simulate")
 
 
@@ -46,6 +47,30 @@ def test_lines_fit_and_words_are_those_of_a_file(nucleation, monkeypatch, comman
         assert max(map(len, narrow)) <= columns
         assert sorted(" ".join(narrow).split()) == sorted(" ".join(wide).split())
     assert max(map(len, wide)) > 80
+
+
+@pytest.mark.parametrize("command", COMMANDS_WITH_HELP)
+def test_the_help_fits(nucleation, monkeypatch, command):
+    monkeypatch.setenv("COLUMNS", "80")
+    lines = said(nucleation(command, "--help"))
+    long = [line for line in lines if len(line) > 80]
+    assert all(line.startswith("  --") for line in long), "names of options are never broken"
+
+
+@pytest.mark.slow
+def test_lines_of_the_drop_a_picture_and_a_dataset_fit(nucleation, monkeypatch, tmp_path):
+    monkeypatch.setenv("COLUMNS", "80")
+    drop = nucleation("drop", *GRANITE, *STRESS)
+    plot = tmp_path / "p.png"
+    over = ("--over", "height=1:2m", "--points", "3", "--criterion", "critical")
+    picture = nucleation("plot", plot, *GRANITE[:-2], *STRESS, *over)
+    size = ("--height", "5mm", "--length", "90cm", "--n-x", "16", "--n-y", "2")
+    run = ("simulate", tmp_path / "x.nc", "--second-body", "rigid", *size, "--end-time", "20ms")
+    assert nucleation(*run).code == 0
+    dataset = nucleation("show", tmp_path / "x.nc")
+    for ended in (drop, picture, dataset):
+        lines = [line for line in said(ended) if str(tmp_path) not in line]
+        assert ended.code == 0 and 70 < max(map(len, lines)) <= 80, ended
 
 
 @pytest.mark.system
@@ -111,7 +136,7 @@ def test_values_of_a_file_come_back_as_typed(nucleation, tmp_path):
     unit=st.sampled_from(["m", "s", "m/s", "Pa", "Pa/s", "Pa/m", "kg/m^3", "1"]),
 )
 def test_an_engineering_unit_keeps_the_value(value, unit):
-    again = parse("value", in_unit(value, unit), Quantity("value", unit=unit))
+    again = parse("value", in_unit(value, unit, digits=6), Quantity("value", unit=unit))
     assert again == pytest.approx(value, rel=1e-5)
 
 

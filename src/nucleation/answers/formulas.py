@@ -6,13 +6,14 @@ numbers, arrays or DataArrays. A length outside its range of validity is NaN. Fo
 replace nu by ``nu/(1 + nu)``.
 """
 
+from __future__ import annotations
+
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
 
-from ..theory.values import Values, where
+from ..theory.values import Conditions, Numbers, where
 
 CONVENTIONAL_ETA = (2.0 / math.pi, 4.0 / 3.0)
 """Range of the prefactor eta of Eq. (3) (Dieterich, 1992, Table 1)."""
@@ -51,22 +52,22 @@ class Setting:
         D and H (m), and the decrease of strength per slip, W (Pa/m).
     """
 
-    shear_modulus: Values
-    poisson_ratio: Values
-    normal_stress: Values
-    a: Values
-    b: Values
-    zeta: Values
-    slip_distance: Values
-    height: Values
-    weakening_rate: Values
+    shear_modulus: Numbers
+    poisson_ratio: Numbers
+    normal_stress: Numbers
+    a: Numbers
+    b: Numbers
+    zeta: Numbers
+    slip_distance: Numbers
+    height: Numbers
+    weakening_rate: Numbers
 
     @property
-    def modulus(self) -> Any:
+    def modulus(self) -> Numbers:
         """``mu* = mu/(1 - nu)`` (Pa)."""
         return self.shear_modulus / (1.0 - self.poisson_ratio)
 
-    def conventional(self, eta: Values) -> Any:
+    def conventional(self, eta: float | Numbers) -> Numbers:
         """Critical length ``eta mu D/(zeta sigma0)`` (m) of a spring block (Eq. 3).
 
         The patch's stiffness per area ``eta mu/L`` (Eq. 2) is less than the critical one,
@@ -75,16 +76,16 @@ class Setting:
         softness = eta * self.shear_modulus * self.slip_distance
         return valid(self.zeta > 0.0, softness / (nan0(self.zeta) * self.normal_stress))
 
-    def plane(self, factor: float) -> Any:
+    def plane(self, factor: float) -> Numbers:
         """Critical length with mu* in place of mu: ``factor mu* D/(zeta sigma0)`` (m)."""
         return self.conventional(factor / (1.0 - self.poisson_ratio))
 
-    def state_evolution(self) -> Any:
+    def state_evolution(self) -> Numbers:
         """``L_b = mu* D/(b sigma0)`` (m): friction falls by ``b sigma0`` per slip D."""
         length = self.modulus * self.slip_distance / (nan0(self.b) * self.normal_stress)
         return valid(self.b > 0.0, length)
 
-    def thin(self, square: Any) -> Any:
+    def thin(self, square: Numbers) -> Numbers:
         """``2 pi sqrt(square)`` (m) where the layer is thin compared with it; square in m^2."""
         length = 2.0 * math.pi * np.sqrt(square)
         is_thin = 2.0 * math.pi * self.height < THIN * length
@@ -92,11 +93,11 @@ class Setting:
 
 
 def bimaterial(
-    shear_modulus: Values,
-    poisson_ratio: Values,
-    second_shear_modulus: Values,
-    second_poisson_ratio: Values,
-) -> tuple[Any, Any]:
+    shear_modulus: Numbers,
+    poisson_ratio: Numbers,
+    second_shear_modulus: Numbers,
+    second_poisson_ratio: Numbers,
+) -> tuple[Numbers, Numbers]:
     """Modulus and contrast of two half-spaces (Eq. 8).
 
     Slip on their interface changes the shear stress as between two half-spaces of one material
@@ -122,7 +123,7 @@ def bimaterial(
     return 2.0 * shear_modulus / ((1.0 - beta**2) * total), beta
 
 
-def between_localised_and_crack(a: Values, b: Values) -> Any:
+def between_localised_and_crack(a: float | Numbers, b: float | Numbers) -> Conditions:
     """Whether a/b is in the gap between the ranges of Rubin and Ampuero's two lengths.
 
     Parameters
@@ -137,7 +138,7 @@ def between_localised_and_crack(a: Values, b: Values) -> Any:
     return (a >= LOCALISED_LIMIT * b) & (a <= CRACK_LIMIT * b)
 
 
-def valid(condition: Any, values: Any) -> Any:
+def valid(condition: Conditions, values: Numbers) -> Numbers:
     """The values where a condition holds, NaN elsewhere.
 
     Parameters
@@ -152,6 +153,6 @@ def valid(condition: Any, values: Any) -> Any:
     return where(condition, values, np.nan)
 
 
-def nan0(values: Any) -> Any:
+def nan0(values: Numbers) -> Numbers:
     """The values with NaN in place of zero, for use as a divisor."""
     return where(values != 0.0, values, np.nan)

@@ -6,7 +6,7 @@ Their common definitions are in :mod:`nucleation.answers.formulas`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
@@ -15,11 +15,11 @@ import numpy as np
 from ..model.quantities import Quantity
 from ..theory.arrays import fault_of
 from ..theory.fault import FaultParameters, takes_fault
-from ..theory.values import Values, checked, labelled, where
+from ..theory.values import Numbers, Values, checked, labelled, where
 from . import formulas
 from .finite_patch import NEAREST, loaded_patch_factor
 from .formulas import Setting, nan0, valid
-from .length import HALF_SPACES, RIGID_BASE, THIS_FAULT, Length
+from .length import HALF_SPACES, RIGID_BASE, THIS_FAULT, Length, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,39 +28,39 @@ _FALL = "rate of linear slip weakening of the shear strength"
 WEAKENING_RATE = Quantity(_FALL, unit="Pa/m", low=0.0, high=1e25, symbol="W")
 
 
-def _stability_length(fault: FaultParameters) -> Any:
+def _stability_length(fault: FaultParameters) -> Numbers:
     from ..theory.creep.lengths import stability_answers  # with SciPy, which takes a while
 
     return stability_answers(fault)[0]
 
 
-def _crack(s: Setting) -> Any:
+def _crack(s: Setting) -> Numbers:
     weakening = (s.b - s.a) / nan0(s.b)
     length = 2.0 / math.pi * nan0(weakening) ** -2 * s.state_evolution()
     within = (s.a > formulas.CRACK_LIMIT * s.b) & (s.a < s.b)
     return valid(within, length)
 
 
-def _localised(s: Setting) -> Any:
+def _localised(s: Setting) -> Numbers:
     within = s.a < formulas.LOCALISED_LIMIT * s.b
     return valid(within, formulas.LOCALISED_FACTOR * s.state_evolution())
 
 
-def _uenishi_rice(s: Setting) -> Any:
+def _uenishi_rice(s: Setting) -> Numbers:
     length = formulas.FINITE_PATCH * s.modulus / nan0(s.weakening_rate)
     return valid(s.weakening_rate > 0.0, length)
 
 
-def _thin_layer(s: Setting) -> Any:
+def _thin_layer(s: Setting) -> Numbers:
     length = valid(s.a < 0.5 * s.b, s.state_evolution())
     return s.thin(2.0 * s.height * length)
 
 
-def _thin_limit(s: Setting) -> Any:
+def _thin_limit(s: Setting) -> Numbers:
     return s.thin(2.0 * s.height * s.plane(0.25 * math.pi) * 4.0 / math.pi)
 
 
-def _loaded_patch(s: Setting) -> Any:
+def _loaded_patch(s: Setting) -> Numbers:
     within = (s.a > 0.0) & (s.a < NEAREST * s.b)
     ratio = where(within, s.a / nan0(s.b), 0.5)
     length = loaded_patch_factor(ratio) / (1.0 - ratio) * s.state_evolution()
@@ -262,7 +262,7 @@ def lengths_of(fault: FaultParameters, weakening_rate: Values | None = None) -> 
     return xr.Dataset(variables)
 
 
-def with_dimensions(found: dict[str, Any]) -> dict[str, xr.DataArray]:
+def with_dimensions(found: Mapping[str, Any]) -> dict[str, xr.DataArray]:
     """Arrays by key as DataArrays; plain arrays get the dimensions ``axis_0``, ``axis_1``..."""
     import xarray as xr
 
@@ -279,7 +279,7 @@ def values_of(
     fault: FaultParameters,
     weakening_rate: Values | None = None,
     lengths: Iterable[Length] = LENGTHS,
-) -> dict[str, Any]:
+) -> dict[str, Numbers]:
     """Nucleation lengths as numbers, arrays or DataArrays.
 
     Parameters
@@ -303,20 +303,20 @@ def values_of(
         If `weakening_rate` is outside its range.
     """
     if weakening_rate is None:
-        weakening_rate = fault.b * fault.normal_stress / fault.slip_distance
-        small = fault.a < formulas.NEGLIGIBLE * fault.b
-        weakening_rate = where(small, weakening_rate, np.nan)
+        b = number(fault, "b")
+        usual = b * number(fault, "normal_stress") / number(fault, "slip_distance")
+        rate = valid(number(fault, "a") < formulas.NEGLIGIBLE * b, usual)
     else:
-        weakening_rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
-    return {length.key: length.evaluate(fault, weakening_rate) for length in lengths}
+        rate = checked("weakening_rate", weakening_rate, WEAKENING_RATE)
+    return {length.key: length.evaluate(fault, rate) for length in lengths}
 
 
 def expanding_length(
     fault: FaultParameters,
-    slip_rate: Values,
-    far_slip_rate: Values,
-    far_state_ratio: Values,
-) -> Any:
+    slip_rate: float | Numbers,
+    far_slip_rate: float | Numbers,
+    far_state_ratio: float | Numbers,
+) -> Numbers:
     """Length (m) of Rubin and Ampuero's expanding zone at a finite slip rate.
 
     Parameters
@@ -349,7 +349,7 @@ def expanding_length(
     (unbounded,) = (length for length in LENGTHS if length.key == "rubin_ampuero_crack")
     asymptote = values_of(fault, lengths=[unbounded])["rubin_ampuero_crack"]
     acceleration = np.log(slip_rate / far_slip_rate)
-    weakening = fault.zeta / nan0(fault.b)
+    weakening = number(fault, "zeta") / nan0(number(fault, "b"))
     strength_drop = acceleration + np.log(far_state_ratio)
     stress_drop = weakening * acceleration + np.log(far_state_ratio)
     length = asymptote * (weakening * strength_drop / nan0(stress_drop)) ** 2

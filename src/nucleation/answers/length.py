@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from ..model.material import ANTIPLANE
-from ..theory.fault import FaultParameters, Values
+from ..theory.fault import FaultParameters
+from ..theory.values import Numbers
 from . import formulas
 from .formulas import Setting, valid
 
@@ -28,15 +29,15 @@ class Length:
     formula: str
     source: str
     validity: str
-    compute: Callable[[Any], Any]
-    """The length (m) from a Setting; from the FaultParameters if the system is THIS_FAULT."""
+    compute: Callable[[Any], Numbers]
+    """The length (m) from a Setting; from the Fault if the system is THIS_FAULT."""
     needs: str = "zeta > 0"
     """The condition on the parameters without which the length is NaN."""
     beyond: str = ""
     """Remark on faults that do not meet the condition."""
     system: str = HALF_SPACES
 
-    def evaluate(self, fault: FaultParameters, weakening_rate: Values) -> Any:
+    def evaluate(self, fault: FaultParameters, weakening_rate: Numbers) -> Numbers:
         """The length of a fault.
 
         Parameters
@@ -58,7 +59,9 @@ class Length:
             "poisson_ratio": fault.in_plane_ratios[0],
         }
         if fault.plane == ANTIPLANE and self.system == RIGID_BASE:
-            own["height"] = 0.5 * fault.height  # mu H resists slip, 2 mu H/(1 - nu) in the plane
+            own["height"] = 0.5 * number(
+                fault, "height"
+            )  # mu H resists slip, 2 mu H/(1 - nu) in the plane
         if self.system != TWO_MATERIALS:
             return self.compute(_setting(fault, own))
         modulus, coupling = of_two_materials(fault)
@@ -67,15 +70,15 @@ class Length:
         length = self.compute(_setting(fault, own))
         return valid(coupling < formulas.NEGLIGIBLE, length)
 
-    def facts(self, fault: FaultParameters) -> dict[str, Any]:
+    def facts(self, fault: FaultParameters) -> dict[str, Numbers]:
         """The quantities of a fault that decide whether the length is valid, by name; H in m."""
         with np.errstate(divide="ignore", invalid="ignore"):
             known = {
-                "a/b": fault.a / fault.b,
-                "zeta": fault.zeta,
-                "b": fault.b,
+                "a/b": number(fault, "a") / number(fault, "b"),
+                "zeta": number(fault, "zeta"),
+                "b": number(fault, "b"),
                 "f |beta|": of_two_materials(fault)[1],
-                "H": fault.height,
+                "H": number(fault, "height"),
             }
         return {name: known[name] for mark, name in _FACTS.items() if mark in self.needs}
 
@@ -113,17 +116,33 @@ def _setting(fault: FaultParameters, own: dict[str, Any]) -> Setting:
     return Setting(**values)
 
 
-def of_two_materials(fault: FaultParameters) -> tuple[Any, Any]:
+def number(fault: FaultParameters, name: str) -> Numbers:
+    """A parameter of a fault, which has checked it, in SI units.
+
+    Parameters
+    ----------
+    fault : FaultParameters
+        One fault, or arrays of faults.
+    name : str
+        Name of the parameter, which is not None.
+
+    Returns
+    -------
+    ndarray or DataArray
+    """
+    return cast(Numbers, getattr(fault, name))
+
+
+def of_two_materials(fault: FaultParameters) -> tuple[Numbers, Numbers]:
     """Modulus M (Pa) of the two materials as half-spaces, and ``f |beta|``."""
     nu, second_nu = fault.in_plane_ratios
+    first = number(fault, "shear_modulus")
+    second = number(fault, "second_shear_modulus")
     if fault.plane == ANTIPLANE:
-        softness = fault.shear_modulus / fault.second_shear_modulus
-        return 2.0 * fault.shear_modulus / (1.0 + softness), 0.0 * softness
-    modulus, beta = formulas.bimaterial(
-        fault.shear_modulus,
-        nu,
-        fault.second_shear_modulus,
-        second_nu,
-    )
-    friction = 0.0 if fault.friction is None else fault.friction
-    return modulus, abs(beta) * friction
+        softness = first / second
+        return 2.0 * first / (1.0 + softness), 0.0 * softness
+    modulus, beta = formulas.bimaterial(first, nu, second, second_nu)
+    contrast = np.abs(beta)
+    if fault.friction is None:
+        return modulus, contrast * 0.0
+    return modulus, contrast * number(fault, "friction")

@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ from ..theory.arrays import critical_length, fault_of
 from ..theory.creep.lengths import stability_length
 from ..theory.fault import QUANTITIES, Values, checked, takes_fault
 from ..theory.status import BEYOND, VALUE
+from ..theory.values import Numbers
 from ..types import Array
 from .status import answers_of_theory
 
@@ -23,7 +24,10 @@ UNKNOWNS = Quantity(
     choices=("normal_stress", "slip_distance", "shear_modulus"),
     kind="str",
 )
-CRITERIA = {"critical": critical_length, "stability": stability_length}
+CRITERIA: dict[str, Callable[..., Numbers]] = {
+    "critical": critical_length,
+    "stability": stability_length,
+}
 """The lengths that may have to fit: L_c of homogeneous sliding, L_s of the creeping patch."""
 
 NAMES = {"critical": "L_c", "stability": "L_s"}
@@ -135,7 +139,7 @@ def specimen_fit(
     if np.ndim(size) or any(np.ndim(value) for value in fault.values()):
         raise ParameterError("a specimen is one: its length and parameters are single numbers")
 
-    def lengths(values: Any) -> Array:
+    def lengths(values: float | Array) -> Array:
         return _lengths(criterion, float(size), unknown, fault | {unknown: values})
 
     def excess(log_value: float) -> float:

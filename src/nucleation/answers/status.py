@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..theory.arrays import fault_of
 from ..theory.creep.lengths import stability_answers
@@ -13,8 +15,9 @@ from ..theory.crossings import largest_crossings
 from ..theory.fault import FaultParameters, Values, labelled, takes_fault
 from ..theory.spectrum import Systems
 from ..theory.status import STABLE, UNKNOWN, VALUE
+from ..theory.values import Numbers
 from .in_use import LENGTHS, values_of, with_dimensions
-from .length import THIS_FAULT, Length
+from .length import THIS_FAULT, Length, number
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,14 +31,17 @@ TITLES_OF_ALL = TITLES | {length.key: length.title for length in LITERATURE}
 """The title of every length, by key."""
 
 
+Texts: TypeAlias = "NDArray[np.object_] | xr.DataArray"
+
+
 class Answers(NamedTuple):
     """A length of one or many faults, with its status; arrays or DataArrays of equal shape."""
 
-    length: Any
+    length: Numbers
     """In metres, NaN where there is none."""
-    status: Any
+    status: Texts
     """``value``, ``stable``, ``beyond`` or ``unknown``."""
-    reason: Any
+    reason: Texts
     """Why there is no value; empty where there is one."""
 
 
@@ -78,7 +84,7 @@ def length_statuses(
     import xarray as xr
 
     answers = answers_of(fault_of(fault), weakening_rate)
-    found: dict[str, Any] = {}
+    found: dict[str, xr.DataArray] = {}
     for position, name in enumerate(Answers._fields):
         arrays = with_dimensions({key: answer[position] for key, answer in answers.items()})
         alike = xr.broadcast(*arrays.values())
@@ -139,7 +145,7 @@ def answers_of_theory(fault: FaultParameters) -> dict[str, Answers]:
 def _critical_answers(fault: FaultParameters) -> Answers:
     """L_c with its status."""
 
-    def points(systems: Systems) -> Any:
+    def points(systems: Systems) -> NDArray[np.object_]:
         lengths = 2.0 * np.pi / largest_crossings(systems)
         found = np.full((3, systems.a.size), "", dtype=object)
         found[0] = lengths
@@ -156,7 +162,7 @@ def _critical_answers(fault: FaultParameters) -> Answers:
 
 def _literature_answers(
     one: Length,
-    length: Any,
+    length: Numbers,
     fault: FaultParameters,
 ) -> Answers:
     """A length of the literature with its status.
@@ -171,9 +177,9 @@ def _literature_answers(
         if np.isfinite(value):
             return ""
         known = []
-        for name, number in zip(names, numbers, strict=True):
+        for name, fact in zip(names, numbers, strict=True):
             unit = " m" if name == "H" else ""
-            known.append(f"{name} = {number:.4g}{unit}")
+            known.append(f"{name} = {fact:.4g}{unit}")
         return f"needs {one.needs}: {', '.join(known)}"
 
     def status_of(
@@ -185,15 +191,16 @@ def _literature_answers(
         return STABLE if zeta <= 0.0 else UNKNOWN
 
     reason = _elementwise(reason_of, length, *facts.values())
-    status = _elementwise(status_of, length, fault.zeta)
+    status = _elementwise(status_of, length, number(fault, "zeta"))
     return Answers(length, status, reason)
 
 
-def _elementwise(function: Any, *arrays: Any) -> Any:
+def _elementwise(function: Callable[..., str], *arrays: Numbers) -> Texts:
     """The texts that a function of numbers returns at every point of arrays or DataArrays."""
-    at_each = np.vectorize(function, otypes=[object])
+    at_each: Callable[..., Texts] = np.vectorize(function, otypes=[object])
     if not any(map(labelled, arrays)):
         return at_each(*arrays)
     import xarray as xr
 
-    return xr.apply_ufunc(at_each, *arrays)
+    texts: Texts = xr.apply_ufunc(at_each, *arrays)
+    return texts

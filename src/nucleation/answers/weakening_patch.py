@@ -17,6 +17,7 @@ from ..theory.fault import FaultParameters, Values
 from ..theory.spectrum import Systems
 from ..theory.weakening_patch import weakening_patch_values
 from ..types import Array
+from .length import number
 
 NUCLEATES = 1.3
 """Least W/W_c at which all simulated patches nucleated; some slipped slowly up to 1.22."""
@@ -105,6 +106,6 @@ def process_zone(fault: FaultParameters) -> float:
             high = np.where(stiff, middle, high)
         return 1.0 / low[None]
 
-    if float(fault.b) <= 0.0:
+    if float(number(fault, "b")) <= 0.0:
         return math.nan
     return float(fault.evaluate(zones)[0])

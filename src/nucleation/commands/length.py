@@ -10,7 +10,13 @@ import click
 from ..answers import formulas
 from ..answers.draws import parse_range
 from ..answers.in_use import LENGTHS, WEAKENING_RATE
-from ..answers.length import HALF_SPACES, TWO_MATERIALS, Length, of_two_materials
+from ..answers.length import (
+    HALF_SPACES,
+    TWO_MATERIALS,
+    Length,
+    number,
+    of_two_materials,
+)
 from ..answers.status import Answers, answers_of
 from ..model.material import Material
 from ..model.quantities import ParameterError, declarations
@@ -91,8 +97,8 @@ def command(
 
     \b
     Example:
-      nucleation length --shear-modulus 30GPa --poisson-ratio 0.25 --normal-stress 50MPa \\
-          --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
+      nucleation length --shear-modulus 30GPa --poisson-ratio 0.25 \\
+          --normal-stress 50MPa --a 0.010 --b 0.015 --slip-distance 5um
     """
     options, uncertain = take_uncertain(options, samples)
     weakening_rate = options.pop("weakening_rate")
@@ -139,12 +145,15 @@ def _theory(
     answers: Mapping[str, Answers],
 ) -> dict[str, Any]:
     """The theory's numbers for JSON, in SI units; NaN where there is none, with status."""
-    velocity = fault.velocity or fault.slip_distance  # without V a rate V/D of one per second
+    slip_distance = number(fault, "slip_distance")
+    # without V a rate V/D of one per second
+    velocity = slip_distance if fault.velocity is None else number(fault, "velocity")
     mode = critical_mode(**{**fault, "velocity": velocity})
     length, wavenumber, frequency = map(float, mode)
     ratio = None
     if density is not None:
-        shear_wave = Material(float(fault.shear_modulus), density=density).shear_wave_speed
+        modulus = float(number(fault, "shear_modulus"))
+        shear_wave = Material(modulus, density=density).shear_wave_speed
         ratio = abs(frequency) / wavenumber / shear_wave
     stability_length, own_frequency, error = map(float, stability_answers(fault)[:3])
     constant = stability_length
@@ -157,8 +166,8 @@ def _theory(
         "critical_length_status": str(critical.status),
         "critical_length_reason": str(critical.reason),
         "critical_wavenumber": wavenumber,
-        "critical_frequency": fault.velocity and frequency,
-        "critical_frequency_over_rate": frequency / float(velocity / fault.slip_distance),
+        "critical_frequency": None if fault.velocity is None else frequency,
+        "critical_frequency_over_rate": frequency / float(velocity / slip_distance),
         "speed_over_shear_wave": ratio,
         "loading": fault.loading,
         "stability_length": stability_length,
@@ -211,7 +220,7 @@ def _moduli(fault: FaultParameters) -> str:
     if is_of_one_material(fault):
         return text
     modulus, _ = of_two_materials(fault)
-    return f"{text}, M = {in_unit(modulus, 'Pa', digits=4)}"
+    return f"{text}, M = {in_unit(float(modulus), 'Pa')}"
 
 
 def _mode_lines(theory: dict[str, Any]) -> list[str]:
@@ -254,7 +263,7 @@ def _patch_lines(theory: dict[str, Any], fault: FaultParameters) -> list[str]:
         other = "none up to 3 L_c" if math.isnan(constant) else f"{constant:.4g} m"
         lines += wrapped(
             f"    a and b vary along the patch by the {law.law} law, {scales_text(law)}, "
-            f"V = {in_unit(fault.velocity, 'm/s')}; with constant a and b {other}"
+            f"V = {in_unit(float(number(fault, 'velocity')), 'm/s')}; with constant a and b {other}"
         )
     return lines
 
@@ -269,7 +278,8 @@ def _length_rows(
     value = float(answer.length)
     text = f"{value:.4g} m"
     ratio = f"{value / critical:.3g} L_c" if math.isfinite(critical) else ""
-    lowest = min(float(fault.height), float(fault.second_height))
+    heights = (number(fault, "height"), number(fault, "second_height"))
+    lowest = min(map(float, heights))
     is_of_half_spaces = length.system in (HALF_SPACES, TWO_MATERIALS)
     validity = f"valid: {length.validity}"
     if is_of_half_spaces and math.isfinite(lowest):
@@ -282,6 +292,8 @@ def _length_rows(
         f"      {length.source}",
         f"      {validity}",
     ]
-    if length.beyond and formulas.between_localised_and_crack(fault.a, fault.b):
+    if length.beyond and formulas.between_localised_and_crack(
+        number(fault, "a"), number(fault, "b")
+    ):
         rows.append(f"      {length.beyond}")
     return rows

@@ -18,6 +18,7 @@ from ..analysis.record import parameters_of
 from ..analysis.rows import rows_of
 from ..commands import DONE, EXIT_CODES, text
 from ..commands.text import require_writable
+from ..commands.unit_text import engineering_unit
 from ..configuration.installed import require
 from ..datasets import netcdf
 from ..model.linearised import linearised
@@ -195,10 +196,12 @@ def _span(variable: xr.Variable) -> str:
     """The range of a variable with its unit; empty without finite numbers."""
     if variable.dtype.kind not in "fiu" or not np.isfinite(variable.values).any():
         return ""
-    low = np.nanmin(variable.values)
-    high = np.nanmax(variable.values)
-    span = f"{low:.4g}" if low == high else f"{low:.4g} to {high:.4g}"
-    unit = variable.attrs.get("units", "")
+    low = float(np.nanmin(variable.values))
+    high = float(np.nanmax(variable.values))
+    largest = max(abs(low), abs(high))
+    unit, size = engineering_unit(largest, variable.attrs.get("units", ""))
+    ends = dict.fromkeys(f"{end / size:.4g}" for end in (low, high))
+    span = " to ".join(ends)
     return span if unit in ("", "1") else f"{span} {unit}"
 
 

@@ -1,10 +1,12 @@
 """``nucleation simulate``: one simulation, from options, a file or a run of a configuration."""
 
+from __future__ import annotations
+
 import math
 import shlex
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -24,6 +26,9 @@ from .sources import given_of, sourced
 from .system_text import system_of_run
 from .text import event_lines, outcome, parameter_lines, require_writable, to_json, wrapped
 from .unit_text import in_unit
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _RATIO = declarations(StudySettings)["length_over_critical"]
 _MEMORY = declarations(Limits)["memory"]
@@ -108,7 +113,7 @@ def _plan_lines(run: Run) -> list[str]:
     theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
     if math.isnan(critical):
         theory = f"sliding is stable at every wavelength, no critical length; {mesh.n_x}"
-    lines = [f"theory: {theory} elements of {in_unit(element, 'm', digits=4)}"]
+    lines = [f"theory: {theory} elements of {in_unit(element, 'm')}"]
     patch = stability_length_of(run.parameters, critical)
     if not math.isnan(patch):
         lines.append(f"theory: a creeping patch turns unstable at {patch:.4g} m")
@@ -156,7 +161,7 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
     checkpoint = checkpoint_of(parameters, output, digest)
     progress = Progress(parameters, sys.stderr)
 
-    def write(dataset: Any, path: Path) -> None:
+    def write(dataset: xr.Dataset, path: Path) -> None:
         netcdf.write(dataset, path, **attributes)
 
     try:

@@ -75,8 +75,8 @@ def command(
 
     \b
     Example:
-      nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa --poisson-ratio 0.35 \\
-          --a 0.0068 --zeta 0.016 --slip-distance 0.5um --plane stress
+      nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa \\
+          --poisson-ratio 0.35 --a 0.0068 --zeta 0.016 --slip-distance 0.5um
     """
     options, uncertain = take_uncertain(options, samples)
     given, papers = fault_values(**options, optional=unknown, ranges=True)
@@ -88,7 +88,7 @@ def command(
     with printed_warnings():
         fit = specimen_fit(unknown, length, criterion, **given)
         value = fit.searched[0] if own is None else own
-        fault = FaultParameters(**given, **{unknown: value})
+        fault = FaultParameters(**given | {unknown: value})
         judged = None if own is None else answers_of_theory(fault)[criterion]
     sought = unknown if own is None else ""
     system = system_of_fault(fault, given, papers, sought)

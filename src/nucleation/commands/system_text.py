@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from ..answers.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS
+from ..answers.length import HALF_SPACES, RIGID_BASE, THIS_FAULT, TWO_MATERIALS, number
 from ..model.friction.law import Friction
 from ..model.material import ANTIPLANE
 from ..model.parameters import Parameters
@@ -57,7 +57,7 @@ def _system_line(fault: FaultParameters, sought: str) -> str:
     alike = first == second
     if sought == "shear_modulus":
         first[0] = math.nan
-    if math.isinf(float(fault.second_shear_modulus)):
+    if math.isinf(number(fault, "second_shear_modulus")):
         bodies = f"{_body(*first)} on a rigid one"
     elif alike:
         bodies = f"two identical bodies, each {_body(*first)}"
@@ -83,12 +83,15 @@ def _body(
 
 def _friction_line(fault: FaultParameters, sought: str) -> str:
     """Coefficients at V, normal stress, slip distance and the friction law."""
-    constants = {"f": fault.friction, "a": fault.a, "b": fault.b}
+    constants = {"f": "friction", "a": "a", "b": "b"}
+    known = parameters_of(fault) | {"b": fault.b}
     coefficients = [
-        f"{name} = {float(value):.4g}" for name, value in constants.items() if value is not None
+        f"{symbol} = {float(known[name]):.4g}"
+        for symbol, name in constants.items()
+        if name in known
     ]
     if fault.velocity is not None:
-        coefficients[-1] += f" at V = {in_unit(fault.velocity, 'm/s')}"
+        coefficients[-1] += f" at V = {in_unit(known['velocity'], 'm/s')}"
     scales = {
         "sigma0": ("normal_stress", "Pa"),
         "D": ("slip_distance", "m"),
@@ -127,7 +130,7 @@ def systems_of_lengths(fault: FaultParameters, uncertain: Collection[str] = ()) 
     differ = not is_of_one_material(fault)
     differ = differ or any(name.startswith("second_") for name in uncertain)
     systems = [THIS_FAULT]
-    if differ and math.isfinite(fault.second_shear_modulus):
+    if differ and math.isfinite(number(fault, "second_shear_modulus")):
         systems.append(TWO_MATERIALS)
     return [*systems, HALF_SPACES, RIGID_BASE]
 
@@ -203,12 +206,12 @@ def papers_lines(law: Friction, given: Mapping[str, Any]) -> list[str]:
 def _assumed(fault: FaultParameters, given: Collection[str]) -> list[str]:
     """The assumptions about bodies, far sides and plane, in words."""
     assumed = []
-    if math.isfinite(float(fault.second_shear_modulus)):
+    if math.isfinite(number(fault, "second_shear_modulus")):
         if "second_shear_modulus" not in given:
             assumed.append("the second body is like the first")
         elif "second_height" not in given:
             assumed.append("the second body is as high as the first")
-    if math.isfinite(float(fault.height)):
+    if math.isfinite(number(fault, "height")):
         if "far_side" not in given and fault.loading != "top":
             assumed.append("far sides free of changes of stress")
     elif "height" not in given:

@@ -1,9 +1,11 @@
 """Uncertain parameters of a fault, and the quantiles of its lengths, for ``nucleation length``."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
@@ -15,6 +17,7 @@ from ..answers.uncertainty import QUANTILES, length_quantiles
 from ..configuration.samples import read_samples
 from ..model.quantities import ParameterError
 from ..theory.fault import FaultParameters
+from ..types import Array
 from . import DONE, STABLE
 from .options import Decorator, option
 from .progress import Progress
@@ -25,6 +28,9 @@ from .system_text import (
     systems_of_lengths,
 )
 from .text import table, to_json, wrapped
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 samples_option = click.option(
     "--samples",
@@ -100,7 +106,7 @@ def take_uncertain(
     return medians, uncertain
 
 
-def _of_natural_logarithm(value: Any) -> Any:
+def _of_natural_logarithm(value: Range | Array) -> Range | Array:
     """A range or samples of a coefficient of log10, as a coefficient of the natural logarithm."""
     if not isinstance(value, Range):
         return value / math.log(10.0)
@@ -183,7 +189,7 @@ def print_quantiles(
 
 def _as_json(
     system: list[str],
-    found: Any,
+    found: xr.Dataset,
     middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
@@ -214,7 +220,7 @@ def by_quantile(values: Iterable[Any]) -> dict[str, Any]:
 
 def _as_text(
     system: list[str],
-    found: Any,
+    found: xr.Dataset,
     middle: FaultParameters,
     uncertain: list[str],
 ) -> str:
@@ -313,7 +319,7 @@ def as_sure(value: float, error: float) -> str:
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
-def _rows(found: Any) -> Iterable[_Row]:
+def _rows(found: xr.Dataset) -> Iterable[_Row]:
     """The rows of a table of quantiles."""
     names = ("key", "title", "value", "error", "share")
     columns = [found[name].values.tolist() for name in names]

@@ -40,7 +40,7 @@ def with_unit(
     str
     """
     if isinstance(value, float):
-        return in_unit(value, entry.unit)
+        return in_unit(value, entry.unit, digits=6)
     return f"{value}{entry.unit_suffix}"
 
 
@@ -73,7 +73,7 @@ def note_typed(
 def in_unit(
     value: float,
     unit: str,
-    digits: int = 6,
+    digits: int = 4,
 ) -> str:
     """A number as the user wrote it, else in an engineering unit.
 

@@ -24,6 +24,13 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Values: TypeAlias = "ArrayLike | xr.DataArray"
+"""Parameters as they are given."""
+
+Numbers: TypeAlias = "Array | xr.DataArray"
+"""Parameters after their check, and what is computed of them."""
+
+Conditions: TypeAlias = "bool | NDArray[np.bool_] | xr.DataArray"
+"""Where something holds of such parameters."""
 
 FLOORS = {
     "shear_modulus": 1e-9,
