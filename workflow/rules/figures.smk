@@ -406,6 +406,7 @@ rule draw_figure_2_simulated:
     """Figure 2 with simulations, in both senses of the contrast"""
     input:
         table=f"{RESULTS}/pairs.nc",
+        theory=f"{RESULTS}/theory.nc",
         recipe=recipe("draw_figure_2_simulated"),
     output:
         report(
