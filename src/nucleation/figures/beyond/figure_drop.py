@@ -1,8 +1,9 @@
 """Where the force drops under a declared perturbation: simulations, the law, meshes' own noise."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -72,7 +73,7 @@ def draw(table: xr.Dataset) -> Figure:
     _draw_ratios(ratio, found)
     _draw_distributions(spread, found)
     style.letters(load, state, ratio, spread)
-    entries: dict[str, Artist | tuple[Artist, ...]] = dict(style.entries(load, state))
+    entries: dict[str, Any] = dict(style.entries(load, state))
     if _LAW in entries:
         line = style.key("", "", "-", style.THEORY)
         entries[_LAW] = (Patch(color=style.GUIDE, alpha=_BAND_ALPHA, linewidth=0.0), line)

@@ -122,13 +122,13 @@ def _smoothed(values: Array) -> Array:
 
 def _pieces(path: Path) -> list[Path]:
     """The connected lines of a path."""
-    starts = np.flatnonzero(path.codes == Path.MOVETO) if path.codes is not None else []
-    return [Path(vertices) for vertices in np.split(path.vertices, starts[1:])]
+    starts = np.flatnonzero(np.asarray(path.codes) == Path.MOVETO)
+    return [Path(vertices) for vertices in np.split(np.asarray(path.vertices), starts[1:])]
 
 
 def _long(path: Path) -> Path:
     """A contour without its pieces of few points."""
-    pieces = [piece for piece in _pieces(path) if len(piece.vertices) >= _SHORTEST]
+    pieces = [piece for piece in _pieces(path) if np.shape(piece.vertices)[0] >= _SHORTEST]
     return Path.make_compound_path(*pieces)
 
 

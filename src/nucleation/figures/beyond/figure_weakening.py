@@ -13,13 +13,13 @@ _LINES = {
         "curve_stability",
         r"$L_s$: the patch turns unstable",
         style.BLUE,
-        (0, (5, 1.5)),
+        "-",
     ),
     "runaway_length": (
         "curve_runaway",
         r"$L_{\mathrm{run}}$: slow slip has no end but an event",
         style.VERMILLION,
-        "-",
+        "-.",
     ),
     "law_length": ("curve_law", "law of the drop, median", style.GUIDE, "--"),
 }
@@ -27,9 +27,9 @@ _LINES = {
 
 _SIMULATED = "simulated drop: mean and range of realisations"
 _BASES = {"rigid": "rigid base", "deformable": "identical blocks"}
-_TITLE = 8.5  # points
 _FEWEST = 3  # zeta/a of a base and height for a panel
 _TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)  # of zeta/a
+_RATIOS = (0.5, 1.0, 2.0)  # ticks of lengths over L_c
 
 
 @style.styled
@@ -56,12 +56,12 @@ def draw(table: xr.Dataset) -> Figure:
     for axes, letter, system in zip(panels, "abcdefgh", systems, strict=False):
         curves = _curves(table, system)
         _draw_system(axes, system, curves)
-        base = _BASES[str(system["below"].values[0])]
-        height = float(system["height"][0])
-        lines = ""
+        bodies = _BASES[str(system["below"].values[0])]
+        height = f"$H$ = {float(system['height'][0]):g} m"
+        text = f"{bodies}, {height}"
         if curves is not None and curves["curve_half_spaces"]:
-            lines = ", lines: half-spaces"
-        axes.set_title(f"({letter}) {base}, $H$ = {height:g} m{lines}", loc="left", fontsize=_TITLE)
+            text = f"half-spaces (runs: {height})"
+        axes.set_title(f"({letter}) {text}", loc="left")
     panels[0].set_ylabel("Length over theory $L/L_c$")
     entries = style.entries(panels[0])
     entries[_SIMULATED] = style.key(_SIMULATED, "o", colour=style.BLACK)
@@ -105,7 +105,10 @@ def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset | None) -> N
                 markersize=4.0,
             )
     style.level(axes, 0.5, label="half of $L_c$")
-    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0), ylim=(0.4, 1.8))
+    axes.set(xscale="log", xlabel=r"Weakening $\zeta/a$", xlim=(0.18, 7.0))
+    axes.set(yscale="log", ylim=(0.4, 2.8))
     axes.set_xticks(_TICKS)
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_yticks(_RATIOS)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        axis.set_minor_formatter(NullFormatter())

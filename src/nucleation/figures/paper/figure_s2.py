@@ -255,7 +255,7 @@ def _label(
         across = image.get_yaxis_transform()
         image.annotate("$L_c$", place, (5.0, 1.0), across, color="white", **beside)
     if np.isfinite(row["onset_time"]):
-        place = (float(record.shown(row["onset_time"])), 0.0)
+        place = (float(record.shown(row["onset_time"].values)), 0.0)
         up = force.get_xaxis_transform()
         look: style.Options = {
             "color": style.GUIDE,
