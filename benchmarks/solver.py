@@ -225,7 +225,7 @@ def _pair_steps(parameters: Parameters) -> dict[str, float]:
     """A step of two identical blocks over a step of one, on the same mesh in each."""
     one = parameters.replaced(PAIR)
     pairs = [
-        one.replaced({"second_body": "deformable", "second_bottom": bottom}) for bottom in BOTTOMS
+        one.replaced({"second_body": "deformable", "second_far_side": bottom}) for bottom in BOTTOMS
     ]
     base, *times = _fastest(*map(_timed_steps, (one, *pairs)))
     found = {}

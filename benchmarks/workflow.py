@@ -141,7 +141,7 @@ def configuration(runs: int, per_job: int) -> dict[str, Any]:
         "length_over_critical": 4.0,
         "runs_per_job": per_job,
         "defaults": {"n_x": 40, "n_y": 4, "record": "lengths"},
-        "runs": [{"height": heights, "zeta_over_a": zeta_over_a, "phi0": list(AGES)}],
+        "runs": [{"height": heights, "zeta_over_a": zeta_over_a, "initial_state": list(AGES)}],
     }
     stepping = {
         "end_time": END_TIME,

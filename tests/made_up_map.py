@@ -21,9 +21,9 @@ def lengths(missing=()):
         "height": height,
         "strength": strength,
         "seed": seed.astype(int),
-        "direct_effect": np.full(len(rows), 0.0068),
-        "velocity_weakening": 0.0068 * weakening,
-        "theory_length": theory,
+        "a": np.full(len(rows), 0.0068),
+        "zeta": 0.0068 * weakening,
+        "critical_length": theory,
         "length": theory * (0.6 + 0.01 * seed + 10.0 * strength),
         "stability_length": theory * 0.5,
     }

@@ -38,10 +38,10 @@ def changed(**values):
     return PARAMETERS.replaced(values)
 
 
-def run(identifier, parameters=PARAMETERS, theory_length=0.5):
+def run(identifier, parameters=PARAMETERS, critical_length=0.5):
     """A run as rules give it."""
     return {
         "id": identifier,
         "parameters": dataclasses.asdict(parameters),
-        "theory_length": theory_length,
+        "critical_length": critical_length,
     }

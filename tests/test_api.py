@@ -101,8 +101,8 @@ def test_units_are_converted_and_results_carry_theirs():
 def test_texts_have_units_as_on_the_command_line():
     texts = {"shear_modulus": "30GPa", "normal_stress": ["50 MPa", 50e6], "slip_distance": "5um"}
     assert_allclose(arrays.critical_length(**FAULT | texts), arrays.critical_length(**FAULT))
-    given = api.Friction(characteristic_slip_distance="0.5um"), api.Mesh(n_x="100")
-    assert given == (api.Friction(characteristic_slip_distance=5e-7), api.Mesh(n_x=100))
+    given = api.Friction(slip_distance="0.5um"), api.Mesh(n_x="100")
+    assert given == (api.Friction(slip_distance=5e-7), api.Mesh(n_x=100))
     assert api.Parameters().replaced({"height": "5 cm"}).geometry.height == 0.05
     with pytest.raises(ParameterError, match=r"geometry.height = '5 s' .*unit of time, but m"):
         api.Geometry(height="5 s")

@@ -198,7 +198,7 @@ block = Parameters(geometry=Geometry(height=0.005, length=0.9), mesh=Mesh(n_x=16
 write(simulate(block), "run.nc")
 """
 
-FAULT = "--shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa --a 0.010 --b 0.015"
+FAULT = "--shear-modulus 30GPa --poisson-ratio 0.25 --normal-stress 50MPa --a 0.010 --b 0.015"
 LENGTH = ["-m", "nucleation", "length", *FAULT.split(), "--slip-distance", "5um"]
 
 THEORY = """

@@ -115,7 +115,7 @@ def run_of(fault, law, evolution):
     scales = {name: ratio * velocity for name, ratio in OVER_VELOCITY[law].items()}
     if law == "product":
         scales["state_scale"] = STATE_SCALE * distance / velocity
-    base = Friction(law=law, evolution=evolution, characteristic_slip_distance=distance, **scales)
+    base = Friction(law=law, evolution=evolution, slip_distance=distance, **scales)
     friction = full_law(base, velocity, *(fault[name] for name in ("friction", "a", "zeta")))
     second = SecondBody()
     if fault.get("second_shear_modulus") != math.inf:

@@ -31,8 +31,8 @@ LENGTHS = table("lengths.csv")
 def test_reference_has_the_runs_of_the_configuration():
     assert set(LENGTHS) == set(RUNS)
     for identifier, run in RUNS.items():
-        assert float(LENGTHS[identifier]["theory_length"]) == pytest.approx(
-            run.theory_length, rel=1e-9
+        assert float(LENGTHS[identifier]["critical_length"]) == pytest.approx(
+            run.critical_length, rel=1e-9
         )
         assert LENGTHS[identifier]["status"].startswith("completed")
 
@@ -66,8 +66,8 @@ def fault_of(label):
     """The end of a fault's id, by its label in the table: 0.01, 0.01, slip or 0.1, 1000 s."""
     height, _, other = label.partition(", ")
     law = "slip" if other == "slip" else "aging"
-    phi0 = other.removesuffix(" s") if other.endswith(" s") else "1"
-    return f"{law}-H{height}-phi{phi0}"
+    initial_state = other.removesuffix(" s") if other.endswith(" s") else "1"
+    return f"{law}-H{height}-phi{initial_state}"
 
 
 def test_results_state_the_reference():
@@ -88,13 +88,13 @@ def test_results_state_the_reference():
             assert cells == [
                 f"{float(row['onset_time']):.2f}",
                 f"{length:.3f} ({low:.3f}-{high:.3f})",
-                f"{length / float(row['theory_length']):.2f}",
+                f"{length / float(row['critical_length']):.2f}",
             ]
 
 
 @pytest.mark.parametrize("study", ["paper", "converged"])
 def test_variations_of_law_and_state_are_as_stated(study):
-    """Slip law and phi0 = 1e3 s within 10 % of the aging law's length (Sect. 5)."""
+    """Slip law and initial_state = 1e3 s within 10 % of the aging law's length (Sect. 5)."""
     length = {name: float(row["length"]) for name, row in means().items()}
     pairs = [
         ("slip-H0.01-phi1", "aging-H0.01-phi1"),

@@ -6,7 +6,7 @@ from nucleation.analysis.rows import remarked, why, without_event
 
 ROW = {
     "id": "r", "status": "completed: the end time was reached", "onset_time": float("nan"),
-    "velocity_weakening": 0.016, "theory_length": 0.5, "reached_length": 0.1,
+    "zeta": 0.016, "critical_length": 0.5, "reached_length": 0.1,
     "simulated_time": 5.0, "block_length": 2.0, "loading": "edge",
 }  # fmt: skip
 
@@ -25,7 +25,7 @@ def test_all_are_named_and_counted():
         ({"reached_length": 0.7}, "1.4 of the theory's critical length, and the force has not"),
         ({"reached_length": 0.999}, "filled the half of the block"),
         ({"reached_length": 0.999, "loading": "remote"}, "and the force has not dropped"),
-        ({"theory_length": float("nan"), "velocity_weakening": -0.01}, "stable by the theory"),
+        ({"critical_length": float("nan"), "zeta": -0.01}, "stable by the theory"),
         ({"status": "failed: tension"}, "failed: tension"),
     ],
 )

@@ -92,7 +92,7 @@ def filmed_pair():
         {
             "height": 0.01, "length": 0.6, "n_x": 40, "n_y": 40, "end_time": 1.0,
             "second_body": "deformable", "second_height": 0.02, "second_n_y": 5,
-            "second_shear_modulus": 9.3e9, "second_bottom": "clamped",
+            "second_shear_modulus": 9.3e9, "second_far_side": "clamped",
         }
     )  # fmt: skip
     record = simulate(parameters)

@@ -42,7 +42,7 @@ def test_rows_say_what_lies_below(table):
     assert table["far_side"].item() == "none" and np.isinf(table["second_shear_modulus"].item())
     assert np.isnan(table["second_height"].item())
     pair = Parameters().replaced(
-        {"second_body": "deformable", "second_bottom": "clamped", "second_shear_modulus": 9e9,
+        {"second_body": "deformable", "second_far_side": "clamped", "second_shear_modulus": 9e9,
          "height": 0.02}
     )  # fmt: skip
     assert second_body(pair) == {

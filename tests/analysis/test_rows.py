@@ -8,9 +8,9 @@ import xarray as xr
 from nucleation.analysis.rows import ratios, rows_of
 
 COLUMNS = {
-    "id": ["a", "b"], "n_x": [400, 800], "length": [0.2, np.nan], "theory_length": [0.4, 0.5],
-    "stability_length": [0.1, 0.3], "velocity_weakening": [0.016, 0.03],
-    "direct_effect": [0.008, 0.01],
+    "id": ["a", "b"], "n_x": [400, 800], "length": [0.2, np.nan], "critical_length": [0.4, 0.5],
+    "stability_length": [0.1, 0.3], "zeta": [0.016, 0.03],
+    "a": [0.008, 0.01],
 }  # fmt: skip
 TABLE = xr.Dataset({name: ("run", np.array(values)) for name, values in COLUMNS.items()})
 

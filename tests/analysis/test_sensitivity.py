@@ -23,8 +23,8 @@ BASE = Case("base", PARAMETERS, 0.5, None)
         ({"length": 4.0, "n_x": 400}, 0.5, ("length", "L x 2")),
         ({"length": 2.014}, 0.5, ("base", "base")),  # the same multiple of L_c, but for rounding
         ({"length": 2.03}, 0.5, ("length", "L x 1.01")),
-        ({"characteristic_slip_distance": 1e-6, "length": 4.0}, 1.0,
-         ("characteristic_slip_distance", "D x 2")),
+        ({"slip_distance": 1e-6, "length": 4.0}, 1.0,
+         ("slip_distance", "D x 2")),
         ({"initial_stress": "uniform_shear"}, 0.5, ("initial_shear_stress", "tau0 = 0")),
         ({"initial_stress": "uniform_shear", "initial_shear_stress": 5e4}, 0.5,
          ("initial_shear_stress", "tau0 = 50000 Pa")),
@@ -39,7 +39,7 @@ def test_variation_in_words(values, critical, expected):
 @pytest.fixture(scope="module")
 def table():
     doubled = changed(density=2400.0, length=4.0, n_x=400)
-    runs = [run("a"), run("b", doubled, theory_length=1.0), run("c", changed(height=0.1))]
+    runs = [run("a"), run("b", doubled, critical_length=1.0), run("c", changed(height=0.1))]
     simulations = [record(0.1), record(0.125, doubled), record(0.1, changed(height=0.1))]
     return sensitivity_table(runs, simulations)
 

@@ -29,9 +29,13 @@ PAGE = (ROOT / "docs" / "claims.md").read_text(encoding="utf-8")
 LENGTHS = pd.read_csv(REFERENCE / "lengths.csv")
 
 
-def realisations(study, law, height, phi0=1.0):
+def realisations(study, law, height, initial_state=1.0):
     """The rows of one fault in the table of lengths."""
-    frame = LENGTHS[(LENGTHS.study == study) & (LENGTHS.evolution == law) & (LENGTHS.phi0 == phi0)]
+    frame = LENGTHS[
+        (LENGTHS.study == study)
+        & (LENGTHS.evolution == law)
+        & (LENGTHS.initial_state == initial_state)
+    ]
     return frame[np.isclose(frame.height, height)]
 
 
@@ -145,11 +149,11 @@ def test_the_onset_depends_on_the_kind_of_noise(rows):
 
 
 def test_agreement_says_how_many_heights_are_within_a_quarter(rows):
-    aging = LENGTHS[(LENGTHS.evolution == "aging") & (LENGTHS.phi0 == 1)]
+    aging = LENGTHS[(LENGTHS.evolution == "aging") & (LENGTHS.initial_state == 1)]
     reason = rows["theory-agreement"]["reason"]
     for study in ("converged", "paper"):
-        own = aging[aging.study == study].groupby("height")[["length", "theory_length"]].mean()
-        ratio = own.length / own.theory_length
+        own = aging[aging.study == study].groupby("height")[["length", "critical_length"]].mean()
+        ratio = own.length / own.critical_length
         near = int((ratio > 0.75).sum())
         assert f"{ratio.min():.2f} to {ratio.max():.2f}, {near} of 9 within 25 %" in reason
 
@@ -193,7 +197,7 @@ def thin_length(weakening, points=60):
 
 
 def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
-    """The law integrated in time from phi0, without slip, and friction at V after it."""
+    """The law integrated in time from initial_state, without slip, and friction at V after it."""
     law = evidence().friction.changed({"evolution": "slip"})
     runs = LENGTHS[(LENGTHS.study == "converged") & (LENGTHS.evolution == "slip")]
     found, healed = [], []
@@ -201,7 +205,7 @@ def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
         states = solve_ivp(
             lambda _, state: law.state_rate(0.0, state),
             (0.0, run.onset_time),
-            [run.phi0],
+            [run.initial_state],
             rtol=1e-9,
         ).y[0]
         strength = law.coefficient(1e-5, states[[0, -1]])
@@ -215,8 +219,8 @@ def test_healing_by_v0_alone_follows_from_the_slip_law(rows):
 def test_verdicts_whose_bound_is_near_have_six_realisations():
     """The others have three: their bound is further from the mean than twice the range."""
 
-    def spread(height, phi0=1.0, column="length"):
-        found = realisations("converged", "aging", height, phi0)[column]
+    def spread(height, initial_state=1.0, column="length"):
+        found = realisations("converged", "aging", height, initial_state)[column]
         return np.ptp(found) / found.mean(), len(found)
 
     onset = realisations("converged", "aging", 0.005).onset_time
@@ -226,20 +230,22 @@ def test_verdicts_whose_bound_is_near_have_six_realisations():
         means = [realisations("converged", "aging", h).length.mean() for h in (low, high)]
         wide, number = np.max([spread(low), spread(high)], axis=0)
         assert means[1] / means[0] - 1.0 > 2.0 * wide or number == 6, (low, high)
-    for height, phi0 in ((0.1, 1.0), (0.1, 1e3)):  # older interface: -2.5 % against -10 %
-        assert spread(height, phi0)[1] == 6
+    for height, initial_state in ((0.1, 1.0), (0.1, 1e3)):  # older interface: -2.5 % against -10 %
+        assert spread(height, initial_state)[1] == 6
 
 
 def test_agreement_with_the_theory(rows):
     mine = LENGTHS[
-        (LENGTHS.study == "converged") & (LENGTHS.evolution == "aging") & (LENGTHS.phi0 == 1)
+        (LENGTHS.study == "converged")
+        & (LENGTHS.evolution == "aging")
+        & (LENGTHS.initial_state == 1)
     ]
-    how = {"length": "mean", "length_low": "min", "length_high": "max", "theory_length": "mean"}
+    how = {"length": "mean", "length_low": "min", "length_high": "max", "critical_length": "mean"}
     mine = mine.groupby("height", as_index=False).agg(how)
-    ratio = mine.length / mine.theory_length
+    ratio = mine.length / mine.critical_length
     assert rows["theory-agreement"]["ours"] == pytest.approx(ratio.min())
     worst = mine.loc[ratio.idxmin()]
-    ends = [worst[f"length_{end}"] / worst.theory_length for end in ("low", "high")]
+    ends = [worst[f"length_{end}"] / worst.critical_length for end in ("low", "high")]
     assert rows["theory-agreement"]["uncertainty"] == pytest.approx(ends)
     own = ratio[mine.height.argsort()].to_numpy()
     pairs = [own[j] / own[i] for j in range(own.size) for i in range(j)]

@@ -20,7 +20,7 @@ def table(ratio=0.8, slope=-1.0):
     columns = {
         "role": ["pairs_identical"] * 2 + ["figure_2_simulated"] * 5,
         "height": [0.01, 1.0, *[1.0] * 5],
-        "theory_length": [0.1, 0.5, *[0.5] * 5],
+        "critical_length": [0.1, 0.5, *[0.5] * 5],
         "length_ratio": [0.3, ratio, *[ratio] * 5],
         "half_space_ratio": [1.0, 1.0, *(1.0 + slope * np.abs(contrast))],
         "f_beta": [0.0, 0.0, *contrast],
@@ -67,11 +67,11 @@ def modes(g1=1.0, g2=1.0, name="half-spaces"):
         "poisson_ratio": [nu[0]] * 2,
         "second_poisson_ratio": [nu[1]] * 2,
         "friction": [f] * 2,
-        "direct_effect": [a] * 2,
-        "velocity_weakening": [zeta] * 2,
+        "a": [a] * 2,
+        "zeta": [zeta] * 2,
         "slip_distance": [ell] * 2,
         "velocity": [v] * 2,
-        "applied_stress": [sigma0] * 2,
+        "normal_stress": [sigma0] * 2,
         "mode_wavenumber": [k] * 2,
     }
     found = {name: ("run", np.array(values)) for name, values in columns.items()}

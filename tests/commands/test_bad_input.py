@@ -13,7 +13,7 @@ from nucleation.datasets.variables import annotate
 
 CONFIG = str(Path(__file__).parents[2] / "config" / "config.yaml")
 GOOD = {
-    "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
+    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
     "--b": "0.015", "--slip-distance": "5um",
 }  # fmt: skip
 
@@ -90,7 +90,7 @@ SIMULATE = [
         ["did you mean paper-aging-H0"],
     ),
     (["new.nc", "--direct-effect", "0.01", "--aging-coefficient", "0.1"], ["not allowed together"]),
-    (["new.nc", "--direct-effect", "2"], ["direct_effect = 2.0", "(0, 1)"]),
+    (["new.nc", "--direct-effect", "2"], ["a = 2.0", "(0, 1)"]),
     (["new.nc", "--initial-shear-stress", "1kPa"], ["1000 Pa", "initial_stress"]),
     (["new.nc", "--shortest-step", "0.5 s"], ["0.5 s is not allowed", "0.005 s"]),
     (["new.nc", "--run", "x", "--config", "none.yaml"], ["none.yaml"]),

@@ -128,7 +128,7 @@ def test_ranges_and_samples_have_quantiles(nucleation, law, monkeypatch, tmp_pat
     lengths = [p.geometry.length / run_length(p, interface_state(p)) for p in seen]
     assert lengths == pytest.approx([6.0] * 20, rel=1e-3)  # lengths are rounded
     assert (found["draws"], found["invalid"], found["uncertain"]) == (20, 0, ["height"])
-    assert [one["key"] for one in found["lengths"]][-1] == "drop_length"
+    assert [one["key"] for one in found["lengths"]][-1] == "expected_length"
     path = tmp_path / "heights.csv"
     path.write_text("height (cm)\n1\n2\n4\n")
     text = nucleation(*own, "--samples", path).out

@@ -3,7 +3,7 @@
 import pytest
 
 FAULT = (
-    *("--shear-modulus", "30GPa", "--poisson", "0.25", "--normal-stress", "50MPa"),
+    *("--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa"),
     *("--a", "0.010", "--b", "0.015", "--slip-distance", "5um"),
 )
 

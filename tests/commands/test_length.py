@@ -12,7 +12,7 @@ from nucleation.answers.length import TWO_MATERIALS
 from nucleation.theory import arrays
 
 WORDS = [
-    "length", "--shear-modulus", "30GPa", "--poisson", "0.25", "--normal-stress", "50MPa",
+    "length", "--shear-modulus", "30GPa", "--poisson-ratio", "0.25", "--normal-stress", "50MPa",
     "--a", "0.010", "--b", "0.015", "--slip-distance", "5um",
 ]  # fmt: skip
 FAULT = {

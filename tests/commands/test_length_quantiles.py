@@ -11,7 +11,7 @@ from nucleation import api
 from nucleation.commands.uncertainty import as_sure
 
 ROCK = ["length", "--shear-modulus", "30GPa", "--normal-stress", "50MPa", "--slip-distance", "5um"]
-WORDS = [*ROCK, "--poisson", "0.25 (0.2 to 0.3)", "--b", "0.015"]
+WORDS = [*ROCK, "--poisson-ratio", "0.25 (0.2 to 0.3)", "--b", "0.015"]
 FAULT = {"shear_modulus": 30e9, "normal_stress": 50e6, "slip_distance": 5e-6}
 A = [0.010, 0.011, 0.012, 0.016]
 
@@ -90,7 +90,7 @@ def test_a_law_that_is_named(nucleation, samples, tmp_path):
 
 
 def test_a_fault_that_is_stable_in_all_draws(nucleation, samples):
-    ended = nucleation(*ROCK, "--poisson", "0.25", "--zeta", "-0.01", *samples)
+    ended = nucleation(*ROCK, "--poisson-ratio", "0.25", "--zeta", "-0.01", *samples)
     assert (ended.code, ended.err) == (3, "")
     assert "4 of the others stable" in ended.out
 
@@ -99,7 +99,7 @@ def test_a_fault_that_is_stable_in_all_draws(nucleation, samples):
     "words, message",
     [
         ([*WORDS, "--a", "0.01"], "a is given twice: as an option and in .*posterior.csv"),
-        ([*ROCK, "--poisson", ".25"], "zeta or b is needed beside an uncertain a"),
+        ([*ROCK, "--poisson-ratio", ".25"], "zeta or b is needed beside an uncertain a"),
         ([*WORDS, "--density", "2700"], "density is not allowed beside ranges"),
         ([*WORDS, "--height", "2m (3 to 4)"], "--height.*VALUE .LOW to HIGH"),
     ],

@@ -82,7 +82,7 @@ def test_summary_of_lengths(nucleation, files, settings):
     said = nucleation("show", files["lengths"]).out
     (run,), length = settings.runs, float(netcdf.read(files["lengths"])["length"][0])
     assert f"{run.id} " in said and f" {length:.4g} " in said
-    assert f"  {length / run.theory_length:.3f}" in said
+    assert f"  {length / run.critical_length:.3f}" in said
 
 
 @pytest.mark.slow

@@ -47,7 +47,7 @@ def test_record_is_that_of_the_library(nucleation, tmp_path):
 
 def test_the_command_in_the_dataset_makes_it_again(nucleation, tmp_path):
     output = tmp_path / "a run.nc"
-    words = ["--evolution", "slip", "--phi0", "20 min", "--density", "0"]
+    words = ["--evolution", "slip", "--initial-state", "20 min", "--density", "0"]
     assert nucleation("simulate", output, *SMALL, *words).code == 0
     first = netcdf.read(output)
     command = shlex.split(first.attrs["command"])
@@ -131,7 +131,7 @@ def test_constants_of_friction_set_the_law(nucleation, tmp_path):
     assert (a, zeta) == pytest.approx((0.008, 0.016))
     assert f == pytest.approx(Friction().expansion(2e-5).f0)
     again = ["simulate", tmp_path / "more.nc", "--parameters", tmp_path / "run.nc"]
-    nucleation(*again, "--friction-coefficient", "0.5")
+    nucleation(*again, "--friction", "0.5")
     more = parameters_of(tmp_path / "more.nc")
     assert more.friction.expansion(2e-5) == pytest.approx((0.5, 0.008, 0.016))
     assert (more.geometry, more.mesh) == (PARAMETERS.geometry, PARAMETERS.mesh)

@@ -7,7 +7,7 @@ import pytest
 from nucleation import api
 
 WORDS = [
-    "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa", "--poisson",
+    "specimen", "--length", "20cm", "--height", "10cm", "--shear-modulus", "3.1GPa", "--poisson-ratio",
     "0.35", "--a", "0.0068", "--zeta", "0.016", "--slip-distance", "0.5um", "--plane", "stress",
 ]  # fmt: skip
 FAULT = {"height": 0.1, "shear_modulus": 3.1e9, "poisson_ratio": 0.35, "a": 0.0068, "zeta": 0.016,
@@ -40,7 +40,7 @@ def test_other_unknowns(nucleation):
 
 def test_several_intervals_and_none(nucleation):
     contrast = [
-        "specimen", "--length", "20", "--poisson", "0.2", "--a", "0.01", "--friction", "0.8",
+        "specimen", "--length", "20", "--poisson-ratio", "0.2", "--a", "0.01", "--friction", "0.8",
         "--slip-distance", "0.01um", "--normal-stress", "100MPa", "--second-body", "10GPa,0.2",
         "--find", "shear_modulus", "--shear-modulus", "10GPa",
     ]  # fmt: skip

@@ -7,15 +7,15 @@ import pytest
 from nucleation.api import Parameters, critical_length
 
 FAULT = {
-    "--shear-modulus": "30GPa", "--poisson": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
+    "--shear-modulus": "30GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa", "--a": "0.010",
     "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
     "--height": "2m", "--second-body": "20GPa,0.3,3m",
 }  # fmt: skip
 OTHER_WORDS = {
     "--a": "--direct-effect",
-    "--friction": "--friction-coefficient",
-    "--poisson": "--poisson-ratio",
-    "--slip-distance": "--characteristic-slip-distance",
+    "--friction": "--friction",
+    "--poisson-ratio": "--poisson-ratio",
+    "--slip-distance": "--slip-distance",
     "--height": "--geometry.height",
 }
 
@@ -65,7 +65,7 @@ def test_one_fault_in_the_same_words_for_all_commands(nucleation, tmp_path):
 def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
     """With the law's own a and b along the patch; v0 = 1e-2 V made the patch of `drop` longer."""
     sandstone = words({
-        "--shear-modulus": "6GPa", "--poisson": "0.25", "--normal-stress": "5MPa", "--a": "0.010",
+        "--shear-modulus": "6GPa", "--poisson-ratio": "0.25", "--normal-stress": "5MPa", "--a": "0.010",
         "--b": "0.015", "--slip-distance": "5um", "--friction": "0.6", "--velocity": "10um/s",
         "--height": "20cm",
     })  # fmt: skip
@@ -81,7 +81,7 @@ def test_one_stability_length_in_all_commands(nucleation, tmp_path, more):
 def test_one_fault_in_antiplane_shear(nucleation, tmp_path):
     """BP1: 3221 m of half-spaces; friction and Poisson's ratio do not matter."""
     fault = words({
-        "--shear-modulus": "32.04GPa", "--poisson": "0.25", "--normal-stress": "50MPa",
+        "--shear-modulus": "32.04GPa", "--poisson-ratio": "0.25", "--normal-stress": "50MPa",
         "--a": "0.010", "--b": "0.015", "--slip-distance": "8mm", "--velocity": "1nm/s",
         "--friction": "0.6", "--plane": "antiplane", "--height": "30km",
     })  # fmt: skip

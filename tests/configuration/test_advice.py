@@ -69,8 +69,8 @@ def test_a_patch_may_weaken_in_a_fault_that_strengthens(change, warned):
     defaults = {
         "length": 12.0, "n_x": 201, "n_y": 16, "grading": 64.0,
         "loading": "remote", "stress_rate": 1e-3, "second_body": "deformable",
-        "law": "dieterich_ruina", "friction_coefficient": 0.4, "direct_effect": 0.0068,
-        "velocity_weakening": -0.0034, "end_time": 10.0,
+        "law": "dieterich_ruina", "friction": 0.4, "a": 0.0068,
+        "zeta": -0.0034, "end_time": 10.0,
         "varies": "zeta", "shape": "step", "width": 1.2, "change": change,
     }  # fmt: skip
     given = advice({"height": 1.0}, defaults=defaults)
@@ -132,7 +132,7 @@ WARNED = {
         "simulated time too short (s-aging-H0.005-phi1-n_x400-end_time5): end_time = 5 s, but the "
         "patch needs about 8.59 s to become unstable",
     ),
-    "block": (GOOD | {"length": 0.4}, "block short (s-aging-H0.005-phi1-length0.4-n_x400)"),
+    "block": (GOOD | {"length": 0.4}, "block short (s-aging-H0.005-phi1-block_length0.4-n_x400)"),
     "start": (
         GOOD | {"initial_stress": "uniform_shear", "initial_shear_stress": 9e5},
         "start above the strength (",
@@ -206,7 +206,7 @@ def test_a_control_run_needs_its_length_and_is_said_to_stay_quiet():
     strengthening = GOOD | {"zeta_over_a": -0.5}
     assert "needs its length (m)" in messages(study(strengthening))
     settings = configure(study(strengthening | {"length": 1.4}))
-    assert math.isnan(settings.runs[0].theory_length)
+    assert math.isnan(settings.runs[0].critical_length)
     (warning,) = advise(settings.runs)
     assert "nothing will nucleate" in warning and "stable at every wavelength" in warning
     assert "critical length" not in warning

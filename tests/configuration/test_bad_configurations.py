@@ -88,7 +88,7 @@ BAD = {
         [f"{LAST}: n_x = 100000, n_y = 10000", "MB", "limits.memory = 2000 MB"],
     ),
     "too many runs": (
-        with_run(**{name: {"start": 1, "stop": 9, "num": 1000} for name in ("height", "phi0")}),
+        with_run(**{name: {"start": 1, "stop": 9, "num": 1000} for name in ("height", "initial_state")}),
         [f"{LAST} has 1000000 simulations, more than 10000"],
     ),
     "nothing to nucleate": (
@@ -130,7 +130,7 @@ BAD = {
     "endless name": ({"studies": {"s" * 61: {"runs": [TALL]}}}, ["at most 60", "as a name"]),
     "endless identifier": (
         study(
-            TALL | {"characteristic_slip_distance": 5e-7, "regularisation_slip_rate": 1e-9,
+            TALL | {"slip_distance": 5e-7, "regularisation_slip_rate": 1e-9,
                     "initial_stress": "uniform_shear", "initial_shear_stress": 1.0,
                     "rate_coefficient": 0.005, "aging_coefficient": 0.075, "slip_rate_scale": 1e-7,
                     "time_after_event": 0.0}
@@ -166,7 +166,7 @@ BAD = {
         [f"{RUN}: length = 0.5 m", "critical nucleation length of the theory, 0.81 m"],
     ),
     "block longer than any": (
-        study({**TALL, "shear_modulus": 9e12, "characteristic_slip_distance": 900.0}),
+        study({**TALL, "shear_modulus": 9e12, "slip_distance": 900.0}),
         [f"{RUN}: geometry.length = ", "(0, 1e+07) m"],
     ),
     "a theory without instability": (
@@ -179,7 +179,7 @@ BAD = {
         ["main_text_interface.zeta = 0.02 is not allowed", "friction law's own value, 0.015599"],
     ),
     "a run whose friction is not the one that is rounded": (
-        study({**TALL, "characteristic_slip_distance": 1e-6}, interface="main_text"),
+        study({**TALL, "slip_distance": 1e-6}, interface="main_text"),
         [f"{RUN}: interface = main_text is not allowed", "slip_length = 5e-07 m is no rounding",
          "own value, 1e-06 m", "it must be friction_law"],
     ),

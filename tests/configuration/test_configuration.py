@@ -35,7 +35,9 @@ def test_default_configuration_is_the_papers():
 
 def test_papers_study():
     runs = papers().runs_of("paper")
-    aging = [r for r in runs if r.labels["evolution"] == "aging" and r.labels["phi0"] == 1.0]
+    aging = [
+        r for r in runs if r.labels["evolution"] == "aging" and r.labels["initial_state"] == 1.0
+    ]
     heights = [0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.08, 0.1]
     assert [run.labels["height"] for run in aging] == heights
     assert aging[0].id == "paper-aging-H0.005-phi1"
@@ -45,7 +47,7 @@ def test_papers_study():
     for run in runs:
         assert (run.parameters.mesh.n_x, run.parameters.mesh.n_y) == (400, 150)
         expected = critical_length(run.labels["height"], Material(), InterfaceState())
-        assert run.theory_length == pytest.approx(float(expected), rel=1e-12)
+        assert run.critical_length == pytest.approx(float(expected), rel=1e-12)
         assert run.parameters.geometry.length == pytest.approx(6.0 * expected, rel=1e-3)
 
 
@@ -104,14 +106,22 @@ def test_quick_configuration_has_what_the_figures_show():
     quick = load(CONFIG / "quick.yaml")
     assert quick.results != "results"
     for height in (quick.figures.inset_height, quick.figures.space_time_height):
-        assert quick.shown(height).labels.items() >= {"evolution": "aging", "phi0": 1.0}.items()
-    laws = {(run.labels["evolution"], run.labels["phi0"]) for run in quick.runs}
+        assert (
+            quick.shown(height).labels.items()
+            >= {"evolution": "aging", "initial_state": 1.0}.items()
+        )
+    laws = {(run.labels["evolution"], run.labels["initial_state"]) for run in quick.runs}
     assert laws >= {("aging", 1.0), ("slip", 1.0), ("aging", 1000.0)}
 
 
 def test_grid_and_identifiers():
     heights = {"start": 0.01, "stop": 1.0, "num": 3, "scale": "log"}
-    entry = {"height": heights, "n_x": [100, 200], "shear_modulus": 4.0e9, "phi0": 1000000.0}
+    entry = {
+        "height": heights,
+        "n_x": [100, 200],
+        "shear_modulus": 4.0e9,
+        "initial_state": 1000000.0,
+    }
     config = configure(study(entry, defaults={"n_y": 20, "poisson_ratio": 0.25}))
     assert config.results == "results" and len(config.runs) == 6
     assert config.runs[0].id == "s-aging-H0.01-phi1000000-shear_modulus4000000000-n_x100"
@@ -139,9 +149,9 @@ def test_identifiers_stay_when_studies_are_edited():
 
 def test_identifiers_do_not_depend_on_notation(tmp_path):
     forms = [
-        "{height: 0.005, n_x: 100, density: 1200, characteristic_slip_distance: 5.0e-7}",
-        "{height: 5.0e-3, n_x: 1_00, density: 1.2e+3, characteristic_slip_distance: 0.0000005}",
-        "{height: 0.0050, n_x: +100, density: 1200.0, characteristic_slip_distance: 5e-7}",
+        "{height: 0.005, n_x: 100, density: 1200, slip_distance: 5.0e-7}",
+        "{height: 5.0e-3, n_x: 1_00, density: 1.2e+3, slip_distance: 0.0000005}",
+        "{height: 0.0050, n_x: +100, density: 1200.0, slip_distance: 5e-7}",
     ]
     found = []
     for form in forms:
@@ -149,9 +159,7 @@ def test_identifiers_do_not_depend_on_notation(tmp_path):
         path.write_text(f"studies: {{s: {{runs: [{form}]}}}}")
         found.append(load(path).runs)
     assert repr(found[0]) == repr(found[1]) == repr(found[2])
-    assert found[0][0].id == (
-        "s-aging-H0.005-phi1-density1200-characteristic_slip_distance5e-7-n_x100"
-    )
+    assert found[0][0].id == ("s-aging-H0.005-phi1-density1200-slip_distance5e-7-n_x100")
 
 
 def test_constants_of_the_law_in_a_study():
@@ -163,10 +171,10 @@ def test_constants_of_the_law_in_a_study():
         f, a, zeta = run.parameters.friction.expansion(1e-5)
         assert (f, a, zeta / a) == pytest.approx((usual.f0, usual.a, ratio), rel=1e-10)
         expected = critical_length(0.01, Material(), InterfaceState(f, a, zeta))
-        assert run.theory_length == pytest.approx(float(expected), rel=1e-10)
+        assert run.critical_length == pytest.approx(float(expected), rel=1e-10)
         assert run.value("zeta_over_a") == ratio
-        assert run.value("direct_effect") == pytest.approx(usual.a)
-        assert run.value("phi0") == 1.0
+        assert run.value("a") == pytest.approx(usual.a)
+        assert run.value("initial_state") == 1.0
 
 
 def curves(*runs, **settings):
@@ -185,13 +193,13 @@ def test_curve_goes_through_the_runs(interface):
     for run in runs:
         curve = found[run.labels["evolution"]]
         at = curve["x"].index(run.labels["height"])
-        assert curve["length"][at] == pytest.approx(run.theory_length, rel=1e-7)
+        assert curve["length"][at] == pytest.approx(run.critical_length, rel=1e-7)
     assert len(curve["x"]) > 50
 
 
 def test_constants_of_friction_may_vary():
     runs, found = curves({"height": 0.01, "zeta_over_a": [1.0, 4.0]})
-    assert found[""]["length"][0] == pytest.approx(runs[0].theory_length, rel=1e-6)
+    assert found[""]["length"][0] == pytest.approx(runs[0].critical_length, rel=1e-6)
     assert found[""]["length"][0] > 1.5 * found[""]["length"][-1]
 
 
@@ -208,21 +216,19 @@ def test_unknown_run_is_named():
 
 
 @pytest.mark.parametrize("interface", ["main_text", "friction_law"])
-@pytest.mark.parametrize(
-    "friction", [{"characteristic_slip_distance": 1e-6}, {"rate_coefficient": 0.006}]
-)
+@pytest.mark.parametrize("friction", [{"slip_distance": 1e-6}, {"rate_coefficient": 0.006}])
 def test_the_theory_follows_the_friction_law(friction, interface):
     """Also where its rounded values are not given; by the functions of the library."""
     made = configure({"friction": friction, **study({"height": 0.005}, interface=interface)})
     (run,) = made.runs
     law, material = run.parameters.friction, run.parameters.material
-    friction_coefficient, a, zeta = law.expansion(1e-5)
+    friction, a, zeta = law.expansion(1e-5)
     own = arrays.critical_length(
         shear_modulus=material.shear_modulus, poisson_ratio=material.poisson_ratio, height=0.005,
         second_shear_modulus=math.inf, normal_stress=1e6, a=a, zeta=zeta,
-        friction=friction_coefficient, slip_distance=law.characteristic_slip_distance,
+        friction=friction, slip_distance=law.slip_distance,
     )  # fmt: skip
-    assert run.theory_length == pytest.approx(float(own), rel=1e-12)
+    assert run.critical_length == pytest.approx(float(own), rel=1e-12)
     assert made.main_text_interface == interface_state(run.parameters)
 
 

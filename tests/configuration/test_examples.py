@@ -40,11 +40,11 @@ def test_map_is_a_hundred_runs():
 def test_shortest_run_of_the_map_nucleates():
     """The run with the fewest steps, on a still coarser mesh than the example's."""
     config = load(CONFIG / "examples" / "length_map.yaml")
-    run = min(config.runs, key=lambda run: run.theory_length**2 / run.parameters.geometry.height)
+    run = min(config.runs, key=lambda run: run.critical_length**2 / run.parameters.geometry.height)
     parameters = dataclasses.replace(run.parameters, mesh=Mesh(60, 4, 4.0))
     found = extract(simulate(parameters), config.extraction)
     assert math.isfinite(found["onset_time"])
-    assert 0.4 < found["length"] / run.theory_length < 1.3
+    assert 0.4 < found["length"] / run.critical_length < 1.3
 
 
 @pytest.mark.slow

@@ -8,7 +8,7 @@ from nucleation.model.friction.constants import constants
 from nucleation.theory.estimates import growth_time
 
 RUN = "studies.paper.runs[6]"
-SHORT = {"height": 0.1, "evolution": ["aging", "slip"], "n_x": 800, "phi0": 10.0}
+SHORT = {"height": 0.1, "evolution": ["aging", "slip"], "n_x": 800, "initial_state": 10.0}
 FULL = {
     "geometry.height": 0.1, "friction.evolution": ["aging", "slip"], "mesh.n_x": 800,
     "loading.initial_state": 10.0,
@@ -37,7 +37,7 @@ def test_end_of_a_run_that_is_given_none_follows_from_the_theory():
     config = study({"height": [0.1, 5.0]})
     low, high = configure(config).runs
     for run in (low, high):
-        due = growth_time(run.parameters, run.theory_length)
+        due = growth_time(run.parameters, run.critical_length)
         assert run.parameters.stepping.end_time == pytest.approx(1.5 * due, rel=0.05)
         assert run.parameters.stepping.time_after_event == pytest.approx(0.5)
     assert high.parameters.stepping.end_time != low.parameters.stepping.end_time
@@ -91,7 +91,7 @@ def test_a_second_body_is_named():
 
 def test_laws_are_compared_by_one_study():
     """Both laws with the same constants: the theory's length is one, the laws are two."""
-    constant = {"friction_coefficient": 0.5, "direct_effect": 0.01, "zeta_over_a": 1.0}
+    constant = {"friction": 0.5, "a": 0.01, "zeta_over_a": 1.0}
     runs = runs_of(
         {"height": 0.1, "friction.law": ["product", "dieterich_ruina"]}, defaults=constant
     )
@@ -100,9 +100,7 @@ def test_laws_are_compared_by_one_study():
     ]  # fmt: skip
     for run in runs:
         found = constants(run.parameters.friction, 1e-5)
-        assert found == pytest.approx(
-            constant | {"velocity_weakening": 0.01, "evolution_effect": 0.02}
-        )
-    assert runs[0].theory_length == pytest.approx(runs[1].theory_length, rel=1e-9)
+        assert found == pytest.approx(constant | {"zeta": 0.01, "b": 0.02})
+    assert runs[0].critical_length == pytest.approx(runs[1].critical_length, rel=1e-9)
     assert runs[1].value("friction_law") == "dieterich_ruina"
     assert runs[1].value("aging_coefficient") is None

@@ -86,7 +86,7 @@ FORMS = st.recursive(
 )
 
 
-@pytest.mark.parametrize("key", ["height", "evolution", "n_x", "phi0", "defaults"])
+@pytest.mark.parametrize("key", ["height", "evolution", "n_x", "initial_state", "defaults"])
 @settings(max_examples=150)
 @given(value=FORMS)
 def test_schema_allows_the_same_forms_of_what_a_run_gives(key, value):

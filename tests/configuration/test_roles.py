@@ -15,7 +15,7 @@ DOCS = CONFIG.parent / "docs" / "studies.md"
 
 def two(role):
     own = {"role": role, "runs": [TALL]}
-    return {"studies": {"one": own, "other": {**own, "runs": [TALL | {"phi0": 2.0}]}}}
+    return {"studies": {"one": own, "other": {**own, "runs": [TALL | {"initial_state": 2.0}]}}}
 
 
 BAD = {
@@ -42,11 +42,11 @@ BAD = {
     ),
     "not the height of a figure": (
         study(TALL, role="paper"),
-        ["studies.s.role = paper needs a run with height = 0.005 m, evolution = aging, phi0 = 1 s",
+        ["studies.s.role = paper needs a run with height = 0.005 m, evolution = aging, initial_state = 1 s",
          "figures.space_time_height"],
     ),
     "not its state": (
-        study({"height": 0.005, "phi0": 3.0}, TALL, role="paper"), ["height = 0.005 m, evolution"],
+        study({"height": 0.005, "initial_state": 3.0}, TALL, role="paper"), ["height = 0.005 m, evolution"],
     ),
     "two maps": (
         {"studies": {name: {"role": "map", "runs_per_job": 2, "measure": "stability",

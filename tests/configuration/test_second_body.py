@@ -19,7 +19,7 @@ REFUSED = {
         f"{RUN}: second_body.density = 2000.0 kg/m^3 {RIGID}",
     ),
     "a rigid base on rollers": (
-        study({"height": 0.1, "second_bottom": "roller"}),
+        study({"height": 0.1, "second_far_side": "roller"}),
         f"{RUN}: second_body.bottom = 'roller' {RIGID}",
     ),
     "in a section": (
@@ -57,7 +57,7 @@ def test_what_is_left_out_is_as_of_the_first_body():
 
 @pytest.mark.parametrize("bottom", ["free", "clamped", "roller"])
 def test_each_run_has_the_theory_of_its_own_far_sides(bottom):
-    entry = {**PAIR, "second_bottom": bottom, "second_shear_modulus": 6e9, "second_height": 0.03}
+    entry = {**PAIR, "second_far_side": bottom, "second_shear_modulus": 6e9, "second_height": 0.03}
     (run,) = configure(study(entry)).runs
     friction = run.parameters.friction.expansion(1e-5)
     expected = critical_length(
@@ -65,12 +65,12 @@ def test_each_run_has_the_theory_of_its_own_far_sides(bottom):
         second_height=0.03, second_far_side=bottom, friction=friction.f0, a=friction.a,
         zeta=friction.zeta, slip_distance=5e-7, normal_stress=1e6,
     )  # fmt: skip
-    assert run.theory_length == pytest.approx(float(expected), rel=1e-9)
-    assert run.parameters.geometry.length == pytest.approx(6 * run.theory_length, rel=1e-3)
+    assert run.critical_length == pytest.approx(float(expected), rel=1e-9)
+    assert run.parameters.geometry.length == pytest.approx(6 * run.critical_length, rel=1e-3)
 
 
 def test_memory_counts_dense_factors_under_a_moved_top():
-    pair = {"second_body": "deformable", "second_bottom": "clamped", "n_x": 1200, "n_y": 16}
+    pair = {"second_body": "deformable", "second_far_side": "clamped", "n_x": 1200, "n_y": 16}
     measured = 798.0  # MB, the first 0.3 s for H = 0.02 m
     assert measured < estimated_megabytes(Parameters().replaced(pair | {"loading": "top"})) < 1000.0
 
@@ -84,7 +84,7 @@ def test_estimates_go_with_the_softer_body():
     assert process_zone(soft) < 0.03 * process_zone(thick)
     thin = Parameters().replaced({"height": 0.01, "second_body": "deformable"})
     assert stiffness_of(thin).thin == pytest.approx(own * 2 * 0.01 / 8.0, rel=1e-4)
-    assert stiffness_of(thin.replaced({"second_bottom": "clamped"})).thin == pytest.approx(
+    assert stiffness_of(thin.replaced({"second_far_side": "clamped"})).thin == pytest.approx(
         own * 2 * 0.01, rel=1e-4
     )
     assert growth_time(soft, 0.1) > 20 * growth_time(thick, 0.1)

@@ -11,7 +11,7 @@ from nucleation.model.quantities import ParameterError
 
 SI = {
     "shear_modulus": 30e9, "poisson_ratio": 0.25, "density": 2650.0, "velocity": 1e-6,
-    "height": 0.02, "normal_stress": 5e7, "characteristic_slip_distance": 5e-6,
+    "height": 0.02, "normal_stress": 5e7, "slip_distance": 5e-6,
 }  # fmt: skip
 
 
@@ -20,7 +20,7 @@ def test_units_are_read_wherever_a_parameter_stands(tmp_path):
     path = tmp_path / "my.yaml"
     path.write_text(
         "studies: {s: {defaults: {shear_modulus: 30 GPa, poisson_ratio: 1/4, density: 2650 kg·m⁻³,"
-        " slip_distance: 5 µm, applied_stress: 50MPa, velocity: 1e-6 m s-1},"
+        " slip_distance: 5 µm, normal_stress: 50MPa, velocity: 1e-6 m s-1},"
         " runs: [{height: [2cm, 4 cm]}]}}",
         encoding="utf-8",
     )
@@ -60,20 +60,18 @@ def test_the_same_names_in_configuration_and_api():
     names = {"slip_distance": 5e-6, "a": 0.01, "f": 0.6}
     (run,) = configure(study({"height": 0.02, "zeta_over_a": 0.5} | names)).runs
     (other,) = configure(
-        study({"height": 0.02, "characteristic_slip_distance": 5e-6, "direct_effect": 0.01,
-               "friction_coefficient": 0.6, "zeta_over_a": 0.5})
+        study({"height": 0.02, "slip_distance": 5e-6, "a": 0.01,
+               "friction": 0.6, "zeta_over_a": 0.5})
     ).runs  # fmt: skip
     assert run.id == other.id and run.parameters == other.parameters
     fault = dict(shear_modulus=3.1e9, poisson_ratio=1 / 3, normal_stress=1e6, zeta=0.005,
                  height=0.02, second_shear_modulus=np.inf)  # fmt: skip
     lengths = [
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
-        api.critical_length(
-            **fault, characteristic_slip_distance=5e-6, direct_effect=0.01, friction_coefficient=0.6
-        ),
+        api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6),
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, f=0.6),
     ]
-    assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.theory_length, rel=1e-6)
+    assert lengths[0] == lengths[1] == lengths[2] == pytest.approx(run.critical_length, rel=1e-6)
     with pytest.raises(api.ParameterError, match="f is not allowed beside friction"):
         api.critical_length(**fault, slip_distance=5e-6, a=0.01, friction=0.6, f=0.6)
 

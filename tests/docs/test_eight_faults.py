@@ -73,7 +73,7 @@ def computed(row):
     critical = float(critical_length(**fault))
     law = Friction(
         law="dieterich_ruina",
-        characteristic_slip_distance=distance,
+        slip_distance=distance,
         reference_slip_rate=velocity,
         regularisation_slip_rate=1e-4 * velocity,
     )

@@ -74,7 +74,7 @@ def test_study_and_figure(checkout, drawn):
     table = pd.read_csv(results / "lengths.csv")
     means = pd.read_csv(results / "by_law.csv").set_index("evolution")
     assert means["runs"].to_dict() == {"aging": 2, "halfway": 3, "slip": 1}
-    ratio = (table["length"] / table["theory_length"]).groupby(table["evolution"]).mean()
+    ratio = (table["length"] / table["critical_length"]).groupby(table["evolution"]).mean()
     assert np.allclose(means["mean_ratio"], ratio)
     table["friction"] = np.where(table["id"].str.contains("dieterich_ruina"), "other", "paper")
     by_law = table.set_index(["friction", "height", "evolution"])["length"]

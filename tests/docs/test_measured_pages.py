@@ -34,7 +34,7 @@ def line(*cells):
 
 REFINED = {"n_x": 800, "n_y": 32, "longest_step": 0.02, "tolerance": 2.5e-3}  # and the finest
 KINDS = ("normal_load", "drive_velocity", "state", "strength")
-PERTURBED = ["evolution", "phi0", "height", "strength", "seed"]
+PERTURBED = ["evolution", "initial_state", "height", "strength", "seed"]
 ONSET, LENGTH = 3e-3, 5e-3  # what refinement may move onset and length by, or one element
 
 
@@ -80,7 +80,7 @@ def floor_rows():
     table = reference("floors").query("evolution == 'aging' and height > 0.01")
     assert set(table["height"]) == {0.02}
     table = table.sort_values("longest_step", kind="stable")
-    ratio = table["length"] / table["theory_length"]
+    ratio = table["length"] / table["critical_length"]
     shown = pd.DataFrame(
         {
             "step": table["longest_step"].map("{:g}".format),
@@ -136,7 +136,7 @@ def percent(value, digits=2):
 
 def value_rows():
     """L_s of each fault, what the paper's mesh changes, and what it is over the theory's length."""
-    both = reference("patch_stability").set_index(["evolution", "height", "phi0"])
+    both = reference("patch_stability").set_index(["evolution", "height", "initial_state"])
     paper, declared = (both[both["study"] == name] for name in ("paper", "converged"))
     for fault, row in paper.iterrows():
         fine = declared.loc[fault]
@@ -153,7 +153,7 @@ def error_rows():
     table = reference("patch_convergence")
     base = table.query("study == 'converged'").iloc[0]
     paper = reference("patch_stability").query(
-        "study == 'paper' and evolution == 'aging' and phi0 == 1"
+        "study == 'paper' and evolution == 'aging' and initial_state == 1"
     )
     for height, rows in table.query("study == 'patch_convergence'").groupby("height"):
         finer = [rows["n_x"] > base["n_x"], rows["n_y"] > base["n_y"]]
@@ -167,8 +167,8 @@ def error_rows():
 
 
 def test_the_law_of_the_drop_reaches_as_far_as_it_is_said_to():
-    table = reference("drop").dropna(subset=["predicted_length"])
-    table["ratio"] = table["predicted_length"] / table["length"]
+    table = reference("drop").dropna(subset=["law_length"])
+    table["ratio"] = table["law_length"] / table["length"]
     names = ["evolution", "height", "kind", "correlation_length", "strength"]
     means = table.groupby(names)["ratio"].mean().reset_index()
     weak = means[means["strength"] < 2e-4]
@@ -324,7 +324,7 @@ FAR_FAULTS = {
 def far_fault_rows():
     """One row for each group: simulated L_s/L_c, errors of both theories."""
     table = patch_theory_errors()
-    table["ratio"] = table["stability_length"] / table["theory_length"]
+    table["ratio"] = table["stability_length"] / table["critical_length"]
     names = table["id"].str.removeprefix("patch_theory-")
     for words, patterns in FAR_FAULTS.items():
         found = [np.flatnonzero([fnmatch(name, p) for name in names]) for p in patterns]
@@ -373,7 +373,7 @@ def faults():
 def identical_rows():
     """The table of identical blocks in docs/results.md."""
     own = faults().query("study == 'pairs_identical'").sort_values("height")
-    yield line("$L_c$, free far sides (m)", *own["theory_length"].map("{:.4f}".format))
+    yield line("$L_c$, free far sides (m)", *own["critical_length"].map("{:.4f}".format))
     yield line("$L_s/L_c$", *own["stability_ratio"].map("{:.2f}".format))
     yield line("$L/L_c$", *with_range(own, "length_ratio"))
 

@@ -41,7 +41,7 @@ def test_thin_pairs_and_held_layers():
     says(
         "results.md",
         f"$L_s/L_c$ is {span(thin['stability_ratio'])} and $L/L_c$ {span(thin['length_ratio'])} "
-        f"(means), while $L_c$ varies from {span(thin['theory_length'])} m",
+        f"(means), while $L_c$ varies from {span(thin['critical_length'])} m",
         f"$L_s/L_c$ = {', '.join(stable[:3])} and {stable[3]} for $H$ = 0.02, 0.05, 0.1 and "
         f"0.2 m, and $L/L_c$ rises from {held['length_ratio'].iloc[0]:.2f} to "
         f"{held['length_ratio'].iloc[-1]:.2f}.",

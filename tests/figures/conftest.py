@@ -46,8 +46,8 @@ def lengths() -> xr.Dataset:
     heights = [0.005, 0.01, 0.02, 0.03, 0.04, 0.05, 0.075, 0.1, 0.01, 0.05, 0.1, 0.06, 0.01, 0.1]
     law = np.array(["aging"] * 14)
     law[8:10] = "slip"
-    phi0 = np.ones(14)
-    phi0[10] = 1e3
+    initial_state = np.ones(14)
+    initial_state[10] = 1e3
     study = ["paper"] * 12 + ["converged"] * 2
     height = np.array(heights)
     factor = np.array([0.70] * 8 + [0.66, 0.67, 0.73, np.nan] + [0.83] * 2)
@@ -60,12 +60,12 @@ def lengths() -> xr.Dataset:
         "ensemble": [f"{i}" for i in range(14)],
         "strength": [0.0] * 12 + [1e-5] * 2,
         "height": height,
-        "phi0": phi0,
+        "initial_state": initial_state,
         "onset_time": np.full(14, ONSET),
         "length": length,
         "length_low": 0.95 * length,
         "length_high": 1.08 * length,
-        "theory_length": critical_length(height),
+        "critical_length": critical_length(height),
     }
     return xr.Dataset({name: ("run", np.asarray(values)) for name, values in columns.items()})
 

@@ -19,7 +19,7 @@ from nucleation.verification.orders import ERRORS, REFINEMENTS
 
 HEIGHTS = (0.005, 0.02, 0.1)
 ONSETS = (10.0, 9.5)  # s
-PAIR = {"second_body": "deformable", "second_shear_modulus": 6.2e9, "second_bottom": "clamped"}
+PAIR = {"second_body": "deformable", "second_shear_modulus": 6.2e9, "second_far_side": "clamped"}
 
 
 def dataset(rows):
@@ -29,8 +29,8 @@ def dataset(rows):
 def sequence(refined, values, height, **fixed):
     usual = {
         "n_x": 800, "n_y": 8, "longest_step": 0.1, "tolerance": 1e-2, "kind": "normal_load",
-        "strength": 1e-5, "seed": 1, "evolution": "aging", "phi0": 1.0,
-        "fault": f"{height}{fixed.get('phi0')}", "block_length": 6.0, "theory_length": 1.5,
+        "strength": 1e-5, "seed": 1, "evolution": "aging", "initial_state": 1.0,
+        "fault": f"{height}{fixed.get('initial_state')}", "block_length": 6.0, "critical_length": 1.5,
     }  # fmt: skip
     for i, value in enumerate(values):
         error = 0.1 * 0.1**i if i + 1 < len(values) else 0.0
@@ -46,7 +46,7 @@ def refinements():
     rows = []
     for height, law, age in ((0.005, "aging", 1.0), (0.02, "aging", 1.0), (0.1, "aging", 1.0),
                              (0.02, "slip", 1.0), (0.1, "aging", 1e3)):  # fmt: skip
-        own = {"evolution": law, "phi0": age}
+        own = {"evolution": law, "initial_state": age}
         rows += sequence("n_x", [400, 800, 1600], height, **own)
         rows += sequence("n_y", [8, 16], height, **own)
         rows += sequence("longest_step", [0.1, 0.05, 0.02], height, **own)

@@ -21,7 +21,7 @@ def table():
     columns = {
         "role": study, "study": study, "ensemble": np.arange(height.size).astype(str),
         "far_side": side, "height": height, "second_height": height,
-        "f_beta": f_beta, "zeta_over_a": weakening, "theory_length": theory,
+        "f_beta": f_beta, "zeta_over_a": weakening, "critical_length": theory,
         "length": 0.7 * theory, "stability_length": 0.5 * theory,
         "length_ratio": 0.7 + 0.0 * theory, "stability_ratio": 0.5 + 0.0 * theory,
         "half_space_ratio": bimaterial_length_ratio(f_beta, weakening),

@@ -22,8 +22,8 @@ def table():
         "role": ["paper"] * 5 + ["converged"] * 5,
         "evolution": ["aging", "aging", "aging", "slip", "aging"] * 2,
         "height": HEIGHTS,
-        "phi0": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,
-        "theory_length": THEORY,
+        "initial_state": [1.0, 1.0, 1.0, 1.0, 1e3] * 2,
+        "critical_length": THEORY,
         "stability_length": ratio * THEORY,
         "stability_length_low": (ratio - 0.01) * THEORY,
         "stability_length_high": (ratio + 0.02) * THEORY,
@@ -101,7 +101,7 @@ def test_extended_figure_has_all_lengths(extended, theory, lengths, table):
         np.testing.assert_array_equal(line.get_ydata(), part * theory["critical_length"])
     for axes, scale_lengths, scale_table in (
         (left, 1.0, 1.0),
-        (right, lengths["theory_length"].values, THEORY),
+        (right, lengths["critical_length"].values, THEORY),
     ):
         points = {tuple(p) for c in axes.containers for p in np.transpose(c.lines[0].get_data())}
         drops = zip(lengths["height"].values, lengths["length"].values / scale_lengths, strict=True)
@@ -142,6 +142,6 @@ def test_more_realisations_move_the_mean_and_stronger_noise_the_band(theory, len
     drawn = figure_3_extended.draw(theory, given, table, noisy).axes[0]
     band = drawn.collections[0].get_paths()[0].vertices[:, 1]
     aging = judged["evolution"].values == "aging"
-    usual = aging & np.isclose(judged["phi0"].values, 1.0)
+    usual = aging & np.isclose(judged["initial_state"].values, 1.0)
     assert band.max() == pytest.approx(1.1 * judged["length"].values[usual].max())
     assert band.min() == pytest.approx(0.5 * judged["length"].values[usual].min())

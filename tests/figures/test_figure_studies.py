@@ -15,7 +15,7 @@ def table(theory, length):
         "length": length,
         "length_low": 0.9 * length,
         "length_high": 1.2 * length,
-        "theory_length": theory,
+        "critical_length": theory,
     }
     return xr.Dataset({name: ("run", values) for name, values in columns.items()})
 
@@ -85,7 +85,9 @@ def test_two_values_of_a_second_number_are_two_curves():
 
 
 def test_three_numbers_are_points_about_equality():
-    figure = draw([1, 2, 3], [0.9, 1.6, np.nan], height=[1, 2, 3], n_x=[8, 9, 9], phi0=[1, 1, 2])
+    figure = draw(
+        [1, 2, 3], [0.9, 1.6, np.nan], height=[1, 2, 3], n_x=[8, 9, 9], initial_state=[1, 1, 2]
+    )
     axes, strip = figure.axes
     assert {(1.0, 0.9), (2.0, 1.6)} < points(figure)
     assert strip.get_xlabel() == "Theory's critical length (m)"
@@ -95,13 +97,16 @@ def test_three_numbers_are_points_about_equality():
 
 
 def test_numbers_off_a_grid_and_single_runs_are_points():
-    for figure in (draw([1, 2], [0.9, 1.6], height=[1, 2], phi0=[1, 2]), draw([1.0], [0.9])):
+    for figure in (
+        draw([1, 2], [0.9, 1.6], height=[1, 2], initial_state=[1, 2]),
+        draw([1.0], [0.9]),
+    ):
         assert figure.axes[0].get_xlabel() == "Theory's critical length (m)"
 
 
 def test_two_faults_never_share_a_marker():
     """Few faults of several numbers are told apart, and nine evolution laws."""
-    varied = {"height": [0.004, 0.01, 0.01], "phi0": [1, 1, 2], "n_x": [8, 9, 9]}
+    varied = {"height": [0.004, 0.01, 0.01], "initial_state": [1, 1, 2], "n_x": [8, 9, 9]}
     axes = draw([1, 2, 3], [0.9, 1.6, 2.5], **varied).axes[0]
     labels = axes.get_legend_handles_labels()[1]
     assert "simulation, $H=0.004$ m, $\\phi_0=1$ s" in labels and len(labels) == 4
@@ -116,7 +121,7 @@ def test_study_in_which_nothing_happens():
     assert [text.get_text() for text in strip.get_yticklabels()] == ["no event\n(2 of 2)"]
 
 
-@pytest.mark.parametrize("numbers", [["height"], ["height", "n_x", "phi0"]])
+@pytest.mark.parametrize("numbers", [["height"], ["height", "n_x", "initial_state"]])
 def test_runs_without_an_event_have_no_length(numbers):
     """They stood on the line of equality, or on the theory's curve."""
     values = {name: [1.0, 2.0, 4.0] for name in numbers}
@@ -137,7 +142,7 @@ def test_nothing_is_cut_or_overlaps(kind):
         x, y = np.meshgrid(heights, [1.0, 2.0, 4.0])
         varied = {"height": x.ravel().tolist(), "normal_stress": (1e6 * y).ravel().tolist()}
     if kind == "points":
-        varied |= {"n_x": [100, 200, 300, 400, 500], "phi0": [1.0, 2.0, 3.0, 4.0, 5.0]}
+        varied |= {"n_x": [100, 200, 300, 400, 500], "initial_state": [1.0, 2.0, 3.0, 4.0, 5.0]}
     size = len(varied["height"])
     figure = draw(np.linspace(1, 2, size), np.linspace(0.9, 1.5, size), **varied)
     drawn_layout.require_legible(figure)

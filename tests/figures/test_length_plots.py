@@ -41,7 +41,7 @@ def test_lines_over_one_parameter():
     (axes,) = figure.axes
     lines = axes.get_lines()
     for key, line in zip(
-        ("critical_length", "stability_length", "drop_length"), lines, strict=False
+        ("critical_length", "stability_length", "expected_length"), lines, strict=False
     ):
         np.testing.assert_allclose(line.get_ydata(), found["length"].sel(key=key, end="middle"))
     assert len({line.get_linestyle() for line in lines[:3]}) == 3  # without colours too

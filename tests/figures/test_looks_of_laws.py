@@ -19,8 +19,10 @@ def test_every_law_has_a_look_of_its_own():
 
 
 def table(*rows):
-    law, phi0 = zip(*rows, strict=True)
-    return xr.Dataset({"evolution": ("run", list(law)), "phi0": ("run", list(phi0))})
+    law, initial_state = zip(*rows, strict=True)
+    return xr.Dataset(
+        {"evolution": ("run", list(law)), "initial_state": ("run", list(initial_state))}
+    )
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ def test_coefficient_is_the_formula():
     """With values of the SEAS benchmarks, typed in once more."""
     friction = law(
         reference_friction=0.6, reference_slip_rate=1e-6, log_rate_coefficient=0.010,
-        log_state_coefficient=0.015, characteristic_slip_distance=0.008,
+        log_state_coefficient=0.015, slip_distance=0.008,
     )  # fmt: skip
     v, phi = np.meshgrid(np.geomspace(1e-16, 10.0, 9), np.geomspace(1e-3, 1e9, 7))
     exponent = (0.6 + 0.015 * np.log(1e-6 * phi / 0.008)) / 0.010

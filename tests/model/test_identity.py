@@ -13,7 +13,7 @@ PAIR = BLOCK.replaced({"second_body": "deformable", "height": 0.02})
     "values",
     [
         {"shear_modulus": 9e9}, {"poisson_ratio": 0.2}, {"density": 2000.0}, {"height": 0.01},
-        {"phi0": 2.0}, {"velocity": 2e-5}, {"applied_stress": 2e6},
+        {"initial_state": 2.0}, {"velocity": 2e-5}, {"normal_stress": 2e6},
         {"slip_distance": 1e-6}, {"initial_stress": "uniform_shear"}, {"evolution": "slip"},
         {"friction.law": "dieterich_ruina"}, {"second_body": "deformable"},
     ],
@@ -27,7 +27,7 @@ def test_another_physics_is_another_fault(values):
     "values",
     [
         {"second_shear_modulus": 9e9}, {"second_poisson_ratio": 0.2}, {"second_density": 2000.0},
-        {"second_height": 0.01}, {"second_bottom": "clamped"}, {"shear_modulus": 9e9},
+        {"second_height": 0.01}, {"second_far_side": "clamped"}, {"shear_modulus": 9e9},
     ],
     ids=str,
 )  # fmt: skip
@@ -48,7 +48,7 @@ def test_mesh_steps_record_and_perturbation_are_not_of_the_fault():
 
 def test_what_is_left_out_of_a_second_body_is_the_first_ones():
     given = PAIR.replaced(
-        {"second_height": 0.02, "second_bottom": "free",
+        {"second_height": 0.02, "second_far_side": "free",
          "second_shear_modulus": PAIR.material.shear_modulus}
     )  # fmt: skip
     assert given != PAIR and fault(given) == fault(PAIR) and ensemble(given) == ensemble(PAIR)

@@ -113,13 +113,13 @@ def test_regularisation_is_taken_into_account():
 
 
 def test_weakening_is_given_alone_or_over_the_direct_effect():
-    law = with_constants(Friction(), V, {"velocity_weakening": 0.004})
-    assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["direct_effect"], 0.004))
-    both = with_constants(Friction(), V, {"velocity_weakening": 0.004, "direct_effect": 0.008})
+    law = with_constants(Friction(), V, {"zeta": 0.004})
+    assert measured(law, V)[1:] == pytest.approx((constants(Friction(), V)["a"], 0.004))
+    both = with_constants(Friction(), V, {"zeta": 0.004, "a": 0.008})
     assert measured(both, V)[1:] == pytest.approx((0.008, 0.004), rel=2e-6)
     with pytest.raises(ParameterError, match=r"zeta_over_a is not .* with velocity_weak"):
-        with_constants(Friction(), V, {"velocity_weakening": 0.004, "zeta_over_a": 1.0})
-    same = with_constants(Friction(), V, {"evolution_effect": 0.012, "direct_effect": 0.008})
+        with_constants(Friction(), V, {"zeta": 0.004, "zeta_over_a": 1.0})
+    same = with_constants(Friction(), V, {"b": 0.012, "a": 0.008})
     assert constants(same, V) == pytest.approx(constants(both, V), rel=1e-12)
 
 
@@ -136,8 +136,8 @@ def test_constants_and_what_they_set_are_not_given_together(law):
             with_constants(law, V, values)
     given = with_constants(law, V, {"zeta_over_a": 1.0})
     own = constants(law, V)
-    a = own["direct_effect"]
-    changed = own | {"zeta_over_a": 1.0, "velocity_weakening": a, "evolution_effect": 2.0 * a}
+    a = own["a"]
+    changed = own | {"zeta_over_a": 1.0, "zeta": a, "b": 2.0 * a}
     assert constants(given, V) == pytest.approx(changed, rel=1e-9)
 
 

@@ -48,7 +48,7 @@ def test_names_of_a_run():
             assert known.full(f"second_{field}") == full
         elif full != "loading.kind":
             assert known.full(field) == full
-    assert known.short("friction.evolution") == "evolution" and known.full("phi0") in known
+    assert known.short("friction.evolution") == "evolution" and known.full("initial_state") in known
     assert known.short("friction.law") == "friction_law"
 
 

@@ -58,11 +58,11 @@ def test_objects_are_copied_and_stored():
 
 
 def test_another_law_keeps_what_all_share():
-    friction = Friction(characteristic_slip_distance=1e-6, evolution="slip", aging_coefficient=0.1)
+    friction = Friction(slip_distance=1e-6, evolution="slip", aging_coefficient=0.1)
     other = friction.changed({"law": "dieterich_ruina", "log_state_coefficient": 0.02})
     assert other == Friction(
         law="dieterich_ruina",
-        characteristic_slip_distance=1e-6,
+        slip_distance=1e-6,
         evolution="slip",
         log_state_coefficient=0.02,
     )

@@ -42,7 +42,7 @@ def answers(monkeypatch):
 
 def test_realisations_scatter_as_the_law_has_it(answers):
     """All draws of one fault: median, 16 and 84 % are the law's own."""
-    found = answers([answer(0.3)] * 200)["value"].sel(key="drop_length")
+    found = answers([answer(0.3)] * 200)["value"].sel(key="expected_length")
     expected = [0.27, 0.3, 0.36]
     np.testing.assert_allclose(found.sel(quantile=[0.16, 0.5, 0.84]), expected, rtol=0.01)
     low = 0.3 * 0.9 ** (norm.ppf(0.95) / norm.ppf(0.84))
@@ -54,10 +54,10 @@ def test_draws_without_a_drop(answers):
     beyond, unknown = NoDrop("too long", "beyond"), NoDrop("not followed", "unknown")
     made = [answer(0.3)] * 10 + [beyond] * 5 + [unknown] * 5
     found = answers(made)
-    drop = found.sel(key="drop_length")
+    drop = found.sel(key="expected_length")
     assert float(drop["share"]) == 0.5
     assert np.isinf(drop["value"].sel(quantile=0.84)) and np.isfinite(drop["value"][2])
-    known = answers([answer(0.3)] * 10 + [unknown] * 10).sel(key="drop_length")
+    known = answers([answer(0.3)] * 10 + [unknown] * 10).sel(key="expected_length")
     assert np.isfinite(known["value"]).all()
 
 
@@ -76,5 +76,5 @@ def test_a_stable_fault_counts_as_infinite():
     own = expected_drop(BASE)
     medians = found["value"].sel(quantile=0.5)
     assert float(medians.sel(key="stability_length")) == pytest.approx(own.stability_length)
-    assert float(medians.sel(key="drop_length")) == pytest.approx(own.length, rel=0.05)
+    assert float(medians.sel(key="expected_length")) == pytest.approx(own.length, rel=0.05)
     assert math.isinf(found["value"].sel(key="critical_length", quantile=0.95))

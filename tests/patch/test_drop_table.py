@@ -23,7 +23,7 @@ STIFF = history().parameters.replaced({"shear_modulus": 9.3e9})
 def drops(**changes):
     same = {"study": "drop", "role": "drop", "evolution": "aging", "n_x": 800, "n_y": 8,
             "block_length": 2.7, "longest_step": 0.1, "onset_time": 9.0,
-            "theory_length": 0.45}  # fmt: skip
+            "critical_length": 0.45}  # fmt: skip
     columns = {name: [value] * 4 for name, value in same.items()} | {
         "id": list("abcd"),
         "height": [0.02, 0.02, 0.02, 0.3],
@@ -38,7 +38,7 @@ def drops(**changes):
 
 
 def described(own):
-    return {"parameters": own.parameters.to_dict(), "theory_length": 0.45}
+    return {"parameters": own.parameters.to_dict(), "critical_length": 0.45}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -64,7 +64,7 @@ def test_rows_are_those_of_faults_whose_mode_is_known(table):
 
 def test_each_material_has_its_own_law():
     """With the heights, laws and ages of both alike, the modes of one were taken for the other."""
-    runs = [described(history()), {"parameters": STIFF.to_dict(), "theory_length": 0.45}]
+    runs = [described(history()), {"parameters": STIFF.to_dict(), "critical_length": 0.45}]
     faults = [FAULT, FAULT, fault(STIFF), fault(STIFF)]
     for order in (runs, runs[::-1]):
         found = gather_drops([drops(fault=faults, height=[0.02] * 4)], order)
@@ -75,17 +75,17 @@ def test_each_material_has_its_own_law():
 def test_predictions_are_those_of_the_law(table):
     row = table.isel(run=0)
     expected = growth(history(), LOAD).drop(1e-5)
-    assert float(row["predicted_length"]) == expected.length
-    assert float(row["predicted_low"]) == expected.low
-    assert float(row["predicted_high"]) == expected.high
+    assert float(row["law_length"]) == expected.length
+    assert float(row["law_low"]) == expected.low
+    assert float(row["law_high"]) == expected.high
     declared = Perturbation(kind="state", strength=1e-6, correlation_length=0.05)
     other = growth(history(), declared).drop(1e-6)
-    assert float(table["predicted_length"].values[2]) == other.length
+    assert float(table["law_length"].values[2]) == other.length
 
 
 def test_floor_is_the_strength_whose_median_drops_where_a_quiet_run_does(table):
     row = table.isel(run=1)
-    assert np.isnan(row["predicted_length"])
+    assert np.isnan(row["law_length"])
     strength = float(row["floor_normal_load"])
     assert growth(history(), LOAD).drop(strength).length == pytest.approx(0.33, rel=1e-3)
     assert np.isnan(table["floor_state"].values[[0, 2]]).all()
@@ -112,7 +112,7 @@ def test_distributions_are_those_of_the_committed_drops():
     table = xr.Dataset({name: ("run", frame[name]) for name in frame})
     steps = figure_drop.draw(table).axes[3].lines[::2]
     many = [g for _, g in frame.groupby(list(figure_drop.ENSEMBLE)) if len(g) >= figure_drop.FEWEST]
-    expected = {tuple(np.sort(g["length"] / g["theory_length"])) for g in many}
+    expected = {tuple(np.sort(g["length"] / g["critical_length"])) for g in many}
     assert {tuple(line.get_xdata()) for line in steps} == expected and len(expected) == 4
 
 

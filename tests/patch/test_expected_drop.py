@@ -14,7 +14,7 @@ from nucleation.model.parameters import Geometry, Loading, Parameters
 from nucleation.model.perturbation import Perturbation
 from nucleation.model.quantities import ParameterError
 from nucleation.patch.expected_drop import NoDrop, expected_drop, feels_far_end
-from nucleation.theory.critical import theory_lengths
+from nucleation.theory.critical import critical_lengths
 from nucleation.theory.transfer import bodies_of
 
 THEORY = 0.4509  # m
@@ -24,7 +24,7 @@ FAULT = Parameters(
 )
 GRANITE = Parameters(
     material=Material(3e10, 0.25, 2700.0),
-    friction=Friction(characteristic_slip_distance=2e-6).with_expansion(1e-6, 0.65, 0.008, 0.004),
+    friction=Friction(slip_distance=2e-6).with_expansion(1e-6, 0.65, 0.008, 0.004),
     loading=Loading(normal_stress=5e6, velocity=1e-6),
     geometry=Geometry(height=1.0, length=60.0),
     perturbation=Perturbation(kind="normal_load", strength=1e-5),
@@ -100,7 +100,7 @@ def test_weak_weakening_drops_where_slow_slip_has_no_end(ratio, height, simulate
         FAULT.replaced({"geometry.height": height}),
         friction=law.with_expansion(1e-5, 0.41, 0.0068, 0.0068 * ratio),
     )
-    critical = float(theory_lengths([(*bodies_of(fault), interface_state(fault))])[0])
+    critical = float(critical_lengths([(*bodies_of(fault), interface_state(fault))])[0])
     fault = fault.replaced({"geometry.length": 6.0 * critical})
     found = expected_drop(fault)
     assert found.trusted and found.slips_slowly
@@ -117,7 +117,7 @@ def test_where_the_mode_oscillates_in_a_narrow_window(zeta):
     law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
     fault = FAULT.replaced({"geometry.height": 0.01})
     fault = dataclasses.replace(fault, friction=law)
-    critical = float(theory_lengths([(*bodies_of(fault), interface_state(fault))])[0])
+    critical = float(critical_lengths([(*bodies_of(fault), interface_state(fault))])[0])
     found = expected_drop(fault)
     start = found.closed_form.front_length
     assert 0.4 * critical < start < found.drop.low < found.drop.length < 1.3 * start

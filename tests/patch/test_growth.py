@@ -25,7 +25,7 @@ from nucleation.patch.tables.stability import STABILITY, gather_stability
 from nucleation.simulation.recording import Recorder
 from nucleation.simulation.run import composed, run, simulate
 from nucleation.theory.creep.lengths import Patches, stability_point
-from nucleation.theory.critical import theory_lengths
+from nucleation.theory.critical import critical_lengths
 from nucleation.theory.transfer import bodies_of
 
 pytestmark = pytest.mark.slow
@@ -151,7 +151,7 @@ def test_table_compares_with_the_reference_study():
     np.testing.assert_allclose(table["stability_change"], [0.1, 0.0, np.nan, 0.0, 0.05], atol=1e-12)
 
 
-LAW = Friction(law="dieterich_ruina", characteristic_slip_distance=1.25e-7)
+LAW = Friction(law="dieterich_ruina", slip_distance=1.25e-7)
 WEAK = Heterogeneity(varies="f", change=-0.8, width=0.25)
 TWO = SecondBody(kind="deformable")
 LOADED = {
@@ -185,7 +185,7 @@ def test_patches_in_the_interior_turn_unstable_where_theory_says(kind):
         if instant.report.interface.slip_rate.max() > 30.0 * velocity:
             break
     found = follow_patch(recorder.dataset(), ExtractionSettings())
-    critical = float(theory_lengths([(*bodies_of(parameters), interface_state(parameters))])[0])
+    critical = float(critical_lengths([(*bodies_of(parameters), interface_state(parameters))])[0])
     theory = stability_point(dataclasses.replace(Patches.of(parameters), law=None), critical)
     assert theory.length == pytest.approx(float(found["stability_length"]), rel=0.04)
     assert found["stability_length_error"] < 0.03 * theory.length

@@ -62,8 +62,8 @@ def test_the_drop_has_the_scatter_of_its_realisations(monkeypatch, doubt):
     drop = Drop(0.3, 0.27, 0.36, 14.0, 13.5, 14.5)
     law = ExpectedDrop(0.25, drop, ClosedForm(0.25, 0.322, 0.014, 50.0, 1e-5), doubt)
     monkeypatch.setattr(module, "expected_drop", lambda _: law)
-    found = lengths_over([HEIGHT], lambda point: [run_at(point)], ("drop_length",))
-    row = found["length"].sel(key="drop_length")
+    found = lengths_over([HEIGHT], lambda point: [run_at(point)], ("expected_length",))
+    row = found["length"].sel(key="expected_length")
     np.testing.assert_allclose(row.isel(height=0), [0.27, 0.3, 0.36])
     assert found["doubtful"].values.tolist() == [float(bool(doubt))] * 3
     assert found.attrs["doubts"] == doubt
@@ -76,6 +76,6 @@ def test_a_reason_stands_where_there_is_no_length(monkeypatch):
     monkeypatch.setattr(module, "expected_drop", law)
     stable = BASE.replaced({"friction.aging_coefficient": 0.0})
     found = lengths_over([HEIGHT], lambda _: [stable])
-    assert np.isnan(found["length"].sel(key="drop_length")).all()
-    assert found["why_not"].sel(key="drop_length").values.tolist() == ["no mode grows"] * 3
+    assert np.isnan(found["length"].sel(key="expected_length")).all()
+    assert found["why_not"].sel(key="expected_length").values.tolist() == ["no mode grows"] * 3
     assert "friction grows" in found["why_not"].sel(key="critical_length").values[0]

@@ -16,7 +16,7 @@ def test_every_run_is_in_its_place():
     assert tuple(grid["length"].dims) == AXES
     at = {"height": 0.1, "zeta_over_a": 3.0}
     theory = 0.1**0.5 / 3.0
-    assert float(grid["theory_length"].sel(at)) == pytest.approx(theory)
+    assert float(grid["critical_length"].sel(at)) == pytest.approx(theory)
     found = grid["length"].sel(at | {"strength": 1e-3, "seed": 2})
     assert float(found) == pytest.approx(theory * 0.63)
     ratio = mean_over_seeds(grid, "length_ratio")

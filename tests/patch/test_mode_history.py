@@ -21,10 +21,10 @@ def drops(table):
         run, first = RUNS[same.id.iloc[0]], same.iloc[0]
         fault = first.evolution, first.height
         if fault not in histories:
-            histories[fault] = mode_history(run.parameters, run.theory_length)
+            histories[fault] = mode_history(run.parameters, run.critical_length)
         declared = run.parameters.perturbation
         drop = growth(histories[fault], declared).drop(declared.strength)
-        rows.append((same.length.mean(), same.predicted_length.mean(), drop.length))
+        rows.append((same.length.mean(), same.law_length.mean(), drop.length))
     return np.array(rows).T
 
 

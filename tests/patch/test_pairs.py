@@ -16,7 +16,7 @@ STUDY = {
                  "perturbation": "normal_load", "strength": 1e-4, "seed": 3},
     "runs": [
         {"height": 0.02, "second_height": 0.03, "second_shear_modulus": 6.2e9,
-         "second_bottom": ["free", "clamped"]},
+         "second_far_side": ["free", "clamped"]},
     ],
 }  # fmt: skip
 
@@ -31,7 +31,7 @@ def test_rows_say_what_the_runs_are():
     assert table["second_height"].values.tolist() == [0.03, 0.03]
     assert table["kind"].values.tolist() == ["normal_load"] * 2
     assert table["seed"].values.tolist() == [3, 3]
-    assert table["theory_length"].values.tolist() == [run.theory_length for run in runs]
+    assert table["critical_length"].values.tolist() == [run.critical_length for run in runs]
     first = runs[0].parameters
     contrast = bimaterial_contrast(first.material, first.below.material)
     f_beta = float(table["f_beta"][0])

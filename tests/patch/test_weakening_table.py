@@ -32,12 +32,12 @@ def lengths(parameters, seeds):
         row = dict.fromkeys(columns, 0.0)
         row |= {"study": "own", "id": f"run-{seed}", "evolution": "aging", "below": "rigid"}
         row |= {"kind": "normal_load", "seed": seed, "fault": fault(parameters)}
-        row |= {"length": 0.6 + 0.1 * seed, "theory_length": 1.0, "height": 0.02}
-        rows.append(row | {"velocity_weakening": 0.014, "direct_effect": 0.007})
+        row |= {"length": 0.6 + 0.1 * seed, "critical_length": 1.0, "height": 0.02}
+        rows.append(row | {"zeta": 0.014, "a": 0.007})
     return table(rows, columns)
 
 
-REST = ("fault", "velocity_weakening", "direct_effect")
+REST = ("fault", "zeta", "a")
 
 
 def test_a_row_has_the_answer_of_the_law():
@@ -84,7 +84,7 @@ def test_curves_of_a_thin_layer_and_of_half_spaces():
     high = Parameters().replaced(law | {"height": 3.0, "second_body": "deformable"})
     runs = []
     for parameters in (thin, high):
-        one = {"parameters": parameters.to_dict(), "study": "own", "theory_length": 0.5}
+        one = {"parameters": parameters.to_dict(), "study": "own", "critical_length": 0.5}
         runs.append(one)
     found = weakening_curves(runs, [2.5, 6.0])
     assert set(found) == set(CURVES)

@@ -14,7 +14,7 @@ STEP = 0.01  # s
 
 def at_end_of_step(law, rates):
     """State, friction coefficient and its total slope, compiled."""
-    v0, distance = law.regularisation_slip_rate, law.characteristic_slip_distance
+    v0, distance = law.regularisation_slip_rate, law.slip_distance
     return compiled_laws.friction(law)(rates, STATES, STEP, v0, distance, law.constants)
 
 
@@ -23,7 +23,7 @@ def at_end_of_step(law, rates):
 def test_friction_at_the_end_of_a_step(name, evolution):
     law = Friction(law=name, evolution=evolution)
     psi, coefficient, slope = at_end_of_step(law, RATES)
-    rate = law.slip_speed(RATES) / law.characteristic_slip_distance
+    rate = law.slip_speed(RATES) / law.slip_distance
     expected, _ = law.evolution_law.implicit_log_state(STATES, STEP, rate)
     np.testing.assert_allclose(psi, expected, rtol=1e-13)
     np.testing.assert_allclose(coefficient, law.coefficient(RATES, np.exp(psi)), rtol=1e-13)

@@ -16,7 +16,7 @@ BOTTOMS = ("free", "clamped", "roller")
 
 
 def pair(bottom="free", **changed):
-    second = {"second_body": "deformable", "second_bottom": bottom, "second_n_y": 5}
+    second = {"second_body": "deformable", "second_far_side": bottom, "second_n_y": 5}
     return COARSE.replaced(second | changed)
 
 

@@ -12,7 +12,7 @@ from nucleation.theory.critical import (
     NoInstability,
     critical_length,
     critical_wavenumber,
-    theory_lengths,
+    critical_lengths,
 )
 from nucleation.theory.crossings import certainly_stable, marginal_stiffness
 from nucleation.theory.spectrum import growth_rates, system
@@ -114,7 +114,7 @@ def test_many_systems_at_once_are_each_alone():
     """To the last bit, in any company and order; none computed twice; NaN where stable."""
     rng = np.random.default_rng(5)
     cases = [random_system(rng) for _ in range(150)]
-    lengths = theory_lengths([*cases, *cases[:20]])
+    lengths = critical_lengths([*cases, *cases[:20]])
     assert np.array_equal(lengths[150:], lengths[:20], equal_nan=True)
     for case, length in zip(cases, lengths, strict=False):
         if np.isnan(length):
@@ -123,7 +123,7 @@ def test_many_systems_at_once_are_each_alone():
         else:
             assert critical_wavenumber(*case).length == length
     assert 20 < np.isnan(lengths).sum() < 100
-    assert theory_lengths([]).shape == (0,)
+    assert critical_lengths([]).shape == (0,)
 
 
 @pytest.mark.parametrize("kind", ["clamped", "roller", "velocity"])

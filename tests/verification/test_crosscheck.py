@@ -108,7 +108,7 @@ def has_friction_of(record, friction):
 def test_every_parameter_reaches_the_other_solver(tmp_path):
     """Numbers that all differ from the defaults arrive, and the two solvers agree on them."""
     changed = PARAMETERS.replaced(
-        {"poisson_ratio": 0.2, "shear_modulus": 2e9, "characteristic_slip_distance": 6e-7,
+        {"poisson_ratio": 0.2, "shear_modulus": 2e9, "slip_distance": 6e-7,
          "aging_coefficient": 0.06, "slip_rate_scale": 2e-7, "base_friction": 0.3,
          "state_scale": 5e-4, "regularisation_slip_rate": 2e-9, "rate_coefficient": 0.006,
          "normal_stress": 8e5, "velocity": 2e-5, "initial_state": 3.0, "height": 0.006,

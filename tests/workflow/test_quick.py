@@ -61,7 +61,7 @@ def test_table_of_lengths(quick, results):
         np.testing.assert_array_equal(text[name].to_numpy(), table[name].values)
     assert (text["length_low"] <= text["length"]).all()
     assert (text["length"] <= text["length_high"]).all()
-    assert (text["length"] / text["theory_length"]).between(0.3, 1.2).all()
+    assert (text["length"] / text["critical_length"]).between(0.3, 1.2).all()
     assert text["onset_time"].between(5.0, 20.0).all()
     for index, run in enumerate(shared_runs(config)):
         simulation = netcdf.read(quick.dataset("simulations", run.id))
@@ -69,7 +69,7 @@ def test_table_of_lengths(quick, results):
         assert again["length"] == float(table["length"][index])
         assert float(table["height"][index]) == run.parameters.geometry.height
         assert int(table["n_x"][index]) == run.parameters.mesh.n_x
-        assert float(table["theory_length"][index]) == run.theory_length
+        assert float(table["critical_length"][index]) == run.critical_length
 
 
 @pytest.mark.parametrize(

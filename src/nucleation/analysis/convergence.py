@@ -37,7 +37,7 @@ COLUMNS = {
         "id",
         "evolution",
         "height",
-        "phi0",
+        "initial_state",
         "kind",
         "strength",
         "seed",
@@ -53,7 +53,7 @@ COLUMNS = {
     "length": LENGTHS["length"],
     "length_difference": Variable("1", "relative difference of L_c from the finest run"),
     "elements_difference": Variable("1", "the same in elements of the run along x"),
-    "theory_length": LENGTHS["theory_length"],
+    "critical_length": LENGTHS["critical_length"],
     "length_over_theory": LENGTH_OVER_THEORY,
     **some(LENGTHS, "steps", "wall_seconds", "fault"),
 }
@@ -108,7 +108,7 @@ def refinement_table(tables: Iterable[xr.Dataset]) -> xr.Dataset:
                 onset_difference=own["onset_time"] / finest["onset_time"] - 1.0,
                 length_difference=own["length"] / finest["length"] - 1.0,
                 elements_difference=difference / (own["block_length"] / own["n_x"]),
-                length_over_theory=own["length"] / own["theory_length"],
+                length_over_theory=own["length"] / own["critical_length"],
             )
             rows += found.to_dict("records")
     return table(rows, COLUMNS)

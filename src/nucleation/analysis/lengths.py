@@ -44,10 +44,10 @@ COLUMNS = {
     "role": Variable("", "what the study is for"),
     "evolution": Variable("", "state evolution law"),
     "height": SHARED["height"],
-    "phi0": Variable("s", "initial state variable", "phi0"),
+    "initial_state": Variable("s", "initial state variable", "phi0"),
     **some(SHARED, "n_x", "n_y"),
     **MEASURED,
-    "theory_length": Variable("m", "critical nucleation length of the linear theory", "L_c"),
+    "critical_length": Variable("m", "critical nucleation length of the linear theory", "L_c"),
     "creep_length": Variable("m", "patch length at which growth begins, by theory", "L_s"),
     **DIAGNOSTICS,
     "block_length": Variable("m", "length of the block", "L"),
@@ -59,12 +59,12 @@ COLUMNS = {
         SHARED,
         "slip_distance",
         "velocity",
-        "applied_stress",
+        "normal_stress",
         "shear_modulus",
         "poisson_ratio",
     ),
-    "friction_coefficient": Variable("1", "friction coefficient of the theory's interface", "f"),
-    **some(SHARED, "direct_effect", "velocity_weakening"),
+    "friction": Variable("1", "friction coefficient of the theory's interface", "f"),
+    **some(SHARED, "a", "zeta"),
     "friction_law": Variable("", "law of the friction coefficient"),
     "below": Variable("", "what the block slides on"),
     "initial_stress": Variable("", "static field at the start"),
@@ -104,11 +104,11 @@ GIVEN = {
     "kind": "perturbation.kind",
     "seed": "perturbation.seed",
     "correlation_length": "perturbation.correlation_length",
-    "phi0": "loading.initial_state",
+    "initial_state": "loading.initial_state",
     "loading": "loading.kind",
-    "applied_stress": "loading.normal_stress",
+    "normal_stress": "loading.normal_stress",
     "block_length": "geometry.length",
-    "slip_distance": "friction.characteristic_slip_distance",
+    "slip_distance": "friction.slip_distance",
     "friction_law": "friction.law",
     "below": "second_body.kind",
 }
@@ -163,7 +163,7 @@ def _creep_length(run: dict[str, Any]) -> float:
         return float("nan")
     try:
         patches = dataclasses.replace(Patches.of(parameters), law=None)
-        return stability_point(patches, run["theory_length"]).length
+        return stability_point(patches, run["critical_length"]).length
     except NoPatch:
         return float("nan")
 
@@ -221,10 +221,10 @@ def description(run: dict[str, Any]) -> Row:
         "id": run["id"],
         "study": run["study"],
         "role": run["role"],
-        "theory_length": run["theory_length"],
-        "friction_coefficient": interface["friction"],
-        "direct_effect": interface["a"],
-        "velocity_weakening": interface["zeta"],
+        "critical_length": run["critical_length"],
+        "friction": interface["friction"],
+        "a": interface["a"],
+        "zeta": interface["zeta"],
     }
 
 

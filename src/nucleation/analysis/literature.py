@@ -55,7 +55,7 @@ COLUMNS = {
     "id": SHARED["id"],
     "name": Variable("", "name of the length, as in lengths_in_use"),
     "evolution": Variable("", "state evolution law"),
-    "a": SHARED["direct_effect"],
+    "a": SHARED["a"],
     "b": Variable("1", "coefficient of the logarithm of the state", "b"),
     "a_over_b": Variable("1", "direct effect over b", "a/b"),
     "definition": Variable("", "how the simulated length is read, or why it is not simulated"),
@@ -123,7 +123,7 @@ def _rows(
 ) -> Iterator[Row]:
     """A run's rows, one for each slip rate."""
     friction = parameters.friction
-    slip_distance = friction.characteristic_slip_distance
+    slip_distance = friction.slip_distance
     fault = _fault_of(parameters)
     _, a, zeta = friction.expansion(parameters.loading.velocity)
     b = a + zeta
@@ -181,7 +181,7 @@ def _fault_of(parameters: Parameters) -> Fault:
         normal_stress=load.normal_stress,
         a=a,
         zeta=zeta,
-        slip_distance=parameters.friction.characteristic_slip_distance,
+        slip_distance=parameters.friction.slip_distance,
         height=parameters.geometry.height,
     )
 

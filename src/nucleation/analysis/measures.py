@@ -165,7 +165,7 @@ def _state_rate_well_approximated(
 ) -> NDArray[np.bool_]:
     """Where ``dphi/dt`` with v in the place of ``w = sqrt(v^2 + v0^2)`` is nearly the same."""
     speed = np.maximum(np.abs(rate), 1e-300)
-    omega = state * speed / friction.characteristic_slip_distance
+    omega = state * speed / friction.slip_distance
     full = friction.state_rate(rate, state)
     approximate = friction.evolution_law.growth(omega)
     return np.abs(approximate - full) <= SHAKEN * np.abs(full)

@@ -15,9 +15,9 @@ LengthsRow = Mapping[str, Any]
 """A row of a table of lengths (:data:`nucleation.analysis.lengths.COLUMNS`)."""
 
 RATIOS = {
-    "length_ratio": ("length", "theory_length"),
-    "stability_ratio": ("stability_length", "theory_length"),
-    "zeta_over_a": ("velocity_weakening", "direct_effect"),
+    "length_ratio": ("length", "critical_length"),
+    "stability_ratio": ("stability_length", "critical_length"),
+    "zeta_over_a": ("zeta", "a"),
 }
 """Ratios by name: the columns of numerator and denominator."""
 
@@ -87,11 +87,11 @@ def why(row: LengthsRow) -> str:
     status = str(row["status"])
     if not status.startswith("completed"):
         return status
-    theory = row["theory_length"]
+    theory = row["critical_length"]
     reached = row["reached_length"]
     patch = f"after {row['simulated_time']:.4g} s its patch was {reached:.3g} m long"
     if not math.isfinite(theory):
-        zeta = row["velocity_weakening"]
+        zeta = row["zeta"]
         return f"its sliding is stable by the theory (zeta = {zeta:.3g}); {patch}"
     patch += f", {reached / theory:.2g} of the theory's critical length"
     searched = NEAR * row["block_length"]

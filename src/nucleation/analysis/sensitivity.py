@@ -29,7 +29,7 @@ COLUMNS = {
     "variation": Variable("", "how it is varied"),
     "length": LENGTHS["length"],
     "length_change": Variable("1", "relative change of L_c against the base"),
-    "theory_length": LENGTHS["theory_length"],
+    "critical_length": LENGTHS["critical_length"],
     "length_over_theory": LENGTH_OVER_THEORY,
     "ratio_change": Variable("1", "relative change of L_c over the theory's length"),
     "onset_time": LENGTHS["onset_time"],
@@ -65,7 +65,7 @@ class Case(NamedTuple):
 
     id: str
     parameters: Parameters
-    theory_length: float  # m
+    critical_length: float  # m
     simulation: xr.Dataset = xr.Dataset()
 
 
@@ -95,7 +95,7 @@ def variation(case: Case, base: Case) -> Varied:
     }
     own = case.parameters.geometry.length
     others = base.parameters.geometry.length
-    ratio = own / case.theory_length * base.theory_length / others
+    ratio = own / case.critical_length * base.critical_length / others
     if abs(ratio - 1.0) > SAME_LENGTH:
         varied.add("geometry.length")
     if "loading.initial_stress" in varied:
@@ -159,7 +159,7 @@ def sensitivity_table(
     heights: dict[float, list[Case]] = defaultdict(list)
     for run, simulation in zip(runs, simulations, strict=True):
         parameters = Parameters.from_dict(run["parameters"])
-        case = Case(run["id"], parameters, run["theory_length"], simulation)
+        case = Case(run["id"], parameters, run["critical_length"], simulation)
         heights[parameters.geometry.height].append(case)
     rows: list[Row] = []
     for cases in heights.values():
@@ -216,9 +216,9 @@ def _row(
         "variation": varied[1],
         "length": length,
         "length_change": change - 1.0,
-        "theory_length": case.theory_length,
-        "length_over_theory": length / case.theory_length,
-        "ratio_change": change * base.theory_length / case.theory_length - 1.0,
+        "critical_length": case.critical_length,
+        "length_over_theory": length / case.critical_length,
+        "ratio_change": change * base.critical_length / case.critical_length - 1.0,
         "onset_time": found["onset_time"],
         "onset_change": found["onset_time"] / usual["onset_time"] - 1.0,
         "status": case.simulation.attrs["status"],

@@ -36,7 +36,7 @@ CURVE = np.geomspace(0.05, 5.0, 21)
 COLUMNS = {
     "id": SHARED["id"],
     "outcome": Variable("", "creep, slow slip or event; theory: a point of the curve, no run"),
-    **some(SHARED, "height", "direct_effect", "velocity_weakening"),
+    **some(SHARED, "height", "a", "zeta"),
     "outside_weakening": Variable("1", "velocity weakening of the surroundings", "zeta_out"),
     "zeta_over_a": SHARED["zeta_over_a"],
     "strengthening": Variable("1", "-zeta of the surroundings over zeta of the patch", "r"),
@@ -143,8 +143,8 @@ def _of_patch(patch: WeakeningPatch, height: float, width: float) -> Row:
     outside_zeta = float(patch.outside.zeta[0])
     return {
         "height": height,
-        "direct_effect": a,
-        "velocity_weakening": zeta,
+        "a": a,
+        "zeta": zeta,
         "outside_weakening": outside_zeta,
         "zeta_over_a": zeta / a,
         "strengthening": -outside_zeta / zeta,

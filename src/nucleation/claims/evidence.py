@@ -92,7 +92,7 @@ class Evidence:
         role: str,
         law: str,
         height: float,
-        phi0: float = 1.0,
+        initial_state: float = 1.0,
     ) -> Row:
         """One fault of a study.
 
@@ -104,7 +104,7 @@ class Evidence:
             Name of the evolution law.
         height : float
             Height of the block (m).
-        phi0 : float
+        initial_state : float
             Initial age of the interface (s).
 
         Returns
@@ -121,13 +121,13 @@ class Evidence:
             role,
             evolution=law,
             height=height,
-            phi0=phi0,
+            initial_state=initial_state,
         )
         return rows[0]
 
     def series(self, role: str) -> list[Row]:
         """The rows with the aging law and an initial age of 1 s, at all heights."""
-        return self.rows(role, evolution="aging", phi0=1.0)
+        return self.rows(role, evolution="aging", initial_state=1.0)
 
     def each(self, role: str, **labels: str | float) -> list[Row]:
         """The rows of all realisations of the faults that :meth:`rows` returns.
@@ -163,7 +163,7 @@ class Evidence:
 
     def _is_own(self, row: Row) -> bool:
         """Whether a row has the configuration's material, friction and loads, on a rigid base."""
-        age = float(row["phi0"])
+        age = float(row["initial_state"])
         height = float(row["height"])
         law = {"evolution": row["evolution"]}
         own = Parameters(

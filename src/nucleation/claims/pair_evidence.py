@@ -109,7 +109,7 @@ def half_spaces(rows: xr.Dataset) -> xr.Dataset:
 
 
 def _are_high(rows: xr.Dataset) -> np.ndarray:
-    least = _LEAST_HEIGHT * rows["theory_length"]
+    least = _LEAST_HEIGHT * rows["critical_length"]
     return (rows["height"] >= least).values
 
 

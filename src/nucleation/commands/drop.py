@@ -109,7 +109,7 @@ def command(
         reason = reason_of_stability(Fault(**fault)) + _cure(parameters)
     else:
         run = planned(values, {}, results="results")  # not used
-        critical = run.theory_length
+        critical = run.critical_length
         # imported here, since the solver takes seconds
         from ..patch.expected_drop import NoDrop, expected_drop
 

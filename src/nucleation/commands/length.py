@@ -102,7 +102,7 @@ def command(
 
     \b
     Example:
-      nucleation length --shear-modulus 30GPa --poisson 0.25 --normal-stress 50MPa \\
+      nucleation length --shear-modulus 30GPa --poisson-ratio 0.25 --normal-stress 50MPa \\
           --a 0.010 --b 0.015 --slip-distance 5um --velocity 1mm/yr
     """
     options, uncertain = take_uncertain(options, samples)

@@ -44,7 +44,7 @@ _POINTS = Quantity(
 _CRITERIA = {
     "critical": "critical_length",
     "stability": "stability_length",
-    "drop": "drop_length",
+    "drop": "expected_length",
 }
 _USUAL_POINTS = {1: 20, 2: 10}
 """Number of points by the number of parameters."""
@@ -284,7 +284,7 @@ def _band(
     """The meaning of the bands in the picture."""
     if drawn is not None:
         return "5 to 95 % of the draws"
-    return "expected range of $L$" if "drop_length" in lengths else ""
+    return "expected range of $L$" if "expected_length" in lengths else ""
 
 
 def _described(

@@ -169,7 +169,7 @@ def _length_rows(dataset: xr.Dataset) -> list[str]:
     number = dataset.sizes["run"]
     for row in rows_of(dataset, range(min(number, _SHOWN_ROWS))):
         length = row["length"]
-        theory = row["theory_length"]
+        theory = row["critical_length"]
         lines.append(
             f"{row['id']:<44} {row['height']:>8.4g} {row['onset_time']:>10.4g} {length:>9.4g} "
             f"{theory:>8.4g}  {length / theory:.3f}"
@@ -237,7 +237,7 @@ _KINDS = (
     ),
     _Kind(
         "table of lengths",
-        marks=("id", "onset_time", "theory_length"),
+        marks=("id", "onset_time", "critical_length"),
         summary=_length_rows,
     ),
     _Kind(

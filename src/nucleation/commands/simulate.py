@@ -102,7 +102,7 @@ def command(
 def _plan_lines(run: Run) -> list[str]:
     """Theory, duration and memory of a run."""
     mesh = run.parameters.mesh
-    critical = run.theory_length
+    critical = run.critical_length
     element = run.parameters.geometry.length / mesh.n_x
     theory = f"critical length {critical:.4g} m, {critical / element:.4g}"
     if math.isnan(critical):
@@ -133,8 +133,8 @@ def _described(run: Run) -> dict[str, Any]:
     """Theory and parameters of a run for JSON, in SI units."""
     return {
         "theory": {
-            "critical_length": run.theory_length,
-            "stability_length": stability_length_of(run.parameters, run.theory_length),
+            "critical_length": run.critical_length,
+            "stability_length": stability_length_of(run.parameters, run.critical_length),
         },
         "parameters": run.parameters.to_dict(),
     }
@@ -176,6 +176,6 @@ def _simulate(run: Run, output: Path, as_json: bool) -> int:
         attributes = dataset.attrs
         click.echo(attributes["status"])
         click.echo(f"{attributes['steps']} steps in {attributes['wall_seconds']:.3g} s")
-        click.echo("\n".join(event_lines(extract(dataset), run.theory_length)))
+        click.echo("\n".join(event_lines(extract(dataset), run.critical_length)))
         click.echo(f"written to {output}")
     return DONE

@@ -74,7 +74,7 @@ def command(
 
     \b
     Example:
-      nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa --poisson 0.35 \\
+      nucleation specimen --length 20cm --height 10cm --shear-modulus 3.1GPa --poisson-ratio 0.35 \\
           --a 0.0068 --zeta 0.016 --slip-distance 0.5um --plane stress
     """
     options, uncertain = take_uncertain(options, samples)

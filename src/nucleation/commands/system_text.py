@@ -32,10 +32,10 @@ _GIVEN_BY = {
     "height": {"height"},
     "normal_stress": {"normal_stress"},
     "velocity": {"velocity"},
-    "slip_distance": {"characteristic_slip_distance"},
-    "friction": {"friction_coefficient"},
-    "a": {"direct_effect"},
-    "b": {"zeta_over_a", "velocity_weakening", "evolution_effect"},
+    "slip_distance": {"slip_distance"},
+    "friction": {"friction"},
+    "a": {"a"},
+    "b": {"zeta_over_a", "zeta", "b"},
 }
 """The parameters of a fault with a value in the paper, and names by which each may be given."""
 
@@ -126,7 +126,7 @@ def fault_in(parameters: Parameters) -> dict[str, Any]:
         "far_side": upper.far_side,
         "normal_stress": loading.normal_stress,
         "velocity": loading.velocity,
-        "slip_distance": parameters.friction.characteristic_slip_distance,
+        "slip_distance": parameters.friction.slip_distance,
         "friction": friction,
         "a": a,
         "zeta": zeta,
@@ -192,7 +192,7 @@ def system_of_run(
     lines = [
         _system_line(fault, parameters.loading.kind, known=True),
         f"Friction: {law.law} law, {law.evolution}; at V: f = {friction:.4g}, a = {a:.4g}, "
-        f"b = {a + zeta:.4g}; D = {law.characteristic_slip_distance:.4g} m; "
+        f"b = {a + zeta:.4g}; D = {law.slip_distance:.4g} m; "
         f"{scales_line(law, velocity)}.",
     ]
     if base is not None:

@@ -61,7 +61,7 @@ def with_unit(
 
 def event_lines(
     found: dict[str, float],
-    theory_length: float,
+    critical_length: float,
 ) -> list[str]:
     """Onset of the event and length of the patch then, with their ranges over the definitions.
 
@@ -69,7 +69,7 @@ def event_lines(
     ----------
     found : dict
         The event of a run, from :func:`nucleation.analysis.extraction.extract`.
-    theory_length : float
+    critical_length : float
         L_c of the theory (m); NaN if homogeneous sliding is stable.
 
     Returns
@@ -80,8 +80,8 @@ def event_lines(
         return ["no event: the force has not dropped"]
     onset, length = (_with_spread(found, name) for name in ("onset_time", "length"))
     over_theory = ""
-    if not math.isnan(theory_length):
-        over_theory = f", {found['length'] / theory_length:.3g} L_c"
+    if not math.isnan(critical_length):
+        over_theory = f", {found['length'] / critical_length:.3g} L_c"
     return [f"onset: {onset} s", f"L: {length} m{over_theory}"]
 
 

@@ -81,7 +81,7 @@ def _about(run: Run) -> Iterator[Advice]:
     """All warnings about a run."""
     yield from resolution(run)
     interface = interface_state(run.parameters)
-    stable = math.isnan(run.theory_length)
+    stable = math.isnan(run.critical_length)
     if stable and _has_weakening_patch(run, interface.zeta):
         return
     if stable or interface.zeta <= 0.0:
@@ -102,7 +102,7 @@ def _about(run: Run) -> Iterator[Advice]:
 
 def _no_nucleation(run: Run, interface: InterfaceState) -> Advice:
     velocity = run.parameters.loading.velocity
-    if math.isnan(run.theory_length):
+    if math.isnan(run.critical_length):
         return (
             "nothing will nucleate",
             -interface.zeta,
@@ -113,7 +113,7 @@ def _no_nucleation(run: Run, interface: InterfaceState) -> Advice:
         "friction strengthens",
         -interface.zeta,
         f"zeta = {interface.zeta:.3g} at V = {velocity:g} m/s; the "
-        f"theory's critical length, {run.theory_length:.3g} m, is due to the normal stress "
+        f"theory's critical length, {run.critical_length:.3g} m, is due to the normal stress "
         "alone, which slip changes: the patch grows slowly",
     )
 
@@ -153,7 +153,7 @@ def _stability_length(run: Run, constant: bool) -> str:
     """L_s as text, with the friction law's own or with constant a and b."""
     from ..theory.creep.lengths import stability_length_of  # with SciPy, which is slow to import
 
-    critical = run.theory_length
+    critical = run.critical_length
     ratio = stability_length_of(run.parameters, critical, constant) / critical
     return "none up to 3 L_c" if math.isnan(ratio) else f"{ratio:.2g} L_c"
 
@@ -173,7 +173,7 @@ def _steps(run: Run, interface: InterfaceState) -> Iterator[Advice]:
 
 def _span(run: Run) -> Iterator[Advice]:
     end = run.parameters.stepping.end_time
-    critical = run.theory_length
+    critical = run.critical_length
     earliest = growth_time(run.parameters, UNSTABLE * critical)
     if end < earliest:
         latest = growth_time(run.parameters, critical)
@@ -187,7 +187,7 @@ def _span(run: Run) -> Iterator[Advice]:
 
 def _block(run: Run) -> Iterator[Advice]:
     length = run.parameters.geometry.length
-    critical = run.theory_length
+    critical = run.critical_length
     if length < _SHORT_BLOCK * critical:
         yield (
             "block short",

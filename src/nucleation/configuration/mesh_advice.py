@@ -69,7 +69,7 @@ def element_sizes(mesh: Mesh, geometry: Geometry) -> tuple[float, float]:
 
 def _zone(run: Run) -> float:
     """Length (m) of the process zone when the patch has the theory's critical length."""
-    critical = run.theory_length
+    critical = run.critical_length
     if math.isnan(critical):
         return process_zone(run.parameters)
     rest = growth_time(run.parameters, critical)
@@ -170,7 +170,7 @@ def _noise_of_steps(run: Run) -> Iterator[Advice]:
 
 def _front_speed(run: Run) -> float:
     """Rough speed (m/s) of the front at the length where the patch turns unstable."""
-    length = UNSTABLE * run.theory_length
+    length = UNSTABLE * run.critical_length
     shorter = 0.95 * length
     longer = 1.05 * length
     start = growth_time(run.parameters, shorter)

@@ -72,5 +72,5 @@ def problems_of_runs(
         if shown(runs, height, base) is None:
             yield (
                 f"studies.{name}.role = {role} needs a run with height = {height:g} m"
-                f", evolution = {law}, phi0 = {age:g} s: figures.{key} names it"
+                f", evolution = {law}, initial_state = {age:g} s: figures.{key} names it"
             )

@@ -23,7 +23,7 @@ class Run:
     id: str
     study: str
     parameters: Parameters
-    theory_length: float = dataclasses.field(compare=False)  # follows from the others; NaN != NaN
+    critical_length: float = dataclasses.field(compare=False)  # follows from the others; NaN != NaN
     interface: InterfaceState = InterfaceState()
     """Friction of the theory."""
 
@@ -43,7 +43,7 @@ class Run:
             "study": self.study,
             "role": self.role,
             "parameters": self.parameters.to_dict(),
-            "theory_length": self.theory_length,
+            "critical_length": self.critical_length,
             "interface": plain(self.interface),
         }
 
@@ -62,12 +62,12 @@ class Run:
 
     @property
     def labels(self) -> dict[str, Any]:
-        """Study, evolution law, height (m) and phi0 (s), which label the run in tables."""
+        """Study, evolution law, height (m) and initial_state (s), which label the run in tables."""
         return {
             "study": self.study,
             "evolution": self.parameters.friction.evolution,
             "height": self.parameters.geometry.height,
-            "phi0": self.parameters.loading.initial_state,
+            "initial_state": self.parameters.loading.initial_state,
         }
 
 
@@ -116,7 +116,7 @@ def shown(runs: Sequence[Run], height: float, base: Parameters) -> Run | None:
     wanted = {
         "height": height,
         "evolution": base.friction.evolution,
-        "phi0": base.loading.initial_state,
+        "initial_state": base.loading.initial_state,
     }
     for run in runs:
         if wanted.items() <= run.labels.items():

@@ -11,7 +11,7 @@ from ..model.friction.constants import CONSTANTS, with_constants
 from ..model.linearised import InterfaceState, linearised, loaded, not_rounded_from
 from ..model.parameters import Parameters
 from ..model.quantities import ParameterError
-from ..theory.critical import NoInstability, run_length, theory_lengths
+from ..theory.critical import NoInstability, run_length, critical_lengths
 from ..theory.estimates import growth_time
 from ..theory.transfer import bodies_of
 from .runs import Run
@@ -208,7 +208,7 @@ def lengths_of(
     for parameters, interface in faults:
         upper, lower = bodies_of(parameters)
         cases.append((upper, lower, interface))
-    return theory_lengths(cases).tolist() if cases else []
+    return critical_lengths(cases).tolist() if cases else []
 
 
 def _run(
@@ -245,7 +245,7 @@ def _run(
         id=identifier(study, parameters, prepared.varied),
         study=study,
         parameters=parameters,
-        theory_length=critical,
+        critical_length=critical,
         interface=prepared.interface,
         given=values,
         batch=batch,

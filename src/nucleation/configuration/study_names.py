@@ -189,7 +189,7 @@ def identifier(
         f"H{_text(height)}",
         f"phi{_text(age)}",
     ]
-    others = varied.keys() - {"evolution", "height", "phi0"}
+    others = varied.keys() - {"evolution", "height", "initial_state"}
     for name in sorted(others, key=position):
         parts.append(f"{name}{_text(varied[name])}")
     return "-".join(parts)

@@ -73,7 +73,7 @@ def _laws(table: xr.Dataset) -> NDArray[np.str_]:
 
 def aged(table: xr.Dataset) -> NDArray[np.bool_]:
     """The rows with another initial state than :data:`USUAL_AGE`."""
-    return ~np.isclose(table["phi0"].values, USUAL_AGE)
+    return ~np.isclose(table["initial_state"].values, USUAL_AGE)
 
 
 def usual_law(table: xr.Dataset) -> str:

@@ -31,7 +31,7 @@ LOOKS = {
         "--",
         "",
     ),
-    "drop_length": ("$L$, the force drops", style.VERMILLION, ":", "o"),
+    "expected_length": ("$L$, the force drops", style.VERMILLION, ":", "o"),
 }
 """Label, colour, dashes and marker of each length; dashes differ for colour-blind readers."""
 

@@ -136,7 +136,7 @@ class Heterogeneity(Checked):
         if self.varies in ("none", "normal_stress"):
             return law
         if self.varies == "slip_distance":
-            values = {"characteristic_slip_distance": law.characteristic_slip_distance * factor}
+            values = {"slip_distance": law.slip_distance * factor}
         else:
             distinct, nodes = np.unique(factor, return_inverse=True)
             laws = [self._local_law(law, velocity, float(one)) for one in distinct]

@@ -87,7 +87,7 @@ def linearised(friction: Friction, loading: Loading) -> InterfaceState:
     InterfaceState
     """
     f0, a, zeta = friction.expansion(loading.velocity)
-    interface = InterfaceState(f0, a, zeta, friction.characteristic_slip_distance)
+    interface = InterfaceState(f0, a, zeta, friction.slip_distance)
     return loaded(interface, loading)
 
 

@@ -41,7 +41,7 @@ _ROUGHNESS = 0.2
 _PAPERS = {
     "velocity": Loading().velocity,
     "normal_stress": Loading().normal_stress,
-    "characteristic_slip_distance": Friction().characteristic_slip_distance,
+    "slip_distance": Friction().slip_distance,
     "shear_modulus": Material().shear_modulus,
     "poisson_ratio": Material().poisson_ratio,
 }
@@ -65,10 +65,10 @@ def follows_from(given: Mapping[str, Any]) -> dict[str, Any]:
     """
     known: dict[str, Any] = {**_PAPERS, **given}
     velocity = known["velocity"]
-    distance = known["characteristic_slip_distance"]
+    distance = known["slip_distance"]
     found: dict[str, Any] = {}
-    if "velocity" in given or "characteristic_slip_distance" in given:
-        found["phi0"] = _AGE * distance / velocity
+    if "velocity" in given or "slip_distance" in given:
+        found["initial_state"] = _AGE * distance / velocity
     if CONSTANTS.keys() & given.keys():
         default = _law_with(given)
         law = given.get("friction_law", default)
@@ -96,6 +96,6 @@ def _evolution_effect(given: Mapping[str, Any]) -> float:
     """The coefficient b of a fault; missing constants have the paper's value."""
     _, a, zeta = Friction().expansion(_PAPERS["velocity"])
     ratio = given.get("zeta_over_a", zeta / a)
-    a = given.get("direct_effect", a)
-    zeta = given.get("velocity_weakening", ratio * a)
-    return float(given.get("evolution_effect", a + zeta))
+    a = given.get("a", a)
+    zeta = given.get("zeta", ratio * a)
+    return float(given.get("b", a + zeta))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 TITLES = {
     "critical_length": "critical length L_c",
     "stability_length": "stability length L_s",
-    "drop_length": "length at the drop L",
+    "expected_length": "length at the drop L",
 }
 REASONS = 3  # that are named of those why draws lack a length
 REALISATION = 1  # of the random numbers that choose a realisation in each draw
@@ -51,14 +51,14 @@ def drop_quantiles(
     progress : callable, optional
         Called with the number of draws that are done and that of all. A draw takes about 2 s.
     lengths : collection of str
-        Keys of the lengths to compute; without ``drop_length`` a draw takes 0.05 s.
+        Keys of the lengths to compute; without ``expected_length`` a draw takes 0.05 s.
 
     Returns
     -------
     Dataset
         ``value(key, quantile)`` (m), ``error(key, quantile)`` (m) and ``share(key)`` as of
         :func:`~nucleation.answers.uncertainty.length_quantiles`, for ``critical_length``,
-        ``stability_length`` and ``drop_length``. The last scatters by the realisation too. Its
+        ``stability_length`` and ``expected_length``. The last scatters by the realisation too. Its
         attribute ``doubtful`` is the number of draws whose drop should not be relied upon, and
         ``doubts`` has their reasons. ``why_not(key)`` is why some draws lack the length.
 
@@ -89,9 +89,9 @@ def drop_quantiles(
             found["critical_length"].append(critical)
         if "stability_length" in found:
             found["stability_length"].append(_stability(parameters, critical))
-        if "drop_length" in found:
+        if "expected_length" in found:
             answer, doubt = _drop(parameters, shares[i])
-            found["drop_length"].append(answer)
+            found["expected_length"].append(answer)
             doubts += [doubt] if doubt else []
         if progress is not None:
             progress(i + 1, len(cases))

@@ -46,7 +46,7 @@ def lengths_over(
         Called with the indices of a point; returns the runs of that point, one, or one for each
         draw of uncertain parameters, or none where the fault is not valid.
     lengths : collection of str
-        Keys of the lengths to compute: ``critical_length``, ``stability_length``, ``drop_length``.
+        Keys of the lengths to compute: ``critical_length``, ``stability_length``, ``expected_length``.
     progress : callable, optional
         Called with the number of points that are done and that of all.
 
@@ -95,7 +95,7 @@ def lengths_over(
 
 def _at(runs: Sequence[Parameters], keys: Sequence[str]) -> tuple[Array, float, str, list[str]]:
     """Lengths (m) of shape (key, end) at a point; share of doubtful drops, doubts, reasons."""
-    others = [key for key in keys if key != "drop_length" or len(runs) > 1]
+    others = [key for key in keys if key != "expected_length" or len(runs) > 1]
     table = drop_quantiles(runs, lengths=others) if others else None
     rows: list[Any] = []
     reasons: list[str] = []
@@ -105,7 +105,7 @@ def _at(runs: Sequence[Parameters], keys: Sequence[str]) -> tuple[Array, float, 
     doubtful, doubt = 0.0, ""
     if table is not None:
         doubtful, doubt = table.attrs["doubtful"] / len(runs), table.attrs["doubts"]
-    if "drop_length" in keys and "drop_length" not in others:
+    if "expected_length" in keys and "expected_length" not in others:
         try:
             drop = expected_drop(runs[0])
         except NoDrop as none:

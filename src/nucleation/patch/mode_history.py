@@ -61,7 +61,7 @@ class ModeHistory:
 
 def mode_history(
     parameters: Parameters,
-    theory_length: float,
+    critical_length: float,
 ) -> ModeHistory:
     """The mode of a run's creep.
 
@@ -69,7 +69,7 @@ def mode_history(
     ----------
     parameters : Parameters
         Of the run.
-    theory_length : float
+    critical_length : float
         L_c (m) of its fault.
 
     Returns
@@ -83,11 +83,11 @@ def mode_history(
         If no patch of the lengths tried turns unstable, its creep opens the fault, or the mode
         oscillates in too few of them.
     """
-    if not np.isfinite(theory_length):
+    if not np.isfinite(critical_length):
         raise NoPatch("homogeneous sliding is stable", STABLE)
     patches, loading = Patches.of(parameters), parameters.loading
     initial_stress = loading.initial_shear_stress / loading.normal_stress
-    stable = first_growing(patches, theory_length, loading.initial_state, initial_stress)
+    stable = first_growing(patches, critical_length, loading.initial_state, initial_stress)
     lengths = stable * np.linspace(FIRST, LAST, INSTANTS)
     for _ in range(NARROWED + 1):
         found = advance(patches, lengths, loading.initial_state, initial_stress)
@@ -202,7 +202,7 @@ def _weights(
     by_force = -by_rate / (creep.normal_stress * friction.by_rate)
     uniform = patches.constants[0]
     slip_of_edge = modes.values @ edge_slip(creep.response, uniform, uniform).rates
-    drive = -complex(by_slip @ slip_of_edge) * rate / law.characteristic_slip_distance
+    drive = -complex(by_slip @ slip_of_edge) * rate / law.slip_distance
     position = found.length[i] * np.cos(modes.theta)
     spacing = np.sin(modes.theta) * found.length[i]
     spacing = spacing * 0.5 * np.pi / places

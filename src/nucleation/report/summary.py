@@ -72,7 +72,7 @@ def _numbers(row: Row) -> dict[str, str]:
         "length": f"{row['length']:.3g}",
         "low": f"{row['length_low']:.3g}",
         "high": f"{row['length_high']:.3g}",
-        "theory": f"{row['theory_length']:.3g}",
+        "theory": f"{row['critical_length']:.3g}",
         "stability": f"{row['creep_length']:.3g}",
     }
 
@@ -117,14 +117,14 @@ def _answer(rows: list[Row]) -> dict[str, str] | None:
         return None
     return {
         "length": _range((row["length"] for row in rows), ".3g"),
-        "critical": _range((row["theory_length"] for row in rows), ".3g"),
+        "critical": _range((row["critical_length"] for row in rows), ".3g"),
         "stability": _range((row["creep_length"] for row in rows), ".3g"),
         "ratio": _over_theory(rows, "length"),
     }
 
 
 def _over_theory(rows: list[Row], column: str) -> str:
-    return _range((row[column] / row["theory_length"] for row in rows), ".2f")
+    return _range((row[column] / row["critical_length"] for row in rows), ".2f")
 
 
 def _range(values: Iterable[float], form: str) -> str:

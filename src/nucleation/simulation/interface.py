@@ -232,7 +232,7 @@ class Interface:
     @cached_property
     def _even(self) -> bool:
         """Whether the law is the same at all nodes."""
-        values = *self.friction.constants, self.friction.characteristic_slip_distance
+        values = *self.friction.constants, self.friction.slip_distance
         return all(np.ndim(value) == 0 for value in values)
 
     @cached_property
@@ -252,7 +252,7 @@ class Interface:
             past_log_state,
             beta,
             law.regularisation_slip_rate,
-            law.characteristic_slip_distance,
+            law.slip_distance,
             law.constants,
         )
 

@@ -70,7 +70,7 @@ class Dynamics:
         self.scheme = scheme
         self.grid = body.grid
         self._operators: OrderedDict[float, Operator] = OrderedDict()
-        self._slip_distance = float(np.min(interface.friction.characteristic_slip_distance))
+        self._slip_distance = float(np.min(interface.friction.slip_distance))
 
     def advance(
         self,

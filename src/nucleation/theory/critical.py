@@ -102,7 +102,7 @@ def _stacked(bodies: Iterable[Layers | None]) -> Layers | None:
     return Layers(modulus, ratio, height, first.far_side, first.antiplane)
 
 
-def theory_lengths(cases: Iterable[_Case]) -> Array:
+def critical_lengths(cases: Iterable[_Case]) -> Array:
     """The linear theory's critical lengths (m) of many systems, in few vectorised calls.
 
     The systems may differ in far sides and rigid bodies; equal ones are computed once. NaN where
@@ -183,7 +183,7 @@ def critical_length(
     height = np.asarray(height, dtype=float)
     bodies = [Body(material, h, "traction") for h in height.ravel().tolist()]
     cases: list[_Case] = [(body, RIGID, interface) for body in bodies]
-    lengths = theory_lengths(cases)
+    lengths = critical_lengths(cases)
     stable = np.isnan(lengths)
     if stable.any():
         first = cases[int(np.argmax(stable))]
@@ -219,7 +219,7 @@ def run_length(
 
 
 @cache
-def theory_length(
+def critical_length(
     height: float,
     material: Material,
     interface: InterfaceState,

@@ -28,7 +28,7 @@ CURVES = {
     "steady_friction": Variable("1", "steady-state friction, full law", "f"),
     "steady_friction_logarithmic": Variable("1", "steady-state friction, logarithmic law", "f"),
     "friction_reference": Variable("1", "friction coefficient at V", "f0"),
-    **some(SHARED, "direct_effect", "velocity_weakening", "velocity"),
+    **some(SHARED, "a", "zeta", "velocity"),
 }
 
 
@@ -116,7 +116,7 @@ def _friction_curves(
     slip_rate: Array,
 ) -> xr.Dataset:
     """Steady-state friction, full law and logarithmic expansion about `velocity` (Figure S1)."""
-    state = friction.characteristic_slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
+    state = friction.slip_distance / slip_rate  # the expansion has no v0 (Eq. S-log)
     expansion = friction.expansion(velocity)
     logarithmic = friction.logarithmic(slip_rate, state, velocity)
     return xr.Dataset(
@@ -124,8 +124,8 @@ def _friction_curves(
             "steady_friction": ("slip_rate", friction.steady_coefficient(slip_rate)),
             "steady_friction_logarithmic": ("slip_rate", logarithmic),
             "friction_reference": expansion.f0,
-            "direct_effect": expansion.a,
-            "velocity_weakening": expansion.zeta,
+            "a": expansion.a,
+            "zeta": expansion.zeta,
             "velocity": velocity,
         },
         {"slip_rate": slip_rate},

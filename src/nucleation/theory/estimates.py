@@ -119,7 +119,7 @@ def process_zone(
     age = loading.initial_state + rest * float(friction.evolution_law.growth(FRESH))
     weakening *= steepness(friction, age / parameters.memory_time)
     stiffness = stiffness_of(parameters)
-    scale = friction.characteristic_slip_distance / weakening
+    scale = friction.slip_distance / weakening
     in_thick_body = stiffness.thick * scale
     in_thin_body = math.sqrt(stiffness.thin * scale)
     return min(in_thick_body, in_thin_body)

@@ -63,7 +63,7 @@ def _declared() -> dict[str, Quantity]:
         "friction": interface["friction"],
         "velocity": interface["velocity"],
         "b": b,
-        "slip_distance": declarations(Friction)["characteristic_slip_distance"],
+        "slip_distance": declarations(Friction)["slip_distance"],
         "second_shear_modulus": second_modulus,
         "second_poisson_ratio": material["poisson_ratio"],
         "second_height": body["height"],

@@ -175,7 +175,7 @@ def manufactured(
     fields = FIELDS[name]
     alone = problem == "elastodynamics"
     evolution = "aging" if alone else problem
-    friction = Friction(characteristic_slip_distance=DISTANCE, evolution=evolution)
+    friction = Friction(slip_distance=DISTANCE, evolution=evolution)
     loading = Loading(velocity=fields.velocity)
     mesh = Mesh(2 * rows, rows, grading)
     parameters = Parameters(MATERIAL, friction, loading, GEOMETRY, mesh)

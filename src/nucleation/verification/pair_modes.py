@@ -108,7 +108,7 @@ class _LayerPair(NamedTuple):
             "plane": "strain",
             "second_body": "deformable",
             "second_density": SECOND_DENSITY,
-            "second_bottom": self.bottom,
+            "second_far_side": self.bottom,
         }
         return base.replaced(self.bodies(height, second_height) | further)
 
@@ -194,12 +194,12 @@ def measured_response(modes: xr.Dataset) -> tuple[Array, Array]:
     mu = column("shear_modulus")
     k = column("mode_wavenumber")
     f = column("friction")
-    a = column("direct_effect")
-    zeta = column("velocity_weakening")
+    a = column("a")
+    zeta = column("zeta")
     ell = column("slip_distance")
     v = column("velocity")
     weakening = rates * (a * rates * ell - zeta * v) / (v * (v + rates * ell))
-    response = -column("applied_stress") * weakening / (mu * k)
+    response = -column("normal_stress") * weakening / (mu * k)
     return response.real, -response.imag / f
 
 
@@ -239,11 +239,11 @@ def mode_row(
         "far_side": layers.bottom,
         **layers.bodies(height, below.geometry.height),
         "friction": interface.friction,
-        "direct_effect": interface.a,
-        "velocity_weakening": interface.zeta,
+        "a": interface.a,
+        "zeta": interface.zeta,
         "slip_distance": interface.slip_length,
         "velocity": interface.velocity,
-        "applied_stress": interface.normal_stress,
+        "normal_stress": interface.normal_stress,
         "f_beta": interface.friction * contrast,
         "mode_wavenumber": k,
         "critical_wavenumber": critical,

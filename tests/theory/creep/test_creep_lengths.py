@@ -25,7 +25,7 @@ from nucleation.theory.creep.lengths import (
     stability_point,
     stability_values,
 )
-from nucleation.theory.critical import theory_lengths
+from nucleation.theory.critical import critical_lengths
 from nucleation.theory.transfer import bodies_of
 
 REFERENCE = CONFIG.parent / "results" / "reference"
@@ -36,7 +36,7 @@ FAULT = {
 
 
 def length_of(run):
-    return float(theory_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
 
 
 def test_the_map():

@@ -15,7 +15,7 @@ RUNS = {run.id: run for run in papers().runs}
 
 def found_of(run):
     return first_growing(
-        Patches.of(run.parameters), run.theory_length, run.parameters.loading.initial_state
+        Patches.of(run.parameters), run.critical_length, run.parameters.loading.initial_state
     )
 
 

@@ -16,7 +16,7 @@ from nucleation.theory.arrays import fault_of
 from nucleation.theory.creep import front, lengths
 from nucleation.theory.creep.front import first_growing
 from nucleation.theory.creep.lengths import NoPatch, Patches, stability_point
-from nucleation.theory.critical import theory_lengths
+from nucleation.theory.critical import critical_lengths
 from nucleation.theory.crossings import largest_crossings
 from nucleation.theory.transfer import bodies_of
 
@@ -141,7 +141,7 @@ def narrow_run(zeta):
     """A run whose friction has the least a that its law allows, and its L_c (m)."""
     law = Friction(law="dieterich_ruina").with_expansion(1e-5, 0.41, 0.0014, zeta)
     run = Parameters(friction=law, geometry=Geometry(height=0.01, length=3.0))
-    return run, float(theory_lengths([(*bodies_of(run), interface_state(run))])[0])
+    return run, float(critical_lengths([(*bodies_of(run), interface_state(run))])[0])
 
 
 @pytest.mark.slow

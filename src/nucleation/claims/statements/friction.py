@@ -78,7 +78,7 @@ def steady_agreement(evidence: Evidence) -> float:
     extremes = _steady_extremes(evidence)
     first, after = np.searchsorted(_SLIP_RATES, extremes)
     v = _SLIP_RATES[first:after]
-    state = law.characteristic_slip_distance / v
+    state = law.slip_distance / v
     full = law.steady_coefficient(v)
     logarithmic = law.logarithmic(v, state, velocity)
     difference = np.abs(logarithmic / full - 1.0)
@@ -136,7 +136,7 @@ def slip_law_approximation_ahead(evidence: Evidence) -> Result:
     share = min(run["state_rate_share"] for run in converged)
     note = (
         f"At the latest onset the state is {state:.2f} s in the place of "
-        f"{latest['phi0']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
+        f"{latest['initial_state']:.2f} s. Only the relative error of $\\dot\\phi$ is large there: it is "
         f"below 10 % in {share:.2g} of the interface (results: The slip law ahead of the front)."
     )
     return Result(
@@ -149,9 +149,9 @@ def slip_law_approximation_ahead(evidence: Evidence) -> Result:
 def _healed_state(evidence: Evidence, run: Row) -> float:
     """State (s) by the slip law at a run's onset where nothing slips: log(phi v0/D) decays."""
     law = evidence.friction
-    rate = law.regularisation_slip_rate / law.characteristic_slip_distance
+    rate = law.regularisation_slip_rate / law.slip_distance
     decay = math.exp(-rate * run["onset_time"])
-    initial = run["phi0"] * rate
+    initial = run["initial_state"] * rate
     return float(initial**decay / rate)
 
 
@@ -161,7 +161,7 @@ def _strengthened(evidence: Evidence, run: Row) -> float:
     velocity = evidence.loading.velocity
     state = _healed_state(evidence, run)
     healed = law.coefficient(velocity, state)
-    initial = law.coefficient(velocity, run["phi0"])
+    initial = law.coefficient(velocity, run["initial_state"])
     return float(healed / initial - 1.0)
 
 

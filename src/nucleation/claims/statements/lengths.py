@@ -84,7 +84,7 @@ def length_shown(evidence: Evidence) -> Result:
 def _over_theory(evidence: Evidence, role: str) -> list[Estimate]:
     """Length over L_c of the theory at all heights."""
     rows = evidence.series(role)
-    return [with_range(row, "length", row["theory_length"]) for row in rows]
+    return [with_range(row, "length", row["critical_length"]) for row in rows]
 
 
 def theory_agreement(evidence: Evidence) -> Result:
@@ -119,7 +119,7 @@ def height_dependence(
     role: str,
 ) -> list[float]:
     rows = _heights(evidence, role)
-    ratios = [row["length"] / row["theory_length"] for row in rows]
+    ratios = [row["length"] / row["critical_length"] for row in rows]
     return [higher / lower for lower, higher in itertools.combinations(ratios, 2)]
 
 
@@ -182,7 +182,7 @@ def _stability_length(evidence: Evidence, row: Row) -> float:
 def stability_lost_at_length(evidence: Evidence) -> Result:
     ratios = []
     for row in evidence.rows(JUDGED):
-        ratios.append(_stability_length(evidence, row) / row["theory_length"])
+        ratios.append(_stability_length(evidence, row) / row["critical_length"])
     least, largest = 2.0 * min(ratios), 2.0 * max(ratios)
     thin = [f"{thin_limit(weakening).length_ratio:.2f}" for weakening in _WEAKENINGS]
     note = (
@@ -207,7 +207,7 @@ def linear_stage_generic(evidence: Evidence) -> list[float]:
 def _other_laws_and_ages(evidence: Evidence) -> list[Row]:
     """The rows with another law than aging or another age than 1 s; raises Missing without any."""
     rows = evidence.rows(JUDGED)
-    others = [row for row in rows if row["evolution"] != "aging" or row["phi0"] != 1.0]
+    others = [row for row in rows if row["evolution"] != "aging" or row["initial_state"] != 1.0]
     return others or [evidence.row(JUDGED, "slip", 0.01)]
 
 

@@ -69,7 +69,7 @@ def spring_stiffness(evidence: Evidence) -> float:
         return float(rates.real.max())
 
     zeta = evidence.friction.expansion(velocity).zeta
-    expected = zeta / evidence.friction.characteristic_slip_distance
+    expected = zeta / evidence.friction.slip_distance
     found = brentq(
         growth,
         0.2 * expected,
@@ -187,7 +187,7 @@ def uncoupled_frequency(evidence: Evidence) -> Result:
 def friction_perturbation(evidence: Evidence) -> list[float]:
     law = evidence.friction
     velocity = evidence.loading.velocity
-    ell = law.characteristic_slip_distance
+    ell = law.slip_distance
     _, a, zeta = law.expansion(velocity)
     (f_v, f_phi), (g_v, g_phi) = _linearised(evidence, velocity)
     differences = []

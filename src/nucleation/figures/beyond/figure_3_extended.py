@@ -81,7 +81,7 @@ def draw(
     theory : Dataset
         With ``critical_length(height)`` (m).
     lengths : Dataset
-        On ``run``: ``role``, ``evolution``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s), ``critical_length`` and
         ``length`` with ``_low`` and ``_high`` (m).
     table : Dataset
         The same with ``stability_length`` instead of ``length``.
@@ -159,7 +159,7 @@ def _draw_band(axes: Axes, noisy: xr.Dataset, lengths: xr.Dataset, relative: boo
     ends = []
     for runs in (noisy, quiet):
         order = [int(np.flatnonzero(runs["height"].values == height)[0]) for height in heights]
-        scale = runs["theory_length"].values[order] if relative else 1.0
+        scale = runs["critical_length"].values[order] if relative else 1.0
         ends.append(runs["length"].values[order] / scale)
     axes.fill_between(
         heights,
@@ -183,7 +183,7 @@ def _draw_series(axes: Axes, table: xr.Dataset, series: _Series, relative: bool)
             continue
         if series is _PAPERS:
             runs = runs.assign(length_low=runs["length"], length_high=runs["length"])
-        scale = runs["theory_length"].values if relative else 1.0
+        scale = runs["critical_length"].values if relative else 1.0
         look = series.look(kind)
         look["elinewidth"] = 0.8
         look["label"] = f"{series.label}, {_state(kind, old)}"

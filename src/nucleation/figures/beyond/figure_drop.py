@@ -28,7 +28,7 @@ _RATIOS = (0.45, 0.87)
 _LAW = "law: median, and 16 to 84 % (band)"
 _BAND_ALPHA = 0.35
 _MEAN = "simulated: mean and range of realisations"
-PREDICTED = ("predicted_low", "predicted_length", "predicted_high")
+PREDICTED = ("law_low", "law_length", "law_high")
 CURVES = ("curve_strength", "curve_low", "curve_length", "curve_high", "curve_closed_form")
 ENSEMBLE = (
     "fault",
@@ -100,7 +100,7 @@ def _draw_strengths(axes: Axes, table: xr.Dataset, kind: str) -> None:
     fault = _shown_fault(table)
     own = laws.where(fault, kind=kind).sortby("strength")
     marker, colour, label = _KINDS[kind]
-    theory = float(fault["theory_length"].values[0])
+    theory = float(fault["critical_length"].values[0])
     if own.sizes["run"]:
         _draw_law(axes, _law(table, own, kind), theory)
         ratio = own["length"].values / theory
@@ -155,7 +155,7 @@ def _law(table: xr.Dataset, own: xr.Dataset, kind: str) -> tuple[Array, ...]:
         same_fault = table["curve_fault"].values == own["fault"].values[0]
         cases = np.flatnonzero(same_fault & (table["curve_kind"].values == kind))
         if cases.size:
-            strongest = own["strength"].values[np.isfinite(own["predicted_length"].values)].max()
+            strongest = own["strength"].values[np.isfinite(own["law_length"].values)].max()
             known = np.flatnonzero(table["curve_strength"].values <= 1.01 * strongest)
             case = table.isel(case=cases[0], curve=known)
             return tuple(case[name].values for name in CURVES)
@@ -227,7 +227,7 @@ def _draw_ratios(axes: Axes, found: list[xr.Dataset]) -> None:
         kind = str(first["kind"].values)
         usual = bool(first["evolution"] == USUAL_EVOLUTION)
         marker, colour, label = _KINDS[kind]
-        ratio = float(runs["length"].mean() / first["predicted_length"])
+        ratio = float(runs["length"].mean() / first["law_length"])
         strength = _ASIDE.get(kind, 1.0) * float(first["strength"])
         axes.plot(
             strength,
@@ -261,7 +261,7 @@ def _draw_distributions(axes: Axes, found: list[xr.Dataset]) -> None:
         first = runs.isel(run=0)
         marker, colour, label = _KINDS[str(first["kind"].values)]
         strength = float(first["strength"])
-        theory = float(first["theory_length"])
+        theory = float(first["critical_length"])
         lengths = np.sort(runs["length"].values) / theory
         parts = (np.arange(lengths.size) + 0.5) / lengths.size
         axes.step(

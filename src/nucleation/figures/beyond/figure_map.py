@@ -144,7 +144,7 @@ def _draw_slices(
     places = np.linspace(0, weakenings.size - 1, len(_SLICES) + 2)[1:-1]
     shown = np.unique(places.round().astype(int))
     for i, (marker, colour) in zip(shown, _SLICES, strict=False):
-        theory = grid["theory_length"].values[:, i]
+        theory = grid["critical_length"].values[:, i]
         lengths = [ratio.isel(zeta_over_a=i).values * theory for ratio in (drop, stability)]
         axes.plot(height, theory, color=colour)
         axes.plot(height, lengths[0], marker, color=colour, markersize=3.5)

@@ -56,7 +56,7 @@ def draw(table: xr.Dataset, theory: Curves | None = None) -> Figure:
 
 def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
     height = rows["height"].values
-    theory = rows["theory_length"].values
+    theory = rows["critical_length"].values
     connected = {"": {"x": height, "length": theory}}
     for curve in (curves or connected).values():
         axes.plot(curve["x"], curve["length"], color=style.THEORY, label=_THEORY)
@@ -95,7 +95,7 @@ def _draw_heights(axes: Axes, rows: xr.Dataset, curves: Curves) -> None:
 def _draw_ratios(axes: Axes, rows: xr.Dataset) -> None:
     for side, marker, colour in _SIDES:
         own = laws.where(rows, far_side=side)
-        thickness = own["second_height"].values / own["theory_length"].values
+        thickness = own["second_height"].values / own["critical_length"].values
         drop = own["length_ratio"].values
         stability = own["stability_ratio"].values
         look: style.Options = {"color": colour, "ms": 4.2}

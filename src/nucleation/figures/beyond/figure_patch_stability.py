@@ -43,7 +43,7 @@ def draw(table: xr.Dataset, patches: Sequence[xr.Dataset]) -> Figure:
     Parameters
     ----------
     table : Dataset
-        On ``run``: ``role``, ``evolution``, ``height`` (m), ``phi0`` (s), ``theory_length`` and
+        On ``run``: ``role``, ``evolution``, ``height`` (m), ``initial_state`` (s), ``critical_length`` and
         ``stability_length`` (m).
     patches : sequence of Dataset
         In the same order, from :func:`nucleation.patch.growth.follow_patch`. Crosses are instants
@@ -127,7 +127,7 @@ def _draw_properties(
     colour: _Colour,
 ) -> None:
     """Growth and frequency of the mode at every frozen instant."""
-    ratio = patch["patch_length"].values / float(row["theory_length"])
+    ratio = patch["patch_length"].values / float(row["critical_length"])
     time = patch["instant_time"].values
     late = time > time.max() - _LATE * 2.0 * np.pi / float(patch["stability_frequency"])
     for axes, (name, _, _) in zip(panels, _PANELS, strict=True):

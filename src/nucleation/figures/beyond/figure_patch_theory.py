@@ -42,7 +42,7 @@ def _draw_ratio(axes: Axes, table: xr.Dataset) -> None:
         label="thin layers",
     )
     own = laws.where(table, f_beta=0.0)
-    theory = own["theory_length"]
+    theory = own["critical_length"]
     drawn = axes.scatter(
         own["zeta_over_a"],
         own["stability_length"] / theory,
@@ -63,7 +63,7 @@ def _draw_parity(axes: Axes, table: xr.Dataset) -> None:
     """Difference of the theory's L_s from the simulated one, by study."""
     for n, own in enumerate(laws.groups(table, "study")):
         marker, colour = style.look(n)
-        measured = own["stability_length"] / own["theory_length"]
+        measured = own["stability_length"] / own["critical_length"]
         difference = 100.0 * (own["front_length"] / own["stability_length"] - 1.0)
         label = str(own["study"].values[0]).replace("_", " ")
         axes.plot(

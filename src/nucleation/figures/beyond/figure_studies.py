@@ -121,7 +121,7 @@ def _draw_equality(
         axes,
         strip,
         table,
-        np.asarray(table["theory_length"], dtype=float),
+        np.asarray(table["critical_length"], dtype=float),
         kinds,
     )
     lengths = _lengths(table)
@@ -240,7 +240,7 @@ def _value_text(name: str, value: float | str, entry: Quantity) -> str:
 
 def _lengths(table: xr.Dataset) -> Array:
     """All finite lengths of a table (m)."""
-    names = ("length", "length_low", "length_high", "theory_length")
+    names = ("length", "length_low", "length_high", "critical_length")
     values = np.concatenate([table[name].values for name in names])
     return values[np.isfinite(values)]
 
@@ -250,7 +250,7 @@ def _between(table: xr.Dataset, x: Array, runs: _Runs) -> Mapping[str, Array]:
     order = runs[np.argsort(x[runs], kind="stable")]
     return {
         "x": x[order],
-        "length": table["theory_length"].values[order],
+        "length": table["critical_length"].values[order],
     }
 
 

@@ -85,13 +85,13 @@ def _draw_system(axes: Axes, system: xr.Dataset, curves: xr.Dataset | None) -> N
     weakening = np.array([float(fault["zeta_over_a"][0]) for fault in faults])
     for name, (curve, label, colour, dashes) in _LINES.items():
         if curves is None:
-            ratios = [float(fault[name][0] / fault["theory_length"][0]) for fault in faults]
+            ratios = [float(fault[name][0] / fault["critical_length"][0]) for fault in faults]
             x, y = weakening, np.array(ratios)
         else:
             x, y = curves["curve_ratio"].values, curves[curve].values
         axes.plot(x, y, linestyle=dashes, color=colour, label=label)
     for at, fault in zip(weakening, faults, strict=True):
-        simulated = (fault["length"] / fault["theory_length"]).values
+        simulated = (fault["length"] / fault["critical_length"]).values
         dropped = simulated[np.isfinite(simulated)]
         if dropped.size:
             mean = dropped.mean()

@@ -22,7 +22,7 @@ _SYMBOLS = {
 }
 
 _WORDS = {
-    "phi0": "initial state",
+    "initial_state": "initial state",
     "zeta_over_a": "weakening over direct effect",
     "n_x": "elements along x",
     "n_y": "elements along y",

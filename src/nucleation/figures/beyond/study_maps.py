@@ -44,7 +44,7 @@ def draw_maps(
     at = np.searchsorted(grid[up], y), np.searchsorted(grid[along], x)
     figure, (left, right) = style.panels(1, 2, 7.476, sharex=True, sharey=True)
     length = table["length"].values
-    ratio = length / table["theory_length"].values
+    ratio = length / table["critical_length"].values
     lost = ~np.isfinite(length)
     label = f"no event ({lost.sum()} of {lost.size})"
     for axes, values, title, colours in (

@@ -35,7 +35,7 @@ _ALONG = {
 _FAULT = (
     "kind",
     "evolution",
-    "phi0",
+    "initial_state",
     "height",
     "strength",
     "seed",
@@ -126,7 +126,7 @@ def _draw_differences(
 ) -> None:
     """Difference of each run from the finest of its sequence."""
     found = places(perturbed)
-    usual_age = min(perturbed["phi0"].values.tolist(), default=0.0)
+    usual_age = min(perturbed["initial_state"].values.tolist(), default=0.0)
     axes.axhspan(LEAST / 2.0, goal, color="0.93", zorder=0, label="goal")
     for i, (refined, meaning) in enumerate(_REFINED.items()):
         marker, colour = style.look(i)
@@ -173,7 +173,7 @@ def _sequences(rows: xr.Dataset, refined: str) -> Iterator[xr.Dataset]:
 
 def _elements_within(rows: xr.Dataset) -> Array:
     """Number of elements along x in the theory's critical length, for any length of the block."""
-    return np.rint((rows["n_x"] * rows["theory_length"] / rows["block_length"]).values)
+    return np.rint((rows["n_x"] * rows["critical_length"] / rows["block_length"]).values)
 
 
 def _draw_lengths(axes: Axes, table: xr.Dataset, refined: str) -> None:

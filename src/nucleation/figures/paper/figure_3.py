@@ -43,7 +43,7 @@ def draw(
         With ``critical_length(height)`` and ``thin_limit_length(height)`` (m).
     lengths : Dataset
         One entry on dimension ``run`` per simulation, with ``role``, ``evolution``, ``height`` (m),
-        ``phi0`` (s) and ``length``, ``length_low``, ``length_high`` (m). Entries without a finite
+        ``initial_state`` (s) and ``length``, ``length_low``, ``length_high`` (m). Entries without a finite
         length are left out; of the realisations of one fault the mean is drawn.
     inset_simulation : Dataset
         The simulation in the inset, with its slip rate.
@@ -124,8 +124,8 @@ def _draw_points(axes: Axes, lengths: xr.Dataset) -> None:
             "transform": style.aside(axes, _ASIDE.get((law, old), 0.0)),
             "zorder": 4.0 - 0.1 * kind.size,
         }
-        for same in laws.groups(runs.sortby("phi0"), "phi0"):
-            age = _number(float(same["phi0"][0]))
+        for same in laws.groups(runs.sortby("initial_state"), "initial_state"):
+            age = _number(float(same["initial_state"][0]))
             state = f", $\\phi(t\\!=\\!0)={age}$ s" if old else ""
             laws.draw(
                 axes,

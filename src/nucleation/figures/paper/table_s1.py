@@ -9,7 +9,7 @@ from ...model.friction.law import Friction
 from ...model.quantities import declarations
 
 _ORDER = (
-    "characteristic_slip_distance",
+    "slip_distance",
     "aging_coefficient",
     "slip_rate_scale",
     "base_friction",

@@ -12,13 +12,13 @@ from ..quantities import ParameterError, Quantity
 from .law import Friction
 
 CONSTANTS: dict[str, Quantity] = {
-    "friction_coefficient": Quantity(
+    "friction": Quantity(
         "friction coefficient of steady sliding at the imposed velocity",
         low=0.0,
         high=10.0,
         symbol="f",
     ),
-    "direct_effect": Quantity(
+    "a": Quantity(
         "direct effect of the slip rate at the imposed velocity",
         low=0.0,
         high=1.0,
@@ -30,13 +30,13 @@ CONSTANTS: dict[str, Quantity] = {
         high=1000.0,
         symbol="zeta/a",
     ),
-    "velocity_weakening": Quantity(
+    "zeta": Quantity(
         "velocity weakening at the imposed velocity, b - a; in place of zeta_over_a",
         low=-1.0,
         high=1.0,
         symbol="zeta",
     ),
-    "evolution_effect": Quantity(
+    "b": Quantity(
         "coefficient b = a + zeta of the log of the state at the imposed velocity; in place of "
         "zeta_over_a",
         low=0.0,
@@ -47,7 +47,7 @@ CONSTANTS: dict[str, Quantity] = {
 }
 """Constants of the logarithmic law, by their names in studies."""
 
-_WEAKENINGS = ("zeta_over_a", "velocity_weakening", "evolution_effect")
+_WEAKENINGS = ("zeta_over_a", "zeta", "b")
 """Alternative constants for the weakening."""
 
 
@@ -103,9 +103,9 @@ def with_constants(friction: Friction, velocity: float, values: Mapping[str, Any
     if len(weakenings) > 1:
         raise ParameterError(f"{weakenings[0]} is not allowed together with {weakenings[1]}")
     f, a, ratio, zeta, b = (constants(friction, velocity) | given).values()
-    if "evolution_effect" in given:
+    if "b" in given:
         zeta = b - a
-    elif "velocity_weakening" not in given:
+    elif "zeta" not in given:
         zeta = ratio * a
     return full_law(friction, velocity, f, a, zeta)
 

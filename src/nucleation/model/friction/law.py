@@ -86,8 +86,8 @@ class Friction(Checked):
 
     Examples
     --------
-    >>> law = Friction(law="dieterich_ruina", characteristic_slip_distance=5e-6)
-    >>> law.characteristic_slip_distance, law.evolution
+    >>> law = Friction(law="dieterich_ruina", slip_distance=5e-6)
+    >>> law.slip_distance, law.evolution
     (5e-06, 'aging')
     """
 
@@ -97,7 +97,7 @@ class Friction(Checked):
         choices=EVOLUTIONS,
         default=USUAL_EVOLUTION,
     )
-    characteristic_slip_distance: float = quantity(
+    slip_distance: float = quantity(
         "characteristic slip distance",
         unit="m",
         low=0.0,
@@ -291,12 +291,12 @@ class Friction(Checked):
 
     def state_rate(self, slip_rate: ArrayLike, state: ArrayLike) -> Array:
         """``dphi/dt`` (dimensionless) of the evolution law, for slip rate (m/s) and state (s)."""
-        omega = np.asarray(state) * self.slip_speed(slip_rate) / self.characteristic_slip_distance
+        omega = np.asarray(state) * self.slip_speed(slip_rate) / self.slip_distance
         return self.evolution_law.growth(omega)
 
     def steady_state(self, slip_rate: ArrayLike) -> Array:
         """State variable (s) of steady sliding, ``phi = D / w``, the same for all evolutions."""
-        return self.characteristic_slip_distance / self.slip_speed(slip_rate)
+        return self.slip_distance / self.slip_speed(slip_rate)
 
     def steady_coefficient(self, slip_rate: ArrayLike) -> Array:
         """Friction coefficient of steady sliding at a slip rate (m/s) (Fig. S1)."""
@@ -337,6 +337,6 @@ class Friction(Checked):
             Friction coefficients, of the broadcast shape.
         """
         f0, a, zeta = self.expansion(reference_rate)
-        age = np.asarray(state) * reference_rate / self.characteristic_slip_distance
+        age = np.asarray(state) * reference_rate / self.slip_distance
         speed = np.asarray(slip_rate) / reference_rate
         return f0 + a * np.log(speed) + (zeta + a) * np.log(age)

@@ -42,14 +42,14 @@ MEASURED = some(
     "longest_step",
     "onset_time",
     "length",
-    "theory_length",
+    "critical_length",
 )
 
 PREDICTED = {
     "stability_length": FITTED["stability_length"],
-    "predicted_length": Variable("m", "length at the drop by the law, median", "L"),
-    "predicted_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
-    "predicted_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
+    "law_length": Variable("m", "length at the drop by the law, median", "L"),
+    "law_low": Variable("m", "length by which 16 % have dropped by the law", "L"),
+    "law_high": Variable("m", "length by which 84 % have dropped by the law", "L"),
     "closed_form_length": Variable("m", "length at the drop by the law in one line", "L"),
     "effective_strength": Variable("1", "strength in the law's one line", "eps_eff"),
     "floor_normal_load": Variable("1", "strength of the load at which the law drops there"),
@@ -83,7 +83,7 @@ NOISE_FLOORS = some(
     "longest_step",
     "onset_time",
     "length",
-    "theory_length",
+    "critical_length",
     "stability_length",
     "floor_normal_load",
     "floor_state",
@@ -128,9 +128,9 @@ class _Law:
         closed = law.closed_form(self.history, run["strength"])
         return none | {
             "stability_length": closed.front_length,
-            "predicted_length": drop.length,
-            "predicted_low": drop.low,
-            "predicted_high": drop.high,
+            "law_length": drop.length,
+            "law_low": drop.low,
+            "law_high": drop.high,
             "closed_form_length": closed.length,
             "effective_strength": closed.effective,
         }
@@ -215,7 +215,7 @@ def _laws(runs: Iterable[dict[str, Any]]) -> dict[str, _Law]:
     for run in runs:
         parameters = Parameters.from_dict(run["parameters"])
         with contextlib.suppress(NoPatch):
-            laws[fault(parameters)] = _Law(mode_history(parameters, run["theory_length"]))
+            laws[fault(parameters)] = _Law(mode_history(parameters, run["critical_length"]))
     return laws
 
 

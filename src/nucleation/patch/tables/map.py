@@ -26,7 +26,7 @@ COLUMNS = {
         "length",
         "length_low",
         "length_high",
-        "theory_length",
+        "critical_length",
     ),
     "length_ratio": RATIO_COLUMNS["length_ratio"],
     **STABILITY,
@@ -80,8 +80,8 @@ def on_grid(table: xr.Dataset) -> xr.Dataset:
         grid[places] = table[name].values
         data[name] = AXES, grid
     theory = np.full(shape[:2], np.nan)
-    theory[places[:2]] = table["theory_length"].values
-    data["theory_length"] = AXES[:2], theory
+    theory[places[:2]] = table["critical_length"].values
+    data["critical_length"] = AXES[:2], theory
     coordinates = dict(zip(AXES, axes, strict=True))
     return annotate(xr.Dataset(data, coords=coordinates), COLUMNS)
 

@@ -42,7 +42,7 @@ COLUMNS = {
     "second_n_y": Variable("1", "number of elements along y of the second body", "N_y2"),
     **some(LENGTHS, "kind", "strength", "seed"),
     **MEASURED,
-    "theory_length": LENGTHS["theory_length"],
+    "critical_length": LENGTHS["critical_length"],
     "length_ratio": RATIO_COLUMNS["length_ratio"],
     **FITTED,
     "stability_ratio": RATIO_COLUMNS["stability_ratio"],
@@ -69,8 +69,8 @@ def pair_description(run: dict[str, Any]) -> dict[str, Any]:
     return description(run) | {
         "friction": interface.friction,
         "f_beta": f_beta,
-        "direct_effect": interface.a,
-        "velocity_weakening": interface.zeta,
+        "a": interface.a,
+        "zeta": interface.zeta,
         "second_n_y": below.mesh.n_y,
         "half_space_ratio": float(bimaterial_length_ratio(f_beta, zeta_over_a)),
     }

@@ -18,7 +18,7 @@ STABILITY = {
         "role",
         "evolution",
         "height",
-        "phi0",
+        "initial_state",
         "n_x",
         "n_y",
         "grading",
@@ -26,7 +26,7 @@ STABILITY = {
         "longest_step",
     ),
     **FITTED,
-    "theory_length": COLUMNS["theory_length"],
+    "critical_length": COLUMNS["critical_length"],
     "stability_ratio": RATIO_COLUMNS["stability_ratio"],
     "stability_change": Variable("1", "L_s over that of the converged run, minus one"),
     "fault": COLUMNS["fault"],
@@ -61,6 +61,6 @@ def gather_stability(
     }
     for row in rows:
         reference = converged.get(row["fault"], float("nan"))
-        row["stability_ratio"] = row["stability_length"] / row["theory_length"]
+        row["stability_ratio"] = row["stability_length"] / row["critical_length"]
         row["stability_change"] = row["stability_length"] / reference - 1.0
     return table(rows, STABILITY)

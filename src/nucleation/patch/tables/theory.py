@@ -34,7 +34,7 @@ COLUMNS = {
         "height",
     ),
     **some(SHARED, "zeta_over_a", "f_beta"),
-    "theory_length": LENGTHS["theory_length"],
+    "critical_length": LENGTHS["critical_length"],
     "stability_length": FITTED["stability_length"],
     "creep_length": LENGTHS["creep_length"],
     "front_length": Variable("m", "L_s by theory, with the advancing front", "L_s"),
@@ -152,7 +152,7 @@ def _row(
         "stability_length": measured,
     }
     patches = Patches.of(parameters)
-    critical = run["theory_length"]
+    critical = run["critical_length"]
     loading = parameters.loading
     start = loading.initial_state, loading.initial_shear_stress / loading.normal_stress
     try:

@@ -38,7 +38,7 @@ MEASURED = some(
     "block_length",
     "onset_time",
     "length",
-    "theory_length",
+    "critical_length",
 )
 
 EXPECTED = {
@@ -119,7 +119,7 @@ def gather_weakening(
     names = (*MEASURED, "zeta_over_a", "fault")
     rows = []
     for lengths in drops:
-        ratio = lengths["velocity_weakening"] / lengths["direct_effect"]
+        ratio = lengths["zeta"] / lengths["a"]
         complete = lengths.assign(zeta_over_a=ratio)
         for row in rows_of(complete, names=names):
             rows.append(row | by_fault[row["fault"]])
@@ -178,7 +178,7 @@ def weakening_curves(
     high = []
     lengths = np.full((len(_OVER_CRITICAL), len(systems), len(ratios)), math.nan)
     for i, ((_, below, height), own) in enumerate(systems.items()):
-        longest = max(run["theory_length"] for run in own)
+        longest = max(run["critical_length"] for run in own)
         high.append(below == "deformable" and height > longest)
         parameters = Parameters.from_dict(own[0]["parameters"])
         if high[i]:

@@ -72,7 +72,7 @@ class _Front:
         assert patches.law is not None
         self.law = patches.law
         self.velocity = patches.velocity
-        self.distance = self.law.characteristic_slip_distance
+        self.distance = self.law.slip_distance
         self.initial_state = initial_state
         self.initial_stress = initial_stress
         self.modes = mirror_modes(number)

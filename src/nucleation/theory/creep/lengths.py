@@ -281,7 +281,7 @@ def _with_law(
 ) -> Patches:
     """The patches with a friction law that has the constants of their fault at V."""
     distance = patches.velocity / float(patches.one.rate[0])
-    scaled = law.changed({"characteristic_slip_distance": distance})
+    scaled = law.changed({"slip_distance": distance})
     own = full_law(scaled, patches.velocity, *patches.constants)
     return dataclasses.replace(patches, law=own)
 

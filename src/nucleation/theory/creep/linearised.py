@@ -119,7 +119,7 @@ def log_state_derivatives(
         By v at fixed psi (1/m), and by psi at fixed v (1/s); same shape.
     """
     speed = law.slip_speed(slip_rate)
-    distance = law.characteristic_slip_distance
+    distance = law.slip_distance
     evolution = law.evolution_law
     omega = state * speed / distance
     by_omega = evolution.slope(omega)
@@ -200,7 +200,7 @@ def local_coefficients(
     psi = np.log(law.steady_state(v)) if log_state is None else log_state
     f, f_v, f_psi = law.coefficient_and_slopes(v, psi)
     g_v, g_psi = log_state_derivatives(law, v, np.exp(psi))
-    distance = law.characteristic_slip_distance
+    distance = law.slip_distance
     memory = distance / velocity
     return _LinearFriction(
         friction=f,

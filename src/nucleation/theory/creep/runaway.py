@@ -75,7 +75,7 @@ def runs_away(
     stiffness = response.coupled(friction)[:, 1:] @ response.modes.inverse
     stiffness = stiffness / creep.normal_stress[:, None]
     count = steady.size
-    law = Friction(evolution=evolution, characteristic_slip_distance=1.0)
+    law = Friction(evolution=evolution, slip_distance=1.0)
     evolve = law.evolution_law.growth
 
     def rates(

@@ -119,7 +119,7 @@ def arguments(
         "second_poisson_ratio": lower.material.in_plane_ratio,
         "second_height": lower.geometry.height,
         "second_n_y": below.mesh.n_y if below else 1,
-        "second_bottom": below.bottom if below else "rigid",
+        "second_far_side": below.bottom if below else "rigid",
     }
     return {name: str(value) for name, value in values.items()}
 

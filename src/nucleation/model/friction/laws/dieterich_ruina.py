@@ -87,7 +87,7 @@ class Law(Friction):
             self.log_state_coefficient,
             self.reference_friction,
             self.reference_slip_rate,
-            self.characteristic_slip_distance,
+            self.slip_distance,
         )
 
     @staticmethod
